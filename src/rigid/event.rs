@@ -1,0 +1,164 @@
+//! Roots of the linear, quadratic and cubic functions whose sign ends a mode.
+//!
+//! Every function asked about is positive (or starts to be) at time zero; what is wanted is the first moment in
+//! `(0, end]` at which it falls through zero. A double root touches zero without falling through it and is no event.
+//! Where a function starts at exactly zero that root is divided out first, so that it is never found again.
+
+/// First fall through zero of `c0 + c1 t` in `[0, end]`, where its end value is already known to be negative.
+pub fn linear(c0: f64, c1: f64, end: f64) -> f64 {
+    if c0 <= 0.0 {
+        return 0.0;
+    }
+    (-c0 / c1).clamp(0.0, end)
+}
+
+/// First fall through zero of `c0 + c1 t + c2 t^2` in `(0, end]`.
+pub fn quadratic(c0: f64, c1: f64, c2: f64, end: f64) -> Option<f64> {
+    if c0 == 0.0 {
+        return if c1 == 0.0 {
+            (c2 < 0.0).then_some(0.0)
+        } else if c1 < 0.0 {
+            Some(0.0)
+        } else {
+            (c1 + c2 * end <= 0.0).then(|| (-c1 / c2).min(end))
+        };
+    }
+    if c0 < 0.0 {
+        return Some(0.0);
+    }
+    let value = |t: f64| c0 + t * (c1 + t * c2);
+    let falls_at_end = value(end) <= 0.0;
+    let dips = c2 > 0.0 && c1 < 0.0 && -c1 < 2.0 * c2 * end;
+    if !falls_at_end && !dips {
+        return None;
+    }
+    let discriminant = c1 * c1 - 4.0 * c2 * c0;
+    if discriminant <= 0.0 && !falls_at_end {
+        return None;
+    }
+    let q = -0.5 * (c1 + discriminant.max(0.0).sqrt().copysign(c1));
+    let smallest = [q / c2, c0 / q]
+        .into_iter()
+        .filter(|t| *t > 0.0)
+        .fold(f64::INFINITY, f64::min);
+    Some(smallest.min(end))
+}
+
+/// Times in `(0, end)` at which `c0 + c1 t + c2 t^2` changes sign, in ascending order.
+pub fn sign_changes(c0: f64, c1: f64, c2: f64, end: f64) -> [Option<f64>; 2] {
+    let inside = |t: f64| (t > 0.0 && t < end).then_some(t);
+    let discriminant = c1 * c1 - 4.0 * c2 * c0;
+    if discriminant <= 0.0 {
+        return [None, None];
+    }
+    let q = -0.5 * (c1 + discriminant.sqrt().copysign(c1));
+    let (r1, r2) = (inside(q / c2), inside(c0 / q));
+    match (r1, r2) {
+        (Some(a), Some(b)) if a > b => [Some(b), Some(a)],
+        (None, b) => [b, None],
+        pair => [pair.0, pair.1],
+    }
+}
+
+/// First fall through zero of `c0 + c1 t + c2 t^2 + c3 t^3` in `(0, end]`.
+pub fn cubic(c0: f64, c1: f64, c2: f64, c3: f64, end: f64) -> Option<f64> {
+    if c0 <= 0.0 {
+        return if c0 < 0.0 && c1 < 0.0 {
+            Some(0.0)
+        } else {
+            quadratic(c1, c2, c3, end)
+        };
+    }
+    // Most pieces end far from contact: no fall is possible where the start outweighs all the rest.
+    if c0 > end * (c1.abs() + end * (c2.abs() + end * c3.abs())) {
+        return None;
+    }
+    let value = |t: f64| c0 + t * (c1 + t * (c2 + t * c3));
+    let turns = sign_changes(c1, 2.0 * c2, 3.0 * c3, end);
+    let mut start = 0.0;
+    for stop in turns.into_iter().flatten().chain([end]) {
+        if value(stop) <= 0.0 {
+            return Some(bracketed(
+                value,
+                |t| c1 + t * (2.0 * c2 + t * 3.0 * c3),
+                start,
+                stop,
+            ));
+        }
+        start = stop;
+    }
+    None
+}
+
+/// Root of a function that falls monotonically from `value(above) > 0` to `value(below) <= 0`, to rounding error:
+/// Newton's iteration kept inside the bracket by bisection.
+fn bracketed(value: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64, mut above: f64, mut below: f64) -> f64 {
+    let mut t = 0.5 * (above + below);
+    for _ in 0..200 {
+        let v = value(t);
+        if v == 0.0 {
+            return t;
+        }
+        if v > 0.0 {
+            above = t;
+        } else {
+            below = t;
+        }
+        let newton = t - v / slope(t);
+        let next = if newton > above.min(below) && newton < above.max(below) {
+            newton
+        } else {
+            0.5 * (above + below)
+        };
+        if next == t || next == above || next == below {
+            return below;
+        }
+        t = next;
+    }
+    below
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_root_at_the_start_is_not_found_again() {
+        // 3 t - t^2 starts at zero, rises, and falls through zero at 3.
+        assert_eq!(quadratic(0.0, 3.0, -1.0, 5.0), Some(3.0));
+        // t^2 (2 - t): both the value and the slope start at zero.
+        assert_eq!(cubic(0.0, 0.0, 2.0, -1.0, 5.0), Some(2.0));
+        assert_eq!(cubic(0.0, 0.0, 2.0, -1.0, 1.0), None);
+    }
+
+    #[test]
+    fn a_double_root_is_no_event() {
+        assert_eq!(quadratic(1.0, -2.0, 1.0, 5.0), None);
+        // (t - 1)^2 (t + 1)
+        assert_eq!(cubic(1.0, -1.0, -1.0, 1.0, 0.9), None);
+    }
+
+    #[test]
+    fn a_dip_between_two_positive_ends_is_found() {
+        let root = quadratic(2.0, -3.0, 1.0, 10.0).unwrap();
+        assert!((root - 1.0).abs() < 1e-15);
+        // (t - 1)(t - 2)(t + 5) = t^3 + 2 t^2 - 13 t + 10
+        let root = cubic(10.0, -13.0, 2.0, 1.0, 10.0).unwrap();
+        assert!((root - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_root_of_a_cubic_is_exact_to_rounding() {
+        // Three roots 0.1, 0.1 + 1e-6, 7: the first is found, not the second.
+        let (a, b, c) = (0.1, 0.1 + 1e-6, 7.0);
+        let root = cubic(a * b * c, -(a * b + b * c + a * c), a + b + c, -1.0, 1.0).unwrap();
+        assert!((root - a).abs() < 1e-9, "{root}");
+    }
+
+    #[test]
+    fn a_function_that_already_falls_gives_time_zero() {
+        assert_eq!(quadratic(-1e-20, -1.0, 0.0, 1.0), Some(0.0));
+        assert_eq!(cubic(0.0, -1.0, 0.0, 0.0, 1.0), Some(0.0));
+        assert_eq!(linear(-1e-20, -1.0, 1.0), 0.0);
+    }
+}

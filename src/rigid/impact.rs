@@ -1,0 +1,231 @@
+//! Impacts: `M (v2 - v1) = n_i p_i + n_j p_j + t p_T`, in contact coordinates `w2 - w1 = A p`.
+//!
+//! 1. A corner that strikes leaves with `-e` times its approach velocity.
+//! 2. A corner in contact stays out of it if it then leaves; else it is held, with a push.
+//! 3. The base sticks if `|p_T| <= mu_s (p_h + p_t)`; else `p_T = -mu_k S (p_h + p_t)`, S the sign of the slip after.
+//!
+//! Newton's restitution with friction can create energy. Where it would, the restitution of this impact is lowered
+//! to the largest that does not; with none at all energy cannot grow, since then `p . w2 <= 0`.
+
+use super::block::{Block, Vector, HEEL, SLIP, TOE};
+
+/// Relative rounding allowed in the inequalities of the law.
+const ROUNDING: f64 = 1e-12;
+
+#[derive(Clone, Copy, Debug)]
+pub struct Impact {
+    pub velocity: Vector,
+    /// Impulses: friction, heel, toe.
+    pub impulse: Vector,
+    pub energy_lost: f64,
+    /// Restitution had to be lowered for energy not to grow.
+    pub energy_limited: bool,
+}
+
+#[derive(Clone, Copy)]
+enum Friction {
+    Stick,
+    Slip(f64),
+}
+
+/// Outcome of the law with one assumption on contacts and friction, or `None` if that assumption does not hold.
+fn assume(
+    block: &Block,
+    before: &Vector,
+    touching: [bool; 2],
+    pushed: [bool; 2],
+    friction: Friction,
+    target: &Vector,
+    speed: f64,
+) -> Option<(Vector, Vector)> {
+    let a = &block.compliance;
+    let slack = ROUNDING * speed;
+    // Unknown impulses in the order friction, heel, toe; each row is one condition on them.
+    let mut m = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    let mut right = [0.0; 3];
+    match friction {
+        Friction::Stick => {
+            m[SLIP] = a[SLIP];
+            right[SLIP] = -before[SLIP];
+        }
+        Friction::Slip(sign) => {
+            let mu = block.friction_kinetic * sign;
+            m[SLIP] = [1.0, mu, mu];
+        }
+    }
+    for (corner, gap) in [HEEL, TOE].into_iter().enumerate() {
+        if pushed[corner] {
+            m[gap] = a[gap];
+            right[gap] = target[gap] - before[gap];
+        }
+    }
+    let impulse = solve3(&m, &right)?;
+    let mut after = *before;
+    for (i, v) in after.iter_mut().enumerate() {
+        *v += (0..3).map(|k| a[i][k] * impulse[k]).sum::<f64>();
+    }
+    let normal = impulse[HEEL] + impulse[TOE];
+    let push = ROUNDING * speed / a[HEEL][HEEL].min(a[TOE][TOE]);
+    for (corner, gap) in [HEEL, TOE].into_iter().enumerate() {
+        if pushed[corner] {
+            if impulse[gap] < -push {
+                return None;
+            }
+            after[gap] = target[gap];
+        } else if touching[corner] {
+            if after[gap] < target[gap] - slack {
+                return None;
+            }
+            // A corner left behind by mere rounding has not left.
+            after[gap] = if after[gap].abs() <= slack {
+                0.0
+            } else {
+                after[gap]
+            };
+        }
+    }
+    match friction {
+        Friction::Stick => {
+            if impulse[SLIP].abs() > block.friction_static * normal + push {
+                return None;
+            }
+            after[SLIP] = 0.0;
+        }
+        Friction::Slip(sign) => {
+            if sign * after[SLIP] < -slack {
+                return None;
+            }
+            if sign * after[SLIP] < 0.0 {
+                after[SLIP] = 0.0;
+            }
+        }
+    }
+    Some((after, impulse))
+}
+
+fn solve3(m: &[[f64; 3]; 3], right: &Vector) -> Option<Vector> {
+    let cross = |p: &Vector, q: &Vector| {
+        [
+            p[1] * q[2] - p[2] * q[1],
+            p[2] * q[0] - p[0] * q[2],
+            p[0] * q[1] - p[1] * q[0],
+        ]
+    };
+    let column = |c: usize| [m[0][c], m[1][c], m[2][c]];
+    let (c0, c1, c2) = (column(0), column(1), column(2));
+    let dot = |p: &Vector, q: &Vector| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
+    let det = dot(&c0, &cross(&c1, &c2));
+    let size = dot(&c0, &c0) * dot(&c1, &c1) * dot(&c2, &c2);
+    if det * det <= 1e-28 * size {
+        return None;
+    }
+    Some([
+        dot(right, &cross(&c1, &c2)) / det,
+        dot(&c0, &cross(right, &c2)) / det,
+        dot(&c0, &cross(&c1, right)) / det,
+    ])
+}
+
+/// The law with every restitution multiplied by `share`.
+fn with_restitution(
+    block: &Block,
+    before: &Vector,
+    touching: [bool; 2],
+    restitution: [f64; 2],
+    share: f64,
+) -> Option<(Vector, Vector)> {
+    let mut target = [0.0; 3];
+    for (corner, gap) in [HEEL, TOE].into_iter().enumerate() {
+        if before[gap] < 0.0 {
+            target[gap] = -restitution[corner] * share * before[gap];
+        }
+    }
+    let strikes = [
+        touching[0] && before[HEEL] < 0.0,
+        touching[1] && before[TOE] < 0.0,
+    ];
+    let speed = before.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    // The corner that strikes first; the other joins only if it must. Two that strike at once both obey rule 1.
+    let sets = [strikes, touching, [touching[0], false], [false, touching[1]]];
+    for (k, pushed) in sets.into_iter().enumerate() {
+        if sets[..k].contains(&pushed) || pushed == [false, false] {
+            continue;
+        }
+        for friction in [Friction::Stick, Friction::Slip(1.0), Friction::Slip(-1.0)] {
+            let result = assume(block, before, touching, pushed, friction, &target, speed);
+            if result.is_some() {
+                return result;
+            }
+        }
+    }
+    None
+}
+
+/// Impact of the corners in `touching`, of which at least one has a negative gap velocity. A bounce slower than
+/// `settle` is none: that corner stays. `None` is a paradox: no outcome satisfies the law.
+pub fn impact(block: &Block, before: &Vector, touching: [bool; 2], settle: f64) -> Option<Impact> {
+    let restitution = [HEEL, TOE].map(|gap| {
+        let bounce = -block.restitution * before[gap];
+        if bounce > settle {
+            block.restitution
+        } else {
+            0.0
+        }
+    });
+    let energy = block.kinetic_energy(before);
+    let allowed = energy * (1.0 + ROUNDING);
+    let law = |share: f64| {
+        with_restitution(block, before, touching, restitution, share)
+            .filter(|(after, _)| block.kinetic_energy(after) <= allowed)
+    };
+    let mut limited = false;
+    let (velocity, impulse) = law(1.0).or_else(|| {
+        limited = true;
+        let mut best = law(0.0)?;
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..50 {
+            let middle = 0.5 * (low + high);
+            if let Some(found) = law(middle) {
+                best = found;
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        Some(best)
+    })?;
+    Some(Impact {
+        velocity,
+        impulse,
+        energy_lost: energy - block.kinetic_energy(&velocity),
+        energy_limited: limited,
+    })
+}
+
+/// Tangential impact that ends a Painlevé paradox: a sliding corner jams, and the impulse that stops its slip lifts
+/// nothing and sinks nothing. `None` where the cone of friction does not hold it.
+pub fn jam(block: &Block, before: &Vector, touching: [bool; 2]) -> Option<Impact> {
+    let energy = block.kinetic_energy(before);
+    let target = [0.0; 3];
+    [[touching[0], false], [false, touching[1]], touching]
+        .into_iter()
+        .filter(|pushed| *pushed != [false, false])
+        .find_map(|pushed| {
+            assume(
+                block,
+                before,
+                touching,
+                pushed,
+                Friction::Stick,
+                &target,
+                before[SLIP].abs(),
+            )
+        })
+        .map(|(velocity, impulse)| Impact {
+            velocity,
+            impulse,
+            energy_lost: energy - block.kinetic_energy(&velocity),
+            energy_limited: false,
+        })
+        .filter(|jam| jam.energy_lost > 0.0)
+}

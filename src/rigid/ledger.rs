@@ -1,0 +1,68 @@
+//! The energy ledger: `E(t) - E(0) = input - friction - impact`, every term integrated exactly on every piece.
+//!
+//! Input is the work of all applied loads and of the ground's inertia force on the motion relative to the ground;
+//! on a piece force is linear and velocity quadratic in time, so the work is a polynomial in the piece's length.
+
+/// `(f0 + f1 t)(v0 + a0 t + a1 t^2 / 2)` integrated from 0 to `end`.
+#[inline]
+pub fn work(force: [f64; 2], v0: f64, a: [f64; 2], end: f64) -> f64 {
+    let t = end;
+    let path = t * (v0 + t * (a[0] / 2.0 + t * a[1] / 6.0));
+    let moment = t * t * (v0 / 2.0 + t * (a[0] / 3.0 + t * a[1] / 8.0));
+    force[0] * path + force[1] * moment
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Ledger {
+    pub start: f64,
+    pub input: f64,
+    pub friction: f64,
+    pub impact: f64,
+    /// Sum of the sizes of all entries, to judge the residual by.
+    pub turnover: f64,
+}
+
+impl Ledger {
+    pub fn apply(&mut self, work: f64) {
+        self.input += work;
+        self.turnover += work.abs();
+    }
+
+    pub fn rub(&mut self, work: f64) {
+        self.friction -= work;
+        self.turnover += work.abs();
+    }
+
+    pub fn strike(&mut self, lost: f64) {
+        self.impact += lost;
+        self.turnover += lost.abs();
+    }
+
+    /// What the books do not explain, relative to the turnover; zero if nothing ever moved.
+    pub fn residual(&self, end: f64) -> f64 {
+        let turnover = self.turnover.max(self.start);
+        if turnover == 0.0 {
+            return 0.0;
+        }
+        (end - self.start - self.input + self.friction + self.impact).abs() / turnover
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::work;
+
+    #[test]
+    fn work_on_a_piece_is_the_integral() {
+        let (f, v0, a, end) = ([2.0, -3.0], 0.7, [1.1, 4.0], 0.9);
+        let n = 200_000;
+        let step = end / f64::from(n);
+        let sum: f64 = (0..n)
+            .map(|k| {
+                let t = (f64::from(k) + 0.5) * step;
+                (f[0] + f[1] * t) * (v0 + a[0] * t + a[1] * t * t / 2.0) * step
+            })
+            .sum();
+        assert!((work(f, v0, a, end) - sum).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,380 @@
+//! The five modes of motion, their reactions, and which of them is admissible.
+//!
+//! | mode | contact | reactions from |
+//! | --- | --- | --- |
+//! | rest | both corners, stick | `w'' = 0` in all three |
+//! | slide | both, slip of sign S | both gaps `w'' = 0`, `T = -mu_k S (N_h + N_t)` |
+//! | rock on heel / toe | one, stick | its gap and the slip `w'' = 0` |
+//! | slide-rock on heel / toe | one, slip of sign S | its gap `w'' = 0`, `T = -mu_k S N` |
+//! | drift | none | none |
+//!
+//! In each mode reactions and accelerations are linear in the loads, hence affine in the ground acceleration: they
+//! are worked out once per block, and a piece of the record costs a handful of multiplications.
+
+use super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
+
+/// Below this, relative to the loads, a value counts as zero and the sign of its slope decides.
+const TIE: f64 = 1e-13;
+/// A condition counts as violated within a piece only if it falls below this, relative to the loads. It is far above
+/// [`TIE`], so that where an event is seen the slopes that decide what follows are told from rounding.
+pub const VIOLATION: f64 = 1e-10;
+/// Last resort where rounding makes every mode look inadmissible by a hair.
+const HAIR: f64 = 1e-9;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Corner {
+    Heel,
+    Toe,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Slip {
+    Downstream,
+    Upstream,
+}
+
+impl Slip {
+    pub fn sign(self) -> f64 {
+        match self {
+            Slip::Downstream => 1.0,
+            Slip::Upstream => -1.0,
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mode {
+    Rest,
+    Slide(Slip),
+    Rock(Corner),
+    SlideRock(Corner, Slip),
+    Drift,
+}
+
+use Corner::{Heel, Toe};
+use Slip::{Downstream, Upstream};
+
+impl Mode {
+    /// All modes; where two are admissible at once the earlier one is taken. Stick comes before slip, contact
+    /// before lift-off.
+    pub const ALL: [Mode; 9] = [
+        Mode::Rest,
+        Mode::Rock(Heel),
+        Mode::Rock(Toe),
+        Mode::Slide(Downstream),
+        Mode::Slide(Upstream),
+        Mode::SlideRock(Heel, Downstream),
+        Mode::SlideRock(Heel, Upstream),
+        Mode::SlideRock(Toe, Downstream),
+        Mode::SlideRock(Toe, Upstream),
+    ];
+    pub const COUNT: usize = 10;
+
+    /// Number under which the mode leaves the kernel.
+    pub fn index(self) -> usize {
+        match self {
+            Mode::Rest => 0,
+            Mode::Rock(Heel) => 1,
+            Mode::Rock(Toe) => 2,
+            Mode::Slide(Downstream) => 3,
+            Mode::Slide(Upstream) => 4,
+            Mode::SlideRock(Heel, Downstream) => 5,
+            Mode::SlideRock(Heel, Upstream) => 6,
+            Mode::SlideRock(Toe, Downstream) => 7,
+            Mode::SlideRock(Toe, Upstream) => 8,
+            Mode::Drift => 9,
+        }
+    }
+
+    pub const NAMES: [&'static str; 10] = [
+        "rest",
+        "rock on heel",
+        "rock on toe",
+        "slide downstream",
+        "slide upstream",
+        "slide-rock on heel downstream",
+        "slide-rock on heel upstream",
+        "slide-rock on toe downstream",
+        "slide-rock on toe upstream",
+        "drift",
+    ];
+
+    /// Which of the five kinds it is: rest, slide, rock, slide-rock, drift.
+    pub fn kind(self) -> usize {
+        match self {
+            Mode::Rest => 0,
+            Mode::Slide(_) => 1,
+            Mode::Rock(_) => 2,
+            Mode::SlideRock(..) => 3,
+            Mode::Drift => 4,
+        }
+    }
+
+    /// Whether (heel, toe) are held in contact.
+    pub fn contacts(self) -> [bool; 2] {
+        match self {
+            Mode::Rest | Mode::Slide(_) => [true, true],
+            Mode::Rock(c) | Mode::SlideRock(c, _) => [c == Heel, c == Toe],
+            Mode::Drift => [false, false],
+        }
+    }
+
+    pub fn slip(self) -> Option<Slip> {
+        match self {
+            Mode::Slide(s) | Mode::SlideRock(_, s) => Some(s),
+            _ => None,
+        }
+    }
+
+    pub fn sticks(self) -> bool {
+        matches!(self, Mode::Rest | Mode::Rock(_))
+    }
+}
+
+/// Reactions and accelerations of one mode, affine in the ground acceleration.
+#[derive(Clone, Copy, Debug)]
+pub struct Reaction {
+    /// False where the mode's own equations are singular or push the contact apart with a positive force (Painlevé).
+    pub regular: bool,
+    /// Friction (downstream), normal force at the heel, at the toe.
+    pub force: [Affine; 3],
+    /// Accelerations of slip, heel gap, toe gap; exactly zero where the mode holds them.
+    pub acceleration: [Affine; 3],
+}
+
+/// Reactions of a mode to a unit load `b = e_column`, or `None` where the equations are singular or Painlevé's.
+fn unit_reaction(block: &Block, mode: Mode, column: usize) -> Option<Vector> {
+    let a = &block.compliance;
+    let load = |i: usize| if i == column { 1.0 } else { 0.0 };
+    let solve2 = |i: usize, k: usize, m: [[f64; 2]; 2]| -> Option<[f64; 2]> {
+        let det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+        (det > 0.0).then(|| {
+            [
+                (-load(i) * m[1][1] + load(k) * m[0][1]) / det,
+                (-load(k) * m[0][0] + load(i) * m[1][0]) / det,
+            ]
+        })
+    };
+    let mut force = [0.0; 3];
+    match mode {
+        Mode::Drift => {}
+        Mode::Rest => {
+            // Solve A f = -b by Cramer's rule; A is positive definite.
+            let cofactor = |r: usize, c: usize| {
+                let (r1, r2) = ((r + 1) % 3, (r + 2) % 3);
+                let (c1, c2) = ((c + 1) % 3, (c + 2) % 3);
+                a[r1][c1] * a[r2][c2] - a[r1][c2] * a[r2][c1]
+            };
+            let det: f64 = (0..3).map(|c| a[0][c] * cofactor(0, c)).sum();
+            for (i, f) in force.iter_mut().enumerate() {
+                *f = -cofactor(column, i) / det;
+            }
+        }
+        Mode::Slide(slip) => {
+            let t = -block.friction_kinetic * slip.sign();
+            let n = |r: usize, c: usize| a[r][c] + t * a[r][SLIP];
+            let m = [[n(HEEL, HEEL), n(HEEL, TOE)], [n(TOE, HEEL), n(TOE, TOE)]];
+            let normal = solve2(HEEL, TOE, m)?;
+            force = [t * (normal[0] + normal[1]), normal[0], normal[1]];
+        }
+        Mode::Rock(corner) => {
+            let i = corner_index(corner);
+            let m = [[a[SLIP][SLIP], a[SLIP][i]], [a[i][SLIP], a[i][i]]];
+            let [t, n] = solve2(SLIP, i, m)?;
+            force[SLIP] = t;
+            force[i] = n;
+        }
+        Mode::SlideRock(corner, slip) => {
+            let i = corner_index(corner);
+            let t = -block.friction_kinetic * slip.sign();
+            let stiffness = a[i][i] + t * a[i][SLIP];
+            if stiffness <= 1e-9 * a[i][i] {
+                return None;
+            }
+            let n = -load(i) / stiffness;
+            force[SLIP] = t * n;
+            force[i] = n;
+        }
+    }
+    Some(force)
+}
+
+pub fn corner_index(corner: Corner) -> usize {
+    match corner {
+        Heel => HEEL,
+        Toe => TOE,
+    }
+}
+
+impl Reaction {
+    fn new(block: &Block, mode: Mode) -> Self {
+        let free = &block.free_acceleration;
+        let mut reaction = Reaction {
+            regular: true,
+            force: [Affine::default(); 3],
+            acceleration: *free,
+        };
+        for (column, load) in free.iter().enumerate() {
+            let Some(unit) = unit_reaction(block, mode, column) else {
+                reaction.regular = false;
+                return reaction;
+            };
+            for i in 0..3 {
+                let from = |k: f64, to: &mut Affine| {
+                    to.constant += k * load.constant;
+                    to.horizontal += k * load.horizontal;
+                    to.vertical += k * load.vertical;
+                };
+                from(unit[i], &mut reaction.force[i]);
+                let coupling: f64 = (0..3).map(|k| block.compliance[i][k] * unit[k]).sum();
+                from(coupling, &mut reaction.acceleration[i]);
+            }
+        }
+        let held = [mode.sticks(), mode.contacts()[0], mode.contacts()[1]];
+        for (acceleration, held) in reaction.acceleration.iter_mut().zip(held) {
+            if held {
+                *acceleration = Affine::default();
+            }
+        }
+        reaction
+    }
+}
+
+/// The reactions of all modes of one block.
+pub struct Reactions([Reaction; Mode::COUNT]);
+
+impl Reactions {
+    pub fn new(block: &Block) -> Self {
+        let mut table = [Reaction::new(block, Mode::Drift); Mode::COUNT];
+        for mode in Mode::ALL {
+            table[mode.index()] = Reaction::new(block, mode);
+        }
+        Reactions(table)
+    }
+
+    #[inline]
+    pub fn of(&self, mode: Mode) -> &Reaction {
+        &self.0[mode.index()]
+    }
+}
+
+/// Ground acceleration from here to the end of the piece: value, rate of change, time left.
+#[derive(Clone, Copy, Debug)]
+pub struct Piece {
+    pub ground: [f64; 2],
+    pub rate: [f64; 2],
+    pub left: f64,
+}
+
+/// Sign of a quantity at the start of a piece: of its value or, where that is zero to rounding, of its slope.
+fn sign(q: Affine, piece: &Piece, scale: f64, tie: f64) -> i8 {
+    let value = q.at(piece.ground);
+    if value.abs() > tie * scale {
+        return if value > 0.0 { 1 } else { -1 };
+    }
+    let change = q.slope(piece.rate) * piece.left;
+    if change.abs() > tie * scale {
+        return if change > 0.0 { 1 } else { -1 };
+    }
+    0
+}
+
+/// `mu_s (N_h + N_t) - direction * T`: what is left of the friction cone.
+pub fn cone(block: &Block, force: &[Affine; 3], direction: f64) -> Affine {
+    let left = |f: fn(&Affine) -> f64| {
+        block.friction_static * (f(&force[HEEL]) + f(&force[TOE])) - direction * f(&force[SLIP])
+    };
+    Affine {
+        constant: left(|q| q.constant),
+        horizontal: left(|q| q.horizontal),
+        vertical: left(|q| q.vertical),
+    }
+}
+
+/// Whether the block can move on in `mode` from the contact state at hand.
+///
+/// `closed` are the corners whose gap and gap velocity are zero; `velocity` is the slip velocity.
+fn admissible(
+    block: &Block,
+    reaction: &Reaction,
+    mode: Mode,
+    closed: [bool; 2],
+    velocity: f64,
+    piece: &Piece,
+    tie: f64,
+) -> bool {
+    let contacts = mode.contacts();
+    if (contacts[0] && !closed[0]) || (contacts[1] && !closed[1]) || !reaction.regular {
+        return false;
+    }
+    let (forces, accelerations) = (block.force_scale, block.acceleration_scale());
+    for (corner, gap) in [HEEL, TOE].into_iter().enumerate() {
+        if contacts[corner] {
+            if sign(reaction.force[gap], piece, forces, tie) < 0 {
+                return false;
+            }
+        } else if closed[corner] && sign(reaction.acceleration[gap], piece, accelerations, tie) < 0 {
+            return false;
+        }
+    }
+    match mode {
+        Mode::Drift => true,
+        Mode::Rest | Mode::Rock(_) => {
+            velocity == 0.0
+                && [1.0, -1.0]
+                    .into_iter()
+                    .all(|d| sign(cone(block, &reaction.force, d), piece, forces, tie) >= 0)
+        }
+        Mode::Slide(slip) | Mode::SlideRock(_, slip) => {
+            let s = slip.sign();
+            if velocity != 0.0 {
+                return velocity * s > 0.0;
+            }
+            // A slip that starts must grow; at the friction limit its acceleration is zero and its slope decides.
+            let growth = sign(reaction.acceleration[SLIP], piece, accelerations, tie);
+            f64::from(growth) * s > 0.0 || (tie >= HAIR && growth == 0)
+        }
+    }
+}
+
+/// The mode in which the block goes on: the present one if it is still admissible, else the first of [`Mode::ALL`]
+/// that is; `None` is a Painlevé paradox.
+pub fn select(
+    block: &Block,
+    reactions: &Reactions,
+    present: Mode,
+    closed: [bool; 2],
+    velocity: f64,
+    piece: &Piece,
+) -> Option<Mode> {
+    for tie in [TIE, HAIR] {
+        let mut candidates = std::iter::once(present)
+            .chain(Mode::ALL)
+            .chain(std::iter::once(Mode::Drift));
+        let found = candidates
+            .find(|&mode| admissible(block, reactions.of(mode), mode, closed, velocity, piece, tie));
+        if found.is_some() {
+            return found;
+        }
+    }
+    None
+}
+
+/// Acceleration and its slope of each contact coordinate on a piece. A coordinate that starts to move in this very
+/// moment has its rounding removed, so that it cannot start the wrong way.
+pub fn accelerations(block: &Block, reaction: &Reaction, starts: [bool; 3], piece: &Piece) -> [[f64; 2]; 3] {
+    let tie = TIE * block.acceleration_scale();
+    let mut result = [[0.0; 2]; 3];
+    for i in 0..3 {
+        let mut value = reaction.acceleration[i].at(piece.ground);
+        let mut slope = reaction.acceleration[i].slope(piece.rate);
+        if starts[i] && value.abs() <= tie {
+            value = 0.0;
+            if (slope * piece.left).abs() <= tie {
+                slope = 0.0;
+            }
+        }
+        result[i] = [value, slope];
+    }
+    result
+}

@@ -1,0 +1,604 @@
+//! The walk from event to event.
+//!
+//! On each piece of the record (from one sample or event to the next) the mode's accelerations are linear in time.
+//! The next event is the earliest root of: a normal force (linear), what is left of the friction cone (linear), the
+//! slip velocity (quadratic), an open gap (cubic). The state is moved there exactly, the event is dealt with, the
+//! next mode is chosen, and the walk goes on.
+
+use super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
+use super::event;
+use super::impact::{impact, jam, Impact};
+use super::ledger::{work, Ledger};
+use super::mode::{accelerations, cone, select, Mode, Piece, Reactions, VIOLATION};
+
+/// Ground motion as read by the kernel: linear between samples; a repeated time is a jump.
+#[derive(Clone, Copy)]
+pub struct Motion<'a> {
+    pub time: &'a [f64],
+    pub horizontal: &'a [f64],
+    pub vertical: Option<&'a [f64]>,
+    /// Factors on the two accelerations.
+    pub scale: [f64; 2],
+}
+
+impl Motion<'_> {
+    #[inline]
+    fn at(&self, k: usize) -> [f64; 2] {
+        let up = self.vertical.map_or(0.0, |v| v[k] * self.scale[1]);
+        [self.horizontal[k] * self.scale[0], up]
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+pub struct Options {
+    /// Bounces slower than `settle * sqrt(g' B)` end the bouncing (g' the vertical force per mass, B the width).
+    pub settle: f64,
+    pub event_limit: u64,
+    /// Resolve a Painlevé paradox by a tangential impact instead of stopping there.
+    pub jam: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    Done,
+    /// The static loads alone move the block.
+    Unstable,
+    /// No mode of motion is admissible (Painlevé), or no outcome of an impact.
+    Paradox,
+    EventLimit,
+    /// Events follow each other without time passing.
+    Cycling,
+}
+
+impl Outcome {
+    pub const NAMES: [&'static str; 5] = ["ok", "unstable", "paradox", "event limit", "cycling"];
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EventKind {
+    SlipStarts,
+    SlipStops,
+    HeelLifts,
+    ToeLifts,
+    HeelStrikes,
+    ToeStrikes,
+    BothStrike,
+    Jams,
+    ModeChanges,
+}
+
+impl EventKind {
+    pub const NAMES: [&'static str; 9] = [
+        "slip starts",
+        "slip stops",
+        "heel lifts",
+        "toe lifts",
+        "heel strikes",
+        "toe strikes",
+        "both strike",
+        "jams",
+        "mode changes",
+    ];
+}
+
+/// One event: state after it and, for an impact, what it did.
+#[derive(Clone, Copy, Debug)]
+pub struct Event {
+    pub time: f64,
+    pub kind: EventKind,
+    pub before: Mode,
+    pub after: Mode,
+    pub position: Vector,
+    pub velocity: Vector,
+    /// Velocity right before (equal to `velocity` where nothing strikes).
+    pub approach: Vector,
+    pub impulse: Vector,
+    pub energy_lost: f64,
+}
+
+/// Moments at which the state is wanted, and what is kept of it.
+pub struct Histories<'a> {
+    pub times: &'a [f64],
+    pub rows: Vec<[f64; 12]>,
+    pub modes: Vec<u8>,
+}
+
+#[derive(Clone, Debug)]
+pub struct Summary {
+    pub outcome: Outcome,
+    pub end_time: f64,
+    pub mode: Mode,
+    pub position: Vector,
+    pub velocity: Vector,
+    pub slip_range: [f64; 2],
+    /// Most negative (downstream, about the toe) and most positive (upstream, about the heel) rotation.
+    pub rotation_range: [f64; 2],
+    pub largest_gap: [f64; 2],
+    /// Slip gathered in rest, slide, rock, slide-rock, drift (the first and third stay zero).
+    pub slip_by_mode: [f64; 5],
+    pub time_by_mode: [f64; 5],
+    pub impacts: u64,
+    pub events: u64,
+    pub largest_impact_velocity: f64,
+    pub energy_limited: u64,
+    pub jams: u64,
+    pub slip_stops: u64,
+    pub ledger: Ledger,
+    pub kinetic_energy: f64,
+}
+
+/// What ended a piece before its time.
+#[derive(Clone, Copy, PartialEq)]
+enum Cause {
+    Normal,
+    Cone,
+    Stop,
+    Gap(usize),
+}
+
+/// How the block moves on one piece: reactions, acceleration and slope of each coordinate, the ground.
+struct Course<'a> {
+    force: &'a [Affine; 3],
+    motion: &'a [[f64; 2]; 3],
+    piece: &'a Piece,
+}
+
+struct Walk<'a, 'h> {
+    block: &'a Block,
+    reactions: Reactions,
+    options: Options,
+    settle: f64,
+    mode: Mode,
+    summary: Summary,
+    log: Option<&'a mut Vec<Event>>,
+    histories: Option<&'a mut Histories<'h>>,
+    /// Events since time last moved.
+    standing: u32,
+}
+
+/// Run one block through one motion.
+///
+/// `start` gives contact coordinates and their velocities at the first sample; without it the block stands still in
+/// contact and must be able to do so under its static loads.
+pub fn simulate<'h>(
+    block: &Block,
+    motion: &Motion,
+    start: Option<[Vector; 2]>,
+    options: Options,
+    log: Option<&mut Vec<Event>>,
+    histories: Option<&mut Histories<'h>>,
+) -> Summary {
+    let [position, velocity] = start.unwrap_or([[0.0; 3]; 2]);
+    let g = -block.generalised_force[HEEL].constant - block.generalised_force[TOE].constant;
+    let speed = (g.abs() / block.mass() * block.width).sqrt();
+    let mut walk = Walk {
+        block,
+        reactions: Reactions::new(block),
+        options,
+        settle: options.settle * speed,
+        mode: Mode::Rest,
+        summary: Summary::at_start(block, motion.time[0], position, velocity),
+        log,
+        histories,
+        standing: 0,
+    };
+    walk.run(motion, start.is_none());
+    walk.summary.kinetic_energy = block.kinetic_energy(&walk.summary.velocity);
+    walk.summary
+}
+
+impl Summary {
+    fn at_start(block: &Block, time: f64, position: Vector, velocity: Vector) -> Self {
+        let turn = block.rotation(&position);
+        Summary {
+            outcome: Outcome::Done,
+            end_time: time,
+            mode: Mode::Rest,
+            position,
+            velocity,
+            slip_range: [position[SLIP], position[SLIP]],
+            rotation_range: [turn.min(0.0), turn.max(0.0)],
+            largest_gap: [position[HEEL], position[TOE]],
+            slip_by_mode: [0.0; 5],
+            time_by_mode: [0.0; 5],
+            impacts: 0,
+            events: 0,
+            largest_impact_velocity: 0.0,
+            energy_limited: 0,
+            jams: 0,
+            slip_stops: 0,
+            ledger: Ledger {
+                start: block.kinetic_energy(&velocity),
+                ..Ledger::default()
+            },
+            kinetic_energy: 0.0,
+        }
+    }
+}
+
+impl Walk<'_, '_> {
+    fn run(&mut self, motion: &Motion, stands: bool) {
+        let still = Piece {
+            ground: [0.0; 2],
+            rate: [0.0; 2],
+            left: 1.0,
+        };
+        if stands && !self.rests(&still) {
+            self.summary.outcome = Outcome::Unstable;
+            return;
+        }
+        let n = motion.time.len();
+        let mut k = 0;
+        // Whether the present mode was chosen by the state as it is now.
+        let mut settled = false;
+        while k + 1 < n {
+            if settled && self.mode == Mode::Rest && self.histories.is_none() {
+                k = self.rest_until(motion, k);
+                if k + 1 >= n {
+                    break;
+                }
+            }
+            let (t0, t1) = (motion.time[k], motion.time[k + 1]);
+            let (a0, a1) = (motion.at(k), motion.at(k + 1));
+            k += 1;
+            let length = t1 - t0;
+            if length <= 0.0 {
+                continue;
+            }
+            let inverse = 1.0 / length;
+            let rate = [(a1[0] - a0[0]) * inverse, (a1[1] - a0[1]) * inverse];
+            let mut local = 0.0;
+            let mut cause = None;
+            loop {
+                let ground = [a0[0] + rate[0] * local, a0[1] + rate[1] * local];
+                let piece = Piece {
+                    ground,
+                    rate,
+                    left: length - local,
+                };
+                self.summary.end_time = t0 + local;
+                if !self.choose(&piece, cause) {
+                    return;
+                }
+                settled = true;
+                let (step, ended) = self.advance(&piece, t0 + local);
+                local += step;
+                let Some(why) = ended else { break };
+                cause = Some(why);
+                self.standing = if step > 0.0 { 0 } else { self.standing + 1 };
+                self.summary.events += 1;
+                let stop = if self.summary.events >= self.options.event_limit {
+                    Outcome::EventLimit
+                } else if self.standing > 1000 {
+                    Outcome::Cycling
+                } else {
+                    continue;
+                };
+                self.summary.outcome = stop;
+                self.summary.end_time = t0 + local;
+                return;
+            }
+        }
+        self.summary.end_time = motion.time[n - 1];
+        self.summary.mode = self.mode;
+        self.record(None, f64::INFINITY, 0.0);
+    }
+
+    fn rests(&self, piece: &Piece) -> bool {
+        let closed = [true, true];
+        select(self.block, &self.reactions, Mode::Rest, closed, 0.0, piece) == Some(Mode::Rest)
+    }
+
+    /// While the block rests nothing moves: go through the samples as fast as they can be read and return the last
+    /// one before rest may end.
+    fn rest_until(&mut self, motion: &Motion, from: usize) -> usize {
+        let force = &self.reactions.of(Mode::Rest).force;
+        let block = self.block;
+        let limits = [
+            force[HEEL],
+            force[TOE],
+            cone(block, force, 1.0),
+            cone(block, force, -1.0),
+        ];
+        let mut k = from;
+        while k + 1 < motion.time.len() {
+            let ground = motion.at(k + 1);
+            if limits.iter().any(|limit| limit.at(ground) < 0.0) {
+                break;
+            }
+            k += 1;
+        }
+        self.summary.time_by_mode[Mode::Rest.kind()] += motion.time[k] - motion.time[from];
+        k
+    }
+
+    fn closed(&self) -> [bool; 2] {
+        let s = &self.summary;
+        [HEEL, TOE].map(|gap| s.position[gap] == 0.0 && s.velocity[gap] == 0.0)
+    }
+
+    /// Deal with what ended the last piece and choose the mode of the next; false where the run cannot continue.
+    fn choose(&mut self, piece: &Piece, cause: Option<Cause>) -> bool {
+        let before = self.mode;
+        let approach = self.summary.velocity;
+        let mut blow: Option<(EventKind, Impact)> = None;
+        if let Some(Cause::Gap(_)) = cause {
+            let Some(struck) = self.strike() else {
+                self.summary.outcome = Outcome::Paradox;
+                return false;
+            };
+            blow = Some(struck);
+        }
+        let pick = |walk: &Self| {
+            let velocity = walk.summary.velocity[SLIP];
+            select(
+                walk.block,
+                &walk.reactions,
+                walk.mode,
+                walk.closed(),
+                velocity,
+                piece,
+            )
+        };
+        let mut after = pick(self);
+        if after.is_none() && self.options.jam {
+            let closed = self.closed();
+            if let Some(stop) = jam(self.block, &self.summary.velocity, closed) {
+                self.apply(&stop);
+                self.summary.jams += 1;
+                blow = Some((EventKind::Jams, stop));
+                after = pick(self);
+            }
+        }
+        let Some(after) = after else {
+            self.summary.outcome = Outcome::Paradox;
+            return false;
+        };
+        self.mode = after;
+        self.summary.mode = after;
+        // A mode may also change at a sample, where a jump of the ground acceleration is the cause.
+        if cause.is_some() || after != before || blow.is_some() {
+            if cause.is_none() {
+                self.summary.events += 1;
+            }
+            let kind = blow.map_or_else(|| describe(before, after, cause), |(kind, _)| kind);
+            self.summary.slip_stops += u64::from(kind == EventKind::SlipStops);
+            if let Some(log) = self.log.as_deref_mut() {
+                log.push(Event {
+                    time: self.summary.end_time,
+                    kind,
+                    before,
+                    after,
+                    position: self.summary.position,
+                    velocity: self.summary.velocity,
+                    approach,
+                    impulse: blow.map_or([0.0; 3], |(_, i)| i.impulse),
+                    energy_lost: blow.map_or(0.0, |(_, i)| i.energy_lost),
+                });
+            }
+        }
+        true
+    }
+
+    fn apply(&mut self, blow: &Impact) {
+        self.summary.velocity = blow.velocity;
+        self.summary.ledger.strike(blow.energy_lost);
+        self.summary.energy_limited += u64::from(blow.energy_limited);
+    }
+
+    fn strike(&mut self) -> Option<(EventKind, Impact)> {
+        let s = &mut self.summary;
+        // Corners nearer than rounding strike together.
+        let near = 1e-13 * self.block.width;
+        let mut touching = [false; 2];
+        let mut strikes = [false; 2];
+        for (corner, gap) in [HEEL, TOE].into_iter().enumerate() {
+            if s.position[gap] <= near {
+                s.position[gap] = 0.0;
+                touching[corner] = true;
+                strikes[corner] = s.velocity[gap] < 0.0;
+                s.largest_impact_velocity = s.largest_impact_velocity.max(-s.velocity[gap]);
+            }
+        }
+        s.impacts += 1;
+        let result = impact(self.block, &s.velocity, touching, self.settle)?;
+        self.apply(&result);
+        let kind = match strikes {
+            [true, true] => EventKind::BothStrike,
+            [true, false] => EventKind::HeelStrikes,
+            _ => EventKind::ToeStrikes,
+        };
+        Some((kind, result))
+    }
+
+    /// Move to the next event or to the end of the piece; returns the time that took and what ended it.
+    fn advance(&mut self, piece: &Piece, time: f64) -> (f64, Option<Cause>) {
+        let reaction = *self.reactions.of(self.mode);
+        let contacts = self.mode.contacts();
+        let closed = self.closed();
+        let velocity = self.summary.velocity;
+        let position = self.summary.position;
+        let slip = self.mode.slip();
+        let starts = [slip.is_some() && velocity[SLIP] == 0.0, closed[0], closed[1]];
+        let motion = accelerations(self.block, &reaction, starts, piece);
+
+        let mut step = piece.left;
+        let mut cause = None;
+        let mut earlier = |t: f64, why: Cause| {
+            if t < step || (t == step && cause.is_none()) {
+                step = t;
+                cause = Some(why);
+            }
+        };
+        let floor = -VIOLATION * self.block.force_scale;
+        let mut falls = |q: Affine, why: Cause| {
+            let (value, slope) = (q.at(piece.ground), q.slope(piece.rate));
+            if value + slope * piece.left < floor && slope < 0.0 {
+                earlier(event::linear(value, slope, piece.left), why);
+            }
+        };
+        if contacts[0] {
+            falls(reaction.force[HEEL], Cause::Normal);
+        }
+        if contacts[1] {
+            falls(reaction.force[TOE], Cause::Normal);
+        }
+        if self.mode.sticks() {
+            falls(cone(self.block, &reaction.force, 1.0), Cause::Cone);
+            falls(cone(self.block, &reaction.force, -1.0), Cause::Cone);
+        }
+        if let Some(slip) = slip {
+            let s = slip.sign();
+            let [a0, a1] = motion[SLIP];
+            if let Some(t) = event::quadratic(s * velocity[SLIP], s * a0, s * a1 / 2.0, piece.left) {
+                earlier(t, Cause::Stop);
+            }
+        }
+        for (corner, gap) in [HEEL, TOE].into_iter().enumerate() {
+            if contacts[corner] {
+                continue;
+            }
+            let [a0, a1] = motion[gap];
+            let root = event::cubic(position[gap], velocity[gap], a0 / 2.0, a1 / 6.0, piece.left);
+            if let Some(t) = root {
+                earlier(t, Cause::Gap(gap));
+            }
+        }
+        let course = Course {
+            force: &reaction.force,
+            motion: &motion,
+            piece,
+        };
+        self.move_on(&course, step, time);
+        match cause {
+            Some(Cause::Stop) => self.summary.velocity[SLIP] = 0.0,
+            Some(Cause::Gap(gap)) => self.summary.position[gap] = 0.0,
+            _ => {}
+        }
+        (step, cause)
+    }
+
+    fn move_on(&mut self, course: &Course, step: f64, time: f64) {
+        let Course { force, motion, piece } = *course;
+        self.record(Some(course), time + step, time);
+        let block = self.block;
+        let kind = self.mode.kind();
+        self.summary.time_by_mode[kind] += step;
+        if self.mode == Mode::Rest {
+            return;
+        }
+        let contacts = self.mode.contacts();
+        let moves = [!self.mode.sticks(), !contacts[0], !contacts[1]];
+        let before = self.summary.position;
+        let speed = self.summary.velocity;
+        let s = &mut self.summary;
+        for i in 0..3 {
+            if !moves[i] {
+                continue;
+            }
+            let [a0, a1] = motion[i];
+            let load = &block.generalised_force[i];
+            let load = [load.at(piece.ground), load.slope(piece.rate)];
+            s.ledger.apply(work(load, speed[i], motion[i], step));
+            s.position[i] += step * (speed[i] + step * (a0 / 2.0 + step * a1 / 6.0));
+            s.velocity[i] += step * (a0 + step * a1 / 2.0);
+        }
+        if self.mode.slip().is_some() {
+            let rub = [force[SLIP].at(piece.ground), force[SLIP].slope(piece.rate)];
+            s.ledger.rub(work(rub, speed[SLIP], motion[SLIP], step));
+        }
+        for gap in [HEEL, TOE] {
+            // The root that ended the piece is exact to rounding; so is the gap.
+            s.position[gap] = s.position[gap].max(0.0);
+        }
+        s.slip_by_mode[kind] += s.position[SLIP] - before[SLIP];
+        s.keep_extremes(block);
+        if contacts != [true, true] {
+            self.turning_points(&before, &speed, motion, step);
+        }
+    }
+
+    /// Extremes inside a piece, where a velocity changes sign.
+    fn turning_points(&mut self, w: &Vector, v: &Vector, a: &[[f64; 2]; 3], step: f64) {
+        let block = self.block;
+        let turn = |value: &Vector| block.rotation(value);
+        let (turn_0, turn_1) = (
+            turn(&[a[0][0], a[1][0], a[2][0]]),
+            turn(&[a[0][1], a[1][1], a[2][1]]),
+        );
+        let rates = [
+            [v[SLIP], a[SLIP][0], a[SLIP][1]],
+            [v[HEEL], a[HEEL][0], a[HEEL][1]],
+            [v[TOE], a[TOE][0], a[TOE][1]],
+            [turn(v), turn_0, turn_1],
+        ];
+        for rate in rates {
+            let moments = event::sign_changes(rate[0], rate[1], rate[2] / 2.0, step);
+            for t in moments.into_iter().flatten() {
+                let mut at = *w;
+                for i in 0..3 {
+                    at[i] += t * (v[i] + t * (a[i][0] / 2.0 + t * a[i][1] / 6.0));
+                }
+                self.summary.widen(&at, block);
+            }
+        }
+    }
+
+    /// Write the state at every wanted moment before `until`; `since` is when the present piece began.
+    fn record(&mut self, course: Option<&Course>, until: f64, since: f64) {
+        let Some(h) = self.histories.as_deref_mut() else {
+            return;
+        };
+        while h.rows.len() < h.times.len() && h.times[h.rows.len()] < until {
+            let mut row = h.rows.last().copied().unwrap_or([0.0; 12]);
+            let (w, v) = (&self.summary.position, &self.summary.velocity);
+            let dt = h.times[h.rows.len()] - since;
+            for i in 0..3 {
+                let [a0, a1] = course.map_or([0.0; 2], |c| c.motion[i]);
+                let t = if course.is_some() { dt.max(0.0) } else { 0.0 };
+                row[i] = w[i] + t * (v[i] + t * (a0 / 2.0 + t * a1 / 6.0));
+                row[3 + i] = v[i] + t * (a0 + t * a1 / 2.0);
+                if let Some(c) = course {
+                    row[6 + i] = a0 + a1 * t;
+                    row[9 + i] = c.force[i].at(c.piece.ground) + c.force[i].slope(c.piece.rate) * t;
+                }
+            }
+            row[HEEL] = row[HEEL].max(0.0);
+            row[TOE] = row[TOE].max(0.0);
+            h.rows.push(row);
+            h.modes.push(self.mode.index() as u8);
+        }
+    }
+}
+
+impl Summary {
+    fn keep_extremes(&mut self, block: &Block) {
+        let at = self.position;
+        self.widen(&at, block);
+    }
+
+    fn widen(&mut self, at: &Vector, block: &Block) {
+        let turn = block.rotation(at);
+        self.slip_range = [self.slip_range[0].min(at[SLIP]), self.slip_range[1].max(at[SLIP])];
+        self.rotation_range = [self.rotation_range[0].min(turn), self.rotation_range[1].max(turn)];
+        self.largest_gap = [
+            self.largest_gap[0].max(at[HEEL]),
+            self.largest_gap[1].max(at[TOE]),
+        ];
+    }
+}
+
+fn describe(before: Mode, after: Mode, cause: Option<Cause>) -> EventKind {
+    let (was, is) = (before.contacts(), after.contacts());
+    if cause == Some(Cause::Stop) {
+        EventKind::SlipStops
+    } else if was[0] && !is[0] {
+        EventKind::HeelLifts
+    } else if was[1] && !is[1] {
+        EventKind::ToeLifts
+    } else if before.sticks() && after.slip().is_some() {
+        EventKind::SlipStarts
+    } else {
+        EventKind::ModeChanges
+    }
+}
