@@ -1,15 +1,132 @@
 """Every user-facing error, declared once with its remedy and rendered in one place.
 
-An :class:`InputError` is what a user did that can be put right by the user. It carries the field (or file) it is
-about, the value that was found, and the remedy, and renders as one line:
+An :class:`InputError` is what a user did that can be put right by the user. It carries the field (or file) it
+is about, the value that was found, and the remedy, and renders as one line:
 
     reservoir.depth: 120 m is above the crest at 100 m; give a depth between 0 m and 100 m
 """
 
 from __future__ import annotations
 
-# Code -> (what is wrong, what to do). The braces are filled from the context the raiser gives; {value} is always there.
-CATALOGUE: dict[str, tuple[str, str]] = {}
+# Code -> (what is wrong, what to do). The braces are filled from the context of the raiser, and {value}.
+CATALOGUE: dict[str, tuple[str, str]] = {
+    # case
+    "case-file-missing": (
+        "there is no such file",
+        "give the path of a case file; `heeltoe new NAME` writes one",
+    ),
+    "case-file-unreadable": ("cannot be read ({reason})", "give the path of a case file in TOML or JSON"),
+    "case-file-encoding": ("is not UTF-8 text", "save it as UTF-8"),
+    "case-file-syntax": (
+        "is not valid {kind}: {reason}",
+        "correct it; `heeltoe new NAME` writes a case to compare with",
+    ),
+    "override-form": ("{value} sets nothing", "write PATH=VALUE, for example crack.friction=1.0"),
+    "unit-missing": ("{value} has no unit", "write for example {example}"),
+    "unit-unknown": ("{value} has a unit that is not known, {unit}", "write for example {example}"),
+    "wrong-quantity": ("{value} is not {kind}", "write for example {example}"),
+    "not-finite": ("{value} is not a finite number", "write for example {example}"),
+    "unknown-field": ("no such field", "{suggestion}"),
+    "missing-field": ("is required and not there", "add for example {example}"),
+    "wrong-type": ("{value} is of the wrong type", "give {expected}"),
+    "wrong-length": ("{value} has the wrong length", "give {length} values"),
+    "not-a-choice": ("{value} is not a choice", "choose {choices}"),
+    "out-of-range": ("{value} is out of range", "give a value {bound}"),
+    "not-usable": ("{value} cannot be used ({reason})", "see the documentation of the case file"),
+    "fields-conflict": ('cannot stand beside "{other}"', "keep one of them"),
+    "section-incomplete": ("is required and not there", "give {fields}, or a polygon"),
+    "neck-above-crest": ("{value} is above the crest at {height}", "give a height up to {height}"),
+    "section-size": ("{value} is no size of a dam", "give a section of 1 mm to 10 km"),
+    "polygon-corners": ("has {value} different corners", "give at least 3"),
+    "polygon-crossing": (
+        "the outline {value} crosses or touches itself",
+        "give the corners in order around the section",
+    ),
+    "crack-outside": ("{value} is outside the section", "give an elevation from 0 m to below {height}"),
+    "crack-pieces": (
+        "the line at {value} meets the section in several pieces",
+        "give an elevation with one piece of concrete",
+    ),
+    "crack-no-width": ("the section has no width at {value}", "give an elevation where it has one"),
+    "friction-missing": (
+        "is required and not there",
+        "give friction, or both static_friction and kinetic_friction",
+    ),
+    "friction-order": (
+        "{value} is below kinetic_friction, {kinetic}",
+        "give a static_friction of at least {kinetic}",
+    ),
+    "water-above-crest": ("{value} is above the crest at {height}", "give a depth between 0 m and {height}"),
+    "uplift-option-foreign": (
+        'does not belong to the pattern "{pattern}"',
+        'remove it or choose the pattern "{owner}"',
+    ),
+    "uplift-option-missing": ('is required by the pattern "{pattern}"', "give it or choose another pattern"),
+    "uplift-profile": (
+        "the distances {value} do not ascend from 0 to 1",
+        "give them in order, the heel at 0 and the toe at 1",
+    ),
+    "motion-source": ("has no source", "give file or points"),
+    "motion-points": (
+        "the times {value} do not ascend",
+        "give at least two points in order of time",
+    ),
+    "acceleration-range": ("{value} is out of range", "give up to 10 g either way"),
+    "motion-file-option": ("belongs to a motion from a file", "remove it, or give file instead of points"),
+    "pga-range": ("{value} is out of range", "give a peak above 0 g and up to 10 g"),
+    # motion
+    "motion-short": ("has {value} samples", "give a record with at least two moments"),
+    "motion-not-finite": ("value {number} is {value}", "give a record of finite numbers"),
+    "motion-order": ("its time goes back from {before} to {value}", "give the samples in order of time"),
+    "motion-zero": ("the ground motion is zero throughout", "give another record, or set motion.allow_zero = true"),
+    "motion-peak": (
+        "{name} peaks at {value}, beyond any earthquake",
+        "check its unit (motion.unit), or scale it with motion.pga",
+    ),
+    "motion-resample": (
+        "a step of {value} does not divide the record's {step}",
+        "refine by a whole number; coarser steps would change the motion",
+    ),
+    "record-unreadable": ("cannot be read ({reason})", "give the path of a record"),
+    "record-large": ("has {value}, more than any record", "give a file with one record"),
+    "record-empty": ("is empty", "give a file with a record"),
+    "record-binary": ("is not a text file", "give the record as text"),
+    "record-format": (
+        "is in no format that is known (it starts with {value})",
+        "give PEER AT2, two columns (time, acceleration) or one column",
+    ),
+    "record-format-later": ("is in {value} format, which is not read yet", "give PEER AT2 or two columns"),
+    "record-number": ("line {line}: {value} is not a number", "correct the file"),
+    "record-ragged": ("line {line} has {value} where others have {width}", "correct the file"),
+    "record-not-acceleration": ("is a {value} record", "give the acceleration record"),
+    "record-unit-missing": (
+        "does not state its unit; it peaks at {value}",
+        "say so in {unit_field}: {guess}",
+    ),
+    "record-unit-conflict": ("{value} is not what {name} states, {stated}", "remove one of them"),
+    "record-step-missing": ("does not state its time step", 'say so in {step_field}, for example "0.01 s"'),
+    "record-step-conflict": ("{value} is not what the file states, {stated} s", "remove one of them"),
+    "record-step": ("a time step of {value} is not that of a record", "correct the file"),
+    "record-ambiguous": ("{value} means several files: {names}", "give the path"),
+    "record-not-found": (
+        "there is no record {value}",
+        "{hint} install heeltoe[records], or set HEELTOE_RECORDS to a directory of records",
+    ),
+    # analysis and command line
+    "motion-missing": (
+        "is required and not there",
+        "add [motion] with a file or points, or give --motion FILE-or-NAME",
+    ),
+    "output-step": ("{value} is not a step within the run", "give one above 0 s and up to {duration}"),
+    "not-yet": ("{value} comes with a later release", "{remedy}"),
+    "unknown-model": ("{value} is no model", "use --model rigid"),
+    "no-such-validation": ("{value} is no reference case", "choose one of {names}"),
+    "record-missing": ("is required and not there", "give a file or a name, or --list"),
+    "file-exists": ("is there already", "give another name, or remove it first"),
+    "no-directory": ("is not there", "make it first, or give another path"),
+    "not-a-directory": ("{value} is a file", "give a directory"),
+    "cannot-write": ("cannot be written ({reason})", "give a place where you may write"),
+}
 
 
 class HeeltoeError(Exception):

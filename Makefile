@@ -1,0 +1,78 @@
+# make demo   build everything in .venv and run the main job on a real record
+# make test   build everything in .venv and run all tests
+# make help   the rest
+
+PYTHON ?= python3
+VENV   := .venv
+BIN    := $(VENV)/bin
+# Where the tests and the validation look for strong-motion records that cannot be part of the project.
+RECORDS := $(abspath ../shared/records)
+export HEELTOE_RECORDS ?= $(if $(wildcard $(RECORDS)),$(RECORDS))
+export PYO3_PYTHON := $(abspath $(BIN)/python)
+ELAPSED = echo "$@: done in $$(( $$(date +%s) - $$(cat $(VENV)/.started) )) s"
+
+.PHONY: demo test test-slow lint format validate bench clean help check
+.DEFAULT_GOAL := help
+
+help:
+	@echo "make demo       run the typical dam through El Centro 1940; figures and results in out/demo"
+	@echo "make test       all tests but the long ones"
+	@echo "make test-slow  the long ones"
+	@echo "make lint       formatting, lints and types"
+	@echo "make validate   the reference cases as tables"
+	@echo "make bench      ours against named peers; writes benchmarks/results.md"
+	@echo "make clean      remove what was built"
+
+check:
+	@command -v $(PYTHON) >/dev/null || { echo "missing: Python 3.11 or newer (set PYTHON=...)"; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "missing: Python 3.11 or newer; $(PYTHON) is older (set PYTHON=...)"; exit 1; }
+	@command -v cargo >/dev/null || { echo "missing: cargo (Rust 1.88 or newer)"; exit 1; }
+	@mkdir -p $(VENV) && date +%s > $(VENV)/.started
+
+$(VENV)/.packages: requirements.lock | check
+	@echo "installing Python packages into $(VENV)"
+	@$(PYTHON) -m venv $(VENV) || { echo "missing: the venv module of $(PYTHON) (python3-venv)"; exit 1; }
+	@$(BIN)/pip install --quiet --disable-pip-version-check -r requirements.lock
+	@touch $@
+
+SOURCES := $(wildcard src/*.rs src/*/*.rs) Cargo.toml Cargo.lock pyproject.toml
+
+$(VENV)/.built: $(VENV)/.packages $(SOURCES) | check
+	@echo "building heeltoe"
+	@. $(BIN)/activate && maturin develop --release --locked --quiet
+	@touch $@
+
+demo: check $(VENV)/.built
+	@$(BIN)/heeltoe run examples/typical-base.toml --out out/demo
+	@$(ELAPSED)
+
+test: check $(VENV)/.built
+	cargo test --release --locked --quiet
+	$(BIN)/pytest -q -m "not slow"
+	@$(ELAPSED)
+
+test-slow: check $(VENV)/.built
+	$(BIN)/pytest -q -m slow -n 2
+	@$(ELAPSED)
+
+lint: check $(VENV)/.built
+	cargo fmt --check
+	cargo clippy --release --locked --all-targets --quiet
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+
+validate: check $(VENV)/.built
+	$(BIN)/heeltoe validate
+
+bench: check $(VENV)/.built
+	$(BIN)/pip install --quiet --disable-pip-version-check -r requirements-bench.lock
+	$(BIN)/python benchmarks/run.py
+
+format:
+	cargo fmt
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+clean:
+	rm -rf $(VENV) target out python/heeltoe/*.so

@@ -1,0 +1,169 @@
+"""What pydantic found wrong with a case, said as one :class:`heeltoe.errors.InputError`.
+
+Checks of our own raise :class:`InputError` as everywhere else; :func:`collected` hands it through pydantic,
+which gathers all problems of a case, and :func:`first_error` takes it out again, with the full path of the
+field."""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import json
+import types
+import typing
+from collections.abc import Callable, Iterator, Mapping, Sequence
+
+from pydantic import BaseModel, ValidationError, WithJsonSchema
+from pydantic_core import ErrorDetails, PydanticCustomError
+
+from heeltoe.errors import InputError
+
+P = typing.ParamSpec("P")
+R = typing.TypeVar("R")
+
+_SHOWN_LENGTH = 60
+_BOUNDS = {"gt": "above", "ge": "of at least", "lt": "below", "le": "of at most"}
+# Types that pydantic names in its error codes, as people call them.
+_EXPECTED = {
+    "bool": "true or false",
+    "int": "a whole number",
+    "string": "a text in quotes",
+    "string_too_short": "a text that is not empty",
+    "tuple": "a list",
+    "model": "a block of fields",
+}
+
+
+def shown(value: object) -> str:
+    """Return `value` as the user wrote it in the case file, shortened where it is long."""
+    try:
+        text = json.dumps(value, default=str, ensure_ascii=False)
+    except (ValueError, RecursionError):  # thousands of digits or brackets
+        return "what is there"
+    return text if len(text) <= _SHOWN_LENGTH else text[: _SHOWN_LENGTH - 3] + "..."
+
+
+def collected(check: Callable[P, R]) -> Callable[P, R]:
+    """Let a pydantic validator raise :class:`InputError`, its field relative to the block that is checked."""
+
+    @functools.wraps(check)
+    def inner(*args: P.args, **kwargs: P.kwargs) -> R:
+        try:
+            return check(*args, **kwargs)
+        except InputError as error:
+            context = {"text": f"{error.problem}; {error.remedy}", "error": error}
+            raise PydanticCustomError("input_error", "{text}", context) from None
+
+    return inner
+
+
+def first_error(found: ValidationError, model: type[BaseModel]) -> InputError:
+    """Return the problem to be told, and how many more there are.
+
+    Parameters
+    ----------
+    found
+        What pydantic gathered.
+    model
+        The model of the whole case, for the names it knows.
+
+    Returns
+    -------
+    InputError
+        A field that does not exist goes first, since a slip of the pen makes the field that was meant look
+        missing.
+    """
+    details = found.errors(include_url=False)
+    details.sort(key=lambda detail: detail["type"] != "extra_forbidden")
+    error = _translated(details[0], model)
+    more = len(details) - 1
+    if more:
+        error.remedy += f" (and {more} more problem{'s' if more > 1 else ''})"
+    return error
+
+
+def _translated(detail: ErrorDetails, model: type[BaseModel]) -> InputError:
+    kind, location, value = detail["type"], detail["loc"], detail["input"]
+    context = detail.get("ctx", {})
+    path = _path(location)
+    if kind == "input_error":
+        error: InputError = context["error"]
+        error.field = ".".join(part for part in (path, error.field) if part)
+        return error
+    if kind == "extra_forbidden":
+        return InputError("unknown-field", path, shown(value), suggestion=_suggestion(location, model))
+    if (kind == "missing" and isinstance(location[-1], int)) or kind == "too_long":
+        # All lists of fixed length in a case are pairs. What is missing has the place inside the list.
+        place = location[:-1] if kind == "missing" else location
+        return InputError("wrong-length", _path(place), shown(value), length=2)
+    if kind == "missing":
+        return InputError("missing-field", path, example=_example(location, model))
+    if kind == "literal_error":
+        return InputError("not-a-choice", path, shown(value), choices=context["expected"].replace("'", '"'))
+    if kind in ("greater_than", "greater_than_equal", "less_than", "less_than_equal"):
+        bound = next(f"{_BOUNDS[key]} {limit:g}" for key, limit in context.items() if key in _BOUNDS)
+        # The limits are SI numbers, and zero is zero in any unit.
+        if isinstance(value, str) and not bound.endswith(" 0"):
+            bound += " in SI units"
+        return InputError("out-of-range", path, shown(value), bound=bound)
+    expected = _EXPECTED.get(kind) or _EXPECTED.get(kind.split("_")[0])
+    if expected:
+        return InputError("wrong-type", path, shown(value), expected=expected)
+    return InputError("not-usable", path, shown(value), reason=detail["msg"])
+
+
+def _path(location: Sequence[int | str]) -> str:
+    """Return ``("section", "polygon", 2, 0)`` as ``section.polygon[2][0]``."""
+    text = ""
+    for part in location:
+        if isinstance(part, int):
+            text += f"[{part}]"
+        else:
+            text += f".{part}" if text else part
+    return text
+
+
+def _block(annotation: object) -> type[BaseModel] | None:
+    """Return the model that a field holds, also behind ``| None``; None where it holds a plain value."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    if isinstance(annotation, types.UnionType) or typing.get_origin(annotation) is typing.Union:
+        return next(filter(None, map(_block, typing.get_args(annotation))), None)
+    return None
+
+
+def _owner(location: Sequence[int | str], model: type[BaseModel]) -> type[BaseModel]:
+    """Return the model of the block in which the last name of `location` stands."""
+    for name in location[:-1]:
+        field = model.model_fields.get(str(name))
+        model = (_block(field.annotation) if field else None) or model
+    return model
+
+
+def _places(model: type[BaseModel], above: str = "") -> Iterator[tuple[str, str]]:
+    """Walk all fields of a model: their name and their full path."""
+    for name, field in model.model_fields.items():
+        yield name, above + name
+        block = _block(field.annotation)
+        if block:
+            yield from _places(block, f"{above}{name}.")
+
+
+def _suggestion(location: Sequence[int | str], model: type[BaseModel]) -> str:
+    name = str(location[-1])
+    known = list(_owner(location, model).model_fields)
+    elsewhere = next((path for other, path in _places(model) if other == name), None)
+    near = difflib.get_close_matches(name, known, n=1)
+    if elsewhere or near:
+        return f'did you mean "{elsewhere or near[0]}"?'
+    return f"the fields here are {', '.join(known)}"
+
+
+def _example(location: Sequence[int | str], model: type[BaseModel]) -> str:
+    name = str(location[-1])
+    field = _owner(location, model).model_fields[name]
+    if _block(field.annotation):
+        return f"[{_path(location)}]"
+    schemas = (part.json_schema for part in field.metadata if isinstance(part, WithJsonSchema))
+    schema: Mapping[str, typing.Any] = next((found for found in schemas if found), {})
+    return f"{name} = {shown(next(iter(schema.get('examples', [''])), ''))}"

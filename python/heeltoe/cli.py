@@ -1,0 +1,214 @@
+"""The command line. Results go to standard output, everything for people beside a result to standard error."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import sys
+import tempfile
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+from rich.console import Console
+
+from heeltoe.errors import InputError
+from heeltoe.response import Response
+
+app = typer.Typer(
+    name="heeltoe",
+    help="What a cracked concrete gravity dam does in an earthquake.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    add_completion=False,
+    rich_markup_mode=None,
+)
+
+BAD_INPUT = 2
+NO_RESULT = 3
+
+CasePath = Annotated[str, typer.Argument(metavar="CASE.toml", help="The case file (TOML or JSON).")]
+
+
+def main() -> None:
+    """Run the command line; input that cannot be used ends with one line and exit code 2."""
+    try:
+        app()
+    except InputError as error:
+        print(f"heeltoe: {error}", file=sys.stderr)
+        sys.exit(BAD_INPUT)
+    except BrokenPipeError:
+        # The reader of our output has closed it, as `head` does; nothing is wrong.
+        sys.stderr.close()
+        sys.exit(0)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from heeltoe.response import build_info
+
+        print(" ".join(f"{name} {version}" for name, version in build_info().items()))
+        raise typer.Exit
+
+
+@app.callback()
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and leave.")
+    ] = False,
+) -> None:
+    pass
+
+
+@app.command()
+def run(
+    case: CasePath,
+    model: Annotated[str, typer.Option(help="rigid; flexible and both are not there yet.")] = "rigid",
+    motion: Annotated[str | None, typer.Option(metavar="FILE-or-NAME", help="Another ground motion.")] = None,
+    pga: Annotated[str | None, typer.Option(metavar="0.4g", help="Scale the motion to this peak.")] = None,
+    reverse: Annotated[bool, typer.Option("--reverse", help="Turn the motion round.")] = False,
+    duration: Annotated[str | None, typer.Option(metavar="30s", help="Length of the run.")] = None,
+    set_: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="PATH=VALUE", help="Set any field of the case, e.g. crack.friction=1.0."),
+    ] = None,
+    spread: Annotated[str | None, typer.Option(metavar="N", help="Not there yet.")] = None,
+    json_: Annotated[str | None, typer.Option("--json", metavar="FILE|-", help="Write the result as JSON.")] = None,
+    out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write figures, histories and JSON here.")] = None,
+    csv: Annotated[bool, typer.Option("--csv", help="Histories as CSV instead of Parquet.")] = False,
+    output_step: Annotated[
+        str | None, typer.Option(metavar="0.001s", help="Spacing of the histories; the record's own without it.")
+    ] = None,
+    report: Annotated[bool, typer.Option("--report", help="Not there yet.")] = False,
+) -> None:
+    """Run a case and say what the dam does."""
+    from heeltoe.case import read_case
+    from heeltoe.quantities import parse
+    from heeltoe.rigid_model import rigid
+    from heeltoe.summary import print_summary
+
+    if model in ("flexible", "both"):
+        raise InputError("not-yet", "--model", model, remedy="use --model rigid")
+    if model != "rigid":
+        raise InputError("unknown-model", "--model", model)
+    if spread is not None:
+        raise InputError("not-yet", "--spread", spread, remedy="leave it out")
+    if report:
+        raise InputError("not-yet", "--report", "the report", remedy="leave it out; --out DIR writes figures and JSON")
+
+    changes = list(set_ or [])
+    options = (("file", motion and str(_as_given(motion))), ("pga", pga), ("duration", duration))
+    changes += [f"motion.{name}={value}" for name, value in options if value is not None]
+    loaded = read_case(case, changes)
+    if reverse and loaded.motion is not None:
+        loaded = read_case(case, [*changes, f"motion.reverse={'false' if loaded.motion.reverse else 'true'}"])
+    step = None if output_step is None else parse(output_step, "duration", "--output-step")
+    console = Console(stderr=json_ == "-", highlight=False)
+    with Console(stderr=True).status("running") if sys.stderr.isatty() else _nothing():
+        response = rigid(loaded, output_step=step)
+    print_summary(response, console)
+    if out is not None:
+        for path in _write_all(response, out, ".csv" if csv else ".parquet"):
+            console.print(f"  wrote {path}", soft_wrap=True)
+    if json_ == "-":
+        print(json.dumps(response.to_json(), indent=2, ensure_ascii=False))
+    elif json_ is not None:
+        _replace(Path(json_), json.dumps(response.to_json(), indent=2, ensure_ascii=False) + "\n")
+        console.print(f"  wrote {json_}", soft_wrap=True)
+    if not response.ok:
+        raise typer.Exit(NO_RESULT)
+
+
+@app.command()
+def motion(
+    file: Annotated[str | None, typer.Argument(metavar="FILE-or-NAME")] = None,
+    unit: Annotated[str | None, typer.Option(help="Unit of a file that does not state it: g, cm/s^2, ...")] = None,
+    time_step: Annotated[str | None, typer.Option(metavar="0.01s", help="Of a file that does not state it.")] = None,
+    list_: Annotated[bool, typer.Option("--list", help="List the records that can be used by name.")] = False,
+) -> None:
+    """Say what is in a record: peaks, length, origin, warnings."""
+    from heeltoe.quantities import parse
+    from heeltoe.records import read_record
+    from heeltoe.records.catalog import available, find
+    from heeltoe.summary import print_motion
+
+    console = Console(highlight=False)
+    if list_:
+        for name, where in available():
+            console.print(f"{name:40s} {where}", soft_wrap=True)
+        return
+    if file is None:
+        raise InputError("record-missing", "FILE-or-NAME")
+    step = None if time_step is None else parse(time_step, "duration", "--time-step")
+    print_motion(read_record(find(file, Path.cwd()), unit=unit, time_step=step), console)
+
+
+@app.command()
+def validate(
+    name: Annotated[str | None, typer.Argument(help="One of the cases; all of them without it.")] = None,
+) -> None:
+    """Recompute the reference cases: reference, ours, deviation, verdict."""
+    from heeltoe.validation import run_all
+
+    if not run_all(name, Console(highlight=False)):
+        raise typer.Exit(1)
+
+
+@app.command()
+def new(name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the case; NAME.toml is written.")]) -> None:
+    """Write a commented case file to start from."""
+    from heeltoe.new import new_case_text
+
+    path = Path(name if name.endswith(".toml") else f"{name}.toml")
+    if path.exists():
+        raise InputError("file-exists", str(path))
+    if not path.parent.is_dir():
+        raise InputError("no-directory", str(path.parent))
+    _replace(path, new_case_text(path.stem))
+    print(f"wrote {path}; run it with: heeltoe run {path}")
+
+
+def _as_given(motion: str) -> str | Path:
+    """A path on the command line is relative to where the user stands, not to the case file."""
+    path = Path(motion).expanduser()
+    return path.resolve() if path.is_file() else motion
+
+
+def _write_all(response: Response, directory: Path, suffix: str) -> list[Path]:
+    """Write everything into a new directory first, so that a failure leaves nothing half-written behind."""
+    from heeltoe.figures import write_figures
+
+    if directory.exists() and not directory.is_dir():
+        raise InputError("not-a-directory", "--out", directory)
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(dir=directory) as name:
+            fresh = Path(name)
+            text = json.dumps(response.to_json(), indent=2, ensure_ascii=False)
+            (fresh / "result.json").write_text(text + "\n", encoding="utf-8")
+            if response.histories:
+                response.write_histories(fresh / f"histories{suffix}")
+                response.write_events(fresh / f"events{suffix}")
+            write_figures(response, fresh)
+            names = sorted(path.name for path in fresh.iterdir())
+            for each in names:
+                shutil.move(fresh / each, directory / each)
+    except OSError as error:
+        raise InputError("cannot-write", "--out", directory, reason=error.strerror or error) from None
+    return [directory / each for each in names]
+
+
+def _replace(path: Path, text: str) -> None:
+    """Write a file whole or not at all."""
+    try:
+        with tempfile.NamedTemporaryFile("w", dir=path.parent, delete=False, encoding="utf-8") as file:
+            file.write(text)
+        Path(file.name).replace(path)
+    except OSError as error:
+        raise InputError("cannot-write", str(path), reason=error.strerror or error) from None
+
+
+class _nothing:
+    def __enter__(self) -> None: ...
+
+    def __exit__(self, *_: Any) -> None: ...

@@ -1,0 +1,58 @@
+"""Ground motion as the kernels take it: both directions on the same moments, up to the end of the run."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe.motion import GroundMotion
+
+Floats = NDArray[np.float64]
+
+
+def ground(
+    motion: GroundMotion, vertical: GroundMotion | None, end: float
+) -> tuple[Floats, Floats, Floats | None]:
+    """Put both motions on the same moments, from zero to `end`; where a record has ended the ground stands still.
+
+    Returns
+    -------
+    time, horizontal, vertical
+        (n,) each; at a jump the moment is there twice.
+    """
+    if vertical is None and motion.duration == end:
+        return motion.time, motion.acceleration, None
+    series = [motion] if vertical is None else [motion, vertical]
+    moments = np.unique(np.concatenate([s.time for s in series] + [np.array([end])]))
+    moments = moments[moments <= end]
+    sides = [_both_sides(s, moments) for s in series]
+    jumps = np.any([left != right for left, right in sides], axis=0)
+    time = np.repeat(moments, 1 + jumps)
+    after = np.zeros(time.size, dtype=bool)
+    after[np.flatnonzero(np.diff(time) == 0.0) + 1] = True
+    values = []
+    for left, right in sides:
+        values.append(np.where(after, np.repeat(right, 1 + jumps), np.repeat(left, 1 + jumps)))
+    return time, values[0], values[1] if vertical is not None else None
+
+
+def _both_sides(motion: GroundMotion, moments: Floats) -> tuple[Floats, Floats]:
+    """Return the acceleration right before and right after each moment; outside the record it is zero."""
+    t, a = motion.time, motion.acceleration
+    before, after = np.zeros(moments.size), np.zeros(moments.size)
+    upper = np.searchsorted(t, moments, side="left")
+    inside = (upper > 0) & (upper < t.size)
+    before[inside] = _between(t, a, upper[inside] - 1, moments[inside])
+    lower = np.searchsorted(t, moments, side="right") - 1
+    inside = (lower >= 0) & (lower < t.size - 1)
+    after[inside] = _between(t, a, lower[inside], moments[inside])
+    # The first sample has no past: the record starts there at its own value, without a jump from zero.
+    before[moments == t[0]] = a[0] if t.size < 2 or t[1] > t[0] else after[moments == t[0]]
+    return before, after
+
+
+def _between(t: Floats, a: Floats, k: NDArray[np.intp], moments: Floats) -> Floats:
+    share = (moments - t[k]) / (t[k + 1] - t[k])
+    # Exact at both ends, so that a sample stays the number that was read.
+    result: Floats = np.where(share == 1.0, a[k + 1], a[k] + share * (a[k + 1] - a[k]))
+    return result

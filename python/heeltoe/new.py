@@ -1,0 +1,90 @@
+"""The commented case file that ``heeltoe new`` writes."""
+
+from __future__ import annotations
+
+import json
+
+_TEMPLATE = """\
+# A case for heeltoe: one dam, one crack, one earthquake.
+#
+# Quantities are texts with their unit: "100 m", "328 ft", "2650 kg/m^3", "20 GPa", "0.4 g". Lines that begin
+# with # are off; they show what else there is, mostly with its default.
+
+title = {title}
+
+# gravity = "9.80665 m/s^2"        # one g, of the weight and of motions given in g
+
+[section]                          # vertical upstream face at x = 0, downstream to the right
+height = "100 m"
+crest_width = "8 m"
+neck_height = "90 m"               # where the slope of the downstream face changes; leave out both
+neck_width = "8 m"                 # lines of the neck for a face that is straight from base to crest
+base_width = "80 m"
+# Or any other section, by its corners [x, z] in order:
+# polygon = [["0 m", "0 m"], ["80 m", "0 m"], ["8 m", "90 m"], ["8 m", "100 m"], ["0 m", "100 m"]]
+
+[concrete]
+density = "2400 kg/m^3"
+# modulus = "20 GPa"               # for the flexible model, as are the next two
+# poisson = 0.2
+# damping = 0.05
+
+[crack]
+elevation = "0 m"                  # above the lowest point of the section
+friction = 1.0
+# static_friction = 1.1            # instead of friction, where the friction at rest
+# kinetic_friction = 1.0           # is higher than in motion
+restitution = 0.5                  # of a rocking block's impacts: 0 stays down, 1 loses nothing
+
+[reservoir]                        # leave out for a dry dam
+depth = "95 m"                     # above the lowest point of the section
+# density = "1000 kg/m^3"
+
+# [tailwater]
+# depth = "5 m"
+
+[uplift]
+pattern = "triangular"             # or none, uniform, cut-off, drained, profile
+# intensity = 1.0                  # factor on the pressure
+# extent = 0.5                     # cut-off: part of the width under pressure
+# drain_position = 0.1             # drained: distance from the heel as a part of the width
+# drain_efficiency = 0.667         # drained: 0 no effect on the head there, 1 down to the tailwater's
+# points = [[0.0, "95 m"], [1.0, "0 m"]]   # profile: distance as above, head of water
+
+[motion]                           # the ground's acceleration, positive downstream
+file = "elcentro-1940-180-nga"     # a file beside this one, or a name from the catalogue of records
+pga = "0.4 g"                      # leave out to take the record as it is
+# reverse = true                   # the other sign can be the worse one: try both
+# duration = "30 s"                # leave out for the whole record
+# unit = "cm/s^2"                  # of a file that does not state it
+# time_step = "0.02 s"             # of a file with one column that does not state it
+# vertical = {{ file = "elcentro-1940-up-nga" }}   # positive up; pga, reverse, unit, time_step as above
+# allow_zero = true                # accept a motion that is zero throughout
+# Or draw the motion, instead of file; the same time twice is a jump:
+# points = [["0 s", "0 g"], ["0.5 s", "0.4 g"], ["1 s", "0 g"]]
+
+# [flexible]
+# plane = "stress"                 # or strain
+# elements_across = 8              # along the crack
+# damping = "deformation"          # or thesis, modal
+# virtual_mass = "complete"        # or thesis
+# contact = "coulomb"              # or idce
+# time_step = "0.2 ms"
+
+# [analysis]
+# paradox = "stop"                 # where no motion agrees with Coulomb's law; or "tangential impact"
+# event_limit = 1_000_000
+"""
+
+
+def new_case_text(name: str) -> str:
+    """Return a case file in TOML, complete and explained, that runs as it is.
+
+    Parameters
+    ----------
+    name
+        Title of the case; characters that cannot be printed become blanks.
+    """
+    printable = "".join(letter if letter.isprintable() else " " for letter in name)
+    # A printable text in JSON's quotes is one in TOML's too.
+    return _TEMPLATE.format(title=json.dumps(printable, ensure_ascii=False))

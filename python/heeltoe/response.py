@@ -1,0 +1,189 @@
+"""What an analysis returns: one immutable :class:`Response` with its evidence and warnings."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.csv
+import pyarrow.parquet
+from numpy.typing import NDArray
+
+from heeltoe import _kernel
+from heeltoe.motion import GroundMotion
+
+Floats = NDArray[np.float64]
+
+#: Outcomes of a run; only the first comes with a result to trust.
+OUTCOMES = ("ok", "unstable", "paradox", "event limit", "cycling")
+
+
+@dataclass(frozen=True)
+class Energy:
+    """The energy ledger of a run, per metre of dam.
+
+    Attributes
+    ----------
+    input_j
+        Work of water, weight, uplift and the ground's inertia force on the motion relative to the ground.
+    friction_j, impact_j
+        Energy lost in friction and in impacts, both positive.
+    kinetic_j
+        Kinetic energy left at the end.
+    residual
+        ``|kinetic - input + friction + impact|`` over the turnover; rounding if the run is sound.
+    """
+
+    input_j: float
+    friction_j: float
+    impact_j: float
+    kinetic_j: float
+    residual: float
+
+
+@dataclass(frozen=True, eq=False)
+class Response:
+    """Result of one analysis. Signs: slip is positive downstream, rotation positive counter-clockwise (upstream).
+
+    Attributes
+    ----------
+    model
+        ``"rigid"``.
+    title
+        Of the case.
+    outcome, advice
+        ``"ok"``, or what stopped the run and what to do about it.
+    warnings
+        Everything a reader must know before using the numbers.
+    summary
+        The numbers of the contract, by their JSON names (SI). Empty where the run never started.
+    energy
+        The ledger; None where the run never started.
+    motion, vertical
+        The ground motions, as used.
+    gravity
+        One g of the case [m/s2].
+    histories
+        Columns of equal length, by name with unit; the first is ``time_s``.
+    mode
+        Mode of motion at each moment of the histories, by name.
+    events
+        Columns of equal length: every event with time, kind, modes, state, impulses.
+    static
+        State under the static loads: safety factors, resultant, critical accelerations.
+    references
+        Sources of the methods used.
+    """
+
+    model: str
+    title: str
+    outcome: str
+    advice: str | None
+    warnings: tuple[str, ...]
+    summary: Mapping[str, Any]
+    energy: Energy | None
+    motion: GroundMotion
+    vertical: GroundMotion | None
+    gravity: float
+    histories: Mapping[str, Floats]
+    mode: tuple[str, ...]
+    events: Mapping[str, Any]
+    static: Mapping[str, Any]
+    references: tuple[str, ...] = field(default=())
+
+    def __post_init__(self) -> None:
+        for name in ("summary", "histories", "events", "static"):
+            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+
+    def __getattr__(self, name: str) -> Any:
+        """Give the numbers of the summary as attributes: ``response.residual_slip_m``."""
+        if not name.startswith("_"):
+            try:
+                return self.summary[name]
+            except KeyError:
+                pass
+        raise AttributeError(f"a {type(self).__name__} with outcome {self.__dict__.get('outcome')!r} has no {name!r}")
+
+    @property
+    def ok(self) -> bool:
+        """Whether the run ended with a result to trust."""
+        return self.outcome == "ok"
+
+    def citation(self) -> tuple[str, ...]:
+        """Return the references for exactly the methods and options this result used."""
+        return self.references
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the contract: a dictionary of plain numbers, strings and lists."""
+        energy = None
+        if self.energy is not None:
+            energy = {
+                "input_j": self.energy.input_j,
+                "friction_j": self.energy.friction_j,
+                "impact_j": self.energy.impact_j,
+                "kinetic_j": self.energy.kinetic_j,
+                "residual": self.energy.residual,
+            }
+        return {
+            "model": self.model,
+            "title": self.title,
+            "outcome": self.outcome,
+            "advice": self.advice,
+            "warnings": list(self.warnings),
+            **self.summary,
+            "critical_acceleration_g": dict(self.static["critical_acceleration_g"]),
+            "static": {k: v for k, v in self.static.items() if k != "critical_acceleration_g"},
+            "energy": energy,
+            "motion": motion_json(self.motion, self.gravity),
+            "vertical_motion": motion_json(self.vertical, self.gravity) if self.vertical else None,
+            "references": list(self.references),
+            "build": build_info(),
+        }
+
+    def to_table(self) -> pa.Table:
+        """Return the histories with the mode as a table."""
+        return pa.table({**self.histories, "mode": list(self.mode)})
+
+    def events_table(self) -> pa.Table:
+        """Return the events as a table."""
+        return pa.table(dict(self.events))
+
+    def write_histories(self, path: Path) -> None:
+        """Write the histories to `path`: CSV if it ends so, else Parquet."""
+        _write(self.to_table(), path)
+
+    def write_events(self, path: Path) -> None:
+        """Write the events to `path`: CSV if it ends so, else Parquet."""
+        _write(self.events_table(), path)
+
+
+def _write(table: pa.Table, path: Path) -> None:
+    if path.suffix == ".csv":
+        pa.csv.write_csv(table, path)
+    else:
+        pa.parquet.write_table(table, path)
+
+
+def motion_json(motion: GroundMotion, gravity: float) -> dict[str, Any]:
+    """Return what the contract says about a ground motion; `gravity` is one g [m/s2]."""
+    return {
+        "name": motion.name,
+        "pga_g": motion.pga / gravity,
+        "pgv_m_s": motion.pgv,
+        "pgd_m": motion.pgd,
+        "dt_s": motion.dt,
+        "duration_s": motion.duration,
+        "samples": int(motion.time.size),
+        "source": motion.source,
+        "processing": list(motion.processing),
+    }
+
+
+def build_info() -> dict[str, str]:
+    """Return which build made a result."""
+    return {"heeltoe": _kernel.VERSION, "kernel": _kernel.PROFILE, "numpy": np.__version__}

@@ -1,0 +1,300 @@
+"""The rigid model: case -> block -> kernel -> response."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe import _kernel
+from heeltoe.block import Block, build_block
+from heeltoe.case import Case, case_warnings
+from heeltoe.errors import InputError
+from heeltoe.ground import ground
+from heeltoe.motion import GroundMotion
+from heeltoe.shaking import resolve
+from heeltoe.response import Energy, Response
+
+Floats = NDArray[np.float64]
+
+#: Bounces slower than this times sqrt(g' B) end the bouncing, g' the effective weight per mass and B the width of the
+#: crack: some 1e-6 m/s for a dam, whose further bounces would stay below 1e-13 m.
+SETTLE = 1e-7
+
+ADVICE = {
+    "unstable": "give the dam more friction, less uplift or less water until it stands before the earthquake",
+    "paradox": (
+        'no motion agrees with Coulomb friction here (Painlevé); set analysis.paradox = "tangential impact" to let the '
+        "sliding corner jam, or use the flexible model"
+    ),
+    "event limit": "lower crack.restitution, shorten motion.duration or raise analysis.event_limit",
+    "cycling": "report this case: events followed each other without time passing, which should not happen",
+}
+
+REFERENCES = {
+    "model": (
+        'X. Zhu, "Seismic Behavior of Cracked Concrete Gravity Dams", PhD thesis, Concordia University, Montréal, 2004, '
+        "chapters IV and V"
+    ),
+    "water": (
+        'H. M. Westergaard, "Water pressures on dams during earthquakes", Transactions of the ASCE 98 (1933), 418-433'
+    ),
+    "rocking": (
+        'G. W. Housner, "The behavior of inverted pendulum structures during earthquakes", Bulletin of the '
+        "Seismological Society of America 53 (1963), 403-417"
+    ),
+}
+
+
+def rigid(
+    case: Case,
+    motion: GroundMotion | None = None,
+    vertical: GroundMotion | None = None,
+    *,
+    output_step: float | None = None,
+) -> Response:
+    """Run the rigid model on a case.
+
+    Parameters
+    ----------
+    case
+        Dam, crack, water and earthquake.
+    motion, vertical
+        Ground motions to use, as they are, instead of the case's [m/s2, downstream and upward].
+    output_step
+        Spacing of the histories [s]; at the record's samples where it is not given. It does not change the motion
+        that is computed, which is exact between events.
+
+    Returns
+    -------
+    Response
+
+    Raises
+    ------
+    InputError
+        Where the case has no motion, or one that cannot be used.
+    """
+    if motion is None:
+        if case.motion is None:
+            raise InputError("motion-missing", "motion")
+        motion, vertical = resolve(case.motion, case.gravity, case.base_directory)
+    block = build_block(case)
+    end = case.motion.duration if case.motion and case.motion.duration else motion.duration
+    time, horizontal, up = ground(motion, vertical, end)
+    moments = _moments(time, output_step)
+    summary_row, history, modes, event_rows = _kernel.run_rigid(
+        block.parameters(),
+        time,
+        horizontal,
+        up,
+        moments,
+        None,
+        SETTLE,
+        case.analysis.event_limit,
+        case.analysis.paradox == "tangential impact",
+    )
+    raw = dict(zip(_kernel.SUMMARY_FIELDS, summary_row.tolist(), strict=True))
+    outcome = _kernel.OUTCOMES[int(raw["outcome"])]
+    started = outcome != "unstable"
+    moments = moments[: modes.size]
+    return Response(
+        model="rigid",
+        title=case.title,
+        outcome=outcome,
+        advice=_advice(outcome, raw, block),
+        warnings=(*case_warnings(case), *motion.warnings, *_warnings(raw, outcome)),
+        summary=_summary(raw, block) if started else {},
+        energy=_energy(raw) if started else None,
+        motion=motion,
+        vertical=vertical,
+        gravity=case.gravity,
+        histories=_histories(moments, history, time, horizontal, up, block) if started else {},
+        mode=tuple(_kernel.MODES[m] for m in modes) if started else (),
+        events=_events(event_rows),
+        static=static_state(block),
+        references=_references(block),
+    )
+
+
+def _moments(time: Floats, step: float | None) -> Floats:
+    if step is None:
+        return np.unique(time)
+    if not 0.0 < step <= time[-1]:
+        raise InputError("output-step", "output_step", f"{step:g} s", duration=f"{time[-1]:g} s")
+    return np.arange(int(np.floor(time[-1] / step * (1.0 + 1e-12))) + 1) * step
+
+
+def _summary(raw: dict[str, float], block: Block) -> dict[str, Any]:
+    downstream, upstream = -raw["rotation_min"], raw["rotation_max"]
+    return {
+        "residual_slip_m": raw["slip"],
+        "peak_slip_downstream_m": raw["slip_max"],
+        "peak_slip_upstream_m": raw["slip_min"],
+        "rocking_downstream_rad": abs(downstream),
+        "rocking_upstream_rad": abs(upstream),
+        # Rocking downstream, about the toe, opens the crack at the upstream face.
+        "opening_upstream_m": block.width * abs(downstream),
+        "opening_downstream_m": block.width * abs(upstream),
+        "largest_gap_heel_m": raw["largest_gap_heel"],
+        "largest_gap_toe_m": raw["largest_gap_toe"],
+        "slip_by_mode_m": {
+            "sliding": raw["slip_sliding"],
+            "slide_rocking": raw["slip_slide_rocking"],
+            "drifting": raw["slip_drifting"],
+        },
+        "time_by_mode_s": {
+            "rest": raw["time_rest"],
+            "sliding": raw["time_sliding"],
+            "rocking": raw["time_rocking"],
+            "slide_rocking": raw["time_slide_rocking"],
+            "drifting": raw["time_drifting"],
+        },
+        "impacts": int(raw["impacts"]),
+        "largest_impact_velocity_m_s": raw["largest_impact_velocity"],
+        "events": int(raw["events"]),
+        "final_mode": _kernel.MODES[int(raw["final_mode"])],
+        "final_slip_velocity_m_s": raw["slip_velocity"],
+        "end_time_s": raw["end_time"],
+        "crack_width_m": block.width,
+    }
+
+
+def _energy(raw: dict[str, float]) -> Energy:
+    return Energy(
+        input_j=raw["energy_input"],
+        friction_j=raw["energy_friction"],
+        impact_j=raw["energy_impact"],
+        kinetic_j=raw["energy_kinetic"],
+        residual=raw["energy_residual"],
+    )
+
+
+def _histories(
+    moments: Floats, history: Floats, time: Floats, horizontal: Floats, up: Floats | None, block: Block
+) -> dict[str, Floats]:
+    column = {name: np.ascontiguousarray(history[:, k]) for k, name in enumerate(_kernel.HISTORY_FIELDS)}
+    result = {"time_s": moments, "ground_acceleration_m_s2": np.interp(moments, time, horizontal)}
+    if up is not None:
+        result["vertical_ground_acceleration_m_s2"] = np.interp(moments, time, up)
+    result |= {
+        "slip_m": column["slip"],
+        "slip_velocity_m_s": column["slip_velocity"],
+        "slip_acceleration_m_s2": column["slip_acceleration"],
+        "gap_heel_m": column["gap_heel"],
+        "gap_toe_m": column["gap_toe"],
+        "rotation_rad": (column["gap_toe"] - column["gap_heel"]) / block.width,
+        "rotation_velocity_rad_s": (column["gap_velocity_toe"] - column["gap_velocity_heel"]) / block.width,
+        "friction_force_n": column["friction_force"],
+        "normal_force_heel_n": column["normal_force_heel"],
+        "normal_force_toe_n": column["normal_force_toe"],
+    }
+    return result
+
+
+def _events(rows: Floats) -> dict[str, Any]:
+    column = {name: np.ascontiguousarray(rows[:, k]) for k, name in enumerate(_kernel.EVENT_FIELDS)}
+
+    def named(field: str, names: list[str]) -> list[str]:
+        return [names[int(k)] for k in column[field]]
+
+    return {
+        "time_s": column["time"],
+        "kind": named("kind", _kernel.EVENT_KINDS),
+        "mode_before": named("mode_before", _kernel.MODES),
+        "mode_after": named("mode_after", _kernel.MODES),
+        "slip_m": column["slip"],
+        "gap_heel_m": column["gap_heel"],
+        "gap_toe_m": column["gap_toe"],
+        "slip_velocity_m_s": column["slip_velocity"],
+        "gap_velocity_heel_m_s": column["gap_velocity_heel"],
+        "gap_velocity_toe_m_s": column["gap_velocity_toe"],
+        "approach_slip_velocity_m_s": column["approach_slip_velocity"],
+        "approach_velocity_heel_m_s": column["approach_velocity_heel"],
+        "approach_velocity_toe_m_s": column["approach_velocity_toe"],
+        "friction_impulse_n_s": column["impulse_friction"],
+        "heel_impulse_n_s": column["impulse_heel"],
+        "toe_impulse_n_s": column["impulse_toe"],
+        "energy_lost_j": column["energy_lost"],
+    }
+
+
+def static_state(block: Block) -> dict[str, Any]:
+    """Return the state under the static loads, by the names of the contract."""
+    critical = block.critical_accelerations()
+    return {
+        "critical_acceleration_g": {
+            "sliding": critical.sliding / block.gravity,
+            "rocking": critical.rocking / block.gravity,
+            "sliding_downstream": critical.sliding_downstream / block.gravity,
+            "sliding_upstream": critical.sliding_upstream / block.gravity,
+            "rocking_downstream": critical.rocking_downstream / block.gravity,
+            "rocking_upstream": critical.rocking_upstream / block.gravity,
+        },
+        "sliding_safety_factor": block.sliding_safety_factor,
+        "resultant_from_heel_m": block.resultant_position,
+        "normal_force_n": block.normal_force,
+        "horizontal_force_n": block.static.horizontal,
+        "concrete_mass_kg": block.mass_vertical,
+        "virtual_mass_kg": block.water.mass,
+    }
+
+
+def _advice(outcome: str, raw: dict[str, float], block: Block) -> str | None:
+    if outcome == "ok":
+        return None
+    if outcome == "unstable":
+        return f"{_instability(block)}: {ADVICE[outcome]}"
+    mode = _kernel.MODES[int(raw["final_mode"])]
+    state = (
+        f"stopped at {raw['end_time']:.6f} s in mode {mode!r} with slip {raw['slip']:.6g} m at "
+        f"{raw['slip_velocity']:.6g} m/s, heel gap {raw['gap_heel']:.6g} m, toe gap {raw['gap_toe']:.6g} m"
+    )
+    return f"{state}: {ADVICE[outcome]}"
+
+
+def _instability(block: Block) -> str:
+    """Say what moves the dam before any earthquake, and by how much."""
+    if block.normal_force <= 0.0:
+        return "the water pressure below the dam is more than its weight: it floats"
+    reasons = []
+    factor = block.sliding_safety_factor
+    if factor is not None and factor < 1.0:
+        reasons.append(f"it slides under its static loads alone (sliding safety factor {factor:.3f})")
+    position = block.resultant_position
+    if position is not None and not 0.0 <= position <= block.width:
+        corner = "toe" if position > block.width else "heel"
+        reasons.append(
+            f"it overturns about its {corner} under its static loads alone (resultant {position:.2f} m from the heel, "
+            f"crack {block.width:.2f} m wide)"
+        )
+    return " and ".join(reasons) or "its static loads are at the limit of friction or of overturning"
+
+
+def _warnings(raw: dict[str, float], outcome: str) -> list[str]:
+    said = []
+    if outcome == "ok" and _kernel.MODES[int(raw["final_mode"])] != "rest":
+        said.append(
+            f"the block still moves when the run ends (slip velocity {raw['slip_velocity']:.3g} m/s): the residual slip is "
+            "that of this moment; a longer motion.duration lets it come to rest"
+        )
+    if raw["energy_limited_impacts"]:
+        said.append(
+            f"{int(raw['energy_limited_impacts'])} impact(s) would have created energy with the restitution given; theirs "
+            "was lowered to the largest that does not"
+        )
+    if raw["jams"]:
+        said.append(
+            f"{int(raw['jams'])} Painlevé paradox(es) were resolved by a tangential impact, as analysis.paradox asks"
+        )
+    if raw["energy_residual"] > 1e-9:
+        said.append(f"the energy ledger does not close: residual {raw['energy_residual']:.1e} of the turnover")
+    largest = max(-raw["rotation_min"], raw["rotation_max"])
+    if largest > 0.1:
+        said.append(f"the largest rotation is {largest:.3g} rad; the model is one of small rotations")
+    return said
+
+
+def _references(block: Block) -> tuple[str, ...]:
+    keys = ["model", "rocking"] + (["water"] if block.water.mass else [])
+    return tuple(REFERENCES[key] for key in keys)

@@ -1,0 +1,151 @@
+"""Numbers with units: what is read, what is refused, and in which words."""
+
+import contextlib
+import math
+import subprocess
+import sys
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from pydantic import TypeAdapter
+
+from heeltoe.errors import InputError
+from heeltoe.quantities import (
+    DIMENSIONS,
+    STANDARD_GRAVITY,
+    Acceleration,
+    AccelerationField,
+    DimensionlessNumber,
+    Length,
+    acceleration_unit,
+    parse,
+    parse_acceleration,
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "expected"),
+    [
+        ("100 m", "length", 100.0),
+        ("95m", "length", 95.0),
+        (" 95 m ", "length", 95.0),
+        ("328 ft", "length", 328 * 0.3048),
+        ("-2.5e3 mm", "length", -2.5),
+        (".5 m", "length", 0.5),
+        ("2650 kg/m^3", "density", 2650.0),
+        ("2650 kg/m3", "density", 2650.0),
+        ("2650 kg/m³", "density", 2650.0),
+        ("2.65 t/m^3", "density", 2650.0),
+        ("150 lb/ft^3", "density", 150 * 0.45359237 / 0.3048**3),
+        ("20 GPa", "pressure", 20e9),
+        ("4 Mpsi", "pressure", 4e6 * 0.45359237 * 9.80665 / 0.0254**2),
+        ("30s", "duration", 30.0),
+        ("0.2 ms", "duration", 2e-4),
+        ("2 min", "duration", 120.0),
+        ("9.81 m/s^2", "acceleration", 9.81),
+        ("9.81 m/s2", "acceleration", 9.81),
+        ("9.81 m/s/s", "acceleration", 9.81),
+        ("2 g", "acceleration", 2 * STANDARD_GRAVITY),
+        (1.2, "number", 1.2),
+        (3, "number", 3.0),
+        ("1.2", "number", 1.2),
+        ("5 %", "number", 0.05),
+        ("5percent", "number", 0.05),
+    ],
+)
+def test_read(text, dimension, expected):
+    assert parse(text, dimension, "f") == pytest.approx(expected, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("value", "dimension", "message"),
+    [
+        (12, "length", 'crack.elevation: 12 has no unit; write for example "12 m"'),
+        (0.5, "duration", 'crack.elevation: 0.5 has no unit; write for example "0.5 s"'),
+        ("12", "length", 'crack.elevation: "12" has no unit; write for example "12 m"'),
+        (math.nan, "length", 'crack.elevation: NaN has no unit; write for example "100 m"'),
+        ("12 kg", "length", 'crack.elevation: "12 kg" is not a length; write for example "100 m"'),
+        (
+            "24 kN/m^3",
+            "density",
+            'crack.elevation: "24 kN/m^3" is not a density; write for example "2400 kg/m^3"',
+        ),
+        # pint alone reads the next two as 15 m and 1000 m.
+        ("1,5 m", "length", 'crack.elevation: "1,5 m" is not a length; write for example "100 m"'),
+        ("1,000 m", "length", 'crack.elevation: "1,000 m" is not a length; write for example "100 m"'),
+        ("12 furlings", "length", 'has a unit that is not known, "furlings"; write for example "100 m"'),
+        ("1e999 m", "length", '"1e999 m" is not a finite number; write for example "100 m"'),
+        ("1e308 km", "length", '"1e308 km" is not a finite number; write for example "100 m"'),
+        ("nan m", "length", "is not a length"),
+        ("m", "length", "is not a length"),
+        ("", "length", '"" is not a length'),
+        (None, "length", "null is not a length"),
+        (True, "length", "true is not a length"),
+        ([1, 2], "length", "[1, 2] is not a length"),
+        ("4 m + 3 m", "length", "unit that is not known"),
+        ("3 2 m", "length", "is not a length"),
+        ("2 m/0", "length", "unit that is not known"),
+        ("20 kg", "acceleration", "is not an acceleration"),
+        ("9 mg", "acceleration", "is not an acceleration"),
+        (math.inf, "number", "is not a finite number; write for example 1.0"),
+        (10**400, "number", "is not a finite number"),
+        (True, "number", "true is not a number"),
+        # An angle is no number, although pint takes it for one.
+        ("45 deg", "number", '"45 deg" is not a number; write for example 1.0'),
+    ],
+)
+def test_refused(value, dimension, message):
+    with pytest.raises(InputError) as caught:
+        parse(value, dimension, "crack.elevation")
+    assert message in str(caught.value)
+    assert str(caught.value).startswith("crack.elevation: ")
+
+
+def test_g_is_gravity_of_the_case():
+    assert parse_acceleration("0.4g", "f") == Acceleration(0.4, in_g=True)
+    assert parse_acceleration("0.4 g", "f").si(9.81) == pytest.approx(3.924)
+    assert parse_acceleration("3.924 m/s^2", "f").si(1.62) == pytest.approx(3.924)
+
+
+def test_gal_is_no_gallon():
+    assert parse_acceleration("981 gal", "f").si(1.0) == pytest.approx(9.81)
+    assert acceleration_unit("cm/s^2", "f").si(1.0) == pytest.approx(0.01)
+    assert acceleration_unit("g", "f") == Acceleration(1.0, in_g=True)
+
+
+def test_example_of_each_kind_can_be_read():
+    for dimension, known in DIMENSIONS.items():
+        assert parse(known.example, dimension, "f") > 0.0
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False), st.booleans())
+def test_acceleration_written_and_read_again(value, in_g):
+    acceleration = Acceleration(value, in_g)
+    assert parse_acceleration(str(acceleration), "f") == acceleration
+
+
+@given(
+    st.one_of(st.text(), st.from_regex(r"[0-9.e+-]{1,9} ?[a-z^*/()%0-9 .-]{0,12}")),
+    st.sampled_from(list(DIMENSIONS)),
+)
+def test_any_text_is_read_or_refused_in_words(text, dimension):
+    # Whatever else is raised fails the test.
+    with contextlib.suppress(InputError):
+        assert math.isfinite(parse(text, dimension, "f"))
+
+
+def test_pydantic_types():
+    length = TypeAdapter(Length)
+    assert length.validate_python("2 ft") == pytest.approx(0.6096)
+    assert length.dump_json(95.0) == b'"95.0 m"'
+    assert length.json_schema() == {"type": "string", "examples": ["100 m"]}
+    assert TypeAdapter(AccelerationField).json_schema() == {"type": "string", "examples": ["0.4 g"]}
+    assert TypeAdapter(DimensionlessNumber).json_schema() == {"type": ["number", "string"], "examples": [1.0]}
+    with pytest.raises(ValueError, match="12 has no unit"):
+        length.validate_python(12)
+
+
+def test_pint_waits_for_the_first_unit():
+    program = "import sys, heeltoe.case; sys.exit('pint' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0

@@ -1,0 +1,51 @@
+"""The reference cases hold, and a wrong number would be seen."""
+
+import io
+
+import pytest
+from rich.console import Console
+
+from heeltoe import InputError
+from heeltoe.validation import CASES, Row, run_all, run_case
+
+_NEED_RECORDS = {"triangular", "table-7.6-taft", "table-7.6-el-centro"}
+
+
+@pytest.mark.parametrize("name", [name for name in CASES if name not in _NEED_RECORDS])
+def test_reference_case(name):
+    _judge(run_case(name))
+
+
+@pytest.mark.parametrize("name", sorted(_NEED_RECORDS))
+def test_reference_case_on_a_real_record(name, records):
+    _judge(run_case(name))
+
+
+def _judge(rows):
+    assert rows
+    outside = [f"{row.what}: {row.ours_text} instead of {row.reference_text}" for row in rows if row.holds is False]
+    assert not outside
+
+
+def test_every_row_without_a_tolerance_says_why(records):
+    for name in CASES:
+        rows = [row for row in run_case(name) if row.tolerance is None]
+        assert not rows or rows[0].remark, name
+
+
+def test_a_row_outside_its_tolerance_fails():
+    row = Row("slip", 1.0, 1.2, 0.1)
+    assert row.holds is False
+    assert row.verdict == "OUTSIDE 10%"
+
+
+def test_the_tables_are_printed():
+    text = io.StringIO()
+    assert run_all("impulse", Console(file=text, width=160))
+    assert "slip after 0.4 s" in text.getvalue()
+    assert "2 within tolerance, 0 outside" in text.getvalue()
+
+
+def test_an_unknown_case_is_refused():
+    with pytest.raises(InputError, match="choose one of impulse"):
+        run_all("koyna", Console(file=io.StringIO()))
