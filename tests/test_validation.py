@@ -36,7 +36,7 @@ def test_every_row_without_a_tolerance_says_why(records):
 def test_a_row_outside_its_tolerance_fails():
     row = Row("slip", 1.0, 1.2, 0.1)
     assert row.holds is False
-    assert row.verdict == "OUTSIDE 10%"
+    assert row.verdict == "NOT within 10%"
 
 
 def test_the_tables_are_printed():

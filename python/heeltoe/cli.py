@@ -97,7 +97,7 @@ def run(
         raise InputError("not-yet", "--report", "the report", remedy="leave it out; --out DIR writes figures and JSON")
 
     changes = list(set_ or [])
-    options = (("file", motion and str(_as_given(motion))), ("pga", pga), ("duration", duration))
+    options = (("file", motion and json.dumps(_as_given(motion))), ("pga", pga), ("duration", duration))
     changes += [f"motion.{name}={value}" for name, value in options if value is not None]
     loaded = read_case(case, changes)
     if reverse and loaded.motion is not None:
@@ -168,10 +168,10 @@ def new(name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the ca
     print(f"wrote {path}; run it with: heeltoe run {path}")
 
 
-def _as_given(motion: str) -> str | Path:
+def _as_given(motion: str) -> str:
     """A path on the command line is relative to where the user stands, not to the case file."""
     path = Path(motion).expanduser()
-    return path.resolve() if path.is_file() else motion
+    return str(path.resolve()) if path.is_file() else motion
 
 
 def _write_all(response: Response, directory: Path, suffix: str) -> list[Path]:

@@ -159,8 +159,8 @@ def _ground(axes: Axes, response: Response) -> None:
 def _ribbon(axes: Axes, response: Response) -> None:
     """Colour each moment by its mode; the events give the exact changes."""
     end = response.end_time_s
-    times = np.concatenate([[0.0], response.events["time_s"], [end]])
-    modes = ["rest", *response.events["mode_after"]]
+    times = np.concatenate([[0.0], response.event_log["time_s"], [end]])
+    modes = ["rest", *response.event_log["mode_after"]]
     kinds = [_kind(mode) for mode in modes]
     for kind, colour in MODE_COLOURS.items():
         spans = [

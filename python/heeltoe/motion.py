@@ -132,12 +132,13 @@ class GroundMotion:
         root = np.sqrt(np.maximum(a0**2 - 4.0 * c * v0, 0.0))
         q = -0.5 * (a0 + np.copysign(root, a0))
         pgd = float(np.abs(d).max())
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             candidates = (q / c, v0 / q)
-        for s in candidates:
-            inside = np.isfinite(s) & (s > 0.0) & (s < h)
-            at = d0 + s * (v0 + s * (a0 / 2.0 + s * c / 3.0))
-            pgd = max(pgd, float(np.abs(at[inside]).max(initial=0.0)))
+        for candidate in candidates:
+            inside = np.isfinite(candidate) & (candidate > 0.0) & (candidate < h)
+            s = candidate[inside]
+            at = d0[inside] + s * (v0[inside] + s * (a0[inside] / 2.0 + s * c[inside] / 3.0))
+            pgd = max(pgd, float(np.abs(at).max(initial=0.0)))
         return float(pgv), pgd, float(v[-1])
 
     def scaled(self, factor: float, note: str = "") -> GroundMotion:

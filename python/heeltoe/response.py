@@ -72,7 +72,7 @@ class Response:
         Columns of equal length, by name with unit; the first is ``time_s``.
     mode
         Mode of motion at each moment of the histories, by name.
-    events
+    event_log
         Columns of equal length: every event with time, kind, modes, state, impulses.
     static
         State under the static loads: safety factors, resultant, critical accelerations.
@@ -92,12 +92,12 @@ class Response:
     gravity: float
     histories: Mapping[str, Floats]
     mode: tuple[str, ...]
-    events: Mapping[str, Any]
+    event_log: Mapping[str, Any]
     static: Mapping[str, Any]
     references: tuple[str, ...] = field(default=())
 
     def __post_init__(self) -> None:
-        for name in ("summary", "histories", "events", "static"):
+        for name in ("summary", "histories", "event_log", "static"):
             object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
 
     def __getattr__(self, name: str) -> Any:
@@ -151,7 +151,7 @@ class Response:
 
     def events_table(self) -> pa.Table:
         """Return the events as a table."""
-        return pa.table(dict(self.events))
+        return pa.table(dict(self.event_log))
 
     def write_histories(self, path: Path) -> None:
         """Write the histories to `path`: CSV if it ends so, else Parquet."""

@@ -111,7 +111,7 @@ def rigid(
         gravity=case.gravity,
         histories=_histories(moments, history, time, horizontal, up, block) if started else {},
         mode=tuple(_kernel.MODES[m] for m in modes) if started else (),
-        events=_events(event_rows),
+        event_log=_events(event_rows),
         static=static_state(block),
         references=_references(block),
     )

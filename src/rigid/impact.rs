@@ -162,7 +162,7 @@ fn with_restitution(
 }
 
 /// Impact of the corners in `touching`, of which at least one has a negative gap velocity. A bounce slower than
-/// `settle` is none: that corner stays. `None` is a paradox: no outcome satisfies the law.
+/// `settle` is none: that corner stays; and where both corners touch and neither moves faster, both stay. `None` is a paradox: no outcome satisfies the law.
 pub fn impact(block: &Block, before: &Vector, touching: [bool; 2], settle: f64) -> Option<Impact> {
     let restitution = [HEEL, TOE].map(|gap| {
         let bounce = -block.restitution * before[gap];
@@ -173,6 +173,9 @@ pub fn impact(block: &Block, before: &Vector, touching: [bool; 2], settle: f64) 
         }
     });
     let energy = block.kinetic_energy(before);
+    if touching == [true, true] && before[HEEL].abs() < settle && before[TOE].abs() < settle {
+        return Some(come_to_lie(block, before, energy));
+    }
     let allowed = energy * (1.0 + ROUNDING);
     let law = |share: f64| {
         with_restitution(block, before, touching, restitution, share)
@@ -200,6 +203,27 @@ pub fn impact(block: &Block, before: &Vector, touching: [bool; 2], settle: f64) 
         energy_lost: energy - block.kinetic_energy(&velocity),
         energy_limited: limited,
     })
+}
+
+/// Rocking from corner to corner dies out as bouncing does, in infinitely many impacts, each leaving a fixed share of
+/// the velocity. Here the block is so slow that it is laid down on both corners: without friction if it slips, to
+/// rest if it does not. Either is a projection in the norm of the kinetic energy, which can only lose.
+fn come_to_lie(block: &Block, before: &Vector, energy: f64) -> Impact {
+    let a = &block.compliance;
+    let mut impulse = [0.0; 3];
+    let mut velocity = [0.0; 3];
+    if before[SLIP] != 0.0 {
+        let det = a[HEEL][HEEL] * a[TOE][TOE] - a[HEEL][TOE] * a[TOE][HEEL];
+        impulse[HEEL] = (a[HEEL][TOE] * before[TOE] - a[TOE][TOE] * before[HEEL]) / det;
+        impulse[TOE] = (a[TOE][HEEL] * before[HEEL] - a[HEEL][HEEL] * before[TOE]) / det;
+        velocity[SLIP] = before[SLIP] + a[SLIP][HEEL] * impulse[HEEL] + a[SLIP][TOE] * impulse[TOE];
+    }
+    Impact {
+        velocity,
+        impulse,
+        energy_lost: energy - block.kinetic_energy(&velocity),
+        energy_limited: false,
+    }
 }
 
 /// Tangential impact that ends a Painlevé paradox: a sliding corner jams, and the impulse that stops its slip lifts

@@ -26,6 +26,7 @@ _UNITS = (
     ("in/s^2", r"in\s*/\s*s(?:ec)?\s*(?:\^|\*\*)?\s*2"),
     ("g", r"\[\s*g\s*\]|\(\s*g\s*\)|\bin g\b|units?\s*[:=]\s*g\b|accel\w*\s*,?\s+g\b"),
 )
+_ONE_G = re.compile(r"1\s*g\s*=[^)\]]*", re.IGNORECASE)
 _STEP = re.compile(r"(?:time step|\bdt\b|delta t|step)\s*[:=]?\s*([\d.]+(?:e[-+]?\d+)?)\s*(ms|s\b|sec)?", re.IGNORECASE)
 _STATED = re.compile(r"(?:number of points|points|npts|samples)\s*[:=]\s*(\d+)", re.IGNORECASE)
 _SEPARATORS = str.maketrans({",": " ", ";": " ", "\t": " "})
@@ -92,18 +93,26 @@ def read(lines: list[str], name: str) -> RawRecord:
         np.ascontiguousarray(table[:, -1]),
         time=time,
         time_step=step if time is None else None,
-        unit=_unit(said),
+        unit=_unit(header),
         about=about,
         processing=processing,
         warnings=tuple(warnings),
     )
 
 
-def _unit(said: str) -> str | None:
-    """The unit a header states; with one for the time beside it, the one that is an acceleration."""
-    for unit, pattern in _UNITS:
-        if re.search(pattern, said, re.IGNORECASE):
-            return unit
+def _unit(header: list[str]) -> str | None:
+    """The unit a header states, or None where it states none or several: nothing is guessed.
+
+    Lines that speak of units go before lines that speak of acceleration; what one g is worth is no unit.
+    """
+    for word in ("unit", "acc"):
+        found = set()
+        for line in header:
+            if word in line.lower():
+                text = _ONE_G.sub("", line)
+                found |= {unit for unit, pattern in _UNITS if re.search(pattern, text, re.IGNORECASE)}
+        if found:
+            return found.pop() if len(found) == 1 else None
     return None
 
 

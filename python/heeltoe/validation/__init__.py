@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 from heeltoe.errors import InputError
@@ -61,15 +62,21 @@ def run_all(name: str | None, console: Console) -> bool:
             console.print(f"  [yellow]skipped[/yellow]: {reason}")
             skipped += 1
             continue
-        table = Table(show_edge=False, pad_edge=False, header_style="dim")
+        table = Table(show_edge=False, pad_edge=False, header_style="dim", box=None)
         for column in ("", "reference", "heeltoe", "deviation", "verdict"):
-            table.add_column(column, justify="left" if column in ("", "verdict") else "right")
+            table.add_column(column, justify="left" if column in ("", "verdict") else "right", no_wrap=column != "")
+        remarks = list(dict.fromkeys(row.remark for row in rows if row.remark))
         for row in rows:
-            table.add_row(row.what, row.reference_text, row.ours_text, row.deviation_text, row.verdict)
+            mark = f" [{remarks.index(row.remark) + 1}]" if row.remark else ""
+            style = {True: "", False: "bold red", None: "dim"}[row.holds]
+            what = escape(row.what + mark)
+            table.add_row(what, row.reference_text, row.ours_text, row.deviation_text, row.verdict, style=style)
             passed += row.holds is True
             failed += row.holds is False
             explained += row.holds is None
         console.print(table)
+        for number, remark in enumerate(remarks, 1):
+            console.print(f"  \\[{number}] {remark}")
     console.print(
         f"\n{passed} within tolerance, {failed} outside, {explained} for information (not reproducible, reason given), "
         f"{skipped} cases skipped"

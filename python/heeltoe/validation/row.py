@@ -48,10 +48,13 @@ class Row:
     @property
     def verdict(self) -> str:
         """The verdict in words."""
-        limit = "" if self.tolerance is None else f"{self.tolerance:.0%}" if self.tolerance >= 0.01 else ""
-        limit = limit or ("" if self.tolerance is None else f"{self.tolerance:.0e}")
-        word = {True: f"ok (within {limit})", False: f"OUTSIDE {limit}", None: "for information"}[self.holds]
-        return f"{word}; {self.remark}" if self.remark else word
+        if self.tolerance is None:
+            return "no verdict"
+        if self.tolerance == 0.0:
+            limit = "exactly"
+        else:
+            limit = f"within {self.tolerance:.0%}" if self.tolerance >= 0.01 else f"within {self.tolerance:.0e}"
+        return f"ok, {limit}" if self.holds else f"NOT {limit}"
 
     @property
     def reference_text(self) -> str:

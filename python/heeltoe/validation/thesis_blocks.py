@@ -58,7 +58,8 @@ def drifting() -> Iterator[Row]:
     response = rigid(case, GroundMotion.from_points(*ground, name="half sine"))
     remark = "two prototypes"
     yield Row("slip [mm]", 20.839, 1e3 * response.residual_slip_m, 1e-4, remark=remark)
-    yield Row("drifting part [mm]", 20.5, 1e3 * response.slip_by_mode_m["drifting"], 0.02, remark=remark)
+    part = 1e3 * response.slip_by_mode_m["drifting"]
+    yield Row("drifting part [mm]", 20.5, part, 0.02, remark=f"{remark}; the part depends on when bouncing is called contact")
     yield Row("rocking upstream [rad]", 6.352e-3, response.rocking_upstream_rad, 1e-3, remark=remark)
     yield Row("rocking downstream [rad]", 4.0988e-2, response.rocking_downstream_rad, 1e-3, remark=remark)
     yield Row("at rest in the end", 1.0, float(response.final_mode == "rest"), 0.0)
