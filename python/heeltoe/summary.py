@@ -78,7 +78,12 @@ def _static_lines(response: Response) -> list[tuple[str, str]]:
     static = response.static
     lines = []
     factor = static["sliding_safety_factor"]
-    lines.append(("sliding safety factor", "no horizontal force" if factor is None else f"{factor:.3f} under static loads"))
+    lines.append(
+        (
+            "sliding safety factor",
+            "no horizontal force" if factor is None else f"{factor:.3f} under static loads",
+        )
+    )
     critical = static["critical_acceleration_g"]
     for kind in ("sliding", "rocking"):
         down, up = critical[f"{kind}_downstream"], critical[f"{kind}_upstream"]
@@ -95,10 +100,14 @@ def _result_table(response: Response) -> Table:
     table.add_row("residual slip", *(length(abs(slip)) if way * slip > 0 else "-" for way in (1, -1)))
     table.add_row("peak slip", length(response.peak_slip_downstream_m), length(abs(response.peak_slip_upstream_m)))
     table.add_row(
-        "largest rotation", f"{response.rocking_downstream_rad:.3e} rad", f"{response.rocking_upstream_rad:.3e} rad"
+        "largest rotation",
+        f"{response.rocking_downstream_rad:.3e} rad",
+        f"{response.rocking_upstream_rad:.3e} rad",
     )
     table.add_row(
-        "crack opening, opposite face", length(response.opening_upstream_m), length(response.opening_downstream_m)
+        "crack opening, opposite face",
+        length(response.opening_upstream_m),
+        length(response.opening_downstream_m),
     )
     parts = response.slip_by_mode_m
     used = [f"{name.replace('_', '-')} {length(value)}" for name, value in parts.items() if value]

@@ -46,7 +46,8 @@ def _rocking(response: Response) -> str:
     parts = []
     if down >= _ROTATION_RAD:
         parts.append(
-            f"downstream by {down:.2e} rad, opening the crack {length(response.opening_upstream_m)} at the upstream face"
+            f"downstream by {down:.2e} rad, opening the crack "
+            f"{length(response.opening_upstream_m)} at the upstream face"
         )
     if up >= _ROTATION_RAD:
         parts.append(
@@ -55,7 +56,8 @@ def _rocking(response: Response) -> str:
     text = "It rocks " + " and ".join(parts) if parts else "It lifts off"
     strikes = response.impacts
     if strikes:
-        text += f"; it strikes {strikes} time{'s' if strikes > 1 else ''}, at up to {response.largest_impact_velocity_m_s:.2g} m/s"
+        speed = response.largest_impact_velocity_m_s
+        text += f"; it strikes {strikes} time{'s' if strikes > 1 else ''}, at up to {speed:.2g} m/s"
     return text + "."
 
 

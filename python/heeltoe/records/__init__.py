@@ -11,6 +11,7 @@ from pathlib import Path
 from types import ModuleType
 
 import numpy as np
+from numpy.typing import NDArray
 
 from heeltoe.errors import InputError
 from heeltoe.motion import STANDARD_GRAVITY, GroundMotion
@@ -24,7 +25,7 @@ __all__ = ["READERS", "RawRecord", "read_record", "read_text"]
 READERS: tuple[ModuleType, ...] = (peer_at2, columns)
 
 # No record of one component comes near; what is larger is something else.
-_LARGEST_BYTES = 200_000_000
+_LARGEST_BYTES = 64_000_000
 
 
 def read_record(
@@ -119,7 +120,7 @@ def _motion(
         bad = int(np.flatnonzero(~np.isfinite(raw.values))[0])
         raise InputError("motion-not-finite", name, str(raw.values[bad]), number=bad + 1)
     peak = float(np.abs(raw.values).max())
-    time, warnings = _time(raw, name, time_step, field)
+    time = _time(raw, name, time_step, field)
     stated = raw.unit or unit
     if stated is None:
         raise InputError("record-unit-missing", name, f"{peak:.4g}", unit_field=f"{field}.unit", guess=_guess(peak))
@@ -136,16 +137,14 @@ def _motion(
         units_as_read=stated if raw.unit else f"{stated} (as told)",
         source=name,
         processing=raw.processing,
-        warnings=(*raw.warnings, *warnings),
+        warnings=raw.warnings,
         **raw.about,
     )
 
 
-def _time(
-    raw: RawRecord, name: str, time_step: float | None, field: str
-) -> tuple[np.ndarray[tuple[int], np.dtype[np.float64]], tuple[str, ...]]:
+def _time(raw: RawRecord, name: str, time_step: float | None, field: str) -> NDArray[np.float64]:
     if raw.time is not None:
-        return raw.time, ()
+        return raw.time
     step = raw.time_step or time_step
     if step is None:
         raise InputError("record-step-missing", name, step_field=f"{field}.time_step")
@@ -153,7 +152,7 @@ def _time(
         raise InputError("record-step-conflict", f"{field}.time_step", f"{time_step:g} s", stated=raw.time_step)
     if not 1e-6 <= step <= 10.0:
         raise InputError("record-step", name, f"{step:g} s")
-    return np.arange(raw.values.size) * step, ()
+    return np.arange(raw.values.size, dtype=np.float64) * step
 
 
 def _guess(peak: float) -> str:

@@ -58,7 +58,9 @@ def find(name: str | os.PathLike[str], base_directory: Path, *, field: str = "mo
 
 def available() -> list[tuple[str, str]]:
     """Return every name with the place it stands for."""
-    return sorted((name, str(path)) for name, paths in _places().items() for path in paths if name != path.name or not path.suffix)
+    return sorted(
+        (name, str(path)) for name, paths in _places().items() for path in paths if name != path.name or not path.suffix
+    )
 
 
 def _places() -> dict[str, list[Path]]:

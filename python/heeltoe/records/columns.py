@@ -28,7 +28,8 @@ _UNITS = (
 )
 _ONE_G = re.compile(r"1\s*g\s*=[^)\]]*", re.IGNORECASE)
 _STEP = re.compile(r"(?:time step|\bdt\b|delta t|step)\s*[:=]?\s*([\d.]+(?:e[-+]?\d+)?)\s*(ms|s\b|sec)?", re.IGNORECASE)
-_STATED = re.compile(r"(?:number of points|points|npts|samples)\s*[:=]\s*(\d+)", re.IGNORECASE)
+_STATED = re.compile(r"(?:number of points|points|npts|samples)\s*[:=]\s*(\d{1,12})\b", re.IGNORECASE)
+_HEADER_LINES, _HEADER_WIDTH = 100, 400
 _SEPARATORS = str.maketrans({",": " ", ";": " ", "\t": " "})
 _ABOUT = re.compile(r"^(event|earthquake|station|component|date|processing)\s*[:=]\s*(.+)$", re.IGNORECASE)
 
@@ -41,12 +42,14 @@ def _is_data(line: str) -> bool:
 
 def _split(lines: list[str]) -> tuple[list[str], int]:
     """Header lines without their ``#``, and the index of the first line of data."""
-    header = []
+    header: list[str] = []
     for k, line in enumerate(lines):
         text = line.strip()
         if text and not text.startswith(("#", "%", "//")) and _is_data(text):
             return header, k
-        header.append(text.lstrip("#%/ ").strip())
+        # What a header has to say it says early; a long one must not slow the search down.
+        if k < _HEADER_LINES:
+            header.append(text.lstrip("#%/ ").strip()[:_HEADER_WIDTH])
     return header, len(lines)
 
 
@@ -56,8 +59,9 @@ def matches(lines: list[str]) -> bool:
     data = [line for line in lines[first : first + 20] if line.strip()]
     if not data:
         return False
-    widths = {len(line.translate(_SEPARATORS).split()) for line in data}
-    return widths <= {1} or widths <= {2}
+    widths = [len(line.translate(_SEPARATORS).split()) for line in data]
+    # A line or two may be spoilt; the reader names them.
+    return widths[0] in (1, 2) and widths.count(widths[0]) > len(widths) / 3
 
 
 def read(lines: list[str], name: str) -> RawRecord:

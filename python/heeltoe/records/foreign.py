@@ -5,7 +5,10 @@ from __future__ import annotations
 import re
 
 _SIGNS = (
-    ("COSMOS or CSMIP V2", re.compile(r"corrected accelerogram.*\bchan|points of accel(?:eration)? data", re.IGNORECASE)),
+    (
+        "COSMOS or CSMIP V2",
+        re.compile(r"corrected accelerogram.*\bchan|points of accel(?:eration)? data", re.IGNORECASE),
+    ),
     ("USGS SMC", re.compile(r"^\s*\d?\s*(?:un)?corrected accelerogram\s*$", re.IGNORECASE | re.MULTILINE)),
     ("K-NET or KiK-net", re.compile(r"^origin time\s+\d{4}/\d\d/\d\d", re.IGNORECASE | re.MULTILINE)),
 )
@@ -13,5 +16,5 @@ _SIGNS = (
 
 def recognised(lines: list[str]) -> str | None:
     """Return the name of a format that is known but not read, or None."""
-    head = "\n".join(lines[:60])
+    head = "\n".join(line[:200] for line in lines[:60])
     return next((name for name, sign in _SIGNS if sign.search(head)), None)

@@ -22,13 +22,13 @@ _COUNTS = (
     re.compile(rf"^\s*{_NUMBER}\s*,?\s+{_NUMBER}\s*,?\s*NPTS\s*,\s*DT", re.IGNORECASE),
 )
 # The line with the counts is the fourth; some distributors add or drop a line.
-_HEADER_LINES = 12
+_HEADER_LINES, _HEADER_WIDTH = 12, 400
 
 
 def _counts(lines: list[str]) -> tuple[int, str, str] | None:
     for k, line in enumerate(lines[:_HEADER_LINES]):
         for pattern in _COUNTS:
-            if found := pattern.search(line):
+            if found := pattern.search(line[:_HEADER_WIDTH]):
                 return k, found[1], found[2]
     return None
 
@@ -43,7 +43,7 @@ def read(lines: list[str], name: str) -> RawRecord:
     found = _counts(lines)
     assert found is not None
     k, count_text, step_text = found
-    header = [line.strip() for line in lines[:k] if line.strip()]
+    header = [line.strip()[:_HEADER_WIDTH] for line in lines[:k] if line.strip()]
     words = " ".join(header).lower()
     if "velocity" in words or "displacement time" in words:
         raise InputError("record-not-acceleration", name, "velocity" if "velocity" in words else "displacement")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -76,11 +77,5 @@ def numbers(lines: list[str], name: str, first_line: int) -> Floats:
 
 
 def _unglued(line: str) -> str:
-    """Part columns that touch: in 8F10.5 or E15.7 the sign of a number may follow the last digit of the one before."""
-    text = line.upper().replace("D", "E")
-    parts = []
-    for k, c in enumerate(text):
-        if c in "+-" and k and (text[k - 1].isdigit() or text[k - 1] == "."):
-            parts.append(" ")
-        parts.append(c)
-    return "".join(parts)
+    """Part columns that touch (8F10.5, E15.7: a sign right behind a digit) and turn Fortran's D exponents into E."""
+    return re.sub(r"(?<=[\d.])(?=[-+])", " ", re.sub(r"(?<=[\d.])[dD](?=[-+]?\d)", "e", line))

@@ -17,7 +17,7 @@ _G = 9.81
 
 
 def push_and_sine() -> Iterator[Row]:
-    """Block 4 x 1 m, 1 t, friction 0.3, constant push 0.15 g, base 0.6 g sin(4 pi t) for 5 s: converges with the sampling.
+    """Block 4 x 1 m, friction 0.3, constant push 0.15 g, base 0.6 g sin(4 pi t), 5 s: converges with the sampling.
 
     Between stops the slip is an integral of sines and constants; the reference is their exact sum.
     """
@@ -31,7 +31,7 @@ def push_and_sine() -> Iterator[Row]:
 
 
 def pulse() -> Iterator[Row]:
-    """Rectangular pulse A for t0 on a block with yield N g: slip V^2 / (2 g N) (1 - N / A), V = A g t0 (Newmark 1965)."""
+    """Rectangular pulse A for t0, yield N g: slip V^2 / (2 g N) (1 - N / A), V = A g t0 (Newmark 1965)."""
     for yield_g, pulse_g, length in ((0.2, 0.8, 0.1), (0.2, 0.5, 0.25), (0.5, 0.6, 0.4)):
         case = read_case(
             {
@@ -54,7 +54,7 @@ def pulse() -> Iterator[Row]:
 
 
 def free_rocking() -> Iterator[Row]:
-    """Block 1 x 4 m let go at half its slenderness, no slip, e = 0: each impact leaves Housner's ratio of the velocity."""
+    """Block 1 x 4 m let go at half its slenderness, e = 0: each impact leaves Housner's ratio of the velocity."""
     block = rectangle(1.0, 4.0, 10.0, gravity=_G)
     slenderness = np.arctan(0.25)
     grid = np.linspace(0.0, 6.0, 60_001)

@@ -23,7 +23,7 @@ def rectangle(
     density: float = 2400.0,
     push: float = 0.0,
 ) -> Floats:
-    """Return the kernel's parameters of a homogeneous rectangle [m, kg/m3] under a constant push [N/m] at its centre."""
+    """Return the kernel's parameters of a rectangle [m, kg/m3] under a constant push [N/m] at its centre."""
     mass = density * width * height
     values = {
         "mass_horizontal": mass,
@@ -45,7 +45,7 @@ def rectangle(
 
 def sampled(ground: Callable[[Floats], Floats], step: float, end: float) -> tuple[Floats, Floats]:
     """Sample a ground acceleration [m/s2] every `step` from 0 to `end` [s]."""
-    time = np.arange(round(end / step) + 1) * step
+    time = np.arange(round(end / step) + 1, dtype=np.float64) * step
     return time, ground(time)
 
 

@@ -39,7 +39,9 @@ def taft() -> Iterator[Row]:
 
 def el_centro() -> Iterator[Row]:
     """The same on El Centro NS at 0.4 g: no version of the record at hand is the one the thesis used."""
-    remark = "the thesis does not say which version of the record it used; none of these four gives its half of the table"
+    remark = (
+        "the thesis does not say which version of the record it used; none of these four gives its half of the table"
+    )
     for version in ("caltech", "peer1999", "peknold", "nga2"):
         record = _record(f"elcentro-1940-ns-{version}")
         for friction, row in _EL_CENTRO.items():
@@ -54,7 +56,11 @@ def triangular() -> Iterator[Row]:
     source = "thesis after Chopra and Zhang (1991)"
     for extent, tolerance, remark in (
         (0.4, 0.03, f"{source}; uplift cut off at 0.4 of the base"),
-        (0.5, None, f"{source}; with 0.5 of the base, which the thesis' own text suggests, the prototype has 87 to 91 mm"),
+        (
+            0.5,
+            None,
+            f"{source}; with 0.5 of the base, which the thesis' own text suggests, the prototype has 87 to 91 mm",
+        ),
     ):
         slip = _slip_mm(_triangle(1.0, extent), record, 0.5)
         yield Row(f"friction 1, 0.5 g, cut-off {extent}: slip [mm]", 63.0, slip, tolerance, remark=remark)

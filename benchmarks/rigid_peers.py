@@ -1,0 +1,41 @@
+"""Error beside time of ours and of named peers, on problems that both can solve."""
+
+from __future__ import annotations
+
+import peer_mujoco
+import peer_pybullet
+import peer_pyslammer
+from measure import heading, require, table
+from push_and_sine import EXACT, OUR_STEPS, STEPS, Attempt, ours, rows
+
+from heeltoe import _kernel
+
+COLUMNS = ["program", "settings", "step", "largest error", "relative", "time per run", "times ours at no larger error"]
+
+
+def engines() -> str:
+    """Measure the push-and-sine block and return Markdown."""
+    own = [ours(step) for step in OUR_STEPS]
+    best: list[Attempt] = []
+    for peer in (peer_mujoco, peer_pybullet):
+        # Of all settings the most exact one at that step, and the quickest where it is another.
+        for step in STEPS:
+            tried = peer.attempts(step)
+            exact, quick = min(tried, key=lambda a: a.error), min(tried, key=lambda a: a.timing.median)
+            best += [exact] if exact is quick else [exact, quick]
+    return (
+        f"Push-and-sine block, exact slip {EXACT[-1]:.10f} m after 5 s. Errors are the largest at any tenth of a second, "
+        "relative to the slip in the end. Of every engine the setting with the smallest error at each step, and the "
+        "quickest if that is another.\n\n" + table(COLUMNS, rows(own, best))
+    )
+
+
+def report() -> str:
+    """Measure and return Markdown."""
+    require(_kernel.PROFILE == "release", "the kernel is a debug build")
+    packages = ["heeltoe", "pyslammer", "mujoco", "pybullet", "numpy"]
+    return "\n\n".join([heading("Rigid peers", packages), peer_pyslammer.report(), engines()])
+
+
+if __name__ == "__main__":
+    print(report())

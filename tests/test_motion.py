@@ -1,0 +1,167 @@
+"""Ground motions: exact integrals, processing that says what it did, checks that refuse what would mislead."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from heeltoe import GroundMotion, InputError, read_case
+from heeltoe.motion import check
+from heeltoe.shaking import resolve
+
+G = 9.80665
+
+
+def motion(values, step=0.01, name="m"):
+    return GroundMotion.from_points(np.arange(len(values)) * step, values, name=name)
+
+
+def test_peaks_of_a_constant_acceleration():
+    m = GroundMotion.from_points([0.0, 2.0], [3.0, 3.0])
+    assert (m.pga, m.pgv, m.end_velocity) == (3.0, 6.0, 6.0)
+    assert m.pgd == pytest.approx(6.0)
+
+
+def test_peaks_of_a_ramp_that_changes_sign_are_found_inside_the_piece():
+    # a = 1 - t over 3 s: v = t - t^2 / 2 peaks at t = 1 with 0.5 and ends at -1.5; d = t^2 / 2 - t^3 / 6 peaks at
+    # t = 2 with 2/3 and ends at 0.
+    m = GroundMotion.from_points([0.0, 3.0], [1.0, -2.0])
+    assert m.pgv == pytest.approx(1.5)
+    assert m.pgd == pytest.approx(2.0 / 3.0, rel=1e-12)
+    assert m.cut(2.0).pgv == pytest.approx(0.5)
+
+
+def test_peaks_of_a_fine_half_sine():
+    t = np.linspace(0.0, 1.0, 20_001)
+    m = GroundMotion.from_points(t, np.sin(np.pi * t))
+    assert m.pgv == pytest.approx(2.0 / np.pi, rel=1e-8)
+    assert m.pgd == pytest.approx(1.0 / np.pi, rel=1e-8)
+
+
+@given(
+    st.lists(st.floats(-20.0, 20.0), min_size=3, max_size=40),
+    st.floats(0.1, 10.0),
+    st.integers(1, 7),
+)
+def test_refining_scaling_and_reversing_keep_what_they_should(values, factor, parts):
+    m = motion(values, 0.02)
+    if m.pga < 1e-6:
+        return
+    fine = m.resampled(0.02 / parts)
+    assert fine.time.size == (len(values) - 1) * parts + 1
+    for name in ("pga", "pgv", "pgd"):
+        assert getattr(fine, name) == pytest.approx(getattr(m, name), rel=1e-9, abs=1e-12)
+        assert getattr(m.reversed(), name) == getattr(m, name)
+        assert getattr(m.scaled(factor), name) == pytest.approx(factor * getattr(m, name), rel=1e-12)
+    assert m.scaled_to(3.0).pga == pytest.approx(3.0, rel=1e-15)
+
+
+def test_every_change_is_recorded():
+    m = motion([0.0, 1.0, -2.0, 0.5]).scaled_to(4.0).reversed().cut(0.025).resampled(0.0025)
+    assert len(m.processing) == 4
+    for words, said in zip(("peak of 4", "reversed", "cut to 0.025", "refined"), m.processing, strict=True):
+        assert words in said
+
+
+def test_cut_ends_with_a_sample_right_there_and_says_if_it_loses_the_peak():
+    m = motion([0.0, 1.0, 0.0, 5.0])
+    cut = m.cut(0.015)
+    assert cut.duration == 0.015
+    assert cut.acceleration[-1] == pytest.approx(0.5)
+    assert "leaves out the record's peak" in cut.warnings[0]
+    assert m.cut(10.0) is m
+
+
+def test_coarser_steps_are_refused():
+    for step in (0.02, 0.003, 0.0, -1.0):
+        with pytest.raises(InputError, match="does not divide"):
+            motion([0.0, 1.0, 0.0]).resampled(step)
+
+
+def test_a_record_that_starts_late_is_counted_from_its_start():
+    m = GroundMotion.from_points([3.0, 3.5], [1.0, 2.0])
+    assert m.time.tolist() == [0.0, 0.5]
+    assert "counted from 3" in m.processing[0]
+
+
+def test_arrays_cannot_be_changed():
+    m = motion([0.0, 1.0])
+    with pytest.raises(ValueError, match="read-only"):
+        m.acceleration[0] = 1.0
+
+
+@pytest.mark.parametrize(
+    ("time", "values", "words"),
+    [
+        ([0.0], [1.0], "1 samples"),
+        ([0.0, 0.0], [1.0, 2.0], "samples"),
+        ([0.0, 1.0], [1.0, np.nan], "value 2 is nan"),
+        ([0.0, np.inf], [1.0, 1.0], "value 2"),
+        ([0.0, 2.0, 1.0], [1.0, 1.0, 1.0], "goes back from 2 s to 1 s"),
+    ],
+)
+def test_series_that_are_none_are_refused(time, values, words):
+    with pytest.raises(InputError, match=words):
+        GroundMotion.from_points(time, values)
+
+
+def test_checks():
+    wave = np.sin(np.arange(378) * 0.1)  # six full cycles, so that the velocity returns to zero
+    assert check(motion(0.3 * G * wave), G) == ()
+    with pytest.raises(InputError, match="zero throughout"):
+        check(motion(0.0 * wave), G)
+    assert "does not move" in check(motion(0.0 * wave), G, allow_zero=True)[0]
+    with pytest.raises(InputError, match="beyond any earthquake"):
+        check(motion(30.0 * G * wave), G)
+    assert "more than any ground" in check(motion(4.0 * G * wave), G)[0]
+    assert "check its unit" in check(motion(1e-4 * G * wave), G)[0]
+    assert any("clipped" in said for said in check(motion(np.clip(wave, -0.5, 0.5)), G))
+    assert any("baseline" in said for said in check(motion(wave + 0.5), G))
+    gap = GroundMotion.from_points(np.r_[np.arange(30), np.arange(60, 90)] * 0.01, np.tile(wave[:60:2], 2))
+    assert any("gap of" in said for said in check(gap, G))
+
+
+def _case(motion, **more):
+    return read_case(
+        {
+            "section": {"polygon": [["0 m", "0 m"], ["1 m", "0 m"], ["1 m", "1 m"], ["0 m", "1 m"]]},
+            "crack": {"friction": 0.5},
+            "motion": motion,
+            **more,
+        }
+    )
+
+
+def test_resolve_scales_the_whole_record_then_reverses_then_cuts(tmp_path):
+    file = tmp_path / "r.txt"
+    file.write_text("# units: acceleration [g]\n# time step: 0.01 s\n0.0\n0.1\n-0.05\n0.2\n0.0\n")
+    case = _case({"file": str(file), "pga": "0.4 g", "reverse": True, "duration": "0.02 s"})
+    horizontal, vertical = resolve(case.motion, case.gravity, case.base_directory)
+    assert vertical is None
+    assert horizontal.acceleration == pytest.approx(np.array([0.0, -0.2, 0.1]) * G)
+    assert horizontal.name == "r"
+    assert any("peak" in said for said in horizontal.warnings)
+
+
+def test_the_vertical_takes_the_horizontal_factor_unless_it_has_its_own_peak(tmp_path):
+    points = [["0 s", "0 g"], ["1 s", "0.2 g"], ["2 s", "0 g"]]
+    up = [["0 s", "0 g"], ["1 s", "0.1 g"], ["2 s", "0 g"]]
+    case = _case({"points": points, "pga": "0.4 g", "vertical": {"points": up}})
+    _, vertical = resolve(case.motion, case.gravity, case.base_directory)
+    assert vertical.pga == pytest.approx(0.2 * G)
+    assert any("like the horizontal" in said for said in vertical.processing)
+    case = _case({"points": points, "pga": "0.4 g", "vertical": {"points": up, "pga": "0.3 g"}})
+    assert resolve(case.motion, case.gravity, case.base_directory)[1].pga == pytest.approx(0.3 * G)
+
+
+def test_a_vertical_that_counts_down_is_turned():
+    case = _case({"file": "pacoima-1971-164-nga", "vertical": {"file": "pacoima-1971-down-nga"}})
+    _, vertical = resolve(case.motion, case.gravity, case.base_directory)
+    assert any("turned to up" in said for said in vertical.processing)
+
+
+def test_gravity_of_the_case_is_the_g_of_records_and_points():
+    case = _case({"points": [["0 s", "0.5 g"], ["1 s", "0.5 g"]]}, gravity="9.81 m/s^2")
+    assert resolve(case.motion, case.gravity, case.base_directory)[0].pga == pytest.approx(0.5 * 9.81, rel=1e-15)

@@ -1,0 +1,207 @@
+"""Readers: every dialect, every complaint; real records against their headers."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from heeltoe import InputError, read_record
+from heeltoe.records import read_text
+from heeltoe.records.catalog import available, find
+
+G = 9.80665
+VALUES = [0.01, -0.02, 0.3, -0.12345, 0.0]
+NGA = (
+    "PEER NGA STRONG MOTION DATABASE RECORD\nSomewhere-01, 5/19/1940, A Station, 180\n"
+    "ACCELERATION TIME SERIES IN UNITS OF G\n"
+)
+
+
+def read(text: str, name: str = "a.AT2", **hints):
+    return read_text(text.encode(), name, **hints)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        NGA + "NPTS=      5, DT=   .0100 SEC,\n .01 -.02\n .3 -.12345\n 0.0\n",
+        NGA + "NPTS= 5, DT= 1.0D-02 SEC\n 1.0D-02 -2.0D-02 3.0D-01\n -1.2345D-01 0.0D+00\n",
+        NGA + "npts=5,dt=.01 sec\r\n.1000000E-01-.2000000E-01 .3000000E+00-.1234500E+00 .0000000E+00\r\n",
+        "PEER STRONG MOTION DATABASE RECORD\nX 01/01/40 00:00, A, 180\nACCELERATION TIME HISTORY IN UNITS OF G\n"
+        "  5  0.0100  NPTS, DT\n .01 -.02 .3\n -.12345 0\n",
+        "Data for X (Peknold)\nnote\nThe units are (g)\nNPTS=  5, DT= .01000 SEC\n 0.01 -0.02 0.3 -0.12345 0.0\n",
+        "# time step: 0.01 s\n# units: column 1 time [s], column 2 acceleration [g] (1 g = 9.80665 m/s2)\n"
+        "0.00 0.01\n0.01 -0.02\n0.02 0.3\n0.03 -0.12345\n0.04 0\n",
+        "time [s], acceleration [g]\n0.00,0.01\n0.01,-0.02\n0.02,0.3\n0.03,-0.12345\n0.04,0\n",
+        "Time (s);Acc (g)\n0;0.01\n0.01;-0.02\n0.02;0.3\n0.03;-0.12345\n0.04;0\n",
+        "# units: acceleration [g], one value a line\n# time step: 0.01 s\n0.01\n-0.02\n0.3\n-0.12345\n0\n",
+        "t[s]\tacc [cm/s2]\n" + "".join(f"{0.01 * k:.2f}\t{100 * G * v:.10f}\n" for k, v in enumerate(VALUES)),
+        "% units: m/s^2\n% dt = 10 ms\n" + "\n".join(f"{G * v:.12f}" for v in VALUES),
+    ],
+)
+def test_dialects(text):
+    motion = read(text)
+    assert motion.acceleration == pytest.approx(G * np.array(VALUES), abs=1e-9)
+    assert motion.time == pytest.approx(0.01 * np.arange(5))
+    assert motion.warnings == ()
+
+
+def test_what_the_header_says_is_kept():
+    motion = read(NGA + "NPTS= 5, DT= .01 SEC\n .01 -.02 .3 -.12345 0\n")
+    assert (motion.event, motion.date, motion.station, motion.component) == (
+        "Somewhere-01",
+        "5/19/1940",
+        "A Station",
+        "180",
+    )
+    assert motion.format == "PEER AT2"
+    motion = read("# station: Here\n# component: NS\n# units: [g]\n# dt: 0.01\n1e-1\n2e-1\n")
+    assert (motion.station, motion.component) == ("Here", "NS")
+
+
+def test_wrong_counts_are_said_not_swallowed():
+    for stated in (4, 6, 10**12):
+        motion = read(NGA + f"NPTS= {stated}, DT= .01 SEC\n .01 -.02 .3 -.12345 0\n")
+        assert motion.time.size == 5
+        assert f"states {stated:g} values and has 5" in motion.warnings[0]
+    motion = read("# units: [g]\n# time step: 0.01 s\n# number of points: 7\n0.1\n0.2\n")
+    assert "states 7 values and has 2" in motion.warnings[0]
+    motion = read("# units: column 2 acceleration [g]\n# time step: 0.02 s\n0 0.1\n0.01 0.2\n0.02 0\n")
+    assert "its times are 0.01 s apart" in motion.warnings[0]
+
+
+def test_unequal_steps_are_welcome():
+    motion = read("time [s], acceleration [g]\n0,0\n0.5,0.1\n0.6,-0.1\n2,0\n")
+    assert motion.time.tolist() == [0.0, 0.5, 0.6, 2.0]
+
+
+@pytest.mark.parametrize(
+    ("text", "hints", "words"),
+    [
+        ("", {}, "is empty"),
+        ("  \n \n", {}, "is empty"),
+        ("\x00\x01\x02", {}, "not a text file"),
+        ("hello world\nthis is prose\n", {}, "no format that is known"),
+        ("0 0.1 3\n0.01 0.2 3\n", {}, "no format that is known"),
+        (
+            "0 0.1\n0.01 0.2\n",
+            {},
+            'does not state its unit; it peaks at 0.2; say so in motion.unit: probably unit = "g"',
+        ),
+        ("0 100\n0.01 -178\n", {}, 'peaks at 178; say so in motion.unit: probably unit = "cm/s^2"'),
+        ("0.1\n0.2\n", {"unit": "g"}, "does not state its time step; say so in motion.time_step"),
+        ("# units: [g]\n0 0.1\n0.01 x\n", {}, "line 3: 'x' is not a number"),
+        ("# units: [g]\n0 0.1\n0.01\n", {}, "line 3 has 1 columns where others have 2"),
+        ("# units: [g]\n0 0.1\n0.01 nan\n", {}, "value 2 is nan"),
+        ("# units: [g]\n0 0.1\n", {}, "has 1 samples"),
+        ("# units: [g]\n0 0.1\n0.02 0.2\n0.01 0.1\n", {}, "goes back"),
+        ("# units: [g]\n0 0.1\n0.02 0.2\n", {"unit": "m/s^2"}, "is not what a.AT2 states"),
+        ("# units: [g]\n# dt: 0.01\n0.1\n0.2\n", {"time_step": 0.02}, "is not what the file states"),
+        ("# units: [g]\n# dt: 100\n0.1\n0.2\n", {}, "not that of a record"),
+        ("0.1\n0.2\n", {"unit": "kg", "time_step": 0.01}, "kg"),
+        (NGA.replace("ACCELERATION", "VELOCITY") + "NPTS= 2, DT= .01 SEC\n .01 -.02\n", {}, "is a velocity record"),
+        ("CORRECTED ACCELEROGRAM 36456 CHAN 1: 90 DEG\n1 2 3\n", {}, "COSMOS or CSMIP V2"),
+        ("2 CORRECTED ACCELEROGRAM\n*\n", {}, "USGS SMC"),
+    ],
+)
+def test_complaints_name_the_file_and_the_remedy(text, hints, words):
+    with pytest.raises(InputError) as caught:
+        read(text, **hints)
+    assert words in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_header_with_two_units_is_not_guessed():
+    with pytest.raises(InputError, match="does not state its unit"):
+        read("# acceleration [g] or [cm/s2]\n0 0.1\n0.01 0.2\n")
+
+
+def test_a_large_or_missing_file_is_refused(tmp_path):
+    with pytest.raises(InputError, match="cannot be read"):
+        read_record(tmp_path / "none.txt")
+    with pytest.raises(InputError, match="cannot be read"):
+        read_record(tmp_path)
+    big = tmp_path / "big.txt"
+    with big.open("wb") as file:
+        file.truncate(2**30)
+    with pytest.raises(InputError, match="more than any record"):
+        read_record(big)
+
+
+def test_latin_1_and_foreign_line_ends():
+    data = "# station: Montr\xe9al\r# units: [g]\r# dt: 0.01\r0.1\r0.2\r".encode("latin-1")
+    motion = read_text(data, "x.txt")
+    assert motion.station == "Montr\xe9al"
+    assert motion.time.size == 2
+
+
+def _header_number(text: str, pattern: str) -> float:
+    found = re.search(pattern, text)
+    assert found, pattern
+    return float(found[1])
+
+
+def test_all_records_with_headers_agree_with_them(records):
+    files = [*sorted(records.glob("*.txt")), *sorted((records / "ensemble").glob("*.txt"))]
+    assert len(files) > 40
+    for file in files:
+        text = file.read_text()
+        motion = read_record(file)
+        assert motion.name == file.stem
+        assert motion.dt == pytest.approx(_header_number(text, r"time step: ([\d.]+) s"), rel=1e-9)
+        assert motion.time.size == _header_number(text, r"points: (\d+)")
+        if "# PGA:" in text:
+            assert motion.pga / G == pytest.approx(_header_number(text, r"PGA: ([\d.]+) g"), abs=6e-6)
+            # The headers have the peak at a sample; ours may lie between two.
+            assert 0.9999 <= motion.pgv / _header_number(text, r"PGV ([\d.]+) m/s") < 1.03
+        assert motion.warnings == ()
+
+
+def test_records_as_distributed(records):
+    formats = records / "formats"
+    assert read_record(formats / "peer-nga2-RSN6-ELC180.AT2").pga / G == pytest.approx(0.28080, rel=1e-4)
+    assert read_record(formats / "peer-nga2-RSN1-HMC180.AT2").time.size == 5093
+    assert read_record(formats / "peer-at2-old-elcentro.AT2").pga / G == pytest.approx(0.31882, rel=1e-4)
+    slammer = read_record(formats / "slammer-ELC-180", unit="g", time_step=0.01)
+    assert slammer.dt == 0.01
+    two = read_record(formats / "two-columns-elcentro.dat", unit="g")
+    assert two.dt == pytest.approx(0.02)
+    for name in ("cosmos-csmip-ce36456.V2", "usgs-smc-0111b.smc", "usgs-smc-4225a.smc"):
+        with pytest.raises(InputError, match="not read yet"):
+            read_record(formats / name)
+
+
+def test_records_of_the_optional_package_are_found_by_name():
+    names = dict(available())
+    assert len([name for name in names if name.endswith("-nga")]) >= 12
+    motion = read_record(find("elcentro-1940-180-nga", Path.cwd()))
+    assert motion.pga / G == pytest.approx(0.28080, rel=1e-4)
+    assert motion.station == "El Centro Array #9"
+
+
+def test_names_are_looked_up_in_the_directory_of_records(tmp_path, monkeypatch):
+    (tmp_path / "deep").mkdir()
+    (tmp_path / "deep" / "my-quake.txt").write_text("0 0\n")
+    monkeypatch.setenv("HEELTOE_RECORDS", str(tmp_path))
+    assert find("my-quake", Path.cwd()).name == "my-quake.txt"
+    assert find("my-quake.txt", Path.cwd()).name == "my-quake.txt"
+    with pytest.raises(InputError, match="did you mean my-quake"):
+        find("my-quak", Path.cwd())
+    with pytest.raises(InputError, match=r"heeltoe motion --list"):
+        find("zzz", Path.cwd())
+    (tmp_path / "my-quake.txt").write_text("0 0\n")
+    with pytest.raises(InputError, match="means several files"):
+        find("my-quake", tmp_path / "deep" / "..")
+
+
+def test_a_path_is_relative_to_the_case_first(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "case").mkdir()
+    (tmp_path / "case" / "r.txt").write_text("case")
+    (tmp_path / "r.txt").write_text("here")
+    assert find("r.txt", tmp_path / "case").read_text() == "case"
+    with pytest.raises(InputError, match="it is a directory"):
+        find("case", tmp_path)
