@@ -52,10 +52,14 @@ def _ours(motion: GroundMotion, yield_g: float, exact: Floats) -> list[list[str]
     start = [f"{yield_g:g}", f"{1e3 * exact[-1]:.2f} mm", "heeltoe", f"{STEP:g} s", f"{1e3 * wrong:.1g} mm"]
     share = f"{wrong / exact[-1]:.0e}"
     together = f"{seconds(many.median / COUNT)} ({many.spread:.0%})"
-    return [
-        [*start, share, f"{timed(alone)} one call with history", ""],
-        [*start, share, f"{together} in an ensemble", ""],
-    ], alone.median, many.median / COUNT
+    return (
+        [
+            [*start, share, f"{timed(alone)} one call with history", ""],
+            [*start, share, f"{together} in an ensemble", ""],
+        ],
+        alone.median,
+        many.median / COUNT,
+    )
 
 
 def _theirs(motion: GroundMotion, yield_g: float, step: float, exact: Floats, alone: float, many: float) -> list[str]:

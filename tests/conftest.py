@@ -7,10 +7,47 @@ from pathlib import Path
 
 import pytest
 
+from heeltoe.errors import CATALOGUE, InputError
+
 ROOT = Path(__file__).parent.parent
 _BESIDE = ROOT.parent / "shared" / "records"
 if "HEELTOE_RECORDS" not in os.environ and _BESIDE.is_dir():
     os.environ["HEELTOE_RECORDS"] = str(_BESIDE)
+
+
+# Codes of all errors that the tests of this process have raised.
+_RAISED: set[str] = set()
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    """Note every error that is made, to see in the end whether all of the catalogue are tested."""
+    plain = InputError.__init__
+
+    def noting(self: InputError, code: str, *args: object, **context: object) -> None:
+        _RAISED.add(code)
+        plain(self, code, *args, **context)  # type: ignore[arg-type]
+
+    InputError.__init__ = noting  # type: ignore[method-assign]
+
+
+def pytest_testnodedown(node: object) -> None:
+    """Gather what a worker of pytest-xdist has seen."""
+    _RAISED.update(getattr(node, "workeroutput", {}).get("raised", ()))
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    """Fail a complete run in which some error of the catalogue was never raised."""
+    config = session.config
+    if hasattr(config, "workeroutput"):
+        config.workeroutput["raised"] = sorted(_RAISED)
+        return
+    complete = config.option.markexpr in ("", "not slow") and not config.option.keyword
+    if complete and config.args == config.getini("testpaths") and session.exitstatus == 0:
+        untested = sorted(set(CATALOGUE) - _RAISED)
+        if untested:
+            print(f"\nerrors of the catalogue that no test raises: {', '.join(untested)}")
+            session.exitstatus = 1
 
 
 @pytest.fixture(scope="session")

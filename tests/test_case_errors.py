@@ -215,7 +215,7 @@ REFUSED = [
     ),
     (
         dam(motion={"points": [["0 s", "1 g"], ["1 s", "-11 g"]]}),
-        "motion.points[1][1]: -11.0 g is out of range; give up to 10 g either way",
+        "motion.points[1][1]: -11 g is out of range; give up to 10 g either way",
     ),
     (
         dam(motion={"points": [["1 s", "1 g"], ["1 s", "2 g"]]}),
@@ -227,11 +227,11 @@ REFUSED = [
     ),
     (
         dam(motion=FILE | {"pga": "11 g"}),
-        "motion.pga: 11.0 g is out of range; give a peak above 0 g and up to 10 g",
+        "motion.pga: 11 g is out of range; give a peak above 0 g and up to 10 g",
     ),
     (
         dam(motion=FILE | {"pga": "0 cm/s^2"}),
-        "motion.pga: 0.0 m/s^2 is out of range; give a peak above 0 g and up to 10 g",
+        "motion.pga: 0 m/s^2 is out of range; give a peak above 0 g and up to 10 g",
     ),
     (
         dam(crack={"friction": 11, "restitution": 2}, reservoir={"depth": "1"}),

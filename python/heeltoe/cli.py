@@ -104,6 +104,10 @@ def run(
     if reverse and loaded.motion is not None:
         loaded = read_case(case, [*changes, f"motion.reverse={'false' if loaded.motion.reverse else 'true'}"])
     step = None if output_step is None else parse(output_step, "duration", "--output-step")
+    if out is not None:
+        _check_directory(out)
+    if json_ not in (None, "-") and not Path(str(json_)).absolute().parent.is_dir():
+        raise InputError("no-directory", str(Path(str(json_)).parent))
     console = Console(stderr=json_ == "-", highlight=False)
     with Console(stderr=True).status("running") if sys.stderr.isatty() else _nothing():
         response = rigid(loaded, output_step=step)
@@ -177,12 +181,19 @@ def _as_given(motion: str) -> str:
     return str(path.resolve()) if path.is_file() else motion
 
 
+def _check_directory(directory: Path) -> None:
+    """Refuse a directory that cannot be made, before anything is computed or printed."""
+    for place in (directory, *directory.absolute().parents):
+        if place.is_dir():
+            return
+        if place.exists():
+            raise InputError("not-a-directory", "--out", place)
+
+
 def _write_all(response: Response, directory: Path, suffix: str) -> list[Path]:
     """Write everything into a new directory first, so that a failure leaves nothing half-written behind."""
     from heeltoe.figures import write_figures
 
-    if directory.exists() and not directory.is_dir():
-        raise InputError("not-a-directory", "--out", directory)
     try:
         directory.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=directory) as name:

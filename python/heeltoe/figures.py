@@ -152,17 +152,19 @@ def _ground(axes: Axes, response: Response) -> None:
     h, g = response.histories, response.gravity
     axes.plot(h["time_s"], h["ground_acceleration_m_s2"] / g, color=COLOURS["ground"], linewidth=0.7)
     critical = response.static["critical_acceleration_g"]
-    limits = (-critical["sliding_downstream"], critical["sliding_upstream"])
     low, high = axes.get_ylim()
-    shown = [limit for limit in limits if low <= limit <= high]
-    for limit in shown:
+    # A ground that accelerates upstream (negative) moves the block downstream.
+    for sign, way in ((-1.0, "downstream"), (1.0, "upstream")):
+        magnitude, first = min((critical[f"{kind}_{way}"], kind) for kind in ("sliding", "rocking"))
+        limit = sign * magnitude
+        if not low <= limit <= high:
+            continue
         axes.axhline(limit, color=COLOURS["limit"], linewidth=1.0, linestyle="--")
-    if shown:
         axes.annotate(
-            "sliding starts",
-            (1.0, shown[0]),
+            f"{first} {way} starts",
+            (1.0, limit),
             xycoords=("axes fraction", "data"),
-            xytext=(-2, -9),
+            xytext=(-2, -9 if sign < 0.0 else 3),
             textcoords="offset points",
             ha="right",
             fontsize=7,

@@ -86,10 +86,14 @@ class GroundMotion:
     def dt(self) -> float:
         """Median step [s], jumps left out."""
         steps = np.diff(self.time)
-        steps = steps[steps > 0.0]
-        median = float(np.median(steps))
         # The mean of equal steps has less rounding than any one of them.
-        return self.duration / steps.size if np.allclose(steps, median, rtol=1e-6, atol=0.0) else median
+        return self.duration / steps.size if self.is_uniform else float(np.median(steps[steps > 0.0]))
+
+    @cached_property
+    def is_uniform(self) -> bool:
+        """Whether all steps are equal, to a millionth."""
+        steps = np.diff(self.time)
+        return bool(np.allclose(steps, self.duration / steps.size, rtol=1e-6, atol=0.0))
 
     @property
     def pga(self) -> float:
@@ -241,7 +245,7 @@ def check(motion: GroundMotion, gravity: float, *, allow_zero: bool = False, fie
         said.append(f"{motion.name} peaks at {peak:.3g} g, more than any ground has been seen to do: check its unit")
     if peak < 1e-3:
         said.append(f"{motion.name} peaks at {peak:.2g} g only: check its unit, or scale it by motion.pga")
-    if motion.pgv > 0.0 and abs(motion.end_velocity) > 0.2 * motion.pgv:
+    if motion.format != "points" and motion.pgv > 0.0 and abs(motion.end_velocity) > 0.2 * motion.pgv:
         said.append(
             f"{motion.name} ends at {motion.end_velocity:.3g} m/s, {abs(motion.end_velocity) / motion.pgv:.0%} of its "
             "largest velocity: its baseline drifts, or it was cut"

@@ -67,7 +67,7 @@ class Acceleration:
         return self.value * gravity if self.in_g else self.value
 
     def __str__(self) -> str:
-        return f"{self.value!r} {'g' if self.in_g else 'm/s^2'}"
+        return f"{repr(self.value).removesuffix('.0')} {'g' if self.in_g else 'm/s^2'}"
 
 
 def parse(value: object, dimension: str, field: str) -> float:

@@ -41,7 +41,7 @@ def print_motion(motion: GroundMotion, console: Console, gravity: float = 9.8066
         ("date", motion.date),
         ("format", motion.format),
         ("read as", motion.units_as_read),
-        ("samples", f"{motion.time.size}, every {motion.dt:.5g} s, {motion.duration:.5g} s in all"),
+        ("samples", f"{motion.time.size}, {_steps(motion)}, {motion.duration:.5g} s in all"),
         ("PGA", f"{motion.pga / gravity:.5g} g"),
         ("PGV", f"{motion.pgv:.4g} m/s"),
         ("PGD", f"{motion.pgd:.4g} m"),
@@ -66,10 +66,18 @@ def _print_warnings(warnings: tuple[str, ...], console: Console) -> None:
         console.print(f"[yellow]warning[/yellow]  {warning}")
 
 
+def _length(value: float) -> str:
+    return length(value) if value else "-"
+
+
+def _steps(motion: GroundMotion) -> str:
+    return f"every {motion.dt:.5g} s" if motion.is_uniform else "in unequal steps"
+
+
 def _motion_line(motion: GroundMotion, gravity: float) -> str:
     line = (
         f"{motion.name}: PGA {motion.pga / gravity:.4g} g, PGV {motion.pgv:.3g} m/s, PGD {motion.pgd:.3g} m, "
-        f"{motion.duration:.4g} s every {motion.dt:.4g} s"
+        f"{motion.duration:.4g} s {_steps(motion)}"
     )
     return "\n".join([line, *motion.processing])
 
@@ -97,21 +105,17 @@ def _result_table(response: Response) -> Table:
     table.add_column("downstream", justify="right")
     table.add_column("upstream", justify="right")
     slip = response.residual_slip_m
-    table.add_row("residual slip", *(length(abs(slip)) if way * slip > 0 else "-" for way in (1, -1)))
-    table.add_row("peak slip", length(response.peak_slip_downstream_m), length(abs(response.peak_slip_upstream_m)))
-    table.add_row(
-        "largest rotation",
-        f"{response.rocking_downstream_rad:.3e} rad",
-        f"{response.rocking_upstream_rad:.3e} rad",
-    )
-    table.add_row(
-        "crack opening, opposite face",
-        length(response.opening_upstream_m),
-        length(response.opening_downstream_m),
-    )
+    table.add_row("residual slip", *(_length(max(0.0, way * slip)) for way in (1, -1)))
+    rotations = (response.rocking_downstream_rad, response.rocking_upstream_rad)
+    openings = (response.opening_upstream_m, response.opening_downstream_m)
+    table.add_row("peak slip", *map(_length, (response.peak_slip_downstream_m, -response.peak_slip_upstream_m)))
+    table.add_row("largest rotation", *(f"{value:.3e} rad" if value else "-" for value in rotations))
+    table.add_row("opening it means, other face", *map(_length, openings))
     parts = response.slip_by_mode_m
-    used = [f"{name.replace('_', '-')} {length(value)}" for name, value in parts.items() if value]
-    times = [f"{name.replace('_', '-')} {value:.2f} s" for name, value in response.time_by_mode_s.items() if value]
+    used = [f"{name.replace('_', '-')} {length(value)}" for name, value in parts.items() if abs(value) >= 5e-6]
+    times = [
+        f"{name.replace('_', '-')} {value:.2f} s" for name, value in response.time_by_mode_s.items() if value >= 5e-3
+    ]
     energy = response.energy
     table.caption = "\n".join(
         [

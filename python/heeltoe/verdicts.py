@@ -57,7 +57,7 @@ def _rocking(response: Response) -> str:
     strikes = response.impacts
     if strikes:
         speed = response.largest_impact_velocity_m_s
-        text += f"; it strikes {strikes} time{'s' if strikes > 1 else ''}, at up to {speed:.2g} m/s"
+        text += f"; {strikes} impact{'s' if strikes > 1 else ''}, bounces included, at up to {speed:.2g} m/s"
     return text + "."
 
 
