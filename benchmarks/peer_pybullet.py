@@ -53,31 +53,34 @@ def _world(client: int, step: float, setting: dict[str, float]) -> int:
     return block
 
 
-def attempts(step: float) -> list[Attempt]:
-    """Solve with every setting; the steps run one by one from Python, which is how PyBullet is used."""
-    result = []
-    client = pybullet.connect(pybullet.DIRECT)
+def _attempt(client: int, step: float, name: str) -> Attempt:
+    block = -1
+    slip: list[float] = []
     every = round(INTERVAL / step)
     forces = force(step).tolist()
-    for name, setting in SETTINGS.items():
-        block = -1
-        slip: list[float] = []
 
-        def prepare(setting=setting) -> None:
-            nonlocal block
-            block = _world(client, step, setting)
-            slip.clear()
+    def prepare() -> None:
+        nonlocal block
+        block = _world(client, step, SETTINGS[name])
+        slip.clear()
 
-        def solve() -> None:
-            push, advance, frame = pybullet.applyExternalForce, pybullet.stepSimulation, pybullet.LINK_FRAME
-            at = (0.0, 0.0, 0.0)
-            for k, along in enumerate(forces, 1):
-                push(block, -1, (along, 0.0, 0.0), at, frame, client)
-                advance(client)
-                if k % every == 0:
-                    slip.append(pybullet.getBasePositionAndOrientation(block, client)[0][0])
+    def solve() -> None:
+        # Local names, since the loop below is part of what is timed.
+        push, advance, frame = pybullet.applyExternalForce, pybullet.stepSimulation, pybullet.LINK_FRAME
+        centre = (0.0, 0.0, 0.0)
+        for k, along in enumerate(forces, 1):
+            push(block, -1, (along, 0.0, 0.0), centre, frame, client)
+            advance(client)
+            if k % every == 0:
+                slip.append(pybullet.getBasePositionAndOrientation(block, client)[0][0])
 
-        timing = repeat(solve, 3, prepare)
-        result.append(Attempt("PyBullet", name, step, error(np.array(slip)), timing))
+    timing = repeat(solve, 3, prepare)
+    return Attempt("PyBullet", name, step, error(np.array(slip)), timing)
+
+
+def attempts(step: float) -> list[Attempt]:
+    """Solve with every setting; the steps run one by one from Python, which is how PyBullet is used."""
+    client = pybullet.connect(pybullet.DIRECT)
+    result = [_attempt(client, step, name) for name in SETTINGS]
     pybullet.disconnect(client)
     return result

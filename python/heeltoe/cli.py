@@ -111,15 +111,16 @@ def run(
     console = Console(stderr=json_ == "-", highlight=False)
     with Console(stderr=True).status("running") if sys.stderr.isatty() else _nothing():
         response = rigid(loaded, output_step=step)
+    # Files first: if they cannot be written that is all there is to say.
+    written = [] if out is None else _write_all(response, out, ".csv" if csv else ".parquet")
+    text = json.dumps(response.to_json(), indent=2, ensure_ascii=False)
+    if json_ not in (None, "-"):
+        written.append(_replace(Path(str(json_)), text + "\n"))
     print_summary(response, console)
-    if out is not None:
-        for path in _write_all(response, out, ".csv" if csv else ".parquet"):
-            console.print(f"  wrote {path}", soft_wrap=True)
+    for path in written:
+        console.print(f"  wrote {path}", soft_wrap=True)
     if json_ == "-":
-        print(json.dumps(response.to_json(), indent=2, ensure_ascii=False))
-    elif json_ is not None:
-        _replace(Path(json_), json.dumps(response.to_json(), indent=2, ensure_ascii=False) + "\n")
-        console.print(f"  wrote {json_}", soft_wrap=True)
+        print(text)
     if not response.ok:
         raise typer.Exit(NO_RESULT)
 
@@ -212,14 +213,14 @@ def _write_all(response: Response, directory: Path, suffix: str) -> list[Path]:
     return [directory / each for each in names]
 
 
-def _replace(path: Path, text: str) -> None:
+def _replace(path: Path, text: str) -> Path:
     """Write a file whole or not at all."""
     try:
         with tempfile.NamedTemporaryFile("w", dir=path.parent, delete=False, encoding="utf-8") as file:
             file.write(text)
-        Path(file.name).replace(path)
+        return Path(file.name).replace(path)
     except OSError as error:
-        raise InputError("cannot-write", str(path), reason=error.strerror or error) from None
+        raise InputError("cannot-write", "file", path, reason=error.strerror or error) from None
 
 
 class _nothing:

@@ -128,7 +128,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "file-exists": ("is there already", "give another name, or remove it first"),
     "no-directory": ("is not there", "make it first, or give another path"),
     "not-a-directory": ("{value} is a file", "give a directory"),
-    "cannot-write": ("cannot be written ({reason})", "give a place where you may write"),
+    "cannot-write": ("{value} cannot be written ({reason})", "give a place where you may write"),
 }
 
 

@@ -27,7 +27,10 @@ pub fn quadratic(c0: f64, c1: f64, c2: f64, end: f64) -> Option<f64> {
         return Some(0.0);
     }
     let value = |t: f64| c0 + t * (c1 + t * c2);
-    let falls_at_end = value(end) <= 0.0;
+    // A slip that stops right at the end of a piece stops there whatever the rounding says.
+    let size = c0 + end * (c1.abs() + end * c2.abs());
+    let falls_at_end =
+        value(end) <= 4.0 * f64::EPSILON * size && c1 + 2.0 * end * c2 <= 0.0 || value(end) <= 0.0;
     let dips = c2 > 0.0 && c1 < 0.0 && -c1 < 2.0 * c2 * end;
     if !falls_at_end && !dips {
         return None;
