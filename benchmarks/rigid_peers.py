@@ -25,8 +25,8 @@ def engines() -> str:
             best += [exact] if exact is quick else [exact, quick]
     return (
         f"Push-and-sine block, exact slip {EXACT[-1]:.10f} m after 5 s. Errors are the largest at any tenth of a "
-        "second, relative to the slip in the end. Of every engine the setting with the smallest error at each step, and the "
-        "quickest if that is another.\n\n" + table(COLUMNS, rows(own, best))
+        "second, relative to the slip in the end. Of every engine the setting with the smallest error at each step, "
+        "and the quickest if that is another.\n\n" + table(COLUMNS, rows(own, best))
     )
 
 
