@@ -39,7 +39,7 @@ SOURCES := $(wildcard src/*.rs src/*/*.rs) Cargo.toml Cargo.lock pyproject.toml
 
 $(VENV)/.built: $(VENV)/.packages $(SOURCES) | check
 	@echo "building heeltoe"
-	@. $(BIN)/activate && maturin develop --release --locked --quiet
+	@. $(BIN)/activate && maturin develop --release --locked > $(VENV)/build.log 2>&1 || { cat $(VENV)/build.log; exit 1; }
 	@touch $@
 
 demo: check $(VENV)/.built
