@@ -6,6 +6,7 @@ import os
 from pathlib import Path
 
 import pytest
+from hypothesis import HealthCheck, settings
 
 from heeltoe.errors import CATALOGUE, InputError
 
@@ -14,6 +15,15 @@ _BESIDE = ROOT.parent / "shared" / "records"
 if "HEELTOE_RECORDS" not in os.environ and _BESIDE.is_dir():
     os.environ["HEELTOE_RECORDS"] = str(_BESIDE)
 
+
+# No deadlines: machines differ. In CI the examples are the same each time, so that a change is judged by itself.
+settings.register_profile(
+    "heeltoe",
+    deadline=None,
+    suppress_health_check=[HealthCheck.too_slow],
+    derandomize="CI" in os.environ,
+)
+settings.load_profile("heeltoe")
 
 # Codes of all errors that the tests of this process have raised.
 _RAISED: set[str] = set()
