@@ -2,6 +2,7 @@
 
 pub mod ensemble;
 pub mod rigid;
+pub mod spectrum;
 
 use numpy::ndarray::{Array1, Array2};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
@@ -210,6 +211,30 @@ mod _kernel {
                 })
             })
         });
+        Ok(table(&rows).into_pyarray(py))
+    }
+
+    /// Response spectrum; see `_kernel.pyi`.
+    #[pyfunction]
+    fn spectrum<'py>(
+        py: Python<'py>,
+        time: Numbers<'py>,
+        ground: Numbers<'py>,
+        periods: Numbers<'py>,
+        damping: f64,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let (time, ground, periods) = (time.as_slice()?, ground.as_slice()?, periods.as_slice()?);
+        motion(time, ground, None, [1.0, 1.0])?;
+        if !(0.0..1.0).contains(&damping) || !periods.iter().all(|p| *p >= 0.0 && p.is_finite()) {
+            return Err(PyValueError::new_err(
+                "damping must be in [0, 1) and periods not negative",
+            ));
+        }
+        let peaks = py.detach(|| crate::spectrum::spectrum(time, ground, periods, damping));
+        let rows: Vec<_> = peaks
+            .iter()
+            .map(|p| [p.displacement, p.total_acceleration])
+            .collect();
         Ok(table(&rows).into_pyarray(py))
     }
 

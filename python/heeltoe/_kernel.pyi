@@ -71,3 +71,10 @@ def run_rigid_many(
 
     ``threads`` of 0 means all cores. Returns (n, len(SUMMARY_FIELDS)), the same bits for any number of threads.
     """
+
+def spectrum(time: Floats, ground: Floats, periods: Floats, damping: float) -> Floats:
+    """Return (k, 2): largest relative displacement [m] and total acceleration [m/s2] of oscillators.
+
+    ``periods`` (k,) in s, zero for the ground itself; ``damping`` in [0, 1). Exact for ground accelerations (n,) that
+    are linear between the moments ``time`` (n,).
+    """

@@ -115,6 +115,8 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "there is no record {value}",
         "{hint} install heeltoe[records], or set HEELTOE_RECORDS to a directory of records",
     ),
+    "spectrum-damping": ("a damping ratio of {value} is out of range", "give one from 0 to below 1"),
+    "spectrum-period": ("are no finite, non-negative numbers", "give periods in seconds"),
     # analysis and command line
     "motion-missing": (
         "is required and not there",

@@ -60,7 +60,8 @@ class GroundMotion:
             raise InputError("motion-short", self.name, min(t.size, a.size))
         if not (np.isfinite(t).all() and np.isfinite(a).all()):
             bad = int(np.flatnonzero(~(np.isfinite(t) & np.isfinite(a)))[0])
-            raise InputError("motion-not-finite", self.name, str(a[bad]), number=bad + 1)
+            found = t[bad] if np.isfinite(a[bad]) else a[bad]
+            raise InputError("motion-not-finite", self.name, str(found), number=bad + 1)
         if (np.diff(t) < 0.0).any():
             bad = int(np.flatnonzero(np.diff(t) < 0.0)[0])
             raise InputError("motion-order", self.name, f"{t[bad + 1]:g} s", before=f"{t[bad]:g} s")
@@ -169,7 +170,9 @@ class GroundMotion:
         if duration >= self.duration:
             return self
         keep = self.time < duration
-        last = np.interp(duration, self.time, self.acceleration)
+        # Up to the first sample not before the cut: at a jump the record ends with the value before it.
+        until = int(np.searchsorted(self.time, duration)) + 1
+        last = np.interp(duration, self.time[:until], self.acceleration[:until])
         result = replace(
             self,
             time=np.append(self.time[keep], duration),
@@ -185,7 +188,7 @@ class GroundMotion:
         """Return the motion at a finer step [s].
 
         Refining is exact, since the motion is straight between its moments: `step` must divide every step of the
-        record. Coarsening would change the motion and is refused; no analysis here needs it.
+        record; jumps stay. Coarsening would change the motion and is refused; no analysis here needs it.
 
         Raises
         ------
@@ -193,7 +196,7 @@ class GroundMotion:
             Where `step` would lie about the motion.
         """
         steps = np.diff(self.time)
-        ratio = steps / step if step > 0.0 else np.zeros(1)
+        ratio = np.where(steps > 0.0, steps / step, 1.0) if step > 0.0 else np.zeros(1)
         whole = np.rint(ratio)
         if (whole < 1.0).any() or (np.abs(ratio - whole) > 1e-6 * whole).any():
             raise InputError("motion-resample", self.name, f"{step:g} s", step=f"{self.dt:g} s")
@@ -236,7 +239,7 @@ def check(motion: GroundMotion, gravity: float, *, allow_zero: bool = False, fie
     peak = motion.pga / gravity
     if peak == 0.0:
         if allow_zero:
-            return ("the ground does not move at all, as motion.allow_zero permits",)
+            return (f"{motion.name} is zero throughout: in this direction the ground does not move",)
         raise InputError("motion-zero", field, motion.name)
     if peak > 10.0:
         raise InputError("motion-peak", field, f"{peak:.4g} g", name=motion.name)

@@ -45,7 +45,7 @@ def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[Grou
         horizontal = horizontal.scaled_to(peak, f"scaled by {factor:.6g} to a peak of {shaking.pga}")
     if shaking.vertical is not None:
         vertical = _read(shaking.vertical, gravity, base_directory, "motion.vertical")
-        if shaking.vertical.pga is not None:
+        if shaking.vertical.pga is not None and vertical.pga > 0.0:
             vertical = vertical.scaled_to(
                 shaking.vertical.pga.si(gravity), f"scaled to a peak of {shaking.vertical.pga}"
             )
@@ -67,7 +67,8 @@ def _read(shaking: Shaking, gravity: float, base_directory: Path, field: str) ->
     assert shaking.file is not None
     path = find(shaking.file, base_directory, field=f"{field}.file")
     motion = read_record(path, unit=shaking.unit, time_step=shaking.time_step, gravity=gravity, field=field)
-    if motion.component.lower().startswith(("down", "dwn")) or "positive down" in motion.component.lower():
+    component = motion.component.lower()
+    if field == "motion.vertical" and (component.startswith(("down", "dwn")) or "positive down" in component):
         motion = replace(
             motion.reversed(),
             processing=(*motion.processing, "the record counts down as positive: turned to up"),

@@ -7,6 +7,7 @@ format, write one and put it into :data:`READERS` before the more forgiving ones
 from __future__ import annotations
 
 import os
+import stat
 from pathlib import Path
 from types import ModuleType
 
@@ -26,6 +27,8 @@ READERS: tuple[ModuleType, ...] = (peer_at2, columns)
 
 # No record of one component comes near; what is larger is something else.
 _LARGEST_BYTES = 64_000_000
+# Beyond these the numbers are no record in any unit, and displacements would overflow.
+_LARGEST_VALUE, _LARGEST_GAP = 1e12, 1e4
 
 
 def read_record(
@@ -63,11 +66,15 @@ def read_record(
     """
     path = Path(path)
     try:
-        if path.stat().st_size > _LARGEST_BYTES:
-            raise InputError("record-large", str(path), f"{path.stat().st_size / 1e6:.0f} MB")
+        status = path.stat()
+        # A device or a pipe may never end.
+        if not stat.S_ISREG(status.st_mode):
+            raise InputError("record-unreadable", str(path), reason="it is not a file")
+        if status.st_size > _LARGEST_BYTES:
+            raise InputError("record-large", str(path), f"{status.st_size / 1e6:.0f} MB")
         data = path.read_bytes()
-    except OSError as error:
-        raise InputError("record-unreadable", str(path), reason=error.strerror or type(error).__name__) from None
+    except (OSError, ValueError) as error:
+        raise InputError("record-unreadable", str(path), reason=getattr(error, "strerror", None) or error) from None
     return read_text(data, path.name, unit=unit, time_step=time_step, gravity=gravity, field=field)
 
 
@@ -127,8 +134,9 @@ def _motion(
     factor = acceleration_unit(stated, f"{field}.unit" if raw.unit is None else name).si(gravity)
     if raw.unit and unit and acceleration_unit(unit, f"{field}.unit").si(gravity) != factor:
         raise InputError("record-unit-conflict", f"{field}.unit", unit, stated=raw.unit, name=name)
-    with np.errstate(over="ignore"):
-        acceleration = raw.values * factor
+    if peak * factor > _LARGEST_VALUE:
+        raise InputError("motion-peak", name, f"{peak:.4g} {stated}", name="it")
+    acceleration = raw.values * factor
     return GroundMotion(
         name=Path(name).stem,
         time=time,
@@ -144,6 +152,10 @@ def _motion(
 
 def _time(raw: RawRecord, name: str, time_step: float | None, field: str) -> NDArray[np.float64]:
     if raw.time is not None:
+        with np.errstate(invalid="ignore", over="ignore"):
+            gap = float(np.abs(np.diff(raw.time)).max())
+        if gap > _LARGEST_GAP:
+            raise InputError("record-step", name, f"{gap:g} s")
         return raw.time
     step = raw.time_step or time_step
     if step is None:
@@ -156,4 +168,7 @@ def _time(raw: RawRecord, name: str, time_step: float | None, field: str) -> NDA
 
 
 def _guess(peak: float) -> str:
-    return 'probably unit = "g"' if peak < 5.0 else 'probably unit = "cm/s^2"'
+    # Hardly any ground has passed 1.3 g; a few m/s^2 are a common peak, and a few g a grave mistake.
+    if peak < 1.3:
+        return 'probably unit = "g"'
+    return 'probably unit = "cm/s^2"' if peak > 20.0 else 'unit = "m/s^2", or "g" or "cm/s^2"'

@@ -39,11 +39,12 @@ def find(name: str | os.PathLike[str], base_directory: Path, *, field: str = "mo
         Where there is none, or a name means several files.
     """
     text = os.fspath(name)
-    path = Path(text).expanduser()
+    # Of os.path, since Path raises where a name is too long or belongs to no user.
+    path = Path(os.path.expanduser(text))
     for candidate in (base_directory / path, path):
-        if candidate.is_file():
+        if os.path.isfile(candidate):
             return candidate
-        if candidate.is_dir():
+        if os.path.isdir(candidate):
             raise InputError("record-unreadable", field, text, reason="it is a directory")
     places = _places()
     found = places.get(text, [])

@@ -18,16 +18,26 @@ from heeltoe.records.raw import RawRecord, numbers
 
 FORMAT = "columns"
 
+# A unit with a letter before it is another one (nm/s2), with a number before it a quantity (a peak, not the unit of
+# the data), with an operation behind it a part of one (g/10).
+_BEFORE, _AFTER = r"(?<![^\W_])(?<![\d.]\s)", r"\b(?!\s*[/*^×])"
+_PER_S2 = r"(?:\s*/\s*s(?:ec)?\s*(?:(?:\^|\*\*)?\s*2|/\s*s(?:ec)?)|\s+s(?:\^|\*\*)?-2)"
 _UNITS = (
-    ("cm/s^2", r"cm\s*/\s*s(?:ec)?\s*(?:\^|\*\*)?\s*2|cm/s/s|cm s-2|\bgals?\b"),
-    ("mm/s^2", r"mm\s*/\s*s(?:ec)?\s*(?:\^|\*\*)?\s*2"),
-    ("m/s^2", r"(?<![cm])m\s*/\s*s(?:ec)?\s*(?:\^|\*\*)?\s*2|(?<![cm])m/s/s|(?<![cm])m s-2"),
-    ("ft/s^2", r"ft\s*/\s*s(?:ec)?\s*(?:\^|\*\*)?\s*2"),
-    ("in/s^2", r"in\s*/\s*s(?:ec)?\s*(?:\^|\*\*)?\s*2"),
-    ("g", r"\[\s*g\s*\]|\(\s*g\s*\)|\bin g\b|units?\s*[:=]\s*g\b|accel\w*\s*,?\s+g\b"),
+    ("cm/s^2", rf"{_BEFORE}(?:cm{_PER_S2}|gals?){_AFTER}"),
+    ("mm/s^2", rf"{_BEFORE}mm{_PER_S2}{_AFTER}"),
+    ("m/s^2", rf"{_BEFORE}m{_PER_S2}{_AFTER}"),
+    ("ft/s^2", rf"{_BEFORE}ft{_PER_S2}{_AFTER}"),
+    ("in/s^2", rf"{_BEFORE}in(?:ch)?{_PER_S2}{_AFTER}"),
+    ("g", rf"\[\s*g\s*\]|\(\s*g\s*\)|(?:\bin\s|units?\s*[:=]\s*|accel\w*\s*,?\s)\s*g{_AFTER}"),
 )
 _ONE_G = re.compile(r"1\s*g\s*=[^)\]]*", re.IGNORECASE)
-_STEP = re.compile(r"(?:time step|\bdt\b|delta t|step)\s*[:=]?\s*([\d.]+(?:e[-+]?\d+)?)\s*(ms|s\b|sec)?", re.IGNORECASE)
+_STEP = re.compile(
+    r"(?:time[ -]?step|(?:time|sampling) interval|\bdt\b|delta[ -]?t|^step(?=\s*[:=]))"
+    r"\s*(?:[\[(]\s*([a-z]+)\s*[\])])?\s*[:=]?\s*([\d.]+(?:e[-+]?\d+)?)\s*([a-z]*)",
+    re.IGNORECASE,
+)
+_SECONDS, _MILLISECONDS = r"s|secs?|seconds?", r"ms|msecs?|milliseconds?"
+_TIME_IN_MS = re.compile(rf"\bt(?:ime)?\s*[\[(]\s*(?:{_MILLISECONDS})\s*[\])]", re.IGNORECASE)
 _STATED = re.compile(r"(?:number of points|points|npts|samples)\s*[:=]\s*(\d{1,12})\b", re.IGNORECASE)
 _HEADER_LINES, _HEADER_WIDTH = 100, 400
 _SEPARATORS = str.maketrans({",": " ", ";": " ", "\t": " "})
@@ -35,9 +45,9 @@ _ABOUT = re.compile(r"^(event|earthquake|station|component|date|processing)\s*[:
 
 
 def _is_data(line: str) -> bool:
-    """Whether a line starts with something that wants to be a number."""
+    """Whether a line starts with something that wants to be a number; a NaN does, or it would pass for a header."""
     word = line.translate(_SEPARATORS).split()[:1]
-    return bool(word) and re.match(r"[-+]?\.?\d", word[0]) is not None
+    return bool(word) and re.match(r"[-+]?(?:\.?\d|(?:nan|inf)$)", word[0], re.IGNORECASE) is not None
 
 
 def _split(lines: list[str]) -> tuple[list[str], int]:
@@ -68,10 +78,9 @@ def read(lines: list[str], name: str) -> RawRecord:
     """Read a file that matches."""
     header, first = _split(lines)
     data = [line.split("#")[0].translate(_SEPARATORS) for line in lines[first:]]
-    data = [line for line in data if line.strip()]
     width = len(data[0].split())
     for k, line in enumerate(data):
-        if len(line.split()) != width:
+        if len(line.split()) not in (0, width):
             raise InputError("record-ragged", name, f"{len(line.split())} columns", line=first + k + 1, width=width)
     values = numbers(data, name, first + 1)
     if values.size % width:
@@ -87,8 +96,11 @@ def read(lines: list[str], name: str) -> RawRecord:
     stated = _STATED.search(said)
     if stated and int(stated[1]) != len(table):
         warnings.append(f"{name} states {stated[1]} values and has {len(table)}: all of them are used")
-    step = _step(said)
+    step = next((value for line in header if (value := _step(line)) is not None), None)
     time = np.ascontiguousarray(table[:, 0]) if width == 2 else None
+    if time is not None and any(_TIME_IN_MS.search(line) for line in header):
+        time = time / 1e3
+        processing = (*processing, "time read in ms")
     if time is not None and step is not None and time.size > 1:
         median = float(np.median(np.diff(time)))
         if abs(median - step) > 0.01 * step:
@@ -113,18 +125,23 @@ def _unit(header: list[str]) -> str | None:
         found = set()
         for line in header:
             if word in line.lower():
-                text = _ONE_G.sub("", line)
+                text = _ONE_G.sub("", line.replace("²", "2"))
                 found |= {unit for unit, pattern in _UNITS if re.search(pattern, text, re.IGNORECASE)}
         if found:
             return found.pop() if len(found) == 1 else None
     return None
 
 
-def _step(said: str) -> float | None:
-    found = _STEP.search(said)
+def _step(line: str) -> float | None:
+    """The time step [s] a line states; None where it states none or in words that are not known."""
+    found = _STEP.search(line)
     if not found:
         return None
+    unit = (found[1] or found[3] or "s").lower()
     try:
-        return float(found[1]) * (1e-3 if found[2] == "ms" else 1.0)
+        value = float(found[2])
     except ValueError:
         return None
+    if re.fullmatch(_MILLISECONDS, unit):
+        return value / 1e3
+    return value if re.fullmatch(_SECONDS, unit) else None

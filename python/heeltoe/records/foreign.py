@@ -9,6 +9,10 @@ _SIGNS = (
         "COSMOS or CSMIP V2",
         re.compile(r"corrected accelerogram.*\bchan|points of accel(?:eration)? data", re.IGNORECASE),
     ),
+    (
+        "COSMOS or CSMIP",
+        re.compile(r"\(format v\d\d\.\d\d with \d+ text lines\)|uncorrected accelerogram data", re.IGNORECASE),
+    ),
     ("USGS SMC", re.compile(r"^\s*\d?\s*(?:un)?corrected accelerogram\s*$", re.IGNORECASE | re.MULTILINE)),
     ("K-NET or KiK-net", re.compile(r"^origin time\s+\d{4}/\d\d/\d\d", re.IGNORECASE | re.MULTILINE)),
 )

@@ -62,20 +62,24 @@ def numbers(lines: list[str], name: str, first_line: int) -> Floats:
         Where a word is not a number.
     """
     text = " ".join(lines)
-    try:
-        return np.array(text.split(), dtype=np.float64)
-    except ValueError:
-        pass
+    # Python reads 1_0 as ten, and digits of any script; in a record both are damage.
+    if text.isascii() and "_" not in text:
+        try:
+            return np.array(text.split(), dtype=np.float64)
+        except ValueError:
+            pass
     values: list[float] = []
     for number, line in enumerate(lines, first_line):
-        for word in _unglued(line).split():
+        for word in unglued(line).split():
             try:
+                if "_" in word or not word.isascii():
+                    raise ValueError
                 values.append(float(word))
             except ValueError:
                 raise InputError("record-number", name, repr(word[:30]), line=number) from None
     return np.array(values)
 
 
-def _unglued(line: str) -> str:
+def unglued(line: str) -> str:
     """Part columns that touch (8F10.5, E15.7: a sign right behind a digit) and turn Fortran's D exponents into E."""
     return re.sub(r"(?<=[\d.])(?=[-+])", " ", re.sub(r"(?<=[\d.])[dD](?=[-+]?\d)", "e", line))
