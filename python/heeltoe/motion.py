@@ -122,13 +122,20 @@ class GroundMotion:
         """Velocity at the end, from rest [m/s]; a record that is not corrected for its baseline keeps some."""
         return self._integrals[2]
 
-    @cached_property
-    def _integrals(self) -> tuple[float, float, float]:
-        """PGV, PGD and end velocity; extremes lie at samples or where their derivative changes sign inside a piece."""
+    def integrated(self) -> tuple[Floats, Floats]:
+        """Return velocity [m/s] and displacement [m] of the ground at the moments, from rest, exact."""
         h = np.diff(self.time)
         a0, a1 = self.acceleration[:-1], self.acceleration[1:]
         v = np.concatenate([[0.0], np.cumsum(h * (a0 + a1) / 2.0)])
         d = np.concatenate([[0.0], np.cumsum(h * v[:-1] + h**2 * (2.0 * a0 + a1) / 6.0)])
+        return v, d
+
+    @cached_property
+    def _integrals(self) -> tuple[float, float, float]:
+        """PGV, PGD and end velocity; extremes lie at samples or where their derivative changes sign inside a piece."""
+        v, d = self.integrated()
+        h = np.diff(self.time)
+        a0, a1 = self.acceleration[:-1], self.acceleration[1:]
         crosses = a0 * a1 < 0.0
         s = h[crosses] * a0[crosses] / (a0[crosses] - a1[crosses])
         between = v[:-1][crosses] + s * a0[crosses] / 2.0

@@ -71,6 +71,7 @@ pub struct Block {
     height: f64,
     heel_distance: f64,
     pub width: f64,
+    inverse_width: f64,
     /// `A = G M^-1 G^T`.
     pub compliance: [Vector; 3],
     /// `b = G M^-1 f`.
@@ -123,6 +124,7 @@ impl Block {
             height: h,
             heel_distance: b_h,
             width,
+            inverse_width: 1.0 / width,
             compliance,
             free_acceleration: [affine(&free[0]), affine(&free[1]), affine(&free[2])],
             generalised_force: [
@@ -149,7 +151,7 @@ impl Block {
 
     /// Rotation (counter-clockwise) that goes with two gaps; with two gap velocities, the rate of rotation.
     pub fn rotation(&self, w: &Vector) -> f64 {
-        (w[TOE] - w[HEEL]) / self.width
+        (w[TOE] - w[HEEL]) * self.inverse_width
     }
 
     /// Kinetic energy relative to the ground.

@@ -49,6 +49,10 @@ pub fn quadratic(c0: f64, c1: f64, c2: f64, end: f64) -> Option<f64> {
 
 /// Times in `(0, end)` at which `c0 + c1 t + c2 t^2` changes sign, in ascending order.
 pub fn sign_changes(c0: f64, c1: f64, c2: f64, end: f64) -> [Option<f64>; 2] {
+    // Most pieces are monotone and keep their sign: no need of the roots.
+    if c0 * (c0 + end * (c1 + end * c2)) > 0.0 && c1 * (c1 + 2.0 * end * c2) >= 0.0 {
+        return [None, None];
+    }
     let inside = |t: f64| (t > 0.0 && t < end).then_some(t);
     let discriminant = c1 * c1 - 4.0 * c2 * c0;
     if discriminant <= 0.0 {

@@ -145,7 +145,7 @@ struct Course<'a> {
 
 struct Walk<'a, 'h> {
     block: &'a Block,
-    reactions: Reactions,
+    reactions: &'a Reactions,
     options: Options,
     settle: f64,
     mode: Mode,
@@ -171,9 +171,10 @@ pub fn simulate<'h>(
     let [position, velocity] = start.unwrap_or([[0.0; 3]; 2]);
     let g = -block.generalised_force[HEEL].constant - block.generalised_force[TOE].constant;
     let speed = (g.abs() / block.mass() * block.width).sqrt();
+    let reactions = Reactions::new(block);
     let mut walk = Walk {
         block,
-        reactions: Reactions::new(block),
+        reactions: &reactions,
         options,
         settle: options.settle * speed,
         mode: Mode::Rest,
@@ -286,7 +287,7 @@ impl Walk<'_, '_> {
 
     fn rests(&self, piece: &Piece) -> bool {
         let closed = [true, true];
-        select(self.block, &self.reactions, Mode::Rest, closed, 0.0, piece) == Some(Mode::Rest)
+        select(self.block, self.reactions, Mode::Rest, closed, 0.0, piece) == Some(Mode::Rest)
     }
 
     /// While the block rests nothing moves: go through the samples as fast as they can be read and return the last
@@ -333,7 +334,7 @@ impl Walk<'_, '_> {
             let velocity = walk.summary.velocity[SLIP];
             select(
                 walk.block,
-                &walk.reactions,
+                walk.reactions,
                 walk.mode,
                 walk.closed(),
                 velocity,
@@ -413,14 +414,14 @@ impl Walk<'_, '_> {
 
     /// Move to the next event or to the end of the piece; returns the time that took and what ended it.
     fn advance(&mut self, piece: &Piece, time: f64) -> (f64, Option<Cause>) {
-        let reaction = *self.reactions.of(self.mode);
+        let reaction = self.reactions.of(self.mode);
         let contacts = self.mode.contacts();
         let closed = self.closed();
         let velocity = self.summary.velocity;
         let position = self.summary.position;
         let slip = self.mode.slip();
         let starts = [slip.is_some() && velocity[SLIP] == 0.0, closed[0], closed[1]];
-        let motion = accelerations(self.block, &reaction, starts, piece);
+        let motion = accelerations(self.block, reaction, starts, piece);
 
         let mut step = piece.left;
         let mut cause = None;
@@ -512,8 +513,15 @@ impl Walk<'_, '_> {
             s.position[gap] = s.position[gap].max(0.0);
         }
         s.slip_by_mode[kind] += s.position[SLIP] - before[SLIP];
-        s.keep_extremes(block);
-        if contacts != [true, true] {
+        if contacts == [true, true] {
+            // Both gaps stay closed and the slip keeps its sign.
+            s.slip_range = [
+                s.slip_range[0].min(s.position[SLIP]),
+                s.slip_range[1].max(s.position[SLIP]),
+            ];
+        } else {
+            let end = s.position;
+            s.widen(&end, block);
             self.turning_points(&before, &speed, motion, step);
         }
     }
@@ -572,11 +580,6 @@ impl Walk<'_, '_> {
 }
 
 impl Summary {
-    fn keep_extremes(&mut self, block: &Block) {
-        let at = self.position;
-        self.widen(&at, block);
-    }
-
     fn widen(&mut self, at: &Vector, block: &Block) {
         let turn = block.rotation(at);
         self.slip_range = [self.slip_range[0].min(at[SLIP]), self.slip_range[1].max(at[SLIP])];
