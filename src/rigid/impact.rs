@@ -162,7 +162,8 @@ fn with_restitution(
 }
 
 /// Impact of the corners in `touching`, of which at least one has a negative gap velocity. A bounce slower than
-/// `settle` is none: that corner stays; and where both corners touch and neither moves faster, both stay. `None` is a paradox: no outcome satisfies the law.
+/// `settle` is none: that corner stays; and where both corners touch and neither moves faster, both stay. `None` is a
+/// paradox: no outcome satisfies the law.
 pub fn impact(block: &Block, before: &Vector, touching: [bool; 2], settle: f64) -> Option<Impact> {
     let restitution = [HEEL, TOE].map(|gap| {
         let bounce = -block.restitution * before[gap];
@@ -172,14 +173,14 @@ pub fn impact(block: &Block, before: &Vector, touching: [bool; 2], settle: f64) 
             0.0
         }
     });
-    let energy = block.kinetic_energy(before);
     if touching == [true, true] && before[HEEL].abs() < settle && before[TOE].abs() < settle {
-        return Some(come_to_lie(block, before, energy));
+        return Some(come_to_lie(block, before, settle));
     }
-    let allowed = energy * (1.0 + ROUNDING);
     let law = |share: f64| {
-        with_restitution(block, before, touching, restitution, share)
-            .filter(|(after, _)| block.kinetic_energy(after) <= allowed)
+        with_restitution(block, before, touching, restitution, share).filter(|(after, impulse)| {
+            let (gain, rounding) = energy_gain(before, after, impulse);
+            gain <= rounding
+        })
     };
     let mut limited = false;
     let (velocity, impulse) = law(1.0).or_else(|| {
@@ -200,19 +201,32 @@ pub fn impact(block: &Block, before: &Vector, touching: [bool; 2], settle: f64) 
     Some(Impact {
         velocity,
         impulse,
-        energy_lost: energy - block.kinetic_energy(&velocity),
+        energy_lost: -energy_gain(before, &velocity, &impulse).0,
         energy_limited: limited,
     })
 }
 
+/// Work of the impulses, `p . (w1 + w2) / 2`, and the rounding to be expected in it. The difference of the two kinetic
+/// energies would drown it where the rest of the block moves much faster than the corner that strikes.
+fn energy_gain(before: &Vector, after: &Vector, impulse: &Vector) -> (f64, f64) {
+    let mut gain = 0.0;
+    let mut size = 0.0;
+    for i in 0..3 {
+        gain += 0.5 * impulse[i] * (before[i] + after[i]);
+        size += 0.5 * impulse[i].abs() * (before[i].abs() + after[i].abs());
+    }
+    (gain, ROUNDING * size)
+}
+
 /// Rocking from corner to corner dies out as bouncing does, in infinitely many impacts, each leaving a fixed share of
 /// the velocity. Here the block is so slow that it is laid down on both corners: without friction if it slips, to
-/// rest if it does not. Either is a projection in the norm of the kinetic energy, which can only lose.
-fn come_to_lie(block: &Block, before: &Vector, energy: f64) -> Impact {
+/// rest if its slip is as slow. Either is a projection in the norm of the kinetic energy, which can only lose.
+fn come_to_lie(block: &Block, before: &Vector, settle: f64) -> Impact {
+    let energy = block.kinetic_energy(before);
     let a = &block.compliance;
     let mut impulse = [0.0; 3];
     let mut velocity = [0.0; 3];
-    if before[SLIP] != 0.0 {
+    if before[SLIP].abs() >= settle {
         let det = a[HEEL][HEEL] * a[TOE][TOE] - a[HEEL][TOE] * a[TOE][HEEL];
         impulse[HEEL] = (a[HEEL][TOE] * before[TOE] - a[TOE][TOE] * before[HEEL]) / det;
         impulse[TOE] = (a[TOE][HEEL] * before[HEEL] - a[HEEL][HEEL] * before[TOE]) / det;
@@ -229,7 +243,6 @@ fn come_to_lie(block: &Block, before: &Vector, energy: f64) -> Impact {
 /// Tangential impact that ends a Painlevé paradox: a sliding corner jams, and the impulse that stops its slip lifts
 /// nothing and sinks nothing. `None` where the cone of friction does not hold it.
 pub fn jam(block: &Block, before: &Vector, touching: [bool; 2]) -> Option<Impact> {
-    let energy = block.kinetic_energy(before);
     let target = [0.0; 3];
     [[touching[0], false], [false, touching[1]], touching]
         .into_iter()
@@ -248,7 +261,7 @@ pub fn jam(block: &Block, before: &Vector, touching: [bool; 2]) -> Option<Impact
         .map(|(velocity, impulse)| Impact {
             velocity,
             impulse,
-            energy_lost: energy - block.kinetic_energy(&velocity),
+            energy_lost: -energy_gain(before, &velocity, &impulse).0,
             energy_limited: false,
         })
         .filter(|jam| jam.energy_lost > 0.0)

@@ -342,11 +342,13 @@ impl Walk<'_, '_> {
             )
         };
         let mut after = pick(self);
-        if after.is_none() && self.options.jam {
+        // A slip too slow to matter may jam unasked.
+        let crawls = self.summary.velocity[SLIP].abs() < self.settle;
+        if after.is_none() && (self.options.jam || crawls) {
             let closed = self.closed();
             if let Some(stop) = jam(self.block, &self.summary.velocity, closed) {
                 self.apply(&stop);
-                self.summary.jams += 1;
+                self.summary.jams += u64::from(!crawls);
                 blow = Some((EventKind::Jams, stop));
                 after = pick(self);
             }
