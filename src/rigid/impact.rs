@@ -41,7 +41,12 @@ fn assume(
     let a = &block.compliance;
     let slack = ROUNDING * speed;
     // Unknown impulses in the order friction, heel, toe; each row is one condition on them.
-    let mut m = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+    // All rows have the size of the compliance, so that a singular system can be told from a badly scaled one.
+    let mut m = [
+        [a[SLIP][SLIP], 0.0, 0.0],
+        [0.0, a[HEEL][HEEL], 0.0],
+        [0.0, 0.0, a[TOE][TOE]],
+    ];
     let mut right = [0.0; 3];
     match friction {
         Friction::Stick => {
@@ -50,7 +55,7 @@ fn assume(
         }
         Friction::Slip(sign) => {
             let mu = block.friction_kinetic * sign;
-            m[SLIP] = [1.0, mu, mu];
+            m[SLIP] = [1.0, mu, mu].map(|factor| factor * a[SLIP][SLIP]);
         }
     }
     for (corner, gap) in [HEEL, TOE].into_iter().enumerate() {
@@ -115,7 +120,7 @@ fn solve3(m: &[[f64; 3]; 3], right: &Vector) -> Option<Vector> {
     let (c0, c1, c2) = (column(0), column(1), column(2));
     let dot = |p: &Vector, q: &Vector| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
     let det = dot(&c0, &cross(&c1, &c2));
-    let size = dot(&c0, &c0) * dot(&c1, &c1) * dot(&c2, &c2);
+    let size: f64 = m.iter().map(|row| dot(row, row)).product();
     if det * det <= 1e-28 * size {
         return None;
     }
