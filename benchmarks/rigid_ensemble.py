@@ -46,6 +46,7 @@ def check(ensemble: Ensemble, result: dict[str, Floats]) -> list[str]:
         *(f"{share:.2%}" for share in shares),
         f"{result['events'].mean():.0f}",
         f"{np.quantile(result['events'], 0.99):.0f}",
+        f"{result['events'].max():.0f}",
         f"{result['impacts'].mean():.0f}",
         str(int(count - ended.sum())),
         f"{result['energy_residual'].max():.0e}",
@@ -74,15 +75,15 @@ def times(ensemble: Ensemble, threads: int) -> tuple[list[str], dict[str, Floats
 def costs(ensemble: Ensemble, result: dict[str, Floats]) -> list[str]:
     """Take the time apart into samples at rest, samples in motion and events, by least squares.
 
-    The runs are put into parcels of like numbers of events, each parcel is timed by itself, and the three unit costs
-    are fitted to the parcels, each weighted by its own time so that the quick ones count as much as the slow ones.
+    The runs are put into parcels of like numbers of events, the processor time of each is taken, and the three unit
+    costs are fitted to the parcels, each weighted by its own time so that the quick ones count as much as the slow.
     """
     parcels = np.array_split(np.argsort(result["events"], kind="stable"), 24)
     parts, taken = [], []
     for parcel in parcels:
         rest = result["time_rest"][parcel].sum() / STEP
         parts.append([rest, parcel.size * DURATION / STEP - rest, result["events"][parcel].sum()])
-        taken.append(repeat(lambda parcel=parcel: ensemble.run(1, parcel), 3).median)
+        taken.append(repeat(lambda parcel=parcel: ensemble.run(1, parcel), 3).cpu_median)
     matrix, time = np.array(parts), np.array(taken)
     unit = np.linalg.lstsq(matrix / time[:, None], np.ones(time.size), rcond=None)[0]
     error = np.abs(matrix @ unit / time - 1.0)
@@ -161,6 +162,7 @@ def report(count: int = 100_000) -> str:
                     *(mode.replace("_", "-") for mode in MODES),
                     "events",
                     "99th percentile",
+                    "most",
                     "impacts",
                     "ended early",
                     "energy",

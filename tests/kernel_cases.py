@@ -73,6 +73,23 @@ def ordinary(
     )
 
 
+def paradox_possible(block: dict[str, Any]) -> Any:
+    """Return whether friction can pull a corner in (Painlevé): contact laws then have no solution, or several.
+
+    A corner at x pushed by N while it slips accelerates by N (1/m + x (x - mu S H)/J); for both corners at once that
+    becomes a 2x2 matrix. All is well as long as its principal minors are positive.
+    """
+    corners = (-block["heel_distance"], block["toe_distance"])
+    bad = False
+    for sign in (1.0, -1.0):
+        drag = sign * block["friction_static"] * block["height"]
+        (a, b), (c, d) = (
+            [1.0 / block["mass_vertical"] + x * (other - drag) / block["inertia"] for other in corners] for x in corners
+        )
+        bad = bad | (a <= 0.0) | (d <= 0.0) | (a * d <= b * c)
+    return bad
+
+
 def rectangle(
     width: float,
     tall: float,

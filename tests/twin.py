@@ -11,13 +11,15 @@ n_t = (0, 1, B_t). One step h advances velocity by impulses and position by the 
 
 A corner takes part if its gap, foreseen half a step ahead, is closed; it then obeys Newton's law of restitution
 against the velocity it came with (0 for one that was held). Which corners push, and whether the base sticks or slips,
-is found by trying all ten combinations. No event is located, no mode is named: slip, rocking, lift-off, impacts and
+is found by trying all ten combinations; where the laws leave a choice (static friction above kinetic: a base at rest
+may stay or go) sticking comes first. No event is located, no mode is named: slip, rocking, lift-off, impacts and
 the end of bouncing all come out of the same step.
 
 Order of accuracy. Forces are linear on every piece of the record and steps never straddle two pieces, so the impulse
-of the loads is exact. What remains is where in its step an event falls: a slip that starts or stops shifts the
-position by O(h^2), a corner that strikes is noticed up to one step late or early and shifts all that follows by O(h).
-The twin is of first order with impacts, of second order without; its error is seen by halving h.
+of the loads is exact. What remains is where in its step an event falls. A slip that starts from rest or comes to rest
+shifts the position by O(h^2). A slip that reverses at once, whose friction jumps, and a corner that strikes, noticed
+up to a step late or early, shift the velocity by O(h) and all that follows. So the twin is of second order where blocks
+slide and stop, of first order where they bounce.
 """
 
 from __future__ import annotations
@@ -32,7 +34,7 @@ Floats = NDArray[np.float64]
 SLIP, HEEL, TOE = 0, 1, 2
 #: Which corners push, in the order tried: as few as will do.
 SETS = ([HEEL], [TOE], [HEEL, TOE])
-#: 0 sticks; +1 and -1 slip downstream and upstream. Sticking is tried first.
+#: 0 sticks; +1 and -1 slip downstream and upstream.
 FRICTIONS = (0, 1, -1)
 CASES = [(pushing, sign) for sign in FRICTIONS for pushing in SETS]
 #: Rounding allowed in the inequalities, relative to the velocities and impulses at hand.

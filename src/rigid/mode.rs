@@ -338,7 +338,7 @@ fn admissible(
 }
 
 /// The mode in which the block goes on: the present one if it is still admissible, else the first of [`Mode::ALL`]
-/// that is; `None` is a Painlevé paradox.
+/// that is, or drift; `None` is a Painlevé paradox.
 pub fn select(
     block: &Block,
     reactions: &Reactions,
@@ -348,7 +348,11 @@ pub fn select(
     piece: &Piece,
 ) -> Option<Mode> {
     for tie in [TIE, HAIR] {
-        let mut candidates = std::iter::once(present)
+        // A base that has come to stand is held by static friction if that can hold it: sticking goes first.
+        let goes_on = velocity != 0.0 || present.slip().is_none();
+        let mut candidates = goes_on
+            .then_some(present)
+            .into_iter()
             .chain(Mode::ALL)
             .chain(std::iter::once(Mode::Drift));
         let found = candidates

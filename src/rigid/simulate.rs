@@ -301,13 +301,16 @@ impl Walk<'_, '_> {
             cone(block, force, 1.0),
             cone(block, force, -1.0),
         ];
+        let holds = |k: usize| {
+            let ground = motion.at(k);
+            limits.iter().all(|limit| limit.at(ground) >= 0.0)
+        };
         let mut k = from;
-        while k + 1 < motion.time.len() {
-            let ground = motion.at(k + 1);
-            if limits.iter().any(|limit| limit.at(ground) < 0.0) {
-                break;
+        // The first sample is looked at too: right behind a jump it is new.
+        if holds(k) {
+            while k + 1 < motion.time.len() && holds(k + 1) {
+                k += 1;
             }
-            k += 1;
         }
         self.summary.time_by_mode[Mode::Rest.kind()] += motion.time[k] - motion.time[from];
         k

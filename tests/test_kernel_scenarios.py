@@ -1,0 +1,202 @@
+"""Single situations of the rigid kernel with a known answer: limits met exactly, free fall, paradoxes, ends of runs."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from kernel_cases import GRAVITY, Run, ordinary, paradox_possible, rectangle, rows, run
+
+
+def starts_of_slip(one: Run) -> int:
+    return one.kinds.count("slip starts")
+
+
+@pytest.mark.parametrize(("friction", "gravity"), [(0.5, 8.0), (0.3, 9.81), (0.7, 9.80665)], ids=str)
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+class TestFrictionExactlyAtItsLimit:
+    """mu g, met to the last bit where it is a machine number and within rounding where it is not."""
+
+    def block(self, friction, gravity):
+        return rectangle(2.0, 1.0, friction, gravity=gravity)
+
+    def test_held_there_nothing_moves(self, friction, gravity, side):
+        one = run(self.block(friction, gravity), [0.0, 5.0, 10.0], [side * friction * gravity] * 3)
+        assert (one.outcome, one.summary["slip"]) == ("ok", 0.0)
+        assert one.summary["events"] <= 2
+
+    def test_a_ramp_that_ends_there_moves_nothing(self, friction, gravity, side):
+        limit = side * friction * gravity
+        one = run(self.block(friction, gravity), [0.0, 1.0, 2.0, 3.0, 4.0], [0.0, limit, limit, 0.5 * limit, limit])
+        assert (one.outcome, one.summary["slip"]) == ("ok", 0.0)
+        assert one.summary["events"] <= 4
+
+    def test_a_ramp_through_it_starts_once(self, friction, gravity, side):
+        limit = side * friction * gravity
+        # A third of the limit per second beyond it: s'' = -limit/3 t, s = -limit t^3 / 18.
+        one = run(self.block(friction, gravity), [0.0, 3.0, 5.0], [0.0, limit, 5.0 / 3.0 * limit])
+        assert starts_of_slip(one) == 1
+        assert one.events["time"][0] == pytest.approx(3.0, abs=1e-9)
+        assert one.summary["slip"] == pytest.approx(-limit * 8.0 / 18.0, rel=1e-9)
+
+    def test_through_it_from_a_sample_to_a_sample_starts_once(self, friction, gravity, side):
+        limit = side * friction * gravity
+        ground = [0.0, limit, np.nextafter(limit, side * np.inf), limit, 2.0 * limit, limit, limit, 0.0]
+        one = run(self.block(friction, gravity), np.arange(8.0), ground)
+        assert one.outcome == "ok"
+        assert starts_of_slip(one) == 1
+        assert one.summary["events"] < 12
+
+    def test_a_sliding_block_coasts_there(self, friction, gravity, side):
+        start = [[0.0, 0.0, 0.0], [-side, 0.0, 0.0]]
+        one = run(self.block(friction, gravity), np.linspace(0.0, 4.0, 9), [side * friction * gravity] * 9, start=start)
+        assert one.summary["slip"] == pytest.approx(-4.0 * side, rel=1e-12)
+        assert one.summary["events"] <= 9
+
+
+def test_a_jump_past_the_limit_is_not_slept_through():
+    """The limit is passed at one side of a jump only; runs without histories look at every sample of a rest too."""
+    time, ground = [0.0, 1.0, 1.0, 2.0, 3.0], [0.0, 0.0, -6.0, 0.0, 0.0]
+    block = rectangle(2.0, 1.0, 0.5, gravity=8.0)
+    quick, watched = run(block, time, ground), run(block, time, ground, at=time)
+    assert quick.summary["slip"] == watched.summary["slip"] > 0.0
+
+
+def test_static_and_kinetic_friction_apart():
+    """Held up to 0.8 g; once it goes 0.5 g brakes it.
+
+    With v = (a - mu_k g) T the slip is v^2/2 (1/(a - mu_k g) + 1/(mu_k g)).
+    """
+    block = rectangle(2.0, 0.5, 0.8, gravity=10.0, kinetic=0.5)
+    duration = 0.3
+    time = [0.0, duration, duration, 3.0]
+    assert run(block, time, [-7.99, -7.99, 0.0, 0.0]).summary["slip"] == 0.0
+    speed = (8.01 - 5.0) * duration
+    slip = speed**2 / 2.0 * (1.0 / (8.01 - 5.0) + 1.0 / 5.0)
+    one = run(block, time, [-8.01, -8.01, 0.0, 0.0])
+    assert one.summary["slip"] == pytest.approx(slip, rel=1e-12)
+    assert one.summary["final_mode"] == 0.0
+
+
+@pytest.mark.parametrize("push", [0.0, 0.5, 1.0])
+def test_a_base_that_a_blow_has_stopped_is_held_by_static_friction(push):
+    """It slides and rocks on its toe, the heel strikes and bounces, the blow stops the slip.
+
+    Rocking on without slip needs a friction between mu_k N and mu_s N: the base stands, so it need not slip.
+    """
+    block = rectangle(2.0, 1.0, 0.8, gravity=10.0, kinetic=0.5, restitution=0.5)
+    one = run(block, [0.0, 0.05], [push, push], start=[[0.0, 0.0, 0.0], [0.1, -1.0, 0.0]], at=[0.01])
+    assert one.kinds[-1] == "heel strikes"
+    assert (one.modes, one.summary["slip"]) == (["rock on toe"], 0.0)
+    needed = np.abs(one.histories["friction_force"]) / one.histories["normal_force_toe"]
+    assert 0.5 < needed < 0.8
+
+
+@pytest.mark.parametrize("lift", [-0.5, 0.25, 1.0])
+def test_constant_vertical_acceleration_is_changed_gravity(lift):
+    rng = np.random.default_rng(7)
+    time, ground = 0.05 * np.arange(60), GRAVITY * rng.uniform(-0.8, 0.8, 60)
+    plain = rectangle(4.0, 1.0, 0.3, gravity=GRAVITY * (1.0 + lift))
+    raised = rectangle(4.0, 1.0, 0.3)
+    one, other = run(plain, time, ground), run(raised, time, ground, np.full(60, lift * GRAVITY))
+    assert one.summary["events"] == other.summary["events"] > 10
+    assert one.summary["slip"] == pytest.approx(other.summary["slip"], rel=1e-10)
+
+
+def test_ground_that_falls_faster_than_the_block():
+    """At 2 g downwards for T the block rises over it by g T^2 in all, floats, and lands flat with g T sqrt(2)."""
+    duration = 0.25
+    block = rectangle(2.0, 3.0, 0.5, restitution=0.5)
+    one = run(
+        block,
+        [0.0, duration, duration, 5.0],
+        [0.0] * 4,
+        [-2.0 * GRAVITY] * 2 + [0.0] * 2,
+        at=[0.5 * duration, duration],
+    )
+    assert one.modes == ["drift", "drift"]
+    assert one.histories["gap_heel"] == pytest.approx([GRAVITY * duration**2 / 8.0, GRAVITY * duration**2 / 2.0])
+    assert one.kinds[1] == "both strike"
+    assert one.summary["largest_gap_heel"] == pytest.approx(GRAVITY * duration**2)
+    assert one.summary["largest_impact_velocity"] == pytest.approx(GRAVITY * duration * np.sqrt(2.0))
+    # It bounces flat, ever lower, and comes to rest.
+    assert one.summary["rotation_max"] == one.summary["rotation_min"] == 0.0
+    assert set(one.kinds[1:]) == {"both strike"}
+    assert (one.outcome, one.summary["final_mode"]) == ("ok", 0.0)
+
+
+def test_an_endless_bounce_meets_the_event_limit():
+    block = rectangle(1.0, 1.0, 0.5, restitution=1.0)
+    one = run(block, [0.0, 100.0], [0.0, 0.0], start=[[0.0, 0.1, 0.1], [0.0] * 3], event_limit=50, at=np.arange(100.0))
+    assert one.outcome == "event limit"
+    # The first event is the start of the fall.
+    assert one.summary["events"] == 50
+    fall = np.sqrt(2.0 * 0.1 / GRAVITY)
+    assert one.summary["end_time"] == pytest.approx(fall * (2 * 49 - 1), rel=1e-9)
+    assert len(one.modes) == int(one.summary["end_time"]) + 1
+
+
+def test_rocking_that_dies_out_ends():
+    """Each impact leaves a share of the velocity: without an end of its own it would take thousands of them."""
+    one = run(rectangle(1.0, 3.0, 2.0), [0.0, 20.0], [0.0, 0.0], start=[[0.0, 0.0, 0.1], [0.0] * 3])
+    assert one.outcome == "ok"
+    assert one.summary["final_mode"] == one.summary["slip_velocity"] == one.summary["gap_velocity_toe"] == 0.0
+    assert 10 < one.summary["impacts"] < 200
+
+
+@pytest.mark.parametrize(
+    "fault",
+    [{"push": 6000.0}, {"moment": 6000.0}, {"moment": -6000.0}, {"uplift": 9820.0}],
+    ids=lambda f: next(iter(f)),
+)
+def test_a_block_that_cannot_stand_is_unstable(fault):
+    one = run(rows(ordinary(friction=0.5, **fault)), [0.0, 1.0], [0.0, 0.0], at=[0.0, 0.5])
+    assert one.outcome == "unstable"
+    assert one.summary["end_time"] == one.summary["slip"] == 0.0
+    assert one.modes == []
+
+
+class TestPainleve:
+    """A block twice as tall as wide slides downstream on its toe: from mu = 4/3 on friction can pull it in."""
+
+    start = ([0.0, 0.1, 0.0], [1.0, 0.0, 0.0])
+
+    def block(self, friction):
+        return rectangle(1.0, 2.0, friction)
+
+    @pytest.mark.parametrize("friction", [1.3, 1.4])
+    def test_it_begins_where_theory_says(self, friction):
+        assert bool(paradox_possible(ordinary(height=1.0, friction=friction))) == (friction > 4.0 / 3.0)
+        one = run(self.block(friction), [0.0, 1.0], [0.0, 0.0], start=self.start)
+        assert one.outcome == ("paradox" if friction > 4.0 / 3.0 else "ok")
+
+    def test_it_is_said_with_time_and_state(self):
+        one = run(self.block(1.6), [0.0, 1.0], [0.0, 0.0], start=self.start, at=[0.0, 0.5])
+        assert (one.outcome, one.summary["end_time"], one.modes) == ("paradox", 0.0, [])
+        assert [one.summary[n] for n in ("slip", "gap_heel", "gap_toe", "slip_velocity")] == [0.0, 0.1, 0.0, 1.0]
+
+    def test_with_jamming_it_goes_on(self):
+        one = run(self.block(1.6), [0.0, 5.0], [0.0, 0.0], start=self.start, jam=True)
+        assert (one.outcome, one.kinds[0], one.summary["jams"]) == ("ok", "jams", 1.0)
+        assert one.events["slip_velocity"][0] == 0.0
+        assert one.events["energy_lost"][0] > 0.0
+
+    @pytest.mark.parametrize("jam", [False, True])
+    def test_it_is_met_by_ordinary_motion_too(self, jam):
+        """A sliding block is pressed down, its heel unloads at a known moment, and its toe can only dig in.
+
+        While it slides T = -mu N, and the heel carries nothing once M0 = N (mu H - B_t).
+        """
+        weight, height, friction = 1000.0 * GRAVITY, 0.84, 1.6
+        block = ordinary(height=height, friction=friction, push=0.9 * weight, moment=0.9 * weight)
+        time, ground, up = [0.0, 1.0, 1.5, 2.0, 4.0], [0.0, -1.0, -1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0, 0.0]
+        one = run(rows(block), time, GRAVITY * np.array(ground), GRAVITY * np.array(up), jam=jam)
+        moment = 1.0 + 0.5 * (0.9 / (friction * height - 0.5) - 1.0)
+        assert one.kinds[0] == "slip starts"
+        if jam:
+            assert (one.outcome, one.kinds[1], one.summary["jams"]) == ("ok", "jams", 1.0)
+            assert one.events["time"][1] == pytest.approx(moment, rel=1e-9)
+        else:
+            assert one.outcome == "paradox"
+            assert one.summary["end_time"] == pytest.approx(moment, rel=1e-9)
+            assert one.summary["slip_velocity"] > 0.5
