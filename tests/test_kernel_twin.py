@@ -14,9 +14,10 @@ per piece of the record. (Halving the step would not do: an event that falls a f
 sample makes the same error with every step longer than that fraction, so steps must not be multiples.) Where E is small
 the kernel must lie within 1.5 E plus a small floor of the finest run. Cases that do not pass are tried again with finer
 steps; in the end each one agrees, is unresolved (E stays large: bouncing that the steps cannot follow, chaos) or
-differs. The last two are counted and their shares bounded; what remains of them is the twin's fault: events closer than
-its step, or bouncing that grows from nothing. That the test can fail is shown by wrong kernels: friction wrong by one
-per cent makes a quarter of all windows differ.
+differs. The last two are counted and their shares bounded. Those that differ (two windows in ten thousand) were looked
+at one by one: both corners strike within less than the finest step, a slip all but stops where static friction would
+hold it, or bouncing grows from nothing. That the test can fail is shown by wrong kernels: friction wrong by one per
+cent makes a quarter of all windows differ.
 
 Blocks for which a Painlevé paradox is possible (tall, with high friction) are left out, for there one state has several
 solutions; so are runs in which the kernel had to limit an impact's energy, of which the twin knows nothing. Their
@@ -219,8 +220,8 @@ RUN_STEPS = (29, 79, 211)
 def test_windows_agree_with_the_twin():
     verdict = windows(draw(seed=1, n=500), WINDOW_STEPS)
     assert verdict.cases > 5000
-    assert verdict.unresolved < 5e-4, verdict
-    assert verdict.differ < 5e-4, verdict
+    assert verdict.unresolved < 1e-3, verdict
+    assert verdict.differ < 1e-3, verdict
 
 
 def test_whole_runs_agree_with_the_twin():
@@ -234,8 +235,8 @@ def test_whole_runs_agree_with_the_twin():
 def test_ten_thousand_blocks_agree_with_the_twin(seed):
     sample = draw(seed, n=1000)
     verdict = windows(sample, WINDOW_STEPS)
-    assert verdict.unresolved < 4e-4, verdict
-    assert verdict.differ < 4e-4, verdict
+    assert verdict.unresolved < 6e-4, verdict
+    assert verdict.differ < 6e-4, verdict
     verdict = whole_runs(sample, RUN_STEPS)
     assert verdict.unresolved < 0.10, verdict
     assert verdict.differ < 0.02, verdict
@@ -245,7 +246,7 @@ def test_ten_thousand_blocks_agree_with_the_twin(seed):
     ("wrong", "least"),
     [
         (("friction_kinetic", 0.99), 0.2),
-        (("friction_static", 1.05), 1e-3),
+        (("friction_static", 1.05), 0.01),
         (("restitution", 0.95), 0.01),
         (("inertia", 1.02), 0.1),
         (("toe_distance", 1.01), 0.15),

@@ -112,6 +112,14 @@ def test_peaks_and_cuts_agree_with_plain_sampling(points, share):
         assert each.end_velocity == pytest.approx(v, rel=1e-9, abs=1e-9)
 
 
+def test_refining_has_a_limit():
+    with pytest.raises(
+        InputError, match=r"a step of 1e-13 s makes 1e\+11 samples; give a step that makes up to 5e\+07"
+    ):
+        motion([0.0, 1.0]).resampled(1e-13)
+    assert motion([0.0, 1.0]).resampled(1e-5).time.size == 1001
+
+
 def test_coarser_steps_are_refused():
     for step in (0.02, 0.003, 0.0, -1.0):
         with pytest.raises(InputError, match="does not divide"):

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from heeltoe import GroundMotion, InputError
-from heeltoe.records import read_text
-
-_WAVE = 0.3 * np.sin(np.arange(160) * 0.2) * np.hanning(160)
+from heeltoe.records import read_text, read_text_channels
+from record_samples import GAL, cosmos, csmip, knet, smc
+from record_samples import WAVE as _WAVE
 
 
 def _at2() -> bytes:
@@ -47,10 +47,8 @@ def _at2_of_1999() -> bytes:
 
 def _foreign() -> bytes:
     rows = "\n".join("".join(f"{981 * v:10.3f}" for v in row) for row in _WAVE.reshape(-1, 8))
-    return (
-        "CORRECTED ACCELEROGRAM   36456   CHAN  1:  90 DEG\r\nUNCORRECTED ACCELEROGRAM DATA\r\n"
-        f" 160 POINTS OF ACCEL DATA EQUALLY SPACED AT  .020 SEC, IN CM/SEC/SEC\r\n{rows}\n"
-    ).encode()
+    head = "UNCORRECTED ACCELEROGRAM DATA\r\n"
+    return f"{head}{head}{head} 160 POINTS OF DIGITIZED DATA IN CM/SEC/SEC\r\n{rows}\n".encode()
 
 
 SAMPLES = {
@@ -59,6 +57,10 @@ SAMPLES = {
     "two columns": _two_columns,
     "comma": _comma,
     "one column": _one_column,
+    "csmip": lambda: csmip({" 90 DEG": GAL, "UP": 0.5 * GAL}).encode(),
+    "cosmos": lambda: (cosmos() + cosmos("velocity") + cosmos(values=0.5 * GAL, number=2)).encode(),
+    "smc": lambda: smc().encode(),
+    "knet": lambda: knet().encode(),
 }
 _JUNK = [
     b"\x00",
@@ -74,6 +76,11 @@ _JUNK = [
     b"#",
     b"\r",
     b"g",
+    b"|",
+    b"-32768",
+    b"**********",
+    b"End-of-data",
+    b"points of accel data",
 ]
 
 
@@ -114,19 +121,21 @@ def _assault(name: str, count: int) -> tuple[int, int]:
     for _ in range(count):
         data = _mutate(sample, rng)
         try:
-            motion = read_text(data, "fuzzed.txt")
+            motions = read_text_channels(data, "fuzzed.txt", assume=False)
         except InputError as error:
             refused += 1
             complaints.append(str(error))
             continue
-        assert isinstance(motion, GroundMotion)
-        assert motion.time.shape == motion.acceleration.shape
-        assert np.isfinite(motion.time).all()
-        assert np.isfinite(motion.acceleration).all()
-        assert (np.diff(motion.time) >= 0.0).all()
-        assert motion.time.size <= len(data)
-        # What is finite may still overflow once it is integrated.
-        assert np.isfinite([motion.pga, motion.pgv, motion.pgd, motion.end_velocity, motion.dt]).all()
+        assert motions
+        for motion in motions:
+            assert isinstance(motion, GroundMotion)
+            assert motion.time.shape == motion.acceleration.shape
+            assert np.isfinite(motion.time).all()
+            assert np.isfinite(motion.acceleration).all()
+            assert (np.diff(motion.time) >= 0.0).all()
+            assert motion.time.size <= len(data)
+            # What is finite may still overflow once it is integrated.
+            assert np.isfinite([motion.pga, motion.pgv, motion.pgd, motion.end_velocity, motion.dt]).all()
         sound += 1
     assert not any("\n" in each for each in complaints)
     return sound, refused
@@ -139,7 +148,7 @@ def _check_both_kinds(sound: int, refused: int) -> None:
 
 @pytest.mark.parametrize("name", SAMPLES)
 def test_samples_are_read_as_they_are(name):
-    motion = read_text(SAMPLES[name](), "sample.txt")
+    motion = read_text_channels(SAMPLES[name](), "sample.txt")[0]
     assert motion.acceleration == pytest.approx(9.80665 * _WAVE, rel=2e-3, abs=2e-5)
     assert motion.warnings == ()
 

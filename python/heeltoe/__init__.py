@@ -10,10 +10,15 @@ if TYPE_CHECKING:
     from heeltoe.case import Case, read_case
     from heeltoe.ensemble import rigid_many
     from heeltoe.errors import HeeltoeError, InputError
+    from heeltoe.made_to_order import stochastic_motion
+    from heeltoe.matching import match
     from heeltoe.motion import GroundMotion
-    from heeltoe.records import read_record
+    from heeltoe.records import read_channels, read_record
     from heeltoe.response import Response
     from heeltoe.rigid_model import rigid
+    from heeltoe.scenario import synthetic
+    from heeltoe.spectrum import response_spectrum
+    from heeltoe.targets import asce_7, en_1998
     from heeltoe.verdicts import verdict
 
 __all__ = [
@@ -23,11 +28,18 @@ __all__ = [
     "HeeltoeError",
     "InputError",
     "Response",
+    "asce_7",
     "build_block",
+    "en_1998",
+    "match",
     "read_case",
+    "read_channels",
     "read_record",
+    "response_spectrum",
     "rigid",
     "rigid_many",
+    "stochastic_motion",
+    "synthetic",
     "verdict",
 ]
 
@@ -38,11 +50,18 @@ _HOME = {
     "HeeltoeError": "errors",
     "InputError": "errors",
     "Response": "response",
+    "asce_7": "targets",
     "build_block": "block",
+    "en_1998": "targets",
+    "match": "matching",
     "read_case": "case",
+    "read_channels": "records",
     "read_record": "records",
+    "response_spectrum": "spectrum",
     "rigid": "rigid_model",
     "rigid_many": "ensemble",
+    "stochastic_motion": "made_to_order",
+    "synthetic": "scenario",
     "verdict": "verdicts",
 }
 

@@ -12,6 +12,7 @@ import json
 import types
 import typing
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import pairwise
 
 from pydantic import BaseModel, ValidationError, WithJsonSchema
 from pydantic_core import ErrorDetails, PydanticCustomError
@@ -99,7 +100,12 @@ def _translated(detail: ErrorDetails, model: type[BaseModel]) -> InputError:
     if kind == "missing":
         return InputError("missing-field", path, example=_example(location, model))
     if kind == "literal_error":
-        return InputError("not-a-choice", path, shown(value), choices=context["expected"].replace("'", '"'))
+        return InputError("not-a-choice", path, shown(value), choices=_quoted(context["expected"]))
+    if kind in ("union_tag_not_found", "union_tag_invalid"):
+        told_by = f"{path}.{context['discriminator'].strip(chr(39))}"
+        if kind == "union_tag_not_found":
+            return InputError("missing-field", told_by, example=_tag_example(location, model))
+        return InputError("not-a-choice", told_by, shown(context["tag"]), choices=_quoted(context["expected_tags"]))
     if kind in ("greater_than", "greater_than_equal", "less_than", "less_than_equal"):
         bound = next(f"{_BOUNDS[key]} {limit:g}" for key, limit in context.items() if key in _BOUNDS)
         # The limits are SI numbers, and zero is zero in any unit.
@@ -112,14 +118,18 @@ def _translated(detail: ErrorDetails, model: type[BaseModel]) -> InputError:
     return InputError("not-usable", path, shown(value), reason=detail["msg"])
 
 
+def _quoted(choices: str) -> str:
+    return choices.replace("'", '"')
+
+
 def _path(location: Sequence[int | str]) -> str:
     """Return ``("section", "polygon", 2, 0)`` as ``section.polygon[2][0]``."""
     text = ""
-    for part in location:
+    for above, part in pairwise((None, *location)):
         if isinstance(part, int):
             text += f"[{part}]"
-        else:
-            text += f".{part}" if text else part
+        elif not isinstance(above, int):  # a name right after a place tells which kind of block stands there
+            text += f".{part}" if text else str(part)
     return text
 
 
@@ -132,12 +142,40 @@ def _block(annotation: object) -> type[BaseModel] | None:
     return None
 
 
+def _kinds(annotation: object) -> Iterator[type[BaseModel]]:
+    """Walk all models that a list of blocks of several kinds may hold."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+    for inner in typing.get_args(annotation):
+        yield from _kinds(inner)
+
+
 def _owner(location: Sequence[int | str], model: type[BaseModel]) -> type[BaseModel]:
     """Return the model of the block in which the last name of `location` stands."""
-    for name in location[:-1]:
+    kinds: list[type[BaseModel]] = []
+    for above, name in pairwise((None, *location[:-1])):
         field = model.model_fields.get(str(name))
-        model = (_block(field.annotation) if field else None) or model
+        if isinstance(above, int) and isinstance(name, str):
+            model = next((kind for kind in kinds if name in _tags(kind)), model)
+        elif field:
+            kinds = list(_kinds(field.annotation))
+            model = _block(field.annotation) or model
     return model
+
+
+def _tags(model: type[BaseModel]) -> tuple[object, ...]:
+    """Return what a block may be told by: the only value of a field."""
+    values = (typing.get_args(field.annotation) for field in model.model_fields.values() if field.is_required())
+    return tuple(tag for tags in values for tag in tags)
+
+
+def _tag_example(location: Sequence[int | str], model: type[BaseModel]) -> str:
+    """Return a first line of a block whose kind is not said."""
+    owner = _owner(location, model)
+    names = [part for part in location if isinstance(part, str)]
+    first = next(_kinds(owner.model_fields[names[-1]].annotation))
+    name, field = next(iter(first.model_fields.items()))
+    return f"{name} = {shown(typing.get_args(field.annotation)[0])}"
 
 
 def _places(model: type[BaseModel], above: str = "") -> Iterator[tuple[str, str]]:

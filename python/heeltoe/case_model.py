@@ -10,10 +10,11 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PrivateAttr, model_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PrivateAttr, WithJsonSchema, model_validator
 
 from heeltoe.case_errors import collected, shown
 from heeltoe.errors import InputError
+from heeltoe.processing_steps import ProcessingStep
 from heeltoe.quantities import (
     STANDARD_GRAVITY,
     AccelerationField,
@@ -34,6 +35,14 @@ TimeSpan = Annotated[Duration, Field(gt=0.0, le=1e5)]
 Head = Annotated[Length, Field(ge=0.0, le=1e4)]
 LARGEST_ACCELERATION = 98.0665
 """Ten g [m/s^2]; no record comes near."""
+
+# Channels of a file have numbers and directions; TOML tells 1 from "1", people do not.
+Channel = Annotated[
+    str,
+    BeforeValidator(lambda value: str(value) if isinstance(value, int) and not isinstance(value, bool) else value),
+    Field(strict=True, min_length=1),
+    WithJsonSchema({"type": ["string", "integer"], "minLength": 1}),
+]
 
 Truth = Annotated[bool, Field(strict=True)]
 Count = Annotated[int, Field(strict=True, ge=1)]
@@ -210,7 +219,10 @@ class Shaking(Block):
     """A ground motion in one direction: from a record, or drawn by points."""
 
     file: str | None = Field(default=None, strict=True, min_length=1)
-    """A record: its file, relative to the case file, or its name in the catalogue."""
+    """A record: its file, relative to the case file, or its name in the catalogue; or a motion made to order, such
+    as synthetic:M6.5,20km,seed=3."""
+    channel: Channel | None = None
+    """Which channel of a file of several, by number or by direction: 1, "90 deg", "up"."""
     points: tuple[tuple[Time, AccelerationField], ...] | None = None
     """[time, acceleration] in order of time, straight in between; twice the same time is a jump."""
     pga: AccelerationField | None = None
@@ -221,6 +233,8 @@ class Shaking(Block):
     """Unit of the numbers in a file that does not state it: g, cm/s^2, m/s^2, ..."""
     time_step: TimeSpan | None = None
     """Time between the numbers of a file that does not state it."""
+    processing: tuple[ProcessingStep, ...] = ()
+    """Steps of processing in their order, before the motion is scaled to `pga`."""
 
     @model_validator(mode="after")
     @collected
@@ -236,7 +250,7 @@ class Shaking(Block):
             for place, (_, value) in enumerate(self.points):
                 if abs(value.si(STANDARD_GRAVITY)) > LARGEST_ACCELERATION:
                     raise InputError("acceleration-range", f"points[{place}][1]", str(value))
-            for option in ("unit", "time_step"):
+            for option in ("channel", "unit", "time_step"):
                 if getattr(self, option) is not None:
                     raise InputError("motion-file-option", option)
         if self.unit is not None:

@@ -13,6 +13,17 @@ from heeltoe.errors import InputError
 Floats = NDArray[np.float64]
 
 STANDARD_GRAVITY = 9.80665
+# Of a refined motion: days of shaking at a thousandth of a second, and still within memory.
+_MOST_SAMPLES = 5e7
+
+
+def integrals(time: Floats, acceleration: Floats) -> tuple[Floats, Floats]:
+    """Return velocity and displacement from rest under an acceleration that is straight between moments, exactly."""
+    h = np.diff(time)
+    a0, a1 = acceleration[:-1], acceleration[1:]
+    v = np.concatenate([[0.0], np.cumsum(h * (a0 + a1) / 2.0)])
+    d = np.concatenate([[0.0], np.cumsum(h * v[:-1] + h**2 * (2.0 * a0 + a1) / 6.0)])
+    return v, d
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,7 +38,7 @@ class GroundMotion:
         (n,) moments [s], from zero, not decreasing; a repeated moment is a jump. Steps may differ.
     acceleration
         (n,) acceleration [m/s2]; horizontal is positive downstream, vertical positive upward.
-    event, station, component, date, format, units_as_read, source
+    event, station, component, date, channel, format, units_as_read, source
         What the file says about itself; empty where it does not.
     processing
         What the file says was done, and all that was done here.
@@ -42,6 +53,7 @@ class GroundMotion:
     station: str = ""
     component: str = ""
     date: str = ""
+    channel: str = ""
     format: str = ""
     units_as_read: str = ""
     source: str = ""
@@ -122,18 +134,10 @@ class GroundMotion:
         """Velocity at the end, from rest [m/s]; a record that is not corrected for its baseline keeps some."""
         return self._integrals[2]
 
-    def integrated(self) -> tuple[Floats, Floats]:
-        """Return velocity [m/s] and displacement [m] of the ground at the moments, from rest, exact."""
-        h = np.diff(self.time)
-        a0, a1 = self.acceleration[:-1], self.acceleration[1:]
-        v = np.concatenate([[0.0], np.cumsum(h * (a0 + a1) / 2.0)])
-        d = np.concatenate([[0.0], np.cumsum(h * v[:-1] + h**2 * (2.0 * a0 + a1) / 6.0)])
-        return v, d
-
     @cached_property
     def _integrals(self) -> tuple[float, float, float]:
         """PGV, PGD and end velocity; extremes lie at samples or where their derivative changes sign inside a piece."""
-        v, d = self.integrated()
+        v, d = integrals(self.time, self.acceleration)
         h = np.diff(self.time)
         a0, a1 = self.acceleration[:-1], self.acceleration[1:]
         crosses = a0 * a1 < 0.0
@@ -207,6 +211,8 @@ class GroundMotion:
         whole = np.rint(ratio)
         if (whole < 1.0).any() or (np.abs(ratio - whole) > 1e-6 * whole).any():
             raise InputError("motion-resample", self.name, f"{step:g} s", step=f"{self.dt:g} s")
+        if whole.sum() > _MOST_SAMPLES:
+            raise InputError("motion-samples", self.name, f"{step:g} s", count=whole.sum(), limit=_MOST_SAMPLES)
         count = whole.astype(int)
         share = np.concatenate([np.arange(n) / n for n in count])
         start = np.repeat(np.arange(count.size), count)

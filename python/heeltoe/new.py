@@ -56,9 +56,11 @@ file = "elcentro-1940-180-nga"     # a file beside this one, or a name from the 
 pga = "0.4 g"                      # leave out to take the record as it is
 # reverse = true                   # the other sign can be the worse one: try both
 # duration = "30 s"                # leave out for the whole record
+# channel = "90 deg"               # of a file with several: by number or by direction
 # unit = "cm/s^2"                  # of a file that does not state it
 # time_step = "0.02 s"             # of a file with one column that does not state it
-# vertical = {{ file = "elcentro-1940-up-nga" }}   # positive up; pga, reverse, unit, time_step as above
+# processing = [{{ step = "band-pass", low = "0.1 Hz", high = "25 Hz" }}, {{ step = "baseline" }}]   # before scaling
+# vertical = {{ file = "elcentro-1940-up-nga" }}   # positive up; pga, channel and so on as above
 # allow_zero = true                # accept a motion that is zero throughout
 # Or draw the motion, instead of file; the same time twice is a jump:
 # points = [["0 s", "0 g"], ["0.5 s", "0.4 g"], ["1 s", "0 g"]]

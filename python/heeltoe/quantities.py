@@ -25,6 +25,7 @@ STANDARD_GRAVITY = 9.80665
 # 15 m), and wrongly.
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\d\s.,+-].{0,39})?", re.DOTALL)
 _PARTS = {"": 1.0, "%": 0.01, "percent": 0.01}
+_FREQUENCY = re.compile(r"[mkM]?Hz|hertz|1/s|s\^-1")
 _UNIT = re.compile(r"[A-Za-z%µμ_0-9()*/^²³⁻·. -]+")
 
 
@@ -43,6 +44,8 @@ DIMENSIONS = {
     "pressure": Dimension("a pressure or modulus", "Pa", "20 GPa"),
     "duration": Dimension("a time", "s", "30 s"),
     "acceleration": Dimension("an acceleration", "m/s^2", "0.4 g"),
+    "velocity": Dimension("a velocity", "m/s", "0.5 m/s"),
+    "frequency": Dimension("a frequency", "Hz", "0.1 Hz"),
     "number": Dimension("a number", "", 1.0),
 }
 
@@ -106,8 +109,8 @@ def parse_acceleration(value: object, field: str) -> Acceleration:
 
 
 def acceleration_unit(unit: str, field: str) -> Acceleration:
-    """Return what one `unit` (``"g"``, ``"cm/s^2"``, ...) of a record's numbers is."""
-    return parse_acceleration(f"1 {unit}", field)
+    """Return what one `unit` (``"g"``, ``"cm/s^2"``, ...) of a record's numbers is; many headers write ``G``."""
+    return parse_acceleration(f"1 {'g' if unit.strip() == 'G' else unit}", field)
 
 
 @functools.cache
@@ -154,6 +157,9 @@ def _factor(unit: str, value: object, dimension: str, field: str) -> float:
         if not wanted.unit:
             # Not by way of pint, to which a degree is a number too: a friction of "45 deg" is not 0.785.
             factor = _PARTS.get(unit)
+        elif dimension == "frequency" and not _FREQUENCY.fullmatch(unit):
+            # To pint a radian is 1, so that 1 rad/s would be 1 Hz.
+            factor = None
         elif _UNIT.fullmatch(unit):
             factor = _conversion(unit, wanted.unit)
         else:
@@ -199,6 +205,10 @@ Pressure = Annotated[float, BeforeValidator(_validator("pressure")), _written("p
 """A pressure or modulus [Pa] for pydantic models."""
 Duration = Annotated[float, BeforeValidator(_validator("duration")), _written("duration"), _schema("duration")]
 """A time [s] for pydantic models."""
+Velocity = Annotated[float, BeforeValidator(_validator("velocity")), _written("velocity"), _schema("velocity")]
+"""A velocity, or an Arias intensity [m/s], for pydantic models."""
+Frequency = Annotated[float, BeforeValidator(_validator("frequency")), _written("frequency"), _schema("frequency")]
+"""A frequency [Hz] for pydantic models."""
 Gravity = Annotated[
     float,
     BeforeValidator(_validator("acceleration")),

@@ -15,9 +15,12 @@ import pyarrow.parquet
 from numpy.typing import NDArray
 
 from heeltoe import _kernel
+from heeltoe.measures import measures
 from heeltoe.motion import GroundMotion
 
 Floats = NDArray[np.float64]
+
+_MEASURES = ("arias_intensity_m_s", "cav_m_s", "significant_duration_s", "mean_period_s", "end_velocity_m_s")
 
 #: Outcomes of a run; only the first comes with a result to trust.
 OUTCOMES = ("ok", "unstable", "paradox", "event limit", "cycling")
@@ -171,6 +174,7 @@ def _write(table: pa.Table, path: Path) -> None:
 
 def motion_json(motion: GroundMotion, gravity: float) -> dict[str, Any]:
     """Return what the contract says about a ground motion; `gravity` is one g [m/s2]."""
+    found = measures(motion, gravity)
     return {
         "name": motion.name,
         "pga_g": motion.pga / gravity,
@@ -179,6 +183,7 @@ def motion_json(motion: GroundMotion, gravity: float) -> dict[str, Any]:
         "dt_s": motion.dt,
         "duration_s": motion.duration,
         "samples": int(motion.time.size),
+        **{name: found[name] for name in _MEASURES if name in found},
         "source": motion.source,
         "processing": list(motion.processing),
     }

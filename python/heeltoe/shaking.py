@@ -6,13 +6,16 @@ from dataclasses import replace
 from pathlib import Path
 
 from heeltoe.case_model import Motion, Shaking
+from heeltoe.errors import InputError
 from heeltoe.motion import GroundMotion, check
+from heeltoe.processing import process
 from heeltoe.records import read_record
 from heeltoe.records.catalog import find
+from heeltoe.scenario import PREFIX, synthetic
 
 
 def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[GroundMotion, GroundMotion | None]:
-    """Read, scale, reverse and cut the ground motions of a case, in this order, and check them.
+    """Read, process, scale, reverse and cut the ground motions of a case, in this order, and check them.
 
     A peak asked for is the peak of the whole record. A vertical motion without a peak of its own is scaled by the
     same factor as the horizontal one, as both were recorded together.
@@ -59,14 +62,27 @@ def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[Grou
 
 
 def _read(shaking: Shaking, gravity: float, base_directory: Path, field: str) -> GroundMotion:
+    """Read, or make, the motion, and process it."""
+    motion = _source(shaking, gravity, base_directory, field)
+    return process(motion, shaking.processing, gravity, field=f"{field}.processing")
+
+
+def _source(shaking: Shaking, gravity: float, base_directory: Path, field: str) -> GroundMotion:
     if shaking.points is not None:
         time = [moment for moment, _ in shaking.points]
         values = [value.si(gravity) for _, value in shaking.points]
         motion = GroundMotion.from_points(time, values, name="points of the case")
         return replace(motion, format="points", source="the case")
     assert shaking.file is not None
+    if shaking.file.startswith(PREFIX):
+        for option in ("channel", "unit", "time_step"):
+            if getattr(shaking, option) is not None:
+                raise InputError("synthetic-option", f"{field}.{option}")
+        return synthetic(shaking.file, gravity=gravity, field=f"{field}.file")
     path = find(shaking.file, base_directory, field=f"{field}.file")
-    motion = read_record(path, unit=shaking.unit, time_step=shaking.time_step, gravity=gravity, field=field)
+    motion = read_record(
+        path, shaking.channel, unit=shaking.unit, time_step=shaking.time_step, gravity=gravity, field=field
+    )
     component = motion.component.lower()
     if field == "motion.vertical" and (component.startswith(("down", "dwn")) or "positive down" in component):
         motion = replace(
@@ -74,7 +90,9 @@ def _read(shaking: Shaking, gravity: float, base_directory: Path, field: str) ->
             processing=(*motion.processing, "the record counts down as positive: turned to up"),
         )
     # The name a user gave is the one that tells versions of a record apart.
-    return motion if path.stem == shaking.file else replace(motion, name=Path(shaking.file).stem)
+    if path.stem == shaking.file:
+        return motion
+    return replace(motion, name=Path(shaking.file).stem + motion.name.removeprefix(path.stem))
 
 
 def _finish(motion: GroundMotion, shaking: Shaking, duration: float | None) -> GroundMotion:

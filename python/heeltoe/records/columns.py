@@ -1,6 +1,7 @@
 """Plain columns: time and acceleration, or acceleration alone; a header in words or behind ``#`` if there is one.
 
-Columns are parted by blanks, tabs, commas or semicolons. A header may state the unit and the step::
+Columns are parted by blanks, tabs, commas or semicolons; beside semicolons and tabs, commas are decimal. A header may
+state the unit and the step::
 
     # time step: 0.02 s
     # units: column 1 time [s], column 2 acceleration [g]
@@ -14,7 +15,8 @@ import re
 import numpy as np
 
 from heeltoe.errors import InputError
-from heeltoe.records.raw import RawRecord, numbers
+from heeltoe.records.cells import is_data, parted, with_points
+from heeltoe.records.raw import RawRecord, counted, numbers
 
 FORMAT = "columns"
 
@@ -40,14 +42,9 @@ _SECONDS, _MILLISECONDS = r"s|secs?|seconds?", r"ms|msecs?|milliseconds?"
 _TIME_IN_MS = re.compile(rf"\bt(?:ime)?\s*[\[(]\s*(?:{_MILLISECONDS})\s*[\])]", re.IGNORECASE)
 _STATED = re.compile(r"(?:number of points|points|npts|samples)\s*[:=]\s*(\d{1,12})\b", re.IGNORECASE)
 _HEADER_LINES, _HEADER_WIDTH = 100, 400
-_SEPARATORS = str.maketrans({",": " ", ";": " ", "\t": " "})
+# A line of data is shorter; of a longer one, a part tells what it is.
+_DATA_WIDTH, _MOST_COLUMNS = 4000, 20
 _ABOUT = re.compile(r"^(event|earthquake|station|component|date|processing)\s*[:=]\s*(.+)$", re.IGNORECASE)
-
-
-def _is_data(line: str) -> bool:
-    """Whether a line starts with something that wants to be a number; a NaN does, or it would pass for a header."""
-    word = line.translate(_SEPARATORS).split()[:1]
-    return bool(word) and re.match(r"[-+]?(?:\.?\d|(?:nan|inf)$)", word[0], re.IGNORECASE) is not None
 
 
 def _split(lines: list[str]) -> tuple[list[str], int]:
@@ -55,30 +52,33 @@ def _split(lines: list[str]) -> tuple[list[str], int]:
     header: list[str] = []
     for k, line in enumerate(lines):
         text = line.strip()
-        if text and not text.startswith(("#", "%", "//")) and _is_data(text):
+        if text and not text.startswith(("#", "%", "//")) and is_data(text[:_HEADER_WIDTH]):
             return header, k
         # What a header has to say it says early; a long one must not slow the search down.
         if k < _HEADER_LINES:
-            header.append(text.lstrip("#%/ ").strip()[:_HEADER_WIDTH])
+            header.append(text.replace('"', "").lstrip("#%/ ").strip()[:_HEADER_WIDTH])
     return header, len(lines)
 
 
 def matches(lines: list[str]) -> bool:
-    """Whether there are lines of one or two numbers, alike, after a header of any kind."""
+    """Whether there are lines of as many numbers, after a header of any kind."""
     _, first = _split(lines)
-    data = [line for line in lines[first : first + 20] if line.strip()]
+    data = [parted(line[:_DATA_WIDTH].split("#")[0]).split() for line in lines[first : first + 20] if line.strip()]
     if not data:
         return False
-    widths = [len(line.translate(_SEPARATORS).split()) for line in data]
-    # A line or two may be spoilt; the reader names them.
-    return widths[0] in (1, 2) and widths.count(widths[0]) > len(widths) / 3
+    widths = [len(words) for words in data]
+    # Prose may begin with a number. A line or two may be spoilt; the reader names them.
+    numeric = widths[0] <= 2 or all(map(is_data, data[0][:_MOST_COLUMNS]))
+    return numeric and widths.count(widths[0]) > len(widths) / 3
 
 
-def read(lines: list[str], name: str) -> RawRecord:
+def read(lines: list[str], name: str) -> list[RawRecord]:
     """Read a file that matches."""
     header, first = _split(lines)
-    data = [line.split("#")[0].translate(_SEPARATORS) for line in lines[first:]]
+    data = [parted(line.split("#")[0]) for line in with_points(lines[first:], name, first + 1)]
     width = len(data[0].split())
+    if width > 2:
+        raise InputError("record-columns", name, width)
     for k, line in enumerate(data):
         if len(line.split()) not in (0, width):
             raise InputError("record-ragged", name, f"{len(line.split())} columns", line=first + k + 1, width=width)
@@ -92,10 +92,10 @@ def read(lines: list[str], name: str) -> RawRecord:
         if found := _ABOUT.match(line):
             about[found[1].lower().replace("earthquake", "event")] = found[2].strip()
     processing = (about.pop("processing"),) if "processing" in about else ()
-    warnings = []
+    warnings: list[str] = []
     stated = _STATED.search(said)
-    if stated and int(stated[1]) != len(table):
-        warnings.append(f"{name} states {stated[1]} values and has {len(table)}: all of them are used")
+    if stated:
+        warnings.extend(counted(table[:, 0], int(stated[1]), name))
     step = next((value for line in header if (value := _step(line)) is not None), None)
     time = np.ascontiguousarray(table[:, 0]) if width == 2 else None
     if time is not None and any(_TIME_IN_MS.search(line) for line in header):
@@ -105,7 +105,7 @@ def read(lines: list[str], name: str) -> RawRecord:
         median = float(np.median(np.diff(time)))
         if abs(median - step) > 0.01 * step:
             warnings.append(f"{name} states a step of {step:g} s, but its times are {median:g} s apart: they are used")
-    return RawRecord(
+    record = RawRecord(
         np.ascontiguousarray(table[:, -1]),
         time=time,
         time_step=step if time is None else None,
@@ -114,6 +114,7 @@ def read(lines: list[str], name: str) -> RawRecord:
         processing=processing,
         warnings=tuple(warnings),
     )
+    return [record]
 
 
 def _unit(header: list[str]) -> str | None:

@@ -14,15 +14,13 @@ from __future__ import annotations
 import re
 
 from heeltoe.errors import InputError
-from heeltoe.quantities import acceleration_unit
-from heeltoe.records.raw import RawRecord, numbers, unglued
+from heeltoe.records.raw import NUMBER, RawRecord, counted, numbers, real, unglued, word_of_unit
 
 FORMAT = "PEER AT2"
 
-_NUMBER = r"([-+]?(?:\d+\.?\d*|\.\d+)(?:[ED][-+]?\d+)?)"
 _COUNTS = (
-    re.compile(rf"NPTS\s*=\s*{_NUMBER}\s*,?\s*DT\s*=\s*{_NUMBER}", re.IGNORECASE),
-    re.compile(rf"^\s*{_NUMBER}\s*,?\s+{_NUMBER}\s*,?\s*NPTS\s*,\s*DT", re.IGNORECASE),
+    re.compile(rf"NPTS\s*=\s*({NUMBER})\s*,?\s*DT\s*=\s*({NUMBER})", re.IGNORECASE),
+    re.compile(rf"^\s*({NUMBER})\s*,?\s+({NUMBER})\s*,?\s*NPTS\s*,\s*DT", re.IGNORECASE),
 )
 # The line with the counts is the fourth; some distributors add or drop a line.
 _HEADER_LINES, _HEADER_WIDTH = 12, 400
@@ -41,7 +39,7 @@ def matches(lines: list[str]) -> bool:
     return _counts(lines) is not None
 
 
-def read(lines: list[str], name: str) -> RawRecord:
+def read(lines: list[str], name: str) -> list[RawRecord]:
     """Read a file that matches."""
     found = _counts(lines)
     assert found is not None
@@ -52,31 +50,23 @@ def read(lines: list[str], name: str) -> RawRecord:
     if other := re.search(r"(velocity|displacement)\s+time\s+(?:series|history)", words):
         raise InputError("record-not-acceleration", name, other[1])
     values = numbers(lines[k + 1 :], name, k + 2)
-    stated = float(count_text.upper().replace("D", "E"))
-    warnings = []
-    if stated != values.size:
-        warnings.append(f"{name} states {stated:g} values and has {values.size}: all of them are used")
+    warnings = [*counted(values, real(count_text), name)]
     if _torn(lines[k + 1 :]):
         warnings.append(f"{name} ends in the middle of a number: its last value may be wrong")
-    return RawRecord(
+    record = RawRecord(
         values,
-        time_step=float(step_text.upper().replace("D", "E")),
+        time_step=real(step_text),
         unit=_unit(words),
         about=_about(header),
         processing=_processing(words),
         warnings=tuple(warnings),
     )
+    return [record]
 
 
 def _unit(words: str) -> str | None:
     found = re.search(r"units? (?:of|are|in|:)\s*\(?\s*([a-z0-9/^*.]+)", words)
-    unit = found[1].rstrip(".") if found else ""
-    try:
-        acceleration_unit(unit, "")
-    except InputError as error:
-        # A word that is no unit states none, and the user can; one of another quantity is told to the user.
-        return unit if error.code == "wrong-quantity" else None
-    return unit
+    return word_of_unit(found[1]) if found else None
 
 
 def _processing(words: str) -> tuple[str, ...]:

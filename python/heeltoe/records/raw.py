@@ -9,8 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.errors import InputError
+from heeltoe.quantities import acceleration_unit
 
 Floats = NDArray[np.float64]
+
+#: A number of Fortran's, for patterns that ignore case; see :func:`real`.
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[ED][-+]?\d+)?"
 
 
 @dataclass
@@ -33,6 +37,8 @@ class RawRecord:
         What the file says was done to the record.
     warnings
         What does not fit together in the file.
+    channel
+        Number of the channel as the file states it; empty where it does not.
     """
 
     values: Floats
@@ -42,9 +48,10 @@ class RawRecord:
     about: dict[str, str] = field(default_factory=dict)
     processing: tuple[str, ...] = ()
     warnings: tuple[str, ...] = ()
+    channel: str = ""
 
 
-def numbers(lines: list[str], name: str, first_line: int) -> Floats:
+def numbers(lines: list[str], name: str, first_line: int, width: int = 0) -> Floats:
     """Read all numbers of some lines, any white space between them, Fortran's D exponents and glued columns too.
 
     Parameters
@@ -55,6 +62,8 @@ def numbers(lines: list[str], name: str, first_line: int) -> Floats:
         Of the file, for errors.
     first_line
         Number of the first of them in the file, for errors.
+    width
+        Width of Fortran's columns where it is known. Positive numbers that fill theirs leave no gap (8F10.6 of 100.5).
 
     Raises
     ------
@@ -70,7 +79,10 @@ def numbers(lines: list[str], name: str, first_line: int) -> Floats:
             pass
     values: list[float] = []
     for number, line in enumerate(lines, first_line):
-        for word in unglued(line).split():
+        words = unglued(line).split()
+        if width and any(word.count(".") > 1 for word in words):
+            words = [line[k : k + width].strip() for k in range(0, len(line.rstrip()), width)]
+        for word in words:
             try:
                 if "_" in word or not word.isascii():
                     raise ValueError
@@ -78,6 +90,59 @@ def numbers(lines: list[str], name: str, first_line: int) -> Floats:
             except ValueError:
                 raise InputError("record-number", name, repr(word[:30]), line=number) from None
     return np.array(values)
+
+
+def real(text: str) -> float:
+    """Return the number that a text of the pattern :data:`NUMBER` is."""
+    return float(text.upper().replace("D", "E"))
+
+
+def plain(text: str) -> str:
+    """Return a line of a header without the blanks that fill its columns."""
+    return " ".join(text.split())
+
+
+def counted(values: Floats, stated: float, name: str) -> tuple[str, ...]:
+    """Return a warning where a file states another number of values than it has."""
+    if values.size == stated:
+        return ()
+    return (f"{name} states {stated:g} values and has {values.size}: all of them are used",)
+
+
+def peaked(values: Floats, stated: str, name: str, share: float = 1e-3) -> tuple[str, ...]:
+    """Return a warning where the peak of the values is not the stated one.
+
+    Parameters
+    ----------
+    values
+        The values.
+    stated
+        The peak as the file writes it, in the unit of the values; its last digit may be rounded.
+    name
+        Of the file.
+    share
+        Share of the peak by which the two may differ beyond that.
+    """
+    peak = abs(real(stated))
+    found = float(np.abs(values).max(initial=0.0))
+    last_digit = 0.0 if stated.upper().isupper() else 10.0 ** -len(stated.partition(".")[2])
+    # A value that is not a number is refused later, by its place.
+    if not abs(found - peak) > last_digit + share * peak:
+        return ()
+    return (f"{name} states a peak of {peak:g} and has {found:.6g}: what it has is used",)
+
+
+def word_of_unit(word: str) -> str | None:
+    """Return the unit a word of a header stands for; None where it is no unit, and the user must tell.
+
+    A unit of another quantity is returned too: the user is told that it is none of acceleration.
+    """
+    unit = re.sub(r"/s(?:/s|\*\*2|2)$", "/s^2", word.lower().strip().rstrip(".").replace("sec", "s"))
+    try:
+        acceleration_unit(unit, "")
+    except InputError as error:
+        return unit if error.code == "wrong-quantity" else None
+    return unit
 
 
 def unglued(line: str) -> str:

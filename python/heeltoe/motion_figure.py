@@ -1,0 +1,71 @@
+"""The figure of a ground motion: histories, Fourier amplitudes, response spectrum."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.figure import Figure
+
+from heeltoe.figures import COLOURS, STYLE
+from heeltoe.measures import fourier_amplitudes, velocity_displacement
+from heeltoe.motion import GroundMotion
+from heeltoe.spectrum import response_spectrum
+
+
+def write_motion_figure(motion: GroundMotion, gravity: float, path: Path) -> Path:
+    """Write the figure of a motion to `path` (its ending says the format) and return the path."""
+    with mpl.rc_context(STYLE):
+        motion_figure(motion, gravity).savefig(path, dpi=150)
+    return path
+
+
+def motion_figure(motion: GroundMotion, gravity: float) -> Figure:
+    """Draw acceleration, velocity and displacement over time, Fourier amplitudes and the 5 % response spectrum."""
+    figure = Figure(figsize=(7.5, 8.0), layout="constrained")
+    grid = figure.add_gridspec(4, 2, height_ratios=[1.0, 0.8, 0.8, 1.7])
+    about = ", ".join(part for part in (motion.event, motion.station, motion.component, motion.date) if part)
+    figure.suptitle(f"{motion.name}\n{about or 'no origin stated'}", fontsize=10, x=0.01, ha="left")
+    velocity, displacement = velocity_displacement(motion)
+    top = figure.add_subplot(grid[0, :])
+    panels = (
+        (top, motion.acceleration / gravity, f"acceleration [g]\nPGA {motion.pga / gravity:.3g}"),
+        (figure.add_subplot(grid[1, :], sharex=top), velocity, f"velocity [m/s]\nPGV {motion.pgv:.3g}"),
+        (figure.add_subplot(grid[2, :], sharex=top), displacement, f"displacement [m]\nPGD {motion.pgd:.3g}"),
+    )
+    for axes, values, label in panels:
+        axes.plot(motion.time, values, color=COLOURS["ground"], linewidth=0.7)
+        axes.set_ylabel(label)
+        axes.set_xlim(0.0, motion.duration)
+    panels[-1][0].set_xlabel("time [s]")
+
+    frequency, amplitude = fourier_amplitudes(motion)
+    fourier = figure.add_subplot(grid[3, 0])
+    shown = (frequency >= 0.05) & (amplitude > 0.0)
+    fourier.loglog(frequency[shown], amplitude[shown], color=COLOURS["slip"], linewidth=0.6)
+    fourier.set_xlabel("frequency [Hz]")
+    fourier.set_ylabel("Fourier amplitude [m/s]")
+    if shown.any():
+        largest = amplitude[shown].max()
+        fourier.set_ylim(largest * 1e-4, largest * 2.0)
+
+    spectrum = response_spectrum(motion)
+    response = figure.add_subplot(grid[3, 1])
+    response.semilogx(spectrum.period, spectrum.pseudo_acceleration / gravity, color=COLOURS["rotation"])
+    response.axhline(motion.pga / gravity, color=COLOURS["limit"], linestyle="--", linewidth=0.9)
+    response.annotate(
+        "PGA",
+        (spectrum.period[-1], motion.pga / gravity),
+        xytext=(0, 3),
+        textcoords="offset points",
+        ha="right",
+        fontsize=7,
+    )
+    response.set_xlabel("period [s]")
+    response.set_ylabel("pseudo-acceleration [g], 5 %")
+    response.set_ylim(bottom=0.0)
+    response.set_xlim(spectrum.period[0], spectrum.period[-1])
+    for axes in (fourier, response):
+        axes.xaxis.set_major_formatter(lambda value, _: np.format_float_positional(value, trim="-"))
+    return figure

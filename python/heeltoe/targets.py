@@ -1,0 +1,169 @@
+"""Target response spectra: of standards, or of a table; pseudo-acceleration as a function of period."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from heeltoe.errors import InputError
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Target:
+    """A response spectrum to be met; call it with periods [s] for pseudo-accelerations [m/s2].
+
+    Attributes
+    ----------
+    name
+        What it is called in every output.
+    damping
+        Damping ratio it stands for.
+    shortest, longest
+        Periods [s] between which it is defined.
+    ordinate
+        Pseudo-acceleration [m/s2] of an array of periods in that range.
+    """
+
+    name: str
+    damping: float
+    shortest: float
+    longest: float
+    ordinate: Callable[[Floats], Floats]
+
+    def __call__(self, periods: ArrayLike) -> Floats:
+        """Return the pseudo-accelerations [m/s2] at `periods` [s]."""
+        period = np.asarray(periods, dtype=np.float64)
+        outside = ~((period >= self.shortest) & (period <= self.longest))
+        if outside.any():
+            bounds = f"{self.shortest:g} s to {self.longest:g} s"
+            raise InputError("target-period", "periods", f"{period[outside][0]:g} s", name=self.name, bounds=bounds)
+        return self.ordinate(period)
+
+
+# S, TB [s], TC [s], TD [s] of EN 1998-1:2004, table 3.2 (type 1) and table 3.3 (type 2), the recommended values.
+_EN_1998 = {
+    1: {
+        "A": (1.0, 0.15, 0.4, 2.0),
+        "B": (1.2, 0.15, 0.5, 2.0),
+        "C": (1.15, 0.20, 0.6, 2.0),
+        "D": (1.35, 0.20, 0.8, 2.0),
+        "E": (1.4, 0.15, 0.5, 2.0),
+    },
+    2: {
+        "A": (1.0, 0.05, 0.25, 1.2),
+        "B": (1.35, 0.05, 0.25, 1.2),
+        "C": (1.5, 0.10, 0.25, 1.2),
+        "D": (1.8, 0.10, 0.30, 1.2),
+        "E": (1.6, 0.05, 0.25, 1.2),
+    },
+}
+
+
+def en_1998(peak: float, ground: str = "A", type_: int = 1, damping: float = 0.05) -> Target:
+    """Return the horizontal elastic response spectrum of EN 1998-1:2004, equations (3.2) to (3.6), up to 4 s.
+
+    Parameters
+    ----------
+    peak
+        Design ground acceleration on ground type A, a_g [m/s2], with the importance factor in it.
+    ground
+        Ground type, A to E.
+    type_
+        1 for regions of strong earthquakes, 2 where magnitudes stay below 5.5.
+    damping
+        Damping ratio; eta = sqrt(10 / (5 + 100 damping)), at least 0.55.
+    """
+    _check_positive("peak", peak, "m/s2")
+    if type_ not in _EN_1998:
+        raise InputError("target-type", "type_", type_)
+    if ground not in _EN_1998[type_]:
+        raise InputError("target-ground", "ground", ground)
+    if not 0.0 <= damping <= 1.0:
+        raise InputError("target-value", "damping", f"{damping:g}", bounds="a ratio from 0 to 1")
+    soil, tb, tc, td = _EN_1998[type_][ground]
+    eta = max(0.55, float(np.sqrt(10.0 / (5.0 + 100.0 * damping))))
+
+    def ordinate(period: Floats) -> Floats:
+        flat = 2.5 * eta
+        # The branches agree where they meet, so the smallest of the last three is the one that holds.
+        safe = np.maximum(period, tb)
+        falling = flat * np.minimum(1.0, np.minimum(tc / safe, tc * td / safe**2))
+        return peak * soil * np.where(period < tb, 1.0 + period / tb * (flat - 1.0), falling)
+
+    return Target(f"EN 1998-1 type {type_}, ground {ground}, a_g {peak:.4g} m/s2", damping, 0.0, 4.0, ordinate)
+
+
+def asce_7(short: float, one_second: float, transition: float) -> Target:
+    """Return the two-period design spectrum of ASCE/SEI 7-16 (11.4.6) and 7-22 (11.4.5.2), at 5 % damping.
+
+    Parameters
+    ----------
+    short
+        Design acceleration at short periods, S_DS [m/s2].
+    one_second
+        Design acceleration at 1 s, S_D1 [m/s2].
+    transition
+        Long-period transition period, T_L [s].
+    """
+    for name, value, unit in (
+        ("short", short, "m/s2"),
+        ("one_second", one_second, "m/s2"),
+        ("transition", transition, "s"),
+    ):
+        _check_positive(name, value, unit)
+    corner = one_second / short
+    if transition < corner:
+        raise InputError(
+            "target-value", "transition", f"{transition:g} s", bounds=f"at least S_D1 / S_DS, {corner:g} s"
+        )
+    start = 0.2 * corner
+
+    def ordinate(period: Floats) -> Floats:
+        safe = np.maximum(period, start)
+        falling = np.minimum(short, np.minimum(one_second / safe, one_second * transition / safe**2))
+        return np.where(period < start, short * (0.4 + 0.6 * period / start), falling)
+
+    name = f"ASCE 7, S_DS {short:.4g} m/s2, S_D1 {one_second:.4g} m/s2, T_L {transition:g} s"
+    return Target(name, 0.05, 0.0, float("inf"), ordinate)
+
+
+def table(periods: ArrayLike, accelerations: ArrayLike, damping: float = 0.05, name: str = "table") -> Target:
+    """Return a spectrum through given points, straight on double logarithmic axes.
+
+    From a period of zero, which has no logarithm, to the next point it is straight on plain axes.
+
+    Parameters
+    ----------
+    periods
+        (k,) ascending periods [s].
+    accelerations
+        (k,) pseudo-accelerations [m/s2], above zero.
+    damping
+        Damping ratio they stand for.
+    name
+        What the spectrum is called.
+    """
+    t, a = np.array(periods, dtype=np.float64), np.array(accelerations, dtype=np.float64)
+    if t.ndim != 1 or t.shape != a.shape or t.size < 2 or not (np.isfinite(t).all() and np.isfinite(a).all()):
+        raise InputError("target-table", "periods")
+    if t[0] < 0.0 or (np.diff(t) <= 0.0).any() or (a <= 0.0).any():
+        raise InputError("target-table", "periods")
+    positive = t > 0.0
+    logs = np.log(t[positive]), np.log(a[positive])
+    first = t[positive][0]
+
+    def ordinate(period: Floats) -> Floats:
+        result: Floats = np.exp(np.interp(np.log(np.maximum(period, first)), *logs))
+        return np.where(period < first, np.interp(period, t[:2], a[:2]), result)
+
+    return Target(name, damping, float(t[0]), float(t[-1]), ordinate)
+
+
+def _check_positive(name: str, value: float, unit: str) -> None:
+    if not (np.isfinite(value) and value > 0.0):
+        raise InputError("target-value", name, f"{value:g} {unit}", bounds="a value above 0")
