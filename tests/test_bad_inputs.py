@@ -140,6 +140,7 @@ ARGUMENTS = {
     "report": (["run", "case.toml", "--report", "--out", "out"], ["--report", "later release"]),
     "out in a place of the system": (["run", "case.toml", "--out", "/proc/heeltoe"], ["/proc/heeltoe", "written"]),
     "new over an old one": (["new", "case"], ["case.toml", "there already"]),
+    "figure without an ending": (["motion", "quake.txt", "--figure", "x.doc"], ["--figure", "x.doc", ".png"]),
     "new in no directory": (["new", "no/where"], ["no"]),
 }
 

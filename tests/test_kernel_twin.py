@@ -14,10 +14,10 @@ per piece of the record. (Halving the step would not do: an event that falls a f
 sample makes the same error with every step longer than that fraction, so steps must not be multiples.) Where E is small
 the kernel must lie within 1.5 E plus a small floor of the finest run. Cases that do not pass are tried again with finer
 steps; in the end each one agrees, is unresolved (E stays large: bouncing that the steps cannot follow, chaos) or
-differs. The last two are counted and their shares bounded. Those that differ (two windows in ten thousand) were looked
-at one by one: both corners strike within less than the finest step, a slip all but stops where static friction would
-hold it, or bouncing grows from nothing. That the test can fail is shown by wrong kernels: friction wrong by one per
-cent makes a quarter of all windows differ.
+differs. The last two are counted and their shares bounded. Of the windows that differ, two in ten thousand, the ones
+looked into were of three kinds that no step resolves: both corners strike within less than the finest step, a slip all
+but stops where static friction would hold it, bouncing grows from nothing. That the test can fail is shown by wrong
+kernels: friction wrong by one per cent makes a quarter of all windows differ.
 
 Blocks for which a Painlevé paradox is possible (tall, with high friction) are left out, for there one state has several
 solutions; so are runs in which the kernel had to limit an impact's energy, of which the twin knows nothing. Their

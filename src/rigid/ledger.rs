@@ -3,13 +3,25 @@
 //! Input is the work of all applied loads and of the ground's inertia force on the motion relative to the ground;
 //! on a piece force is linear and velocity quadratic in time, so the work is a polynomial in the piece's length.
 
+/// Work, and how much goes to and fro in it: the parts of a constant force and of its change by themselves. Their sum
+/// may vanish where neither does, and is no scale to judge rounding by.
+#[derive(Clone, Copy, Debug)]
+pub struct Work {
+    pub net: f64,
+    pub size: f64,
+}
+
 /// `(f0 + f1 t)(v0 + a0 t + a1 t^2 / 2)` integrated from 0 to `end`.
 #[inline]
-pub fn work(force: [f64; 2], v0: f64, a: [f64; 2], end: f64) -> f64 {
+pub fn work(force: [f64; 2], v0: f64, a: [f64; 2], end: f64) -> Work {
     let t = end;
     let path = t * (v0 + t * (a[0] / 2.0 + t * a[1] / 6.0));
     let moment = t * t * (v0 / 2.0 + t * (a[0] / 3.0 + t * a[1] / 8.0));
-    force[0] * path + force[1] * moment
+    let (steady, changing) = (force[0] * path, force[1] * moment);
+    Work {
+        net: steady + changing,
+        size: steady.abs() + changing.abs(),
+    }
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -23,14 +35,14 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    pub fn apply(&mut self, work: f64) {
-        self.input += work;
-        self.turnover += work.abs();
+    pub fn apply(&mut self, work: Work) {
+        self.input += work.net;
+        self.turnover += work.size;
     }
 
-    pub fn rub(&mut self, work: f64) {
-        self.friction -= work;
-        self.turnover += work.abs();
+    pub fn rub(&mut self, work: Work) {
+        self.friction -= work.net;
+        self.turnover += work.size;
     }
 
     pub fn strike(&mut self, lost: f64) {
@@ -63,6 +75,6 @@ mod tests {
                 (f[0] + f[1] * t) * (v0 + a[0] * t + a[1] * t * t / 2.0) * step
             })
             .sum();
-        assert!((work(f, v0, a, end) - sum).abs() < 1e-9);
+        assert!((work(f, v0, a, end).net - sum).abs() < 1e-9);
     }
 }

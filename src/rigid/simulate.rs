@@ -11,6 +11,9 @@ use super::impact::{impact, jam, Impact};
 use super::ledger::{work, Ledger};
 use super::mode::{accelerations, cone, select, Mode, Piece, Reactions, VIOLATION};
 
+/// A slip slower than this many times the bound of bounces may jam unasked; it would end within a nanometre or so.
+const CRAWL: f64 = 100.0;
+
 /// Ground motion as read by the kernel: linear between samples; a repeated time is a jump.
 #[derive(Clone, Copy)]
 pub struct Motion<'a> {
@@ -346,7 +349,7 @@ impl Walk<'_, '_> {
         };
         let mut after = pick(self);
         // A slip too slow to matter may jam unasked.
-        let crawls = self.summary.velocity[SLIP].abs() < self.settle;
+        let crawls = self.summary.velocity[SLIP].abs() < CRAWL * self.settle;
         if after.is_none() && (self.options.jam || crawls) {
             let closed = self.closed();
             if let Some(stop) = jam(self.block, &self.summary.velocity, closed) {
