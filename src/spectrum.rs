@@ -169,9 +169,18 @@ impl Piece<'_> {
             return 0.0;
         }
         let bend = |state| Q::bend(o, state, self.slope);
+        let (b0, b1) = (bend(self.start), bend(end));
         let turns = (g0 > 0.0) != (g1 > 0.0);
-        // The rate may cross zero and come back: then it bends towards zero first and away from it later.
-        if !turns && (g0 * bend(self.start) >= 0.0 || g1 * bend(end) <= 0.0) {
+        if turns {
+            // Seen as a maximum of `up * f`. Where that is concave it stays below both tangents.
+            let up = if g0 > 0.0 { 1.0 } else { -1.0 };
+            let concave = up * b0 <= 0.0 && up * b1 <= 0.0;
+            let meet = (up * (f1 - f0) + g1.abs() * self.length) / (g0.abs() + g1.abs());
+            if concave && up * f0 + g0.abs() * meet <= known {
+                return 0.0;
+            }
+        } else if g0 * b0 >= 0.0 || g1 * b1 <= 0.0 {
+            // Else the rate may cross zero and come back: it bends towards zero first and away from it later.
             return 0.0;
         }
         let value = |t| Q::value_and_rate(o, self.at(t))[0].abs();
@@ -221,19 +230,22 @@ pub fn peak(time: &[f64], ground: &[f64], frequency: f64, damping: f64) -> Peak 
     let o = Oscillator::new(frequency, damping);
     let longest = std::f64::consts::TAU / frequency / 8.0;
     let mut step = o.step(longest);
+    let (mut known_length, mut parts, mut inverse) = (longest, 1.0, 1.0 / longest);
     let (mut u, mut v) = (0.0, 0.0);
     let mut largest = Peak::default();
     let mut walk = |length: f64, a_start: f64, a_end: f64| {
         if length <= 0.0 {
             return;
         }
-        let parts = (length / longest).ceil().max(1.0);
-        let h = length / parts;
-        // Equal steps differ by the rounding of their times; that is no other step.
-        if (h - step.length).abs() > 1e-9 * h {
-            step = o.step(h);
+        // Equal steps differ by the rounding of their times; that is no other step, and divisions are dear.
+        if (length - known_length).abs() > 1e-9 * length {
+            known_length = length;
+            parts = (length / longest).ceil().max(1.0);
+            step = o.step(length / parts);
+            inverse = 1.0 / length;
         }
-        let s = (a_end - a_start) / length;
+        let h = step.length;
+        let s = (a_end - a_start) * inverse;
         for k in 0..parts as usize {
             let a = a_start + s * (k as f64 * h);
             let (u1, v1) = step.apply(u, v, a, s);
