@@ -4,7 +4,8 @@
 use rayon::prelude::*;
 
 use crate::rigid::block::{Block, HEEL, SLIP, TOE};
-use crate::rigid::simulate::{simulate, Motion, Options, Summary};
+use crate::rigid::result::Summary;
+use crate::rigid::simulate::{simulate, Motion, Options};
 
 /// Names of the numbers an ensemble returns for each run, in order (SI).
 pub const SUMMARY_FIELDS: [&str; 34] = [

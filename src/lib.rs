@@ -11,7 +11,8 @@ use pyo3::prelude::*;
 
 use rigid::block::{Block, BLOCK_FIELDS};
 use rigid::mode::Mode;
-use rigid::simulate::{simulate, Event, EventKind, Histories, Motion, Options, Outcome};
+use rigid::result::{Event, EventKind, Histories, Outcome};
+use rigid::simulate::{simulate, Motion, Options};
 
 type Numbers<'py> = PyReadonlyArray1<'py, f64>;
 type RunResult<'py> = (

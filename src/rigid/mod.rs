@@ -8,4 +8,5 @@ pub mod event;
 pub mod impact;
 pub mod ledger;
 pub mod mode;
+pub mod result;
 pub mod simulate;
