@@ -88,8 +88,8 @@ pub fn cubic(c0: f64, c1: f64, c2: f64, c3: f64, end: f64) -> Option<f64> {
             return Some(bracketed(
                 value,
                 |t| c1 + t * (2.0 * c2 + t * 3.0 * c3),
-                start,
-                stop,
+                [start, stop],
+                near(c0, c1, c2, [start, stop]),
             ));
         }
         start = stop;
@@ -97,10 +97,25 @@ pub fn cubic(c0: f64, c1: f64, c2: f64, c3: f64, end: f64) -> Option<f64> {
     None
 }
 
+/// Where to start on the root of a cubic: at that of its quadratic part, as pieces are short, else in the middle.
+fn near(c0: f64, c1: f64, c2: f64, [start, stop]: [f64; 2]) -> f64 {
+    let discriminant = c1 * c1 - 4.0 * c2 * c0;
+    let q = -0.5 * (c1 + discriminant.max(0.0).sqrt().copysign(c1));
+    [c0 / q, q / c2]
+        .into_iter()
+        .find(|t| *t > start && *t < stop)
+        .unwrap_or(0.5 * (start + stop))
+}
+
 /// Root of a function that falls monotonically from `value(above) > 0` to `value(below) <= 0`, to rounding error:
 /// Newton's iteration kept inside the bracket by bisection.
-fn bracketed(value: impl Fn(f64) -> f64, slope: impl Fn(f64) -> f64, mut above: f64, mut below: f64) -> f64 {
-    let mut t = 0.5 * (above + below);
+fn bracketed(
+    value: impl Fn(f64) -> f64,
+    slope: impl Fn(f64) -> f64,
+    [mut above, mut below]: [f64; 2],
+    guess: f64,
+) -> f64 {
+    let mut t = guess;
     for _ in 0..200 {
         let v = value(t);
         if v == 0.0 {

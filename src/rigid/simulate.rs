@@ -431,6 +431,20 @@ impl Walk<'_, '_> {
             [v[TOE], a[TOE][0], a[TOE][1]],
             [turn(v), turn_0, turn_1],
         ];
+        let reach =
+            |c: usize| step * (v[c].abs() + step * (a[c][0].abs() / 2.0 + step * a[c][1].abs() / 6.0));
+        let [slide, rise_heel, rise_toe] = [SLIP, HEEL, TOE].map(reach);
+        let (now, spin, s) = (turn(w), (rise_heel + rise_toe) / block.width, &self.summary);
+        // Where nothing on this piece can go beyond what has been, there is no need to look where it turns.
+        if w[SLIP] + slide <= s.slip_range[1]
+            && w[SLIP] - slide >= s.slip_range[0]
+            && w[HEEL] + rise_heel <= s.largest_gap[0]
+            && w[TOE] + rise_toe <= s.largest_gap[1]
+            && now + spin <= s.rotation_range[1]
+            && now - spin >= s.rotation_range[0]
+        {
+            return;
+        }
         for rate in rates {
             let moments = event::sign_changes(rate[0], rate[1], rate[2] / 2.0, step);
             for t in moments.into_iter().flatten() {
