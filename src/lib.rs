@@ -1,5 +1,7 @@
 //! Kernels of heeltoe, bound to Python as `heeltoe._kernel`. They know numbers only: no files, no units.
 
+pub mod crack;
+mod crack_bindings;
 pub mod ensemble;
 pub mod rigid;
 pub mod spectrum;
@@ -115,6 +117,9 @@ fn options(settle: f64, event_limit: u64, jam: bool) -> Options {
 #[pymodule]
 mod _kernel {
     use super::*;
+
+    #[pymodule_export]
+    use crate::crack_bindings::CrackedDam;
 
     /// Run one block; see `_kernel.pyi`.
     #[pyfunction]
@@ -248,6 +253,10 @@ mod _kernel {
         m.add("MODES", Mode::NAMES.to_vec())?;
         m.add("EVENT_KINDS", EventKind::NAMES.to_vec())?;
         m.add("OUTCOMES", Outcome::NAMES.to_vec())?;
+        m.add("CRACK_SUMMARY_FIELDS", crack::result::Summary::FIELDS.to_vec())?;
+        m.add("FRAME_FIELDS", crack::result::Frames::FIELDS.to_vec())?;
+        m.add("CRACK_OUTCOMES", crack::result::Outcome::NAMES.to_vec())?;
+        m.add("CONTACT_STATUSES", crack::coulomb::Status::NAMES.to_vec())?;
         m.add("VERSION", env!("CARGO_PKG_VERSION"))?;
         m.add(
             "PROFILE",

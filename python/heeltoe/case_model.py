@@ -289,6 +289,28 @@ class Flexible(Block):
     """Exact contact on velocity level; or the penalty method of Zhu (2004), for comparison."""
     time_step: TimeSpan | None = None
     """Time step; chosen by the program where it is not given."""
+    convergence_check: Truth = True
+    """Run again at half the step and say how much changes; without a given step, halve it until little does."""
+    elements_across_below: Annotated[int, Field(strict=True, ge=1, le=200)] | None = None
+    """Number of elements along the crack in the part below, where it differs."""
+    mesh_above: str | None = Field(default=None, strict=True, min_length=1)
+    """Mesh of the part above the crack from a file, relative to the case file, in place of the program's own."""
+    mesh_below: str | None = Field(default=None, strict=True, min_length=1)
+    """Mesh of the part below the crack from a file."""
+    modes: Count | None = None
+    """Number of vibration modes to keep in each part, beside the static shapes of the crack; all, where the mesh
+    is small enough, if not given."""
+    contactors: Annotated[int, Field(strict=True, ge=1, le=5)] = 3
+    """Which nodes are watched for contact, after Zhu (2004): 1 those of the upper face, 2 of the lower, 3 of the
+    upper and the ends of the lower, 4 the reverse, 5 all."""
+    theta: Annotated[DimensionlessNumber, Field(ge=0.5, le=1.0)] = 0.5
+    """Weight of the new state within a step of `coulomb`: 0.5 loses no energy, more damps fast vibrations."""
+    penalty_factor: Annotated[DimensionlessNumber, Field(gt=0.0, le=1e12)] = 1000.0
+    """Of `idce`: stiffness of the contact over the largest diagonal term of the dam's."""
+    newmark_gamma: Annotated[DimensionlessNumber, Field(ge=0.5, le=1.5)] = 0.5
+    """Of `idce`: Newmark's gamma; more than 0.5 damps fast vibrations."""
+    newmark_beta: Annotated[DimensionlessNumber, Field(ge=0.25, le=1.0)] | None = None
+    """Of `idce`: Newmark's beta; (gamma + 1/2)^2 / 4 where it is not given."""
 
 
 class Analysis(Block):

@@ -165,6 +165,56 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     ),
     "match-band": ("a band of {value} cannot be matched", "give periods from 0.02 s up, the shorter first"),
     "match-count": ("{value} periods cannot be matched", "give 5 to 200"),
+    # flexible model
+    "mesh-section": (
+        "has a ledge, a face that doubles back or a base that is not level, which rows of elements cannot follow",
+        "straighten it, or give meshes of your own in flexible.mesh_above and flexible.mesh_below",
+    ),
+    "mesh-thin": (
+        "has a layer of {value} at z = {level}, too thin for elements",
+        "remove a corner that is so close to another, or move the crack to the base",
+    ),
+    "mesh-tip": ("{value} element across cannot fill a pointed crest", "give at least 2"),
+    "mesh-none-below": ("{value} has no place: the crack is at the base", "remove it"),
+    "mesh-missing": ("there is no such file", "give the path of a mesh"),
+    "mesh-package": ("meshes from files need the package meshio", "pip install heeltoe[mesh]"),
+    "mesh-unreadable": (
+        "cannot be read ({reason})",
+        "give a mesh in a format that meshio reads, for example .msh, .vtu or .inp",
+    ),
+    "mesh-not-finite": ("node {value} has no finite coordinates", "correct it"),
+    "mesh-plane": ("is not plane", "give a mesh in the plane x, y or x, z"),
+    "mesh-kind": (
+        "holds {value}",
+        "give quadrilaterals throughout, of 4 nodes or of 8 (Gmsh: recombine, incomplete second order)",
+    ),
+    "mesh-unused": ("{value} nodes belong to no element, the first of them is {first}", "remove them"),
+    "mesh-clockwise": (
+        "{count} elements run clockwise, the first of them is {value}",
+        "number the nodes of each counter-clockwise, seen with x downstream to the right",
+    ),
+    "mesh-inverted": (
+        "{count} elements are folded over or crushed, the first of them is {value}",
+        "move their nodes until all angles are well between 0 and 180 degrees",
+    ),
+    "mesh-double": ("{value} pairs of nodes coincide, the first of them {first}", "merge them"),
+    "mesh-sides": ("the elements that meet at node {value} do not fit side to side", "let them share all their nodes"),
+    "mesh-pieces": ("falls into {value} pieces", "give one body whose elements share sides"),
+    "mesh-far": (
+        "is not where the section is: it covers {value}, and the crack goes along {crack}",
+        "give it in metres and in the coordinates of the section",
+    ),
+    "mesh-crack": (
+        "its {side} side covers {value}, and the crack goes along {crack}",
+        "let a line of element sides follow the crack from end to end",
+    ),
+    "mesh-base": ("has no level base to stand on", "let its lowest points form a horizontal line"),
+    "mesh-area": ("has an area of {value} where the section has {area}", "follow the outline of the section"),
+    "modulus-missing": (
+        "is required by the flexible model and not there",
+        'add for example modulus = "20 GPa" under [concrete]',
+    ),
+    "modulus-range": ("{value} is no modulus of a solid", "give 1 MPa to 1e7 GPa"),
     # analysis and command line
     "motion-missing": (
         "is required and not there",

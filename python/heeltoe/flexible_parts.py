@@ -1,0 +1,154 @@
+"""The two elastic parts of a case in their modes, ready for the kernel: shapes at the crack, loads, damping."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe import _kernel
+from heeltoe.case_model import Case
+from heeltoe.elastic import Body, Dam, bonded_state, dam, dofs
+from heeltoe.mesh import dam_mesh
+from heeltoe.modes import Modes, intact_periods, part_periods, rayleigh, reduce
+from heeltoe.section import CutSection, cut
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """One part of the dam as the kernel takes it; m modes, k nodes on the crack.
+
+    Attributes
+    ----------
+    omega_squared, damping_sticking, damping_free, load, participation_horizontal, participation_vertical, start
+        (m,) each: squared circular frequency [1/s2]; damping [1/s] while some crack node sticks and while none does;
+        static load; share in the ground's motions; state at the start.
+    shapes
+        (m, 2 k) motion of the crack nodes, all along the crack, then all across it.
+    position
+        (2 k,) where they stand at the start, from the heel and from the crack [m].
+    """
+
+    omega_squared: Floats
+    damping_sticking: Floats
+    damping_free: Floats
+    load: Floats
+    participation_horizontal: Floats
+    participation_vertical: Floats
+    start: Floats
+    shapes: Floats
+    position: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class FlexibleDam:
+    """A dam ready to be shaken.
+
+    Attributes
+    ----------
+    section
+        The part above the crack.
+    dam
+        The elastic bodies.
+    modes
+        Of the upper part and, if there is one, of the lower.
+    parts
+        The same for the kernel.
+    kernel
+        The kernel's own copy.
+    static
+        (2 n,) displacements before the earthquake of each part [m].
+    crack_force
+        (2 k,) forces on the upper part's crack nodes before the earthquake, x and z in turn [N].
+    periods
+        Longest periods of the intact dam, water included [s].
+    coefficients
+        Rayleigh coefficients of mass [1/s] and stiffness [s]; None with `modal` damping.
+    """
+
+    section: CutSection
+    dam: Dam
+    modes: tuple[Modes, ...]
+    parts: tuple[Part, ...]
+    kernel: _kernel.CrackedDam
+    static: tuple[Floats, ...]
+    crack_force: Floats
+    periods: Floats
+    coefficients: tuple[float, float] | None
+
+    @property
+    def bodies(self) -> tuple[Body, ...]:
+        """The upper part and, if there is one, the lower."""
+        return (self.dam.upper,) if self.dam.lower is None else (self.dam.upper, self.dam.lower)
+
+
+def build_flexible_dam(case: Case) -> FlexibleDam:
+    """Mesh, assemble and reduce both parts of a case.
+
+    Raises
+    ------
+    InputError
+        Where the case has no modulus, or a mesh cannot be made or used.
+    """
+    section = cut(case)
+    bodies = dam(case, section, dam_mesh(case, section, case.base_directory))
+    upper, lower, crack_force = bonded_state(bodies)
+    periods = intact_periods(bodies, 5)
+    held = [bodies.upper] if bodies.lower is None else [bodies.upper, bodies.lower]
+    modes = tuple(reduce(body, case.flexible.modes) for body in held)
+    coefficients = None
+    if case.flexible.damping != "modal":
+        coefficients = rayleigh(periods[0], periods[2], case.concrete.damping)
+    parts = []
+    for place, (body, basis, static) in enumerate(zip(held, modes, (upper, lower), strict=False)):
+        damping = _damping(case, basis, coefficients, above=place == 0)
+        parts.append(_part(body, basis, static, damping, section))
+    friction = (case.crack.mu_static, case.crack.mu_kinetic)
+    kernel = _kernel.CrackedDam(parts[0], parts[1] if len(parts) > 1 else None, friction, case.flexible.contactors)
+    statics = (upper, lower)[: len(parts)]
+    return FlexibleDam(section, bodies, modes, tuple(parts), kernel, statics, crack_force, periods, coefficients)
+
+
+def _damping(
+    case: Case, modes: Modes, coefficients: tuple[float, float] | None, *, above: bool
+) -> tuple[Floats, Floats]:
+    """Return the damping coefficients [1/s] of the modes while some node sticks, and while none does.
+
+    ``thesis`` is that of Zhu (2004), section 7.4.1: Rayleigh on all motion, rigid-body motion included, while any
+    node sticks; when none does, on the lower part alone, with coefficients of its own periods.
+    """
+    omega_squared = modes.omega_squared
+    if coefficients is None:
+        modal = 2.0 * case.concrete.damping * np.sqrt(omega_squared)
+        return modal, modal
+    everywhere = coefficients[0] + coefficients[1] * omega_squared
+    if case.flexible.damping == "deformation":
+        everywhere[: modes.rigid] = 0.0
+        return everywhere, everywhere
+    if above:
+        return everywhere, np.zeros_like(everywhere)
+    own = part_periods(modes, 3)
+    mass, stiffness = rayleigh(own[0], own[2], case.concrete.damping)
+    return everywhere, mass + stiffness * omega_squared
+
+
+def _part(body: Body, modes: Modes, static: Floats, damping: tuple[Floats, Floats], section: CutSection) -> Part:
+    crack = body.mesh.crack
+    order = np.concatenate([dofs(crack)[::2], dofs(crack)[1::2]])
+    horizontal = np.zeros(static.size)
+    horizontal[::2] = 1.0
+    place = (body.mesh.nodes[crack] - section.heel).T.reshape(-1)
+    return Part(
+        omega_squared=np.ascontiguousarray(modes.omega_squared),
+        damping_sticking=np.ascontiguousarray(damping[0]),
+        damping_free=np.ascontiguousarray(damping[1]),
+        load=modes.shapes.T @ body.load,
+        participation_horizontal=modes.shapes.T @ (body.mass @ horizontal),
+        participation_vertical=modes.shapes.T @ (body.mass @ (1.0 - horizontal)),
+        start=modes.shapes.T @ (body.mass @ static),
+        shapes=np.ascontiguousarray(modes.shapes[order].T),
+        position=place + static[order],
+    )

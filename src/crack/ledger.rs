@@ -1,0 +1,70 @@
+//! Where the energy goes.
+//!
+//! With `v* = theta v' + (1 - theta) v` the scheme of [`super::step`] keeps, to the last bit of rounding,
+//!
+//! ```text
+//! E' - E = (dt f - gamma dV) v*  -  dt c v*^2  -  (theta - 1/2) (|v' - v|^2 + omega^2 |q' - q|^2)  +  p u*
+//!           input                   damping      numerical                                     contact
+//! ```
+//!
+//! in every step. What is left over in the end is the residual: rounding, or a mistake.
+
+use super::body::{Group, LANES};
+
+/// Energies since the start; losses are positive.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Ledger {
+    /// Strain and kinetic energy at the start.
+    pub start: f64,
+    /// Strain and kinetic energy now.
+    pub stored: f64,
+    /// Energy held by the springs of a penalty, now.
+    pub penalty: f64,
+    /// Work of the static loads and of the ground on the motion relative to it.
+    pub input: f64,
+    pub damping: f64,
+    /// Taken by the scheme itself.
+    pub numerical: f64,
+    /// Work of the contact forces across the crack, and along it.
+    pub impact: f64,
+    pub friction: f64,
+    /// What contact has added in steps in which its work was positive; it ought to add nothing.
+    pub gained: f64,
+    /// All that went in or out, without sign.
+    pub turnover: f64,
+}
+
+impl Ledger {
+    /// What is not accounted for, over the turnover.
+    pub fn residual(&self) -> f64 {
+        let change = self.stored + self.penalty - self.start;
+        let explained = self.input - self.damping - self.numerical - self.impact - self.friction;
+        let scale = self.turnover + self.stored.abs() + self.start.abs();
+        if scale > 0.0 {
+            (change - explained).abs() / scale
+        } else {
+            0.0
+        }
+    }
+}
+
+/// Sums of one part of the dam, mode group by mode group.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sums {
+    pub input: Group,
+    pub turnover: Group,
+    pub damping: Group,
+    pub numerical: Group,
+}
+
+impl Sums {
+    /// Add these sums to a ledger.
+    pub fn book(&self, ledger: &mut Ledger) {
+        for l in 0..LANES {
+            ledger.input += self.input[l];
+            ledger.turnover += self.turnover[l];
+            ledger.damping += self.damping[l];
+            ledger.numerical += self.numerical[l];
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! The flexible model, bound to Python.
+
+use numpy::ndarray::{Array1, Array2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use rayon::prelude::*;
+
+use crate::crack::body::{Body, Modes, LANES};
+use crate::crack::result::Frames;
+use crate::crack::step::{self, Dam, Options};
+
+type Numbers<'py> = PyReadonlyArray1<'py, f64>;
+
+/// One part as Python gives it, in the order of `Modes`.
+#[derive(FromPyObject)]
+pub struct Part<'py> {
+    omega_squared: Numbers<'py>,
+    damping_sticking: Numbers<'py>,
+    damping_free: Numbers<'py>,
+    load: Numbers<'py>,
+    participation_horizontal: Numbers<'py>,
+    participation_vertical: Numbers<'py>,
+    start: Numbers<'py>,
+    shapes: PyReadonlyArray2<'py, f64>,
+    position: Numbers<'py>,
+}
+
+impl Part<'_> {
+    fn body(&self) -> PyResult<Body> {
+        let modes = Modes {
+            omega_squared: self.omega_squared.as_slice()?,
+            damping: [self.damping_sticking.as_slice()?, self.damping_free.as_slice()?],
+            load: self.load.as_slice()?,
+            participation: [
+                self.participation_horizontal.as_slice()?,
+                self.participation_vertical.as_slice()?,
+            ],
+            start: self.start.as_slice()?,
+            shapes: self.shapes.as_slice()?,
+            position: self.position.as_slice()?,
+        };
+        let count = modes.omega_squared.len();
+        let others = [
+            modes.damping[0],
+            modes.damping[1],
+            modes.load,
+            modes.participation[0],
+            modes.participation[1],
+            modes.start,
+        ];
+        let columns = modes.position.len();
+        if count == 0 || columns < 4 || columns % 2 != 0 {
+            return Err(PyValueError::new_err(
+                "a part needs modes and two crack nodes or more",
+            ));
+        }
+        if others.iter().any(|v| v.len() != count) || modes.shapes.len() != count * columns {
+            return Err(PyValueError::new_err(
+                "the arrays of a part must agree in the number of modes and of crack nodes",
+            ));
+        }
+        Ok(Body::new(&modes))
+    }
+}
+
+/// See `_kernel.pyi`.
+#[pyclass(frozen)]
+pub struct CrackedDam {
+    dam: Dam,
+}
+
+type Run<'py> = (
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<u8>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+);
+
+#[pymethods]
+impl CrackedDam {
+    #[new]
+    fn new(upper: Part, lower: Option<Part>, friction: [f64; 2], contactors: u8) -> PyResult<Self> {
+        let lower = lower.map(|part| part.body()).transpose()?;
+        Ok(CrackedDam {
+            dam: Dam {
+                upper: upper.body()?,
+                lower,
+                friction,
+                contactors,
+            },
+        })
+    }
+
+    #[pyo3(signature = (ground, dt, theta, stride, keep_modes, scale))]
+    fn run<'py>(
+        &self,
+        py: Python<'py>,
+        ground: PyReadonlyArray2<'py, f64>,
+        dt: f64,
+        theta: f64,
+        stride: usize,
+        keep_modes: bool,
+        scale: [f64; 2],
+    ) -> PyResult<Run<'py>> {
+        let options = Options {
+            dt,
+            theta,
+            stride,
+            keep_modes,
+            scale,
+        };
+        let ground = pairs(ground.as_slice()?)?;
+        let mut frames = Frames::default();
+        let wanted = (stride > 0).then_some(&mut frames);
+        let summary = py.detach(|| step::simulate(&self.dam, ground, &options, wanted));
+        let count = frames.rows.len();
+        let table = |values: Vec<f64>| -> PyResult<Bound<'py, PyArray2<f64>>> { shaped(py, values, count) };
+        let rows = frames.rows.as_flattened().to_vec();
+        Ok((
+            Array1::from(summary.row().to_vec()).into_pyarray(py),
+            table(rows)?,
+            table(frames.upper)?,
+            table(frames.lower)?,
+            table(frames.force)?,
+            shaped(py, frames.status, count)?,
+            table(unpadded(frames.modes_upper, &self.dam.upper))?,
+            table(match &self.dam.lower {
+                Some(body) => unpadded(frames.modes_lower, body),
+                None => Vec::new(),
+            })?,
+        ))
+    }
+
+    /// See `_kernel.pyi`.
+    fn run_many<'py>(
+        &self,
+        py: Python<'py>,
+        ground: PyReadonlyArray2<'py, f64>,
+        dt: f64,
+        theta: f64,
+        scales: Vec<[f64; 2]>,
+        threads: usize,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let ground = pairs(ground.as_slice()?)?;
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .map_err(|e| PyValueError::new_err(e.to_string()))?;
+        let rows: Vec<f64> = py.detach(|| {
+            pool.install(|| {
+                scales
+                    .par_iter()
+                    .flat_map_iter(|scale| {
+                        let options = Options {
+                            dt,
+                            theta,
+                            stride: 0,
+                            keep_modes: false,
+                            scale: *scale,
+                        };
+                        step::simulate(&self.dam, ground, &options, None).row()
+                    })
+                    .collect()
+            })
+        });
+        shaped(py, rows, scales.len())
+    }
+}
+
+/// Pairs of horizontal and vertical acceleration.
+fn pairs(values: &[f64]) -> PyResult<&[[f64; 2]]> {
+    match values.as_chunks::<2>() {
+        (pairs, []) => Ok(pairs),
+        _ => Err(PyValueError::new_err("ground must have shape (steps, 2)")),
+    }
+}
+
+/// Take out the modes that fill up the last group.
+fn unpadded(values: Vec<f64>, body: &Body) -> Vec<f64> {
+    let (padded, count) = (body.groups() * LANES, body.modes);
+    values
+        .chunks_exact(padded)
+        .flat_map(|row| &row[..count])
+        .copied()
+        .collect()
+}
+
+fn shaped<T: numpy::Element>(
+    py: Python<'_>,
+    values: Vec<T>,
+    rows: usize,
+) -> PyResult<Bound<'_, PyArray2<T>>> {
+    let columns = values.len() / rows.max(1);
+    Array2::from_shape_vec((rows, columns), values)
+        .map(|array| array.into_pyarray(py))
+        .map_err(|e| PyValueError::new_err(e.to_string()))
+}
