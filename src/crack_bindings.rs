@@ -50,7 +50,7 @@ impl Part<'_> {
             modes.start,
         ];
         let columns = modes.position.len();
-        if count == 0 || columns < 4 || columns % 2 != 0 {
+        if count == 0 || columns < 4 || !columns.is_multiple_of(2) {
             return Err(PyValueError::new_err(
                 "a part needs modes and two crack nodes or more",
             ));
@@ -96,7 +96,9 @@ impl CrackedDam {
         })
     }
 
+    /// See `_kernel.pyi`.
     #[pyo3(signature = (ground, dt, theta, stride, keep_modes, scale))]
+    #[allow(clippy::too_many_arguments)]
     fn run<'py>(
         &self,
         py: Python<'py>,

@@ -256,6 +256,7 @@ mod _kernel {
         m.add("CRACK_SUMMARY_FIELDS", crack::result::Summary::FIELDS.to_vec())?;
         m.add("FRAME_FIELDS", crack::result::Frames::FIELDS.to_vec())?;
         m.add("CRACK_OUTCOMES", crack::result::Outcome::NAMES.to_vec())?;
+        m.add("CRACK_STATES", crack::observe::STATES.to_vec())?;
         m.add("CONTACT_STATUSES", crack::coulomb::Status::NAMES.to_vec())?;
         m.add("VERSION", env!("CARGO_PKG_VERSION"))?;
         m.add(

@@ -10,6 +10,8 @@ if TYPE_CHECKING:
     from heeltoe.case import Case, read_case
     from heeltoe.ensemble import rigid_many
     from heeltoe.errors import HeeltoeError, InputError
+    from heeltoe.flexible_model import flexible
+    from heeltoe.flexible_parts import FlexibleDam, build_flexible_dam
     from heeltoe.made_to_order import stochastic_motion
     from heeltoe.matching import match
     from heeltoe.motion import GroundMotion
@@ -24,13 +26,16 @@ if TYPE_CHECKING:
 __all__ = [
     "Block",
     "Case",
+    "FlexibleDam",
     "GroundMotion",
     "HeeltoeError",
     "InputError",
     "Response",
     "asce_7",
     "build_block",
+    "build_flexible_dam",
     "en_1998",
+    "flexible",
     "match",
     "read_case",
     "read_channels",
@@ -52,7 +57,10 @@ _HOME = {
     "Response": "response",
     "asce_7": "targets",
     "build_block": "block",
+    "build_flexible_dam": "flexible_parts",
     "en_1998": "targets",
+    "flexible": "flexible_model",
+    "FlexibleDam": "flexible_parts",
     "match": "matching",
     "read_case": "case",
     "read_channels": "records",

@@ -1,7 +1,7 @@
 """Types of the compiled kernels. SI units, per metre of dam."""
 
 from collections.abc import Sequence
-from typing import Final
+from typing import Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,3 +78,80 @@ def spectrum(time: Floats, ground: Floats, periods: Floats, damping: float) -> F
     ``periods`` (k,) in s, zero for the ground itself; ``damping`` in [0, 1). Exact for ground accelerations (n,) that
     are linear between the moments ``time`` (n,).
     """
+
+CRACK_SUMMARY_FIELDS: Final[list[str]]
+FRAME_FIELDS: Final[list[str]]
+CRACK_OUTCOMES: Final[list[str]]
+CRACK_STATES: Final[list[str]]
+CONTACT_STATUSES: Final[list[str]]
+
+class CrackPart(Protocol):
+    """One elastic part: m modes, k nodes on the crack; see :class:`heeltoe.flexible_parts.Part`."""
+
+    @property
+    def omega_squared(self) -> Floats: ...
+    @property
+    def damping_sticking(self) -> Floats: ...
+    @property
+    def damping_free(self) -> Floats: ...
+    @property
+    def load(self) -> Floats: ...
+    @property
+    def participation_horizontal(self) -> Floats: ...
+    @property
+    def participation_vertical(self) -> Floats: ...
+    @property
+    def start(self) -> Floats: ...
+    @property
+    def shapes(self) -> Floats: ...
+    @property
+    def position(self) -> Floats: ...
+
+class CrackedDam:
+    """Two elastic parts with a frictional crack between them; immutable, so that many runs may share one.
+
+    Parameters
+    ----------
+    upper, lower
+        The parts; without a lower one the crack is on a rigid plane.
+    friction
+        Coefficients at rest and sliding.
+    contactors
+        Which nodes are watched, 1 to 5.
+    """
+
+    def __init__(
+        self, upper: CrackPart, lower: CrackPart | None, friction: tuple[float, float], contactors: int
+    ) -> None: ...
+    def run(
+        self, ground: Floats, dt: float, theta: float, stride: int, keep_modes: bool, scale: tuple[float, float]
+    ) -> tuple[Floats, Floats, Floats, Floats, Floats, NDArray[np.uint8], Floats, Floats]:
+        """Shake it with exact contact.
+
+        Parameters
+        ----------
+        ground
+            (n, 2) mean horizontal and vertical acceleration of each step [m/s2].
+        dt
+            Step [s].
+        theta
+            Weight of the new state within a step, 0.5 to 1.
+        stride
+            Steps from frame to frame; 0 for no frames.
+        keep_modes
+            Whether frames keep the amplitudes of all modes.
+        scale
+            Factors on the horizontal and the vertical ground.
+
+        Returns
+        -------
+        summary, frames, upper, lower, force, status, modes of the upper and the lower part
+            ``CRACK_SUMMARY_FIELDS``; then tables with one row for each frame: ``FRAME_FIELDS``, positions of the
+            crack nodes of either face (all along the crack, then all across it) [m], mean forces on those of the
+            upper face since the frame before [N], statuses of the watched nodes, amplitudes.
+        """
+
+    def run_many(
+        self, ground: Floats, dt: float, theta: float, scales: Sequence[tuple[float, float]], threads: int
+    ) -> Floats:
+        """Shake it once for each pair of factors, on `threads` cores (0 for all); (n, len(CRACK_SUMMARY_FIELDS))."""

@@ -42,6 +42,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "the outline {value} crosses or touches itself",
         "give the corners in order around the section",
     ),
+    "time-step-long": (
+        "{value} is too long to follow the vibration of the part above the crack",
+        "give at most {longest}, or leave it out",
+    ),
     "crack-outside": ("{value} is outside the section", "give an elevation from 0 m to below {height}"),
     "crack-pieces": (
         "the line at {value} meets the section in several pieces",

@@ -34,6 +34,29 @@ def ground(motion: GroundMotion, vertical: GroundMotion | None, end: float) -> t
     return time, values[0], values[1] if vertical is not None else None
 
 
+def step_means(time: Floats, horizontal: Floats, up: Floats | None, count: int, end: float) -> Floats:
+    """Return the mean acceleration of each of `count` equal steps from zero to `end`, exact for straight pieces.
+
+    Returns
+    -------
+    ndarray, shape (count, 2)
+        Horizontal and vertical [m/s2].
+    """
+    means = np.zeros((count, 2))
+    moments = np.linspace(0.0, end, count + 1)
+    piece = np.clip(np.searchsorted(time, moments, side="right") - 1, 0, time.size - 2)
+    since = moments - time[piece]
+    length = time[piece + 1] - time[piece]
+    for column, series in enumerate((horizontal, up)):
+        if series is None:
+            continue
+        velocity = np.concatenate([[0.0], np.cumsum(np.diff(time) * (series[1:] + series[:-1]) / 2.0)])
+        rise = np.divide(series[piece + 1] - series[piece], length, out=np.zeros(piece.size), where=length > 0.0)
+        at = velocity[piece] + since * (series[piece] + rise * since / 2.0)
+        means[:, column] = np.diff(at) * (count / end)
+    return means
+
+
 def _both_sides(motion: GroundMotion, moments: Floats) -> tuple[Floats, Floats]:
     """Return the acceleration right before and right after each moment; outside the record it is zero."""
     t, a = motion.time, motion.acceleration

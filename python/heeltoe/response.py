@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pyarrow as pa
@@ -18,12 +18,15 @@ from heeltoe import _kernel
 from heeltoe.measures import measures
 from heeltoe.motion import GroundMotion
 
+if TYPE_CHECKING:
+    from heeltoe.crack_history import CrackHistory
+
 Floats = NDArray[np.float64]
 
 _MEASURES = ("arias_intensity_m_s", "cav_m_s", "significant_duration_s", "mean_period_s", "end_velocity_m_s")
 
 #: Outcomes of a run; only the first comes with a result to trust.
-OUTCOMES = ("ok", "unstable", "paradox", "event limit", "cycling")
+OUTCOMES = ("ok", "unstable", "paradox", "event limit", "cycling", "lost", "blown up")
 
 
 @dataclass(frozen=True)
@@ -37,9 +40,13 @@ class Energy:
     friction_j, impact_j
         Energy lost in friction and in impacts, both positive.
     kinetic_j
-        Kinetic energy left at the end.
+        Kinetic energy left at the end; of elastic parts with their strain energy, less that at the start.
     residual
-        ``|kinetic - input + friction + impact|`` over the turnover; rounding if the run is sound.
+        What is left of the balance of all others, over the turnover; rounding if the run is sound.
+    damping_j, numerical_j
+        Lost in the concrete's damping, and by the time stepping itself; zero for a rigid block.
+    gained_j
+        Sum of what contact added in steps in which its work was positive; it should be nothing.
     """
 
     input_j: float
@@ -47,6 +54,9 @@ class Energy:
     impact_j: float
     kinetic_j: float
     residual: float
+    damping_j: float = 0.0
+    numerical_j: float = 0.0
+    gained_j: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +66,7 @@ class Response:
     Attributes
     ----------
     model
-        ``"rigid"``.
+        ``"rigid"`` or ``"flexible"``.
     title
         Of the case.
     outcome, advice
@@ -81,6 +91,10 @@ class Response:
         State under the static loads: safety factors, resultant, critical accelerations.
     references
         Sources of the methods used.
+    crack
+        Of the flexible model: what crack and parts did, frame by frame.
+    spread
+        The same run with slightly weaker and stronger shaking, where that was asked for.
     """
 
     model: str
@@ -98,6 +112,8 @@ class Response:
     event_log: Mapping[str, Any]
     static: Mapping[str, Any]
     references: tuple[str, ...] = field(default=())
+    crack: CrackHistory | None = None
+    spread: Mapping[str, Any] | None = None
 
     def __post_init__(self) -> None:
         for name in ("summary", "histories", "event_log", "static"):
@@ -125,13 +141,7 @@ class Response:
         """Return the contract: a dictionary of plain numbers, strings and lists."""
         energy = None
         if self.energy is not None:
-            energy = {
-                "input_j": self.energy.input_j,
-                "friction_j": self.energy.friction_j,
-                "impact_j": self.energy.impact_j,
-                "kinetic_j": self.energy.kinetic_j,
-                "residual": self.energy.residual,
-            }
+            energy = asdict(self.energy)
         return {
             "model": self.model,
             "title": self.title,
@@ -142,6 +152,7 @@ class Response:
             "critical_acceleration_g": dict(self.static["critical_acceleration_g"]),
             "static": {k: v for k, v in self.static.items() if k != "critical_acceleration_g"},
             "energy": energy,
+            **({} if self.spread is None else {"spread": dict(self.spread)}),
             "motion": motion_json(self.motion, self.gravity),
             "vertical_motion": motion_json(self.vertical, self.gravity) if self.vertical else None,
             "references": list(self.references),

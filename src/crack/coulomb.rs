@@ -133,7 +133,8 @@ impl Solver {
     /// Solve the linear problem of the present set; false where its matrix is singular.
     #[inline(always)]
     fn linear<const FUSED: bool>(&mut self, problem: &Problem) -> bool {
-        if !(self.fresh && self.factored == self.status) && !self.factor::<FUSED>(problem) {
+        let known = self.fresh && self.factored == self.status;
+        if !known && !self.factor::<FUSED>(problem) {
             return false;
         }
         let n = self.unknowns.len();

@@ -68,13 +68,19 @@ fn height(face: &[f64], t: f64) -> f64 {
     across[j] + s * (across[j + 1] - across[j])
 }
 
-/// States of the whole crack.
+/// States of the whole crack: nothing slips and all touch; all touch; some do, and none or some of them slips; none
+/// touches.
 pub const REST: usize = 0;
 pub const SLIDING: usize = 1;
-pub const SLIDE_ROCKING: usize = 2;
-pub const DRIFTING: usize = 3;
+pub const ROCKING: usize = 2;
+pub const SLIDE_ROCKING: usize = 3;
+pub const DRIFTING: usize = 4;
+pub const STATES: [&str; 5] = ["rest", "sliding", "rocking", "slide-rocking", "drifting"];
+/// Under which of sliding, slide-rocking and drifting the slip of each state is booked: the little that a crack at
+/// rest slips is elastic, it comes and goes.
+const SLIPS_AS: [usize; 5] = [0, 0, 1, 1, 2];
 
-/// Tell in which state the crack is: all of it, some of it, or none of it touching; at rest if nothing slips either.
+/// Tell in which state the crack is.
 #[inline(always)]
 pub fn state(status: &[Status]) -> usize {
     let (mut touching, mut open, mut slipping) = (false, false, false);
@@ -91,7 +97,8 @@ pub fn state(status: &[Status]) -> usize {
     }
     match (touching, open, slipping) {
         (false, ..) => DRIFTING,
-        (_, true, _) => SLIDE_ROCKING,
+        (_, true, true) => SLIDE_ROCKING,
+        (_, true, false) => ROCKING,
         (_, false, true) => SLIDING,
         _ => REST,
     }
@@ -109,8 +116,7 @@ pub fn book(
 ) {
     let slip = after.slip - before.slip;
     summary.time_by_state[state] += dt;
-    // The little that a sticking crack slips is elastic: it comes and goes, and belongs to sliding.
-    summary.slip_by_state[state.max(SLIDING) - 1] += slip;
+    summary.slip_by_state[SLIPS_AS[state]] += slip;
     summary.slip = after.slip;
     summary.slip_velocity = slip / dt;
     summary.slip_max = summary.slip_max.max(after.slip);

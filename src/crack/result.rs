@@ -38,8 +38,8 @@ pub struct Summary {
     pub penetration: f64,
     /// Slip while all watched nodes touch, while some do, and while none does.
     pub slip_by_state: [f64; 3],
-    /// Time in which nothing slips, and in which something does and all, some or none touch.
-    pub time_by_state: [f64; 4],
+    /// Time in each of the states of [`super::observe`].
+    pub time_by_state: [f64; 5],
     pub impacts: u64,
     pub impact_velocity: f64,
     pub peak_normal_force: f64,
@@ -49,12 +49,12 @@ pub struct Summary {
     pub most_iterations: u32,
     pub sweeps: u64,
     pub residual: f64,
-    /// Status of the crack in the last step: 0 nothing slips, 1 all touch, 2 some, 3 none.
+    /// State of the crack in the last step.
     pub final_state: u8,
 }
 
 impl Summary {
-    pub const FIELDS: [&'static str; 38] = [
+    pub const FIELDS: [&'static str; 39] = [
         "outcome",
         "end_time",
         "slip",
@@ -71,6 +71,7 @@ impl Summary {
         "slip_drifting",
         "time_rest",
         "time_sliding",
+        "time_rocking",
         "time_slide_rocking",
         "time_drifting",
         "impacts",
@@ -96,7 +97,7 @@ impl Summary {
     ];
 
     /// The numbers in the order of `FIELDS`.
-    pub fn row(&self) -> [f64; 38] {
+    pub fn row(&self) -> [f64; 39] {
         let (e, t, s) = (&self.ledger, self.time_by_state, self.slip_by_state);
         [
             f64::from(self.outcome as u8),
@@ -117,6 +118,7 @@ impl Summary {
             t[1],
             t[2],
             t[3],
+            t[4],
             self.impacts as f64,
             self.impact_velocity,
             self.peak_normal_force,
