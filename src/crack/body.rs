@@ -11,6 +11,8 @@
 
 /// Modes are kept in groups this wide, so that one instruction works on a group.
 pub const LANES: usize = 8;
+/// Groups are worked on in bundles of so many, so that their sums run side by side.
+pub const BUNDLE: usize = 4;
 /// One number for each mode of a group.
 pub type Group = [f64; LANES];
 
@@ -49,10 +51,10 @@ pub struct Modes<'a> {
 }
 
 impl Body {
-    /// Put the modes into groups; the last one is filled up with modes that never move.
+    /// Put the modes into groups and bundles; the last is filled up with modes that never move.
     pub fn new(modes: &Modes) -> Self {
         let columns = modes.position.len();
-        let groups = modes.omega_squared.len().div_ceil(LANES);
+        let groups = group_count(modes.omega_squared.len());
         let mut shapes = vec![[0.0; LANES]; groups * columns];
         for (mode, row) in modes.shapes.chunks_exact(columns).enumerate() {
             for (c, value) in row.iter().enumerate() {
@@ -119,8 +121,13 @@ impl Body {
     }
 }
 
+/// Number of groups for so many modes, in whole bundles.
+fn group_count(modes: usize) -> usize {
+    modes.div_ceil(LANES * BUNDLE) * BUNDLE
+}
+
 fn grouped(values: &[f64]) -> Vec<Group> {
-    let mut groups = vec![[0.0; LANES]; values.len().div_ceil(LANES)];
+    let mut groups = vec![[0.0; LANES]; group_count(values.len())];
     for (k, value) in values.iter().enumerate() {
         groups[k / LANES][k % LANES] = *value;
     }

@@ -21,7 +21,7 @@
 //! The last half of one step and the first half of the next go over the mode shapes together, as reading them is what
 //! a step costs.
 
-use super::body::{fma, Body, Group, LANES};
+use super::body::{fma, Body, Group, BUNDLE, LANES};
 use super::contact::{relative, spread, Contacts};
 use super::coulomb::{Problem, Solver, Status};
 use super::ledger::{Ledger, Sums};
@@ -129,71 +129,92 @@ impl<'a> Part<'a> {
     /// Finish the step `now` with the impulses found, unless this is the start, and begin the step `next`.
     #[inline(always)]
     fn advance<const FUSED: bool>(&mut self, now: Option<Drive>, next: Drive, options: &Options) {
-        let (dt, theta) = (options.dt, options.theta);
         let columns = self.body.columns();
-        let late = 1.0 - theta;
         let touched = self.impulse.iter().any(|p| *p != 0.0);
         self.lanes.fill([0.0; LANES]);
         let body = self.body;
-        let d_next = &self.operator.d[next.damping];
-        for (group, shapes) in body.shapes.chunks_exact(columns).enumerate() {
-            let w = &body.omega_squared[group];
-            let load = &body.load[group];
-            let gamma = [&body.participation[0][group], &body.participation[1][group]];
-            let (mut q, mut v) = (self.q[group], self.v[group]);
+        for (bundle, shapes) in body.shapes.chunks_exact(BUNDLE * columns).enumerate() {
+            let first = BUNDLE * bundle;
+            let (s0, rest) = shapes.split_at(columns);
+            let (s1, rest) = rest.split_at(columns);
+            let (s2, s3) = rest.split_at(columns);
+            let rows = s0.iter().zip(s1).zip(s2).zip(s3);
             if let Some(now) = now {
-                let c = &body.damping[now.damping][group];
-                let mut v_new = self.v_free[group];
+                let mut push = [[0.0; LANES]; BUNDLE];
                 if touched {
-                    let mut push = [[0.0; LANES]; 2];
-                    let (pairs, _) = shapes.as_chunks::<2>();
-                    let (impulses, _) = self.impulse.as_chunks::<2>();
-                    for (s, p) in pairs.iter().zip(impulses) {
-                        for l in 0..LANES {
-                            push[0][l] = fma::<FUSED>(s[0][l], p[0], push[0][l]);
-                            push[1][l] = fma::<FUSED>(s[1][l], p[1], push[1][l]);
-                        }
-                    }
-                    let d = &self.operator.d[now.damping][group];
-                    for l in 0..LANES {
-                        v_new[l] = fma::<FUSED>(d[l], push[0][l] + push[1][l], v_new[l]);
-                    }
+                    push[..2].copy_from_slice(&pushes::<FUSED>(s0, s1, &self.impulse));
+                    push[2..].copy_from_slice(&pushes::<FUSED>(s2, s3, &self.impulse));
                 }
-                let sums = &mut self.sums;
-                for l in 0..LANES {
-                    let mean = fma::<FUSED>(theta, v_new[l], late * v[l]);
-                    let way = dt * mean;
-                    let drive = load[l] * dt - gamma[0][l] * now.ground[0] - gamma[1][l] * now.ground[1];
-                    let work = drive * mean;
-                    sums.input[l] += work;
-                    sums.turnover[l] += work.abs();
-                    sums.damping[l] = fma::<FUSED>(c[l] * mean, way, sums.damping[l]);
-                    let dv = v_new[l] - v[l];
-                    sums.numerical[l] += (theta - 0.5) * fma::<FUSED>(dv, dv, w[l] * way * way);
-                    q[l] += way;
-                    v[l] = v_new[l];
+                for (k, push) in push.iter().enumerate() {
+                    self.finish::<FUSED>(first + k, push, now, options);
                 }
-                self.q[group] = q;
-                self.v[group] = v;
             }
-            let c = &body.damping[next.damping][group];
-            let d = &d_next[group];
-            let mut v_free = [0.0; LANES];
-            for l in 0..LANES {
-                let drive = load[l] * dt - gamma[0][l] * next.ground[0] - gamma[1][l] * next.ground[1];
-                let spring = w[l] * fma::<FUSED>(dt * theta * late, v[l], q[l]);
-                v_free[l] = d[l] * (v[l] + drive - dt * fma::<FUSED>(c[l] * late, v[l], spring));
+            let mut v = [[0.0; LANES]; BUNDLE];
+            for (k, v) in v.iter_mut().enumerate() {
+                *v = self.begin::<FUSED>(first + k, next, options);
             }
-            self.v_free[group] = v_free;
-            for (sum, s) in self.lanes.iter_mut().zip(shapes) {
-                for l in 0..LANES {
-                    sum[l] = fma::<FUSED>(s[l], v_free[l], sum[l]);
-                }
+            for (sum, (((a, b), c), d)) in self.lanes.iter_mut().zip(rows) {
+                let mut new = *sum;
+                product::<FUSED>(&mut new, a, &v[0]);
+                product::<FUSED>(&mut new, b, &v[1]);
+                product::<FUSED>(&mut new, c, &v[2]);
+                product::<FUSED>(&mut new, d, &v[3]);
+                *sum = new;
             }
         }
         for (free, sum) in self.free.iter_mut().zip(&self.lanes) {
-            *free = ((sum[0] + sum[4]) + (sum[1] + sum[5])) + ((sum[2] + sum[6]) + (sum[3] + sum[7]));
+            *free = total(sum);
         }
+    }
+
+    /// Move the modes of a group to the end of the step and book their energies; `push` is the impulse on each.
+    #[inline(always)]
+    fn finish<const FUSED: bool>(&mut self, group: usize, push: &Group, now: Drive, options: &Options) {
+        let (dt, theta) = (options.dt, options.theta);
+        let body = self.body;
+        // Copies, so that the compiler sees that nothing overlaps, and uses wide registers.
+        let (w, load) = (body.omega_squared[group], body.load[group]);
+        let gamma = [body.participation[0][group], body.participation[1][group]];
+        let c = body.damping[now.damping][group];
+        let d = self.operator.d[now.damping][group];
+        let free = self.v_free[group];
+        let (mut q, mut v, mut sums) = (self.q[group], self.v[group], self.sums);
+        for l in 0..LANES {
+            let v_new = fma::<FUSED>(d[l], push[l], free[l]);
+            let mean = fma::<FUSED>(theta, v_new, (1.0 - theta) * v[l]);
+            let way = dt * mean;
+            let drive = load[l] * dt - gamma[0][l] * now.ground[0] - gamma[1][l] * now.ground[1];
+            let work = drive * mean;
+            sums.input[l] += work;
+            sums.turnover[l] += work.abs();
+            sums.damping[l] = fma::<FUSED>(c[l] * mean, way, sums.damping[l]);
+            let dv = v_new - v[l];
+            sums.numerical[l] += (theta - 0.5) * fma::<FUSED>(dv, dv, w[l] * way * way);
+            q[l] += way;
+            v[l] = v_new;
+        }
+        (self.q[group], self.v[group], self.sums) = (q, v, sums);
+    }
+
+    /// Return, and keep, the velocities that the modes of a group would have after the step without contact.
+    #[inline(always)]
+    fn begin<const FUSED: bool>(&mut self, group: usize, next: Drive, options: &Options) -> Group {
+        let (dt, theta) = (options.dt, options.theta);
+        let late = 1.0 - theta;
+        let body = self.body;
+        let (w, load) = (body.omega_squared[group], body.load[group]);
+        let gamma = [body.participation[0][group], body.participation[1][group]];
+        let c = body.damping[next.damping][group];
+        let d = self.operator.d[next.damping][group];
+        let (q, v) = (self.q[group], self.v[group]);
+        let mut free = [0.0; LANES];
+        for l in 0..LANES {
+            let drive = load[l] * dt - gamma[0][l] * next.ground[0] - gamma[1][l] * next.ground[1];
+            let spring = w[l] * fma::<FUSED>(dt * theta * late, v[l], q[l]);
+            free[l] = d[l] * (v[l] + drive - dt * fma::<FUSED>(c[l] * late, v[l], spring));
+        }
+        self.v_free[group] = free;
+        free
     }
 
     /// Velocities and positions of the crack nodes at the end of the step.
@@ -218,6 +239,41 @@ impl<'a> Part<'a> {
             *u = *new;
         }
     }
+}
+
+/// Impulses on the modes of two groups. Two at a time keep the machine busy, and compilers still see the lanes.
+#[inline(always)]
+fn pushes<const FUSED: bool>(a: &[Group], b: &[Group], impulse: &[f64]) -> [Group; 2] {
+    let mut push = [[0.0; LANES]; 2];
+    for ((a, b), p) in a.iter().zip(b).zip(impulse) {
+        for l in 0..LANES {
+            push[0][l] = fma::<FUSED>(a[l], *p, push[0][l]);
+            push[1][l] = fma::<FUSED>(b[l], *p, push[1][l]);
+        }
+    }
+    push
+}
+
+/// `sum += a b`, lane by lane.
+#[inline(always)]
+fn product<const FUSED: bool>(sum: &mut Group, a: &Group, b: &Group) {
+    for l in 0..LANES {
+        sum[l] = fma::<FUSED>(a[l], b[l], sum[l]);
+    }
+}
+
+/// Sum of the lanes, by halves, as wide registers can.
+#[inline(always)]
+fn total(lanes: &Group) -> f64 {
+    let mut lanes = *lanes;
+    let mut width = LANES / 2;
+    while width > 0 {
+        for l in 0..width {
+            lanes[l] += lanes[l + width];
+        }
+        width /= 2;
+    }
+    lanes[0]
 }
 
 /// Shake the dam. `ground` has the horizontal and vertical mean acceleration of each step.
@@ -297,9 +353,21 @@ impl Crack {
             for (j, other) in self.contacts.pairs[..=i].iter().enumerate() {
                 let Some(other) = other else { continue };
                 let mut block = [[0.0; 2]; 2];
-                couple(&mut block, &one.upper, &other.upper, &upper.operator.w[damping]);
+                couple(
+                    &mut block,
+                    &one.upper,
+                    &other.upper,
+                    &upper.operator.w[damping],
+                    upper.body.nodes,
+                );
                 if let Some(lower) = lower {
-                    couple(&mut block, &one.lower, &other.lower, &lower.operator.w[damping]);
+                    couple(
+                        &mut block,
+                        &one.lower,
+                        &other.lower,
+                        &lower.operator.w[damping],
+                        lower.body.nodes,
+                    );
                 }
                 for (a, row) in block.iter().enumerate() {
                     for (b, value) in row.iter().enumerate() {
@@ -325,9 +393,14 @@ impl Crack {
 
 /// Add what the nodes of one contact feel of those of another, in one part.
 #[inline(always)]
-fn couple(block: &mut [[f64; 2]; 2], one: &[(usize, f64); 2], other: &[(usize, f64); 2], w: &[f64]) {
-    let columns = w.len().isqrt();
-    let nodes = columns / 2;
+fn couple(
+    block: &mut [[f64; 2]; 2],
+    one: &[(usize, f64); 2],
+    other: &[(usize, f64); 2],
+    w: &[f64],
+    nodes: usize,
+) {
+    let columns = 2 * nodes;
     for &(i, a) in one {
         for &(j, b) in other {
             let weight = a * b;
