@@ -293,6 +293,7 @@ def _summary(
             "nodes": [len(body.mesh.nodes) for body in dam.bodies],
             "modes": [int(basis.omega_squared.size) for basis in dam.modes],
             "crack_nodes": int(dam.dam.upper.mesh.crack.size),
+            "basis_error": dam.basis_error,
         },
         "damping": shaken.case.flexible.damping,
         "contact": shaken.case.flexible.contact,
@@ -384,6 +385,11 @@ def _warnings(
     modulus = case.concrete.modulus or 0.0
     if not 5e9 <= modulus <= 1e11:
         said.append(f"concrete.modulus: {modulus / 1e9:.4g} GPa is not that of concrete")
+    if dam.basis_error > 0.02:
+        said.append(
+            f"the modes kept leave an error of {100.0 * dam.basis_error:.2g} % in the flexibility of the crack; raise "
+            "flexible.modes"
+        )
     moving = _kernel.CRACK_STATES[int(raw["final_state"])]
     if raw["outcome"] == 0.0 and moving != "rest" and abs(raw["slip_velocity"]) > 1e-3:
         said.append(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from hashlib import sha256
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +12,7 @@ from heeltoe import _kernel
 from heeltoe.case_model import Case
 from heeltoe.elastic import Body, Dam, bonded_state, dam, dofs
 from heeltoe.mesh import dam_mesh
-from heeltoe.modes import Modes, intact_periods, part_periods, rayleigh, reduce
+from heeltoe.modes import Modes, intact_periods, part_periods, rayleigh, reduce, residual_error
 from heeltoe.section import CutSection, cut
 
 Floats = NDArray[np.float64]
@@ -67,6 +68,8 @@ class FlexibleDam:
         Longest periods of the intact dam, water included [s].
     coefficients
         Rayleigh coefficients of mass [1/s] and stiffness [s]; None with `modal` damping.
+    basis_error
+        Largest error of the crack's flexibility by the modes left out, over the range of those kept; 0 where none is.
     """
 
     section: CutSection
@@ -78,6 +81,7 @@ class FlexibleDam:
     crack_force: Floats
     periods: Floats
     coefficients: tuple[float, float] | None
+    basis_error: float
 
     @property
     def bodies(self) -> tuple[Body, ...]:
@@ -85,14 +89,39 @@ class FlexibleDam:
         return (self.dam.upper,) if self.dam.lower is None else (self.dam.upper, self.dam.lower)
 
 
+# Dams built before, newest last: a study shakes the same few again and again.
+_BUILT: dict[tuple[str, ...], FlexibleDam] = {}
+_KEPT = 4
+
+
 def build_flexible_dam(case: Case) -> FlexibleDam:
-    """Mesh, assemble and reduce both parts of a case.
+    """Mesh, assemble and reduce both parts of a case; the last few are kept, by all that they depend on.
 
     Raises
     ------
     InputError
         Where the case has no modulus, or a mesh cannot be made or used.
     """
+    # The earthquake plays no part, and files may change under their name.
+    key = (case.model_dump_json(exclude={"motion", "title", "analysis"}), *_fingerprints(case))
+    if key not in _BUILT:
+        built = _build(case)
+        while len(_BUILT) >= _KEPT:
+            _BUILT.pop(next(iter(_BUILT)), None)
+        _BUILT[key] = built
+    return _BUILT[key]
+
+
+def _fingerprints(case: Case) -> list[str]:
+    """Return what the mesh files contain, as a hash; a missing one is the reader's to complain about."""
+    found = []
+    for name in (case.flexible.mesh_above, case.flexible.mesh_below):
+        path = case.base_directory / name if name else None
+        found.append(sha256(path.read_bytes()).hexdigest() if path and path.is_file() else "")
+    return found
+
+
+def _build(case: Case) -> FlexibleDam:
     section = cut(case)
     bodies = dam(case, section, dam_mesh(case, section, case.base_directory))
     upper, lower, crack_force = bonded_state(bodies)
@@ -109,7 +138,19 @@ def build_flexible_dam(case: Case) -> FlexibleDam:
     friction = (case.crack.mu_static, case.crack.mu_kinetic)
     kernel = _kernel.CrackedDam(parts[0], parts[1] if len(parts) > 1 else None, friction, case.flexible.contactors)
     statics = (upper, lower)[: len(parts)]
-    return FlexibleDam(section, bodies, modes, tuple(parts), kernel, statics, crack_force, periods, coefficients)
+    errors = [residual_error(body, basis) for body, basis in zip(held, modes, strict=True) if basis.truncated]
+    return FlexibleDam(
+        section=section,
+        dam=bodies,
+        modes=modes,
+        parts=tuple(parts),
+        kernel=kernel,
+        static=statics,
+        crack_force=crack_force,
+        periods=periods,
+        coefficients=coefficients,
+        basis_error=max(errors, default=0.0),
+    )
 
 
 def _damping(
