@@ -1,0 +1,124 @@
+"""The flexible model at the sizes it is used at: set-up, time per step, and the share of the machine it reaches."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+# The kernel uses one core for one run; so must what its rate is compared with.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+import numpy as np
+from measure import heading, repeat, require, seconds, table, timed
+
+from heeltoe import Case, GroundMotion, InputError, _kernel, flexible_parts, read_case, read_record
+from heeltoe.flexible_model import Shaken
+from heeltoe.records.catalog import find
+
+DURATION = 20.0
+# The step of the base crack is the one at which it was found converged; a dam that strikes needs half of it.
+BASE_STEP, HEIGHT_STEP = 2e-4, 1e-4
+EXAMPLES = Path(__file__).parent.parent / "examples"
+COLUMNS = [
+    "case",
+    "modes",
+    "watched nodes",
+    "step",
+    "set-up",
+    "20 s of shaking",
+    "per step",
+    "contact sets per step",
+    "rate",
+    "share",
+    "slip",
+]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A dam at a given step."""
+
+    name: str
+    file: str
+    changes: tuple[str, ...]
+    step: float
+
+
+PROBLEMS = (
+    Problem("base crack, all modes", "typical-base.toml", (), BASE_STEP),
+    Problem("base crack, 200 modes and static shapes", "typical-base.toml", ("flexible.modes=200",), BASE_STEP),
+    Problem("base crack, 16 across", "typical-base.toml", ("flexible.elements_across=16",), BASE_STEP),
+    Problem("crack at 90 m, all modes", "typical-height.toml", (), HEIGHT_STEP),
+    Problem("crack at 90 m, 200 modes and static shapes", "typical-height.toml", ("flexible.modes=200",), HEIGHT_STEP),
+)
+
+
+def motion(case: Case) -> GroundMotion:
+    """Taft S69E where it is at hand, else El Centro 1940, at 0.4 g."""
+    try:
+        record = read_record(find("taft-1952-s69e-caltech", Path.cwd()))
+    except InputError:
+        record = read_record(find("elcentro-1940-180-nga", Path.cwd()))
+    return record.scaled_to(0.4 * case.gravity).cut(DURATION)
+
+
+def machine_rate() -> float:
+    """Return what one core reaches in products of matrices [operations/s], the best that ordinary programs do."""
+    size = 1000
+    one, two = np.random.default_rng(1).random((2, size, size))
+    return 2.0 * size**3 / repeat(lambda: one @ two).median
+
+
+def operations(dam: flexible_parts.FlexibleDam) -> float:
+    """Count the operations of a step that go over the modes: two products with the shapes, and 34 for each mode."""
+    return float(sum(4 * part.shapes.size + 34 * part.omega_squared.size for part in dam.parts))
+
+
+def row(problem: Problem, peak: float) -> list[str]:
+    """Measure one problem."""
+    case = read_case(EXAMPLES / problem.file, problem.changes)
+    shaking = motion(case)
+    setup = repeat(lambda: flexible_parts.build_flexible_dam(case), 5, prepare=flexible_parts._BUILT.clear)
+    dam = flexible_parts.build_flexible_dam(case)
+    shaken = Shaken(case, dam, shaking, None, DURATION)
+    result, _ = shaken.run(problem.step)
+    raw = dict(zip(_kernel.CRACK_SUMMARY_FIELDS, result, strict=True))
+    require(raw["steps"] == round(DURATION / problem.step) and raw["slip"] > 1e-3, "the dam did not slide")
+    timing = repeat(lambda: shaken.run(problem.step), 5)
+    per_step = timing.median / raw["steps"]
+    rate = operations(dam) / per_step
+    return [
+        problem.name,
+        " + ".join(str(part.omega_squared.size) for part in dam.parts),
+        str(dam.dam.upper.mesh.crack.size + (2 if dam.dam.lower else 0)),
+        seconds(problem.step),
+        timed(setup),
+        timed(timing),
+        seconds(per_step),
+        f"{raw['iterations'] / raw['steps']:.2f}",
+        f"{rate / 1e9:.1f} G/s",
+        f"{rate / peak:.0%}",
+        f"{1e3 * raw['slip']:.1f} mm",
+    ]
+
+
+def report() -> str:
+    """Measure and return Markdown."""
+    require(_kernel.PROFILE == "release", "the kernel is a debug build")
+    peak = machine_rate()
+    text = (
+        "Typical dam, 100 m, on one core. The rate counts the arithmetic on the modes alone, not that of the contact; "
+        f"the share is of {peak / 1e9:.0f} G/s, what numpy reaches here on one core in products of large matrices."
+    )
+    return "\n\n".join(
+        [
+            heading("Flexible dams", ["heeltoe", "numpy", "scipy", "scikit-fem"]),
+            text,
+            table(COLUMNS, [row(problem, peak) for problem in PROBLEMS]),
+        ]
+    )
+
+
+if __name__ == "__main__":
+    print(report())
