@@ -7,8 +7,9 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 
 use crate::crack::body::{Body, Modes, LANES};
+use crate::crack::dam::{Dam, Options};
 use crate::crack::result::Frames;
-use crate::crack::step::{self, Dam, Options};
+use crate::crack::step;
 
 type Numbers<'py> = PyReadonlyArray1<'py, f64>;
 

@@ -3,7 +3,11 @@
 pub mod body;
 pub mod contact;
 pub mod coulomb;
+pub mod coupling;
+pub mod dam;
+pub mod frames;
 pub mod ledger;
 pub mod observe;
+pub mod part;
 pub mod result;
 pub mod step;

@@ -1,0 +1,180 @@
+//! The contact problem of a step, put together from what both faces do.
+//!
+//! With the crack's answers `W` of both parts and the weights `B` of the nodes at each contact
+//!
+//! ```text
+//! G = B W B^T,      b = B u_f
+//! ```
+//!
+//! as [`super::coulomb`] needs them.
+
+use super::contact::{relative, spread, Contacts};
+use super::coulomb::{Problem, Solver, Status};
+use super::dam::{Dam, Options};
+use super::observe::Faces;
+
+/// The contact problem of a step, in terms of the faces.
+pub struct Crack {
+    pub contacts: Contacts,
+    pub problem: Problem,
+    pub solver: Solver,
+    /// Normal velocity before the step, and whether the contact was closed.
+    pub approach: Vec<f64>,
+    pub closed: Vec<bool>,
+    /// State of damping that `problem.g` belongs to.
+    pub assembled: Option<usize>,
+}
+
+impl Crack {
+    pub fn new(dam: &Dam) -> Self {
+        let lower = dam.lower.as_ref().map_or(0, |body| body.nodes);
+        let contacts = Contacts::new(dam.contactors, dam.upper.nodes, lower);
+        let m = contacts.len();
+        Crack {
+            problem: Problem {
+                g: vec![0.0; 4 * m * m],
+                b: vec![0.0; 2 * m],
+                h: vec![0.0; m],
+                mu_stick: vec![dam.friction[0]; m],
+                mu_slip: dam.friction[1],
+            },
+            solver: Solver::new(m),
+            approach: vec![0.0; m],
+            closed: vec![true; m],
+            contacts,
+            assembled: None,
+        }
+    }
+
+    /// Write how each contact answers to an impulse at any other, with the crack's own answers of either part for this
+    /// state of damping; `softness` is added to the answer to itself, and gets the largest of them to go by.
+    #[inline(always)]
+    pub fn assemble(
+        &mut self,
+        upper: Answer,
+        lower: Option<Answer>,
+        damping: usize,
+        softness: impl Fn(f64) -> f64,
+    ) {
+        let size = self.problem.b.len();
+        self.problem.g.fill(0.0);
+        let mut largest = 0.0_f64;
+        for (i, one) in self.contacts.pairs.iter().enumerate() {
+            let Some(one) = one else { continue };
+            for (j, other) in self.contacts.pairs[..=i].iter().enumerate() {
+                let Some(other) = other else { continue };
+                let mut block = [[0.0; 2]; 2];
+                couple(&mut block, &one.upper, &other.upper, upper);
+                if let Some(lower) = lower {
+                    couple(&mut block, &one.lower, &other.lower, lower);
+                }
+                for (a, row) in block.iter().enumerate() {
+                    for (b, value) in row.iter().enumerate() {
+                        self.problem.g[(2 * i + a) * size + 2 * j + b] = *value;
+                        self.problem.g[(2 * j + b) * size + 2 * i + a] = *value;
+                    }
+                }
+                if i == j {
+                    largest = largest.max(block[0][0]).max(block[1][1]);
+                }
+            }
+        }
+        let soft = softness(largest);
+        if soft > 0.0 {
+            for k in 0..size {
+                self.problem.g[k * (size + 1)] += soft;
+            }
+        }
+        self.solver.forget();
+        self.assembled = Some(damping);
+    }
+}
+
+/// How the crack nodes of a part answer to impulses on them, row by row.
+#[derive(Clone, Copy)]
+pub struct Answer<'a> {
+    pub w: &'a [f64],
+    pub nodes: usize,
+}
+
+/// Add what the nodes of one contact feel of those of another, in one part.
+#[inline(always)]
+fn couple(block: &mut [[f64; 2]; 2], one: &[(usize, f64); 2], other: &[(usize, f64); 2], answer: Answer) {
+    let Answer { w, nodes } = answer;
+    let columns = 2 * nodes;
+    for &(i, a) in one {
+        for &(j, b) in other {
+            let weight = a * b;
+            if weight != 0.0 {
+                for (r, row) in block.iter_mut().enumerate() {
+                    for (c, value) in row.iter_mut().enumerate() {
+                        *value += weight * w[(r * nodes + i) * columns + c * nodes + j];
+                    }
+                }
+            }
+        }
+    }
+}
+
+impl Crack {
+    /// Write the contact problem of the step, from the velocities without contact and those before it.
+    #[inline(always)]
+    pub fn set_up(&mut self, dam: &Dam, free: Faces, before: Faces, options: &Options) {
+        let back = (1.0 - options.theta) / options.theta;
+        for (k, pair) in self.contacts.pairs.iter().enumerate() {
+            let status = self.solver.status[k];
+            self.closed[k] = status.closed();
+            let Some(pair) = pair else {
+                self.solver.status[k] = Status::Absent;
+                self.problem.b[2 * k] = 0.0;
+                self.problem.b[2 * k + 1] = 0.0;
+                self.approach[k] = 0.0;
+                continue;
+            };
+            if status == Status::Absent {
+                self.solver.status[k] = Status::Open;
+            }
+            self.problem.b[2 * k] = relative(pair, free.upper, free.lower, 0);
+            self.problem.b[2 * k + 1] = relative(pair, free.upper, free.lower, 1);
+            self.approach[k] = relative(pair, before.upper, before.lower, 1);
+            self.problem.h[k] = (self.contacts.gaps[k].max(0.0) / options.dt).max(back * self.approach[k]);
+            let slips = matches!(status, Status::SlipDownstream | Status::SlipUpstream);
+            self.problem.mu_stick[k] = dam.friction[usize::from(slips)];
+        }
+    }
+
+    /// Put the impulses on both faces and return their sums along and across the crack.
+    #[inline(always)]
+    pub fn impulses(&self, upper: &mut [f64], lower: &mut [f64]) -> [f64; 2] {
+        upper.fill(0.0);
+        lower.fill(0.0);
+        let mut sum = [0.0; 2];
+        for (k, pair) in self.contacts.pairs.iter().enumerate() {
+            let Some(pair) = pair else { continue };
+            for (direction, sum) in sum.iter_mut().enumerate() {
+                let p = self.solver.p[2 * k + direction];
+                if p != 0.0 {
+                    spread(pair, direction, p, upper, lower);
+                    *sum += p;
+                }
+            }
+        }
+        sum
+    }
+
+    /// Work of the impulses on given velocities, along and across the crack.
+    #[inline(always)]
+    pub fn work(&self, velocity: Faces) -> [f64; 2] {
+        let mut work = [0.0; 2];
+        for (k, pair) in self.contacts.pairs.iter().enumerate() {
+            let Some(pair) = pair else { continue };
+            for (direction, work) in work.iter_mut().enumerate() {
+                let p = self.solver.p[2 * k + direction];
+                if p != 0.0 {
+                    *work += p * relative(pair, velocity.upper, velocity.lower, direction);
+                }
+            }
+        }
+        work
+    }
+}

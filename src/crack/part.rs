@@ -1,0 +1,226 @@
+//! One part of the dam on its way through time; the equations are those of [`super::step`].
+//!
+//! The last half of one step and the first half of the next go over the mode shapes together, as reading them is what a
+//! step costs.
+
+use super::body::{fma, Body, Group, BUNDLE, LANES};
+use super::dam::Options;
+use super::ledger::Sums;
+
+/// What a part needs for a given step, for both states of damping.
+pub struct Operator {
+    d: [Vec<Group>; 2],
+    /// Answer of the crack nodes to impulses on them, row by row.
+    pub w: [Vec<f64>; 2],
+}
+
+impl Operator {
+    fn new(body: &Body, options: &Options) -> Self {
+        let (dt, theta) = (options.dt, options.theta);
+        let d = [0, 1].map(|state| {
+            let pairs = body.damping[state].iter().zip(&body.omega_squared);
+            pairs
+                .map(|(c, w)| {
+                    std::array::from_fn(|l| 1.0 / (1.0 + theta * dt * c[l] + theta * theta * dt * dt * w[l]))
+                })
+                .collect::<Vec<Group>>()
+        });
+        let w = [0, 1].map(|state: usize| body.compliance(&d[state]));
+        Operator { d, w }
+    }
+}
+
+/// The state of a part, and room for a step.
+pub struct Part<'a> {
+    pub body: &'a Body,
+    pub operator: Operator,
+    pub q: Vec<Group>,
+    pub v: Vec<Group>,
+    v_free: Vec<Group>,
+    /// Of the crack nodes: position, velocity, velocity without contact, impulse.
+    pub position: Vec<f64>,
+    pub velocity: Vec<f64>,
+    pub free: Vec<f64>,
+    pub impulse: Vec<f64>,
+    answer: Vec<f64>,
+    /// Room for the sums of `free`, lane by lane.
+    lanes: Vec<Group>,
+    pub sums: Sums,
+}
+
+/// One step's ground: changes of velocity and the state of damping.
+#[derive(Clone, Copy)]
+pub struct Drive {
+    pub ground: [f64; 2],
+    pub damping: usize,
+}
+
+impl<'a> Part<'a> {
+    pub fn new(body: &'a Body, options: &Options) -> Self {
+        let columns = body.columns();
+        let zeros = vec![0.0; columns];
+        Part {
+            body,
+            operator: Operator::new(body, options),
+            q: body.start.clone(),
+            v: vec![[0.0; LANES]; body.groups()],
+            v_free: vec![[0.0; LANES]; body.groups()],
+            position: body.position.clone(),
+            velocity: zeros.clone(),
+            free: zeros.clone(),
+            impulse: zeros.clone(),
+            answer: zeros,
+            lanes: vec![[0.0; LANES]; columns],
+            sums: Sums::default(),
+        }
+    }
+
+    /// Finish the step `now` with the impulses found, unless this is the start, and begin the step `next`.
+    #[inline(always)]
+    pub fn advance<const FUSED: bool>(&mut self, now: Option<Drive>, next: Drive, options: &Options) {
+        let columns = self.body.columns();
+        let touched = self.impulse.iter().any(|p| *p != 0.0);
+        self.lanes.fill([0.0; LANES]);
+        let body = self.body;
+        for (bundle, shapes) in body.shapes.chunks_exact(BUNDLE * columns).enumerate() {
+            let first = BUNDLE * bundle;
+            let (s0, rest) = shapes.split_at(columns);
+            let (s1, rest) = rest.split_at(columns);
+            let (s2, s3) = rest.split_at(columns);
+            let rows = s0.iter().zip(s1).zip(s2).zip(s3);
+            if let Some(now) = now {
+                let mut push = [[0.0; LANES]; BUNDLE];
+                if touched {
+                    push[..2].copy_from_slice(&pushes::<FUSED>(s0, s1, &self.impulse));
+                    push[2..].copy_from_slice(&pushes::<FUSED>(s2, s3, &self.impulse));
+                }
+                for (k, push) in push.iter().enumerate() {
+                    self.finish::<FUSED>(first + k, push, now, options);
+                }
+            }
+            let mut v = [[0.0; LANES]; BUNDLE];
+            for (k, v) in v.iter_mut().enumerate() {
+                *v = self.begin::<FUSED>(first + k, next, options);
+            }
+            for (sum, (((a, b), c), d)) in self.lanes.iter_mut().zip(rows) {
+                let mut new = *sum;
+                product::<FUSED>(&mut new, a, &v[0]);
+                product::<FUSED>(&mut new, b, &v[1]);
+                product::<FUSED>(&mut new, c, &v[2]);
+                product::<FUSED>(&mut new, d, &v[3]);
+                *sum = new;
+            }
+        }
+        for (free, sum) in self.free.iter_mut().zip(&self.lanes) {
+            *free = total(sum);
+        }
+    }
+
+    /// Move the modes of a group to the end of the step and book their energies; `push` is the impulse on each.
+    #[inline(always)]
+    fn finish<const FUSED: bool>(&mut self, group: usize, push: &Group, now: Drive, options: &Options) {
+        let (dt, theta) = (options.dt, options.theta);
+        let body = self.body;
+        // Copies, so that the compiler sees that nothing overlaps, and uses wide registers.
+        let (w, load) = (body.omega_squared[group], body.load[group]);
+        let gamma = [body.participation[0][group], body.participation[1][group]];
+        let c = body.damping[now.damping][group];
+        let d = self.operator.d[now.damping][group];
+        let free = self.v_free[group];
+        let (mut q, mut v, mut sums) = (self.q[group], self.v[group], self.sums);
+        for l in 0..LANES {
+            let v_new = fma::<FUSED>(d[l], push[l], free[l]);
+            let mean = fma::<FUSED>(theta, v_new, (1.0 - theta) * v[l]);
+            let way = dt * mean;
+            let drive = load[l] * dt - gamma[0][l] * now.ground[0] - gamma[1][l] * now.ground[1];
+            let work = drive * mean;
+            sums.input[l] += work;
+            sums.turnover[l] += work.abs();
+            sums.damping[l] = fma::<FUSED>(c[l] * mean, way, sums.damping[l]);
+            let dv = v_new - v[l];
+            sums.numerical[l] += (theta - 0.5) * fma::<FUSED>(dv, dv, w[l] * way * way);
+            q[l] += way;
+            v[l] = v_new;
+        }
+        (self.q[group], self.v[group], self.sums) = (q, v, sums);
+    }
+
+    /// Return, and keep, the velocities that the modes of a group would have after the step without contact.
+    #[inline(always)]
+    fn begin<const FUSED: bool>(&mut self, group: usize, next: Drive, options: &Options) -> Group {
+        let (dt, theta) = (options.dt, options.theta);
+        let late = 1.0 - theta;
+        let body = self.body;
+        let (w, load) = (body.omega_squared[group], body.load[group]);
+        let gamma = [body.participation[0][group], body.participation[1][group]];
+        let c = body.damping[next.damping][group];
+        let d = self.operator.d[next.damping][group];
+        let (q, v) = (self.q[group], self.v[group]);
+        let mut free = [0.0; LANES];
+        for l in 0..LANES {
+            let drive = load[l] * dt - gamma[0][l] * next.ground[0] - gamma[1][l] * next.ground[1];
+            let spring = w[l] * fma::<FUSED>(dt * theta * late, v[l], q[l]);
+            free[l] = d[l] * (v[l] + drive - dt * fma::<FUSED>(c[l] * late, v[l], spring));
+        }
+        self.v_free[group] = free;
+        free
+    }
+
+    /// Velocities and positions of the crack nodes at the end of the step.
+    #[inline(always)]
+    pub fn move_crack<const FUSED: bool>(&mut self, damping: usize, options: &Options) {
+        let columns = self.body.columns();
+        self.answer.copy_from_slice(&self.free);
+        for (p, row) in self
+            .impulse
+            .iter()
+            .zip(self.operator.w[damping].chunks_exact(columns))
+        {
+            if *p != 0.0 {
+                for (u, w) in self.answer.iter_mut().zip(row) {
+                    *u = fma::<FUSED>(*p, *w, *u);
+                }
+            }
+        }
+        let (dt, theta) = (options.dt, options.theta);
+        for ((x, u), new) in self.position.iter_mut().zip(&mut self.velocity).zip(&self.answer) {
+            *x += dt * fma::<FUSED>(theta, *new, (1.0 - theta) * *u);
+            *u = *new;
+        }
+    }
+}
+
+/// Impulses on the modes of two groups. Two at a time keep the machine busy, and compilers still see the lanes.
+#[inline(always)]
+fn pushes<const FUSED: bool>(a: &[Group], b: &[Group], impulse: &[f64]) -> [Group; 2] {
+    let mut push = [[0.0; LANES]; 2];
+    for ((a, b), p) in a.iter().zip(b).zip(impulse) {
+        for l in 0..LANES {
+            push[0][l] = fma::<FUSED>(a[l], *p, push[0][l]);
+            push[1][l] = fma::<FUSED>(b[l], *p, push[1][l]);
+        }
+    }
+    push
+}
+
+/// `sum += a b`, lane by lane.
+#[inline(always)]
+fn product<const FUSED: bool>(sum: &mut Group, a: &Group, b: &Group) {
+    for l in 0..LANES {
+        sum[l] = fma::<FUSED>(a[l], b[l], sum[l]);
+    }
+}
+
+/// Sum of the lanes, by halves, as wide registers can.
+#[inline(always)]
+fn total(lanes: &Group) -> f64 {
+    let mut lanes = *lanes;
+    let mut width = LANES / 2;
+    while width > 0 {
+        for l in 0..width {
+            lanes[l] += lanes[l + width];
+        }
+        width /= 2;
+    }
+    lanes[0]
+}
