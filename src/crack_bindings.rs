@@ -8,7 +8,8 @@ use rayon::prelude::*;
 
 use crate::crack::body::{Body, Modes, LANES};
 use crate::crack::dam::{Dam, Options};
-use crate::crack::result::Frames;
+use crate::crack::idce::{self, Idce};
+use crate::crack::result::{Frames, Summary};
 use crate::crack::step;
 
 type Numbers<'py> = PyReadonlyArray1<'py, f64>;
@@ -82,6 +83,25 @@ type Run<'py> = (
     Bound<'py, PyArray2<f64>>,
 );
 
+impl CrackedDam {
+    /// Run one scheme or the other.
+    fn simulate(
+        &self,
+        ground: &[[f64; 2]],
+        options: &Options,
+        penalty: Option<[f64; 3]>,
+        frames: Option<&mut Frames>,
+    ) -> Summary {
+        match penalty {
+            None => step::simulate(&self.dam, ground, options, frames),
+            Some([penalty, gamma, beta]) => {
+                let idce = Idce { penalty, gamma, beta };
+                idce::simulate(&self.dam, ground, options, &idce, frames)
+            }
+        }
+    }
+}
+
 #[pymethods]
 impl CrackedDam {
     #[new]
@@ -98,7 +118,7 @@ impl CrackedDam {
     }
 
     /// See `_kernel.pyi`.
-    #[pyo3(signature = (ground, dt, theta, stride, keep_modes, scale))]
+    #[pyo3(signature = (ground, dt, theta, stride, keep_modes, scale, penalty=None))]
     #[allow(clippy::too_many_arguments)]
     fn run<'py>(
         &self,
@@ -109,6 +129,7 @@ impl CrackedDam {
         stride: usize,
         keep_modes: bool,
         scale: [f64; 2],
+        penalty: Option<[f64; 3]>,
     ) -> PyResult<Run<'py>> {
         let options = Options {
             dt,
@@ -120,7 +141,7 @@ impl CrackedDam {
         let ground = pairs(ground.as_slice()?)?;
         let mut frames = Frames::default();
         let wanted = (stride > 0).then_some(&mut frames);
-        let summary = py.detach(|| step::simulate(&self.dam, ground, &options, wanted));
+        let summary = py.detach(|| self.simulate(ground, &options, penalty, wanted));
         let count = frames.rows.len();
         let table = |values: Vec<f64>| -> PyResult<Bound<'py, PyArray2<f64>>> { shaped(py, values, count) };
         let rows = frames.rows.as_flattened().to_vec();
@@ -140,6 +161,8 @@ impl CrackedDam {
     }
 
     /// See `_kernel.pyi`.
+    #[pyo3(signature = (ground, dt, theta, scales, threads, penalty=None))]
+    #[allow(clippy::too_many_arguments)]
     fn run_many<'py>(
         &self,
         py: Python<'py>,
@@ -148,6 +171,7 @@ impl CrackedDam {
         theta: f64,
         scales: Vec<[f64; 2]>,
         threads: usize,
+        penalty: Option<[f64; 3]>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let ground = pairs(ground.as_slice()?)?;
         let pool = rayon::ThreadPoolBuilder::new()
@@ -166,7 +190,7 @@ impl CrackedDam {
                             keep_modes: false,
                             scale: *scale,
                         };
-                        step::simulate(&self.dam, ground, &options, None).row()
+                        self.simulate(ground, &options, penalty, None).row()
                     })
                     .collect()
             })

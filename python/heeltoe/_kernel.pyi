@@ -124,9 +124,16 @@ class CrackedDam:
         self, upper: CrackPart, lower: CrackPart | None, friction: tuple[float, float], contactors: int
     ) -> None: ...
     def run(
-        self, ground: Floats, dt: float, theta: float, stride: int, keep_modes: bool, scale: tuple[float, float]
+        self,
+        ground: Floats,
+        dt: float,
+        theta: float,
+        stride: int,
+        keep_modes: bool,
+        scale: tuple[float, float],
+        penalty: tuple[float, float, float] | None = None,
     ) -> tuple[Floats, Floats, Floats, Floats, Floats, NDArray[np.uint8], Floats, Floats]:
-        """Shake it with exact contact.
+        """Shake it, with exact contact or with springs at the contacts.
 
         Parameters
         ----------
@@ -142,6 +149,9 @@ class CrackedDam:
             Whether frames keep the amplitudes of all modes.
         scale
             Factors on the horizontal and the vertical ground.
+        penalty
+            Stiffness of the springs [N/m] and Newmark's gamma and beta, for the penalty method; `ground` then has the
+            accelerations at both ends of all steps, (n + 1, 2), and theta plays no part.
 
         Returns
         -------
@@ -152,6 +162,12 @@ class CrackedDam:
         """
 
     def run_many(
-        self, ground: Floats, dt: float, theta: float, scales: Sequence[tuple[float, float]], threads: int
+        self,
+        ground: Floats,
+        dt: float,
+        theta: float,
+        scales: Sequence[tuple[float, float]],
+        threads: int,
+        penalty: tuple[float, float, float] | None = None,
     ) -> Floats:
         """Shake it once for each pair of factors, on `threads` cores (0 for all); (n, len(CRACK_SUMMARY_FIELDS))."""

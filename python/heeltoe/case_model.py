@@ -307,8 +307,8 @@ class Flexible(Block):
     """Weight of the new state within a step of `coulomb`: 0.5 loses no energy, more damps fast vibrations."""
     penalty_factor: Annotated[DimensionlessNumber, Field(gt=0.0, le=1e12)] = 1000.0
     """Of `idce`: stiffness of the contact over the largest diagonal term of the dam's."""
-    newmark_gamma: Annotated[DimensionlessNumber, Field(ge=0.5, le=1.5)] = 0.5
-    """Of `idce`: Newmark's gamma; more than 0.5 damps fast vibrations."""
+    newmark_gamma: Annotated[DimensionlessNumber, Field(ge=0.5, le=1.5)] = 0.7
+    """Of `idce`: Newmark's gamma; more than 0.5 damps fast vibrations. With 0.5 contact makes energy at every blow."""
     newmark_beta: Annotated[DimensionlessNumber, Field(ge=0.25, le=1.0)] | None = None
     """Of `idce`: Newmark's beta; (gamma + 1/2)^2 / 4 where it is not given."""
 

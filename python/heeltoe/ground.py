@@ -57,6 +57,20 @@ def step_means(time: Floats, horizontal: Floats, up: Floats | None, count: int, 
     return means
 
 
+def step_ends(time: Floats, horizontal: Floats, up: Floats | None, count: int, end: float) -> Floats:
+    """Return the acceleration at both ends of each of `count` equal steps, (count + 1, 2) [m/s2]; at a jump the mean
+    of both sides."""
+    moments = np.linspace(0.0, end, count + 1)
+    ends = np.zeros((count + 1, 2))
+    for column, series in enumerate((horizontal, up)):
+        if series is not None:
+            left = series[np.clip(np.searchsorted(time, moments, side="left"), 0, time.size - 1)]
+            right = series[np.clip(np.searchsorted(time, moments, side="right") - 1, 0, time.size - 1)]
+            at_sample = np.isin(moments, time)
+            ends[:, column] = np.where(at_sample, (left + right) / 2.0, np.interp(moments, time, series))
+    return ends
+
+
 def _both_sides(motion: GroundMotion, moments: Floats) -> tuple[Floats, Floats]:
     """Return the acceleration right before and right after each moment; outside the record it is zero."""
     t, a = motion.time, motion.acceleration

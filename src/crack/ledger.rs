@@ -35,13 +35,17 @@ pub struct Ledger {
 }
 
 impl Ledger {
+    /// Loss that only the scheme itself can explain.
+    pub fn unexplained(&self) -> f64 {
+        let change = self.stored + self.penalty - self.start;
+        self.input - self.damping - self.impact - self.friction - change
+    }
+
     /// What is not accounted for, over the turnover.
     pub fn residual(&self) -> f64 {
-        let change = self.stored + self.penalty - self.start;
-        let explained = self.input - self.damping - self.numerical - self.impact - self.friction;
         let scale = self.turnover + self.stored.abs() + self.start.abs();
         if scale > 0.0 {
-            (change - explained).abs() / scale
+            (self.unexplained() - self.numerical).abs() / scale
         } else {
             0.0
         }

@@ -6,6 +6,7 @@ pub mod coulomb;
 pub mod coupling;
 pub mod dam;
 pub mod frames;
+pub mod idce;
 pub mod ledger;
 pub mod observe;
 pub mod part;
