@@ -200,3 +200,24 @@ class TestPainleve:
             assert one.outcome == "paradox"
             assert one.summary["end_time"] == pytest.approx(moment, rel=1e-9)
             assert one.summary["slip_velocity"] > 0.5
+
+
+def test_a_slip_let_in_by_a_hair_does_not_stop_the_moment_it_starts():
+    """Friction and normal force vanish together while the block rocks on its heel and is about to lift off.
+
+    Where the slip starts, its acceleration is rounding of the wrong sign: too small to forbid the start, it used to end
+    it at once, and start and stop followed each other a thousand times at one moment ("cycling").
+    """
+    block = [
+        *(22691.569939251513, 17135.81682728138, 79941.69702983655, 3.0507196715393565, 1.2778618647184414),
+        *(0.968928227094203, 0.0, -168102.36307563033, 25966.237259092468, -22691.569939251513, 0.0, 0.0),
+        *(0.0, -17135.81682728138, 0.0, 1.6106836488435328, 1.6106836488435328, 0.0),
+    ]
+    ends = [0.014357142172415727, 0.028714284344831455, 0.043071426517247186]
+    time = [0.0, ends[0], ends[0], ends[1], ends[1], ends[2], ends[2]]
+    horizontal = [0.0, 0.0, 0.0, 0.0, 2.045976964673055, 2.045976964673055, 0.0]
+    vertical = [0.0, -11.955937500000001, 0.0, 0.0, 0.0, -11.955937500000001, 0.0]
+    one = run(np.array(block), time, horizontal, vertical)
+    assert one.outcome == "ok"
+    assert one.kinds[-2:] == ["slip starts", "heel lifts"]
+    assert one.summary["slip_velocity"] < 0.0

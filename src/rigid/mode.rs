@@ -364,17 +364,21 @@ pub fn select(
     None
 }
 
-/// Acceleration and its slope of each contact coordinate on a piece. A coordinate that starts to move in this very
-/// moment has its rounding removed, so that it cannot start the wrong way.
-pub fn accelerations(block: &Block, reaction: &Reaction, starts: [bool; 3], piece: &Piece) -> [[f64; 2]; 3] {
-    let tie = TIE * block.acceleration_scale();
+/// Acceleration and its slope of each contact coordinate on a piece. `starts` has the way, 1 or -1, in which a
+/// coordinate starts to move in this very moment, and 0 for the others. What starts has its rounding removed, and that
+/// against its way up to the hair by which [`select`] may have let it: it must not end the moment it begins.
+pub fn accelerations(block: &Block, reaction: &Reaction, starts: [f64; 3], piece: &Piece) -> [[f64; 2]; 3] {
+    let scale = block.acceleration_scale();
+    let nothing = |value: f64, way: f64| {
+        value.abs() <= TIE * scale || (value * way < 0.0 && value.abs() <= HAIR * scale)
+    };
     let mut result = [[0.0; 2]; 3];
     for i in 0..3 {
         let mut value = reaction.acceleration[i].at(piece.ground);
         let mut slope = reaction.acceleration[i].slope(piece.rate);
-        if starts[i] && value.abs() <= tie {
+        if starts[i] != 0.0 && nothing(value, starts[i]) {
             value = 0.0;
-            if (slope * piece.left).abs() <= tie {
+            if nothing(slope * piece.left, starts[i]) {
                 slope = 0.0;
             }
         }

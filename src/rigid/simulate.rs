@@ -9,7 +9,7 @@ use super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
 use super::event;
 use super::impact::{impact, jam, Impact};
 use super::ledger::work;
-use super::mode::{accelerations, cone, select, Mode, Piece, Reactions, VIOLATION};
+use super::mode::{accelerations, cone, select, Mode, Piece, Reactions, Slip, VIOLATION};
 use super::result::{Event, EventKind, Histories, Outcome, Summary};
 
 /// A slip slower than this many times the bound of bounces may jam unasked; it would end within a nanometre or so.
@@ -311,7 +311,15 @@ impl Walk<'_, '_> {
         let velocity = self.summary.velocity;
         let position = self.summary.position;
         let slip = self.mode.slip();
-        let starts = [slip.is_some() && velocity[SLIP] == 0.0, closed[0], closed[1]];
+        let starts = [
+            if velocity[SLIP] == 0.0 {
+                slip.map_or(0.0, Slip::sign)
+            } else {
+                0.0
+            },
+            f64::from(closed[0]),
+            f64::from(closed[1]),
+        ];
         let motion = accelerations(self.block, reaction, starts, piece);
 
         let mut step = piece.left;
