@@ -12,3 +12,5 @@ pub mod observe;
 pub mod part;
 pub mod result;
 pub mod step;
+#[cfg(test)]
+mod tests;

@@ -27,7 +27,7 @@ _PROTOTYPE = {0.8: (143.40, 421.00, 1396.5), 1.0: (27.882, 58.981, 153.48), 1.2:
 
 def taft() -> Iterator[Row]:
     """Typical dam cracked at its base, Taft S69E at 0.4 g, 30 s: residual slip in mm."""
-    record = _record("taft-1952-s69e-caltech")
+    record = record_named("taft-1952-s69e-caltech")
     for friction, row in _TAFT.items():
         for depth, printed, prototype in zip(_DEPTHS, row, _PROTOTYPE[friction], strict=True):
             ours = _slip_mm(_typical(depth, friction), record)
@@ -43,7 +43,7 @@ def el_centro() -> Iterator[Row]:
         "the thesis does not say which version of the record it used; none of these four gives its half of the table"
     )
     for version in ("caltech", "peer1999", "peknold", "nga2"):
-        record = _record(f"elcentro-1940-ns-{version}")
+        record = record_named(f"elcentro-1940-ns-{version}")
         for friction, row in _EL_CENTRO.items():
             for depth, printed in zip(_DEPTHS, row, strict=True):
                 ours = _slip_mm(_typical(depth, friction), record)
@@ -52,7 +52,7 @@ def el_centro() -> Iterator[Row]:
 
 def triangular() -> Iterator[Row]:
     """Triangular dam, h = 121.92 m, base 0.8 h, full reservoir, Taft S69E: slip and rocking."""
-    record = _record("taft-1952-s69e-caltech")
+    record = record_named("taft-1952-s69e-caltech")
     source = "thesis after Chopra and Zhang (1991)"
     for extent, tolerance, remark in (
         (0.4, 0.03, f"{source}; uplift cut off at 0.4 of the base"),
@@ -78,7 +78,7 @@ def triangular() -> Iterator[Row]:
         yield Row(f"friction 1.4, 0.9 g: {label}", printed, values[2], 0.5, remark=remark)
 
 
-def _record(name: str) -> GroundMotion:
+def record_named(name: str) -> GroundMotion:
     """Find a reference record in $HEELTOE_RECORDS, or beside the project."""
     beside = Path("../shared/records") / f"{name}.txt"
     try:
