@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
+import pty
 import subprocess
 import sys
 from pathlib import Path
@@ -14,6 +16,8 @@ import pytest
 from conftest import ROOT
 
 EXAMPLES = ROOT / "examples"
+COARSE = ("--set", "flexible.elements_across=2")
+FAST = ("--set", "flexible.convergence_check=false", "--set", "motion.duration=3s")
 
 
 def heeltoe(*arguments: str | Path, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
@@ -128,12 +132,153 @@ def test_a_dam_that_cannot_stand_is_not_shaken():
     assert "residual_slip_m" not in data or data["residual_slip_m"] is None
 
 
-@pytest.mark.parametrize("arguments", [("--model", "flexible"), ("--model", "both"), ("--spread", "11"), ("--report",)])
-def test_what_is_not_there_yet_says_so(arguments, tmp_path):
-    result = heeltoe("run", EXAMPLES / "block.toml", *arguments, "--out", tmp_path / "out")
+def test_what_is_not_there_yet_says_so(tmp_path):
+    result = heeltoe("run", EXAMPLES / "block.toml", "--report", "--out", tmp_path / "out")
     assert result.returncode == 2
     assert "later release" in result.stderr
     assert not (tmp_path / "out").exists()
+
+
+def test_flexible_says_what_its_result_rests_on(tmp_path):
+    short = ("--model", "flexible", *COARSE, "--duration", "4s")
+    result = heeltoe("run", EXAMPLES / "typical-base.toml", *short, "--out", tmp_path)
+    assert result.returncode == 0, result.stderr
+    for words in [
+        "(flexible model)",
+        "s, of the intact dam with its water",
+        "6 elements, 29 nodes; 5 nodes along the crack",
+        "thesis: 5 % in the 1st and 3rd mode",
+        "coulomb: exact, with Coulomb friction",
+        "time step",
+        "% apart (3 % allowed)",
+        "damping ",
+        "node strikes",
+        "Verdict  The dam slides",
+    ]:
+        assert words in result.stdout, words
+    data = json.loads((tmp_path / "result.json").read_text())
+    assert data["model"] == "flexible"
+    assert data["damping"] == "thesis"
+    assert len(data["periods_s"]) == 5
+    assert data["convergence"]["coarser_step_s"] == pytest.approx(2.0 * data["time_step_s"])
+    energy = data["energy"]
+    parts = ("friction_j", "impact_j", "damping_j", "numerical_j", "kinetic_j")
+    assert sum(energy[name] for name in parts) == pytest.approx(energy["input_j"], rel=1e-6)
+    assert (tmp_path / "crack.parquet").exists()
+
+
+def test_both_models_side_by_side(tmp_path):
+    arguments = ("--model", "both", *COARSE, *FAST, "--spread", "3", "--out", tmp_path, "--json", "-")
+    result = heeltoe("run", EXAMPLES / "typical-base.toml", *arguments)
+    assert result.returncode == 0, result.stderr
+    data = json.loads(result.stdout)
+    assert data["model"] == "both"
+    assert data == json.loads((tmp_path / "result.json").read_text())
+    assert data["rigid"]["spread"]["runs"] == data["flexible"]["spread"]["runs"] == 3
+    for words in (
+        "flexible/rigid",
+        "with the shaking varied by 1 %",
+        "computed in",
+        "Rigid ",
+        "Flexible ",
+        "Difference ",
+    ):
+        assert words in result.stderr, words
+    assert f"{data['ratio']['residual_slip_m']:.3g}" in result.stderr
+    assert (tmp_path / "flexible" / "crack.png").exists()
+
+
+def test_both_end_with_3_where_one_has_no_result():
+    weak = ("--set", "crack.friction=0.3", "--model", "both", *COARSE, *FAST, "--json", "-")
+    result = heeltoe("run", EXAMPLES / "typical-base.toml", *weak)
+    assert result.returncode == 3
+    data = json.loads(result.stdout)
+    assert data["rigid"]["outcome"] == "unstable"
+    assert data["flexible"]["outcome"] == "unstable"
+    assert set(data["ratio"].values()) == {None}
+    assert "slides under its static loads alone" in result.stderr
+
+
+def test_a_dam_that_is_lost_is_no_result(tmp_path):
+    (tmp_path / "slide.toml").write_text(
+        'section = { polygon = [["0 m", "0 m"], ["0.2 m", "0 m"], ["0.2 m", "0.2 m"], ["0 m", "0.2 m"]] }\n'
+        'concrete = { modulus = "20 GPa" }\ncrack = { friction = 0.01 }\nreservoir = { depth = "0.2 m" }\n'
+        "flexible = { elements_across = 1, convergence_check = false }\n"
+        'motion = { points = [["0 s", "-3 g"], ["3 s", "-3 g"]] }\n'
+    )
+    result = heeltoe("run", "slide.toml", "--model", "flexible", "--json", "-", "--spread", "2", cwd=tmp_path)
+    assert result.returncode == 3, result.stderr
+    data = json.loads(result.stdout)
+    assert data["outcome"] == "lost"
+    assert data["spread"]["failed"] == 2
+    assert "No result to trust (lost)" in result.stderr
+    assert "the dam has failed" in data["advice"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "runs"),
+    [
+        (("--spread", "block.toml"), 11),
+        (("block.toml", "--spread"), 11),
+        (("--spread", "--pga", "0.3g", "block.toml"), 11),
+        (("block.toml", "--spread", "3"), 3),
+        (("block.toml", "--spread=4"), 4),
+    ],
+)
+def test_spread_with_and_without_a_number(arguments, runs):
+    result = heeltoe("run", *arguments, "--json", "-", cwd=EXAMPLES)
+    assert result.returncode == 0, result.stderr
+    spread = json.loads(result.stdout)["spread"]
+    assert spread["runs"] == len(spread["scales"]) == runs
+    assert (spread["scales"][0], spread["scales"][-1]) == (0.99, 1.01)
+    assert set(spread["residual_slip_m"]) == {"mean", "std", "min", "max"}
+    assert f"spread over {runs} runs" in result.stderr
+
+
+def test_periods():
+    result = heeltoe("periods", EXAMPLES / "typical-height.toml", *COARSE, "--count", "3")
+    assert result.returncode == 0, result.stderr
+    for words in ("intact, dry", "intact, with water", "above the crack", "below the crack", "held at its base"):
+        assert words in result.stdout
+    result = heeltoe("periods", EXAMPLES / "typical-height.toml", *COARSE, "--count", "3", "--json", "-")
+    periods = json.loads(result.stdout)["periods_s"]
+    assert {len(values) for values in periods.values()} == {3}
+    assert f"{periods['intact'][0]:.4f} s" in result.stderr
+
+
+def test_vtk_files_go_beside_the_rest(tmp_path):
+    arguments = ("--model", "both", *COARSE, *FAST, "--out", tmp_path, "--vtk")
+    folder = tmp_path / "flexible" / "vtk"
+    folder.mkdir(parents=True)
+    (folder / "dam-9999.vtu").write_text("of an earlier run")
+    result = heeltoe("run", EXAMPLES / "typical-base.toml", *arguments)
+    assert result.returncode == 0, result.stderr
+    assert "vtk/dam.pvd" in result.stdout
+    # Not one line for each of hundreds of frames.
+    assert ".vtu" not in result.stdout
+    assert len(list(folder.glob("dam-*.vtu"))) > 100
+    assert not (folder / "dam-9999.vtu").exists()
+
+
+def test_a_terminal_sees_what_goes_on_and_a_pipe_does_not():
+    command = [sys.executable, "-m", "heeltoe", "run", str(EXAMPLES / "typical-base.toml"), "--spread", "--json", "-"]
+    ours, theirs = pty.openpty()
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=theirs)
+    os.close(theirs)
+    seen = b""
+    # The end of a pseudo-terminal is an error on Linux, and no data elsewhere.
+    with contextlib.suppress(OSError):
+        while part := os.read(ours, 65536):
+            seen += part
+    assert process.stdout is not None
+    json.loads(process.stdout.read())
+    process.stdout.close()
+    assert process.wait() == 0
+    os.close(ours)
+    assert b"rigid model" in seen
+    assert b"0:00:0" in seen
+    piped = subprocess.run(command, capture_output=True, check=True)
+    assert b"0:00:0" not in piped.stderr
 
 
 def test_new_writes_a_case_that_runs(tmp_path):
@@ -158,9 +303,11 @@ def test_version_and_help():
         "--spread",
         "--json",
         "--out",
+        "--vtk",
         "--report",
     ]:
         assert option in text
+    assert "periods" in heeltoe("--help").stdout
 
 
 def test_motion_echo_and_list():

@@ -62,7 +62,8 @@ def test_a_motion_starts_and_ends_at_rest(seed):
     # What the polynomial took was a trifle.
     taken = float(motion.processing[-1].split("was ")[1].split(" m/s")[0])
     assert abs(taken) < 0.01 * motion.pgv
-    assert abs(motion.acceleration[0]) < 1e-3 * motion.pga
+    # The polynomial that ends the displacement at zero starts with a small step, as large as that displacement was.
+    assert abs(motion.acceleration[0]) < 5e-3 * motion.pga
     assert abs(motion.acceleration[-1]) < 0.02 * motion.pga
 
 

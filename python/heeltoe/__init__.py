@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from heeltoe.block import Block, build_block
     from heeltoe.case import Case, read_case
+    from heeltoe.comparison import Comparison, compare
     from heeltoe.ensemble import rigid_many
     from heeltoe.errors import HeeltoeError, InputError
     from heeltoe.flexible_model import flexible
@@ -15,17 +16,21 @@ if TYPE_CHECKING:
     from heeltoe.made_to_order import stochastic_motion
     from heeltoe.matching import match
     from heeltoe.motion import GroundMotion
+    from heeltoe.periods import DamPeriods, dam_periods
     from heeltoe.records import read_channels, read_record
     from heeltoe.response import Response
     from heeltoe.rigid_model import rigid
     from heeltoe.scenario import synthetic
     from heeltoe.spectrum import response_spectrum
+    from heeltoe.spread import with_spread
     from heeltoe.targets import asce_7, en_1998
     from heeltoe.verdicts import verdict
 
 __all__ = [
     "Block",
     "Case",
+    "Comparison",
+    "DamPeriods",
     "FlexibleDam",
     "GroundMotion",
     "HeeltoeError",
@@ -34,6 +39,8 @@ __all__ = [
     "asce_7",
     "build_block",
     "build_flexible_dam",
+    "compare",
+    "dam_periods",
     "en_1998",
     "flexible",
     "match",
@@ -46,11 +53,14 @@ __all__ = [
     "stochastic_motion",
     "synthetic",
     "verdict",
+    "with_spread",
 ]
 
 _HOME = {
     "Block": "block",
     "Case": "case",
+    "Comparison": "comparison",
+    "DamPeriods": "periods",
     "GroundMotion": "motion",
     "HeeltoeError": "errors",
     "InputError": "errors",
@@ -58,6 +68,8 @@ _HOME = {
     "asce_7": "targets",
     "build_block": "block",
     "build_flexible_dam": "flexible_parts",
+    "compare": "comparison",
+    "dam_periods": "periods",
     "en_1998": "targets",
     "flexible": "flexible_model",
     "FlexibleDam": "flexible_parts",
@@ -71,6 +83,7 @@ _HOME = {
     "stochastic_motion": "made_to_order",
     "synthetic": "scenario",
     "verdict": "verdicts",
+    "with_spread": "spread",
 }
 
 

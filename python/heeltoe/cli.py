@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 import json
-import shutil
 import sys
 import tempfile
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.console import Console
+from typer.core import TyperCommand
 
 from heeltoe.errors import InputError
 from heeltoe.motion import STANDARD_GRAVITY, GroundMotion
-from heeltoe.response import Response
+
+if TYPE_CHECKING:
+    from heeltoe.case import Case
+    from heeltoe.comparison import Comparison
+    from heeltoe.response import Response
 
 app = typer.Typer(
     name="heeltoe",
@@ -29,6 +35,11 @@ BAD_INPUT = 2
 NO_RESULT = 3
 
 CasePath = Annotated[str, typer.Argument(metavar="CASE.toml", help="The case file (TOML or JSON).")]
+Changes = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="PATH=VALUE", help="Set any field of the case, e.g. crack.friction=1.0."),
+]
+JsonPath = Annotated[str | None, typer.Option("--json", metavar="FILE|-", help="Write the result as JSON.")]
 
 
 def main() -> None:
@@ -61,42 +72,67 @@ def _options(
     pass
 
 
-@app.command()
+class _Run(TyperCommand):
+    """A command whose option ``--spread`` needs no value, which is empty then; typer itself knows no such option."""
+
+    def parse_args(self, ctx: typer.Context, args: list[str]) -> list[str]:  # type: ignore[override]
+        given = list(args)
+        for place, argument in enumerate(args):
+            if argument == "--":
+                break
+            following = args[place + 1] if place + 1 < len(args) else "--"
+            if argument == "--spread" and (following.startswith("--") or following.endswith((".toml", ".json"))):
+                given[place] = "--spread="
+        return super().parse_args(ctx, given)
+
+
+@app.command(cls=_Run)
 def run(
     case: CasePath,
-    model: Annotated[str, typer.Option(help="rigid; flexible and both are not there yet.")] = "rigid",
+    model: Annotated[str, typer.Option(metavar="rigid|flexible|both", help="What the dam is taken for.")] = "rigid",
     motion: Annotated[str | None, typer.Option(metavar="FILE-or-NAME", help="Another ground motion.")] = None,
     pga: Annotated[str | None, typer.Option(metavar="0.4g", help="Scale the motion to this peak.")] = None,
     reverse: Annotated[bool, typer.Option("--reverse", help="Turn the motion round.")] = False,
     duration: Annotated[str | None, typer.Option(metavar="30s", help="Length of the run.")] = None,
-    set_: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="PATH=VALUE", help="Set any field of the case, e.g. crack.friction=1.0."),
+    set_: Changes = None,
+    spread: Annotated[
+        str | None,
+        typer.Option(
+            metavar="[N]",
+            help="Run N times more, 11 if not said, the shaking scaled by 0.99 to 1.01: what the result hangs on.",
+        ),
     ] = None,
-    spread: Annotated[str | None, typer.Option(metavar="N", help="Not there yet.")] = None,
-    json_: Annotated[str | None, typer.Option("--json", metavar="FILE|-", help="Write the result as JSON.")] = None,
+    json_: JsonPath = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write figures, histories and JSON here.")] = None,
     csv: Annotated[bool, typer.Option("--csv", help="Histories as CSV instead of Parquet.")] = False,
+    vtk: Annotated[
+        bool, typer.Option("--vtk", help="With --out: VTK files of the flexible model for ParaView.")
+    ] = False,
     output_step: Annotated[
         str | None,
-        typer.Option(metavar="0.001s", help="Spacing of the histories; the record's own without it."),
+        typer.Option(
+            metavar="0.001s", help="Spacing of the histories; without it the record's own, 0.01 s if flexible."
+        ),
     ] = None,
     report: Annotated[bool, typer.Option("--report", help="Not there yet.")] = False,
 ) -> None:
     """Run a case and say what the dam does."""
     from heeltoe.case import read_case
     from heeltoe.quantities import parse
-    from heeltoe.rigid_model import rigid
-    from heeltoe.summary import print_summary
 
-    if model in ("flexible", "both"):
-        raise InputError("not-yet", "--model", model, remedy="use --model rigid")
-    if model != "rigid":
+    if model not in ("rigid", "flexible", "both"):
         raise InputError("unknown-model", "--model", model)
-    if spread is not None:
-        raise InputError("not-yet", "--spread", spread, remedy="leave it out")
     if report:
         raise InputError("not-yet", "--report", "the report", remedy="leave it out; --out DIR writes figures and JSON")
+    if vtk and out is None:
+        raise InputError("vtk-without-out", "--vtk")
+    if vtk and model == "rigid":
+        raise InputError("vtk-rigid", "--vtk")
+    runs = None
+    if spread is not None:
+        from heeltoe.spread import RUNS, check_runs
+
+        runs = check_runs(spread or RUNS, "--spread")
 
     changes = list(set_ or [])
     options = (("file", motion and json.dumps(_as_given(motion))), ("pga", pga), ("duration", duration))
@@ -107,23 +143,85 @@ def run(
     step = None if output_step is None else parse(output_step, "duration", "--output-step")
     if out is not None:
         _check_directory(out)
-    if json_ not in (None, "-") and not Path(str(json_)).absolute().parent.is_dir():
-        raise InputError("no-directory", str(Path(str(json_)).parent))
-    console = Console(stderr=json_ == "-", highlight=False)
-    with Console(stderr=True).status("running") if sys.stderr.isatty() else _nothing():
-        response = rigid(loaded, output_step=step)
-    # Files first: if they cannot be written that is all there is to say.
-    written = [] if out is None else _write_all(response, out, ".csv" if csv else ".parquet")
-    text = json.dumps(response.to_json(), indent=2, ensure_ascii=False)
-    if json_ not in (None, "-"):
-        written.append(_replace(Path(str(json_)), text + "\n"))
-    print_summary(response, console)
-    for path in written:
-        console.print(f"  wrote {path}", soft_wrap=True)
-    if json_ == "-":
-        print(text)
-    if not response.ok:
+    _check_json(json_)
+    with _status() as say:
+        result = _analysis(loaded, model, step, runs, say)
+        # Files first: if they cannot be written that is all there is to say.
+        written = []
+        if out is not None:
+            from heeltoe.outputs import write_all
+
+            say("writing")
+            suffix = ".csv" if csv else ".parquet"
+            written = write_all(result, out, suffix=suffix, vtk=vtk)
+    _finish(result.to_json(), json_, written, lambda console: _print(result, console))
+    if not result.ok:
         raise typer.Exit(NO_RESULT)
+
+
+def _analysis(
+    case: Case, model: str, step: float | None, runs: int | None, say: Callable[[str], None]
+) -> Response | Comparison:
+    """Run what is asked for; `say` is told what goes on."""
+    result: Response | Comparison
+    if model == "rigid":
+        from heeltoe.rigid_model import rigid
+
+        say("running the rigid model")
+        result = rigid(case, output_step=step)
+    elif model == "flexible":
+        from heeltoe.flexible_model import flexible
+
+        say("running the flexible model")
+        result = flexible(case, output_step=step)
+    else:
+        from heeltoe.comparison import compare
+
+        say("running both models")
+        result = compare(case, output_step=step)
+    if runs is None:
+        return result
+
+    from heeltoe.comparison import Comparison
+    from heeltoe.spread import with_spread
+
+    def vary(response: Response) -> Response:
+        def told(done: int, of: int) -> None:
+            say(f"varying the shaking of the {response.model} model, {done} of {of} runs done")
+
+        return with_spread(response, case, runs, told=told)
+
+    return result.with_responses(vary) if isinstance(result, Comparison) else vary(result)
+
+
+def _print(result: Response | Comparison, console: Console) -> None:
+    from heeltoe.response import Response
+    from heeltoe.summary import print_comparison, print_summary
+
+    if isinstance(result, Response):
+        print_summary(result, console)
+    else:
+        print_comparison(result, console)
+
+
+@app.command()
+def periods(
+    case: CasePath,
+    count: Annotated[int, typer.Option(metavar="N", help="How many of each.")] = 5,
+    set_: Changes = None,
+    json_: JsonPath = None,
+) -> None:
+    """Say in which periods the dam vibrates: intact, and the parts above and below its crack by themselves."""
+    from heeltoe.case import read_case
+    from heeltoe.periods import dam_periods
+    from heeltoe.summary import print_periods
+
+    loaded = read_case(case, list(set_ or []))
+    _check_json(json_)
+    with _status() as say:
+        say("building the elastic parts")
+        found = dam_periods(loaded, count, field="--count")
+    _finish(found.to_json(), json_, [], lambda console: print_periods(found, console))
 
 
 @app.command()
@@ -236,26 +334,39 @@ def _check_directory(directory: Path) -> None:
             raise InputError("not-a-directory", "--out", place)
 
 
-def _write_all(response: Response, directory: Path, suffix: str) -> list[Path]:
-    """Write everything into a new directory first, so that a failure leaves nothing half-written behind."""
-    from heeltoe.figures import write_figures
+def _check_json(json_: str | None) -> None:
+    """Refuse a place that JSON cannot be written to, before anything is computed or printed."""
+    if json_ not in (None, "-") and not Path(str(json_)).absolute().parent.is_dir():
+        raise InputError("no-directory", str(Path(str(json_)).parent))
 
-    try:
-        directory.mkdir(parents=True, exist_ok=True)
-        with tempfile.TemporaryDirectory(dir=directory) as name:
-            fresh = Path(name)
-            text = json.dumps(response.to_json(), indent=2, ensure_ascii=False)
-            (fresh / "result.json").write_text(text + "\n", encoding="utf-8")
-            if response.histories:
-                response.write_histories(fresh / f"histories{suffix}")
-                response.write_events(fresh / f"events{suffix}")
-            write_figures(response, fresh)
-            names = sorted(path.name for path in fresh.iterdir())
-            for each in names:
-                shutil.move(fresh / each, directory / each)
-    except OSError as error:
-        raise InputError("cannot-write", "--out", directory, reason=error.strerror or error) from None
-    return [directory / each for each in names]
+
+def _finish(data: dict[str, Any], json_: str | None, written: list[Path], show: Callable[[Console], None]) -> None:
+    """Write JSON where it is wanted, show the result, say what was written."""
+    from heeltoe.response import json_text
+
+    text = json_text(data)
+    if json_ not in (None, "-"):
+        written = [*written, _replace(Path(str(json_)), text + "\n")]
+    console = Console(stderr=json_ == "-", highlight=False)
+    show(console)
+    for path in written:
+        console.print(f"  wrote {path}", soft_wrap=True, markup=False)
+    if json_ == "-":
+        print(text)
+
+
+@contextmanager
+def _status() -> Iterator[Callable[[str], None]]:
+    """Show a line that says what goes on and for how long, on a terminal; elsewhere nothing."""
+    if not sys.stderr.isatty():
+        yield lambda text: None
+        return
+    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    columns = (SpinnerColumn(), TextColumn("{task.description}", markup=False), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("reading")
+        yield lambda text: bar.update(task, description=text)
 
 
 def _replace(path: Path, text: str) -> Path:
@@ -266,9 +377,3 @@ def _replace(path: Path, text: str) -> Path:
         return Path(file.name).replace(path)
     except OSError as error:
         raise InputError("cannot-write", "file", path, reason=error.strerror or error) from None
-
-
-class _nothing:
-    def __enter__(self) -> None: ...
-
-    def __exit__(self, *_: Any) -> None: ...

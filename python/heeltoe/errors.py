@@ -42,6 +42,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "the outline {value} crosses or touches itself",
         "give the corners in order around the section",
     ),
+    "frame-step": (
+        "{value} is no spacing for the histories of the flexible model",
+        "give {shortest} to {end}; it keeps all modes at each of them",
+    ),
     "time-step-long": (
         "{value} is too long to follow the vibration of the part above the crack",
         "give at most {longest}, or leave it out",
@@ -227,7 +231,11 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "figure-format": ("{value} has no ending of a figure", "end it in .png, .svg or .pdf"),
     "output-step": ("{value} is not a step within the run", "give one above 0 s and up to {duration}"),
     "not-yet": ("{value} comes with a later release", "{remedy}"),
-    "unknown-model": ("{value} is no model", "use --model rigid"),
+    "unknown-model": ("{value} is no model", "use rigid, flexible or both"),
+    "spread-runs": ("{value} is no number of runs", "give {fewest} to {most}, or none for {usual}"),
+    "period-count": ("{value} periods are not to be had", "give 1 to {most}"),
+    "vtk-without-out": ("has no place to go", "add --out DIR"),
+    "vtk-rigid": ("shows elastic parts, and the rigid model has none", "use --model flexible or both"),
     "no-such-validation": ("{value} is no reference case", "choose one of {names}"),
     "record-missing": ("is required and not there", "give a file or a name, or --list"),
     "file-exists": ("is there already", "give another name, or remove it first"),

@@ -32,6 +32,7 @@ _SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
 _FEWEST_STEPS = 8.0
 #: Frames kept: enough for an animation, few enough for memory.
 _FRAME_STEP = 0.01
+_SHORTEST_FRAME_STEP = 1e-3
 _HALVINGS = 2
 #: By how much half the step may change the slip: more at a height, where the dam strikes and bounces.
 _CHANGE_AT_BASE, _CHANGE_AT_HEIGHT = 0.03, 0.10
@@ -39,6 +40,10 @@ _CHANGE_AT_BASE, _CHANGE_AT_HEIGHT = 0.03, 0.10
 _NOTHING = 1e-4
 
 ADVICE = {
+    "unstable": (
+        "the dam slides under its static loads alone, and goes on for as long as the run lasts; give it more friction, "
+        "less uplift or less water until it stands before the earthquake"
+    ),
     "lost": "the part above the crack has gone over 100 crack widths away: the dam has failed; see its static safety",
     "blown up": (
         'energy came from nothing, as penalties can make it; use flexible.contact = "coulomb" or a smaller time_step'
@@ -130,12 +135,19 @@ def flexible(
         if case.motion is None:
             raise InputError("motion-missing", "motion")
         motion, vertical = resolve(case.motion, case.gravity, case.base_directory)
-    dam = dam or build_flexible_dam(case)
     end = case.motion.duration if case.motion and case.motion.duration else motion.duration
+    if output_step is not None and not _SHORTEST_FRAME_STEP <= output_step <= end:
+        raise InputError(
+            "frame-step", "output_step", f"{output_step:g} s", shortest=f"{_SHORTEST_FRAME_STEP:g} s", end=f"{end:g} s"
+        )
+    dam = dam or build_flexible_dam(case)
     shaken = Shaken(case, dam, motion, vertical, end)
-    raw, frames, convergence = _converged(shaken, output_step or _FRAME_STEP)
+    raw, frames, convergence = _converged(shaken, output_step or min(_FRAME_STEP, end))
     outcome = _kernel.CRACK_OUTCOMES[int(raw["outcome"])]
-    record = _history(frames, dam)
+    safety = build_block(case).sliding_safety_factor
+    if outcome == "ok" and safety is not None and safety < 1.0:
+        outcome = "unstable"
+    record = _history(frames, dam, case.flexible.contactors)
     block = build_block(case)
     advice = ADVICE.get(outcome)
     return Response(
@@ -146,7 +158,7 @@ def flexible(
         warnings=(
             *case_warnings(case),
             *motion.warnings,
-            *_warnings(case, dam, raw, record, convergence, block.sliding_safety_factor),
+            *_warnings(case, dam, raw, record, convergence, block.sliding_safety_factor, _last_change(frames[0])),
         ),
         summary=_summary(raw, dam, shaken, convergence),
         energy=_energy(raw),
@@ -257,7 +269,7 @@ def _named(row: Floats) -> dict[str, float]:
     return dict(zip(_kernel.CRACK_SUMMARY_FIELDS, row.tolist(), strict=True))
 
 
-def _history(frames: _Frames, dam: FlexibleDam) -> CrackHistory:
+def _history(frames: _Frames, dam: FlexibleDam, contactors: int) -> CrackHistory:
     rows, upper, lower, force, status, above, below = frames
     count = len(rows)
 
@@ -272,6 +284,7 @@ def _history(frames: _Frames, dam: FlexibleDam) -> CrackHistory:
         status=status,
         modes=(above, below)[: len(dam.modes)],
         dam=dam,
+        contactors=contactors,
     )
 
 
@@ -312,6 +325,9 @@ def _summary(
             "basis_error": dam.basis_error,
         },
         "damping": shaken.case.flexible.damping,
+        "damping_ratio": shaken.case.concrete.damping,
+        "rayleigh_mass_1_s": dam.coefficients[0] if dam.coefficients else None,
+        "rayleigh_stiffness_s": dam.coefficients[1] if dam.coefficients else None,
         "contact": shaken.case.flexible.contact,
         "steps": int(raw["steps"]),
         "time_step_s": raw["end_time"] / raw["steps"],
@@ -375,6 +391,7 @@ def _warnings(
     record: CrackHistory,
     convergence: Convergence | None,
     safety: float | None,
+    last_change: float,
 ) -> list[str]:
     said = []
     if convergence is None:
@@ -406,11 +423,11 @@ def _warnings(
             f"the modes kept leave an error of {100.0 * dam.basis_error:.2g} % in the flexibility of the crack; raise "
             "flexible.modes"
         )
-    moving = _kernel.CRACK_STATES[int(raw["final_state"])]
-    if raw["outcome"] == 0.0 and moving != "rest" and abs(raw["slip_velocity"]) > 1e-3:
+    if raw["outcome"] == 0.0 and last_change > _NOTHING:
         said.append(
-            f"the dam still moves when the run ends (slip velocity {raw['slip_velocity']:.3g} m/s): the residual slip "
-            "is that of this moment; a longer motion.duration lets it come to rest"
+            "the dam still moves when the run ends: in the last second its slip changes by "
+            f"{1e3 * last_change:.3g} mm; the residual slip is that of this moment, and a longer motion.duration lets "
+            "it come to rest"
         )
     depth = record.deepest_penetration()
     if depth > 1e-3 * dam.section.crack_width:
@@ -434,6 +451,12 @@ def _warnings(
     if largest > 0.1:
         said.append(f"the largest rotation is {largest:.3g} rad; the model is one of small rotations")
     return said
+
+
+def _last_change(rows: Floats) -> float:
+    """Return by how much the slip changes in the last second of a run [m]."""
+    time, slip = rows[:, _FRAME["time"]], rows[:, _FRAME["slip"]]
+    return float(np.ptp(slip[time >= time[-1] - 1.0]))
 
 
 def _references(case: Case, dam: FlexibleDam) -> tuple[str, ...]:

@@ -68,10 +68,20 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # [flexible]
 # plane = "stress"                 # or strain
 # elements_across = 8              # along the crack
+# elements_across_below = 8        # in the part below the crack, where it differs
+# mesh_above = "above.msh"         # your own mesh of eight-node quadrilaterals in place of ours
+# mesh_below = "below.msh"
+# modes = 200                      # to keep of each part; all of a small one without it
 # damping = "deformation"          # or thesis, modal
 # virtual_mass = "complete"        # or thesis
-# contact = "coulomb"              # or idce
-# time_step = "0.2 ms"
+# contact = "coulomb"              # exact; or idce, the penalty method of Zhu (2004), for comparison
+# contactors = 3                   # which crack nodes are watched, 1 to 5
+# time_step = "0.2 ms"             # chosen by the program without it
+# convergence_check = true         # run at half the step too
+# theta = 0.52                     # 0.5 to 1, of coulomb
+# penalty_factor = 1000            # of idce, as are the next two
+# newmark_gamma = 0.7
+# newmark_beta = 0.36
 
 # [analysis]
 # paradox = "stop"                 # where no motion agrees with Coulomb's law; or "tangential impact"

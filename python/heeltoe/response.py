@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -169,18 +171,32 @@ class Response:
 
     def write_histories(self, path: Path) -> None:
         """Write the histories to `path`: CSV if it ends so, else Parquet."""
-        _write(self.to_table(), path)
+        write_table(self.to_table(), path)
 
     def write_events(self, path: Path) -> None:
         """Write the events to `path`: CSV if it ends so, else Parquet."""
-        _write(self.events_table(), path)
+        write_table(self.events_table(), path)
 
 
-def _write(table: pa.Table, path: Path) -> None:
+def write_table(table: pa.Table, path: Path) -> None:
+    """Write a table to `path`: CSV if it ends so, else Parquet."""
     if path.suffix == ".csv":
         pa.csv.write_csv(table, path)
     else:
         pa.parquet.write_table(table, path)
+
+
+def json_text(data: Mapping[str, Any]) -> str:
+    """Return strict JSON: what is not finite, as only a run without a result leaves it, is null."""
+    return json.dumps(_finite(data), indent=2, ensure_ascii=False, allow_nan=False)
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {name: _finite(each) for name, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(each) for each in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def motion_json(motion: GroundMotion, gravity: float) -> dict[str, Any]:

@@ -1,35 +1,125 @@
-"""What the terminal shows of a motion and of a response (rich)."""
+"""What the terminal shows of a motion, of responses and of periods (rich)."""
 
 from __future__ import annotations
 
+import math
+from itertools import zip_longest
+from typing import TYPE_CHECKING, Any
+
+from rich import box
 from rich.console import Console
+from rich.markup import escape
 from rich.table import Table
 
 from heeltoe.errors import InputError
 from heeltoe.measures import measures
 from heeltoe.motion import GroundMotion, check
 from heeltoe.response import Response
-from heeltoe.verdicts import length, verdict
+from heeltoe.verdicts import angle, comes_to_rest, length, verdict
+
+# Not at run time: a run of the rigid model need not wait for the elastic parts.
+if TYPE_CHECKING:
+    from heeltoe.comparison import Comparison
+    from heeltoe.flexible_parts import FlexibleDam
+    from heeltoe.periods import DamPeriods
+
+# What the names of the choices mean.
+_DAMPING = {
+    "deformation": "of deformation alone, at all times",
+    "thesis": (
+        "of all motion while any node of the crack sticks, of the part below alone while none does, as in Zhu (2004)"
+    ),
+    "modal": "in every mode of deformation",
+}
+_CONTACT = {
+    "coulomb": "exact, with Coulomb friction",
+    "idce": "by penalties (Zhu 2004), for comparison",
+}
 
 
 def print_summary(response: Response, console: Console) -> None:
-    """Print motion, static state, result, warnings and verdict."""
-    console.print(f"[bold]{response.title or 'Untitled case'}[/bold]  ({response.model} model)")
+    """Print motion, static state, what the numbers rest on, result, warnings and verdict."""
+    _print_head(response, f"{response.model} model", console)
+    if response.summary:
+        console.print(_result_table(response))
+        console.print()
+        lines = _grid()
+        for label, text in _result_lines(response):
+            lines.add_row(label, text)
+        console.print(lines)
+        if response.spread is not None:
+            console.print()
+            console.print(_spread_table(response))
+    _print_warnings(response.warnings, console)
+    _print_verdicts([("Verdict", response.ok, verdict(response))], console)
+
+
+def print_comparison(both: Comparison, console: Console) -> None:
+    """Print the same of both models, side by side."""
+    _print_head(both.flexible, "rigid and flexible model", console)
+    console.print(_comparison_table(both))
+    shared = [text for text in both.rigid.warnings if text in both.flexible.warnings]
+    for each in (both.rigid, both.flexible):
+        shared += [f"{each.model}: {text}" for text in each.warnings if text not in shared]
+    _print_warnings(tuple(shared), console)
+    verdicts = [(each.model.capitalize(), each.ok, verdict(each)) for each in (both.rigid, both.flexible)]
+    _print_verdicts([*verdicts, ("Difference", both.ok, both.meaning())], console)
+
+
+def print_periods(periods: DamPeriods, console: Console) -> None:
+    """Print the periods of a dam and of its parts."""
+    console.print(f"[bold]{escape(periods.title or 'Untitled case')}[/bold]  (periods)", soft_wrap=True)
+    console.print()
+    columns = {
+        "intact, dry": periods.intact_dry,
+        "intact, with water": periods.intact,
+        "above the crack": periods.above,
+        "below the crack": periods.below,
+    }
+    shown = {name: values for name, values in columns.items() if values is not None}
+    table = _table()
+    table.add_column("")
+    for name in shown:
+        table.add_column(name, justify="right")
+    for number, row in enumerate(zip_longest(*shown.values()), start=1):
+        table.add_row(str(number), *("-" if value is None else f"{value:.4f} s" for value in row))
+    console.print(table)
+    console.print()
+    grid = _grid()
+    below = "" if periods.below is None else "; the part below is held at its base"
+    grid.add_row("parts", f"each by itself, with its water; the part above is free, rigid-body motion left out{below}")
+    grid.add_row("mesh", _mesh_line(periods.elements, periods.nodes))
+    grid.add_row("damping", _damping_line(periods.damping, periods.damping_ratio, periods.rayleigh))
+    console.print(grid)
+
+
+def _print_head(response: Response, model: str, console: Console) -> None:
+    """Print title, motion and static state and, of the flexible model, all that its result rests on."""
+    # Titles and names are people's words, in which brackets mean brackets.
+    console.print(f"[bold]{escape(response.title or 'Untitled case')}[/bold]  ({model})", soft_wrap=True)
     console.print()
     grid = _grid()
     for label, motion in (("motion", response.motion), ("vertical motion", response.vertical)):
         if motion is not None:
-            grid.add_row(label, _motion_line(motion, response.gravity))
+            grid.add_row(label, escape(_motion_line(motion, response.gravity)))
     for label, text in _static_lines(response):
         grid.add_row(label, text)
+    if response.model == "flexible":
+        for label, text in _elastic_lines(response):
+            grid.add_row(label, text)
     console.print(grid)
     console.print()
-    if response.summary:
-        console.print(_result_table(response))
-    _print_warnings(response.warnings, console)
-    style = "bold" if response.ok else "bold red"
+
+
+def _print_verdicts(rows: list[tuple[str, bool, str]], console: Console) -> None:
+    """Print labelled sentences; a label is red where there is no result to trust."""
+    grid = Table.grid(padding=(0, 2))
+    grid.add_column(no_wrap=True)
+    grid.add_column()
+    for label, good, text in rows:
+        grid.add_row(f"[{'bold' if good else 'bold red'}]{label}[/]", escape(text))
     console.print()
-    console.print(f"[{style}]Verdict[/{style}]  {verdict(response)}")
+    console.print(grid)
 
 
 def print_motion(motion: GroundMotion, console: Console, gravity: float = 9.80665) -> None:
@@ -76,6 +166,10 @@ def _suspicions(motion: GroundMotion, gravity: float) -> tuple[str, ...]:
         return (str(error),)
 
 
+def _table() -> Table:
+    return Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, header_style="dim", border_style="dim")
+
+
 def _grid() -> Table:
     grid = Table.grid(padding=(0, 2))
     grid.add_column(style="dim", no_wrap=True)
@@ -84,12 +178,18 @@ def _grid() -> Table:
 
 
 def _print_warnings(warnings: tuple[str, ...], console: Console) -> None:
+    if warnings:
+        console.print()
     for warning in warnings:
-        console.print(f"[yellow]warning[/yellow]  {warning}")
+        console.print(f"[yellow]warning[/yellow]  {escape(warning)}")
 
 
-def _length(value: float) -> str:
-    return length(value) if value else "-"
+def _length(value: float | None) -> str:
+    return length(value) if value and math.isfinite(value) else "-"
+
+
+def _rotation(value: float | None) -> str:
+    return angle(value) if value and math.isfinite(value) else "-"
 
 
 def _steps(motion: GroundMotion) -> str:
@@ -115,14 +215,101 @@ def _static_lines(response: Response) -> list[tuple[str, str]]:
         )
     )
     critical = static["critical_acceleration_g"]
+    of = " (rigid block)" if response.model == "flexible" else ""
     for kind in ("sliding", "rocking"):
         down, up = critical[f"{kind}_downstream"], critical[f"{kind}_upstream"]
-        lines.append((f"{kind} starts at", f"{down:.4f} g downstream, {up:.4f} g upstream"))
+        lines.append((f"{kind} starts at", f"{down:.4f} g downstream, {up:.4f} g upstream{of}"))
     return lines
 
 
+def _elastic_lines(response: Response) -> list[tuple[str, str]]:
+    """Return what the result of the flexible model rests on."""
+    s = response.summary
+    periods = " ".join(f"{period:.4f}" for period in s["periods_s"])
+    lines = [("periods", f"{periods} s, of the intact dam with its water")]
+    mesh = s["mesh"]
+    lines.append(
+        ("mesh", f"{_mesh_line(mesh['elements'], mesh['nodes'])}; {mesh['crack_nodes']} nodes along the crack")
+    )
+    modes = " above and ".join(map(str, mesh["modes"])) + (" below" if len(mesh["modes"]) > 1 else "")
+    kept = f"{mesh['basis_error']:.1e} is what those left out take from the flexibility of the crack"
+    lines.append(("modes", f"{modes}, {kept if mesh['basis_error'] else 'which is all there are'}"))
+    dam = None if response.crack is None else response.crack.dam
+    ratio, coefficients = (None, None) if dam is None else (_damping_ratio(dam), dam.coefficients)
+    lines.append(("damping", _damping_line(s["damping"], ratio, coefficients)))
+    lines.append(("contact", _contact_line(response)))
+    step = f"{_step(s['time_step_s'])}, {s['steps']} steps; "
+    evidence = s["convergence"]
+    if evidence is None:
+        step += "whether it is short enough was not asked (flexible.convergence_check)"
+    else:
+        step += (
+            f"residual slip {_exact(evidence['residual_slip_m'])}, with {_step(evidence['coarser_step_s'])} "
+            f"{_exact(evidence['coarser_residual_slip_m'])}: {100.0 * evidence['change']:.2g} % apart "
+            f"({100.0 * evidence['allowed']:g} % allowed)"
+        )
+    lines.append(("time step", step))
+    if response.energy is not None:
+        lines.append(("energy", _energy_line(response)))
+    return lines
+
+
+def _mesh_line(elements: Any, nodes: Any) -> str:
+    parts = [f"{e} elements, {n} nodes" for e, n in zip(elements, nodes, strict=True)]
+    return parts[0] if len(parts) == 1 else f"{parts[0]} above the crack; {parts[1]} below"
+
+
+def _damping_line(choice: str, ratio: float | None, rayleigh: tuple[float, float] | None) -> str:
+    text = f"{choice}: " + ("" if ratio is None else f"{100.0 * ratio:.3g} % ")
+    if rayleigh is not None:
+        text += f"in the 1st and 3rd mode (Rayleigh: {rayleigh[0]:.3g} 1/s of mass, {rayleigh[1]:.3g} s of stiffness), "
+    return text + _DAMPING[choice]
+
+
+def _damping_ratio(dam: FlexibleDam) -> float:
+    """Return the damping ratio behind the coefficients of a dam."""
+    if dam.coefficients is not None:
+        omega = 2.0 * math.pi / dam.periods[0]
+        return float(dam.coefficients[0] / omega + dam.coefficients[1] * omega) / 2.0
+    part = dam.parts[-1]
+    return float(part.damping_sticking[-1] / math.sqrt(part.omega_squared[-1])) / 2.0
+
+
+def _contact_line(response: Response) -> str:
+    s = response.summary
+    return (
+        f"{s['contact']}: {_CONTACT[s['contact']]}; {s['contact_iterations_per_step']:.3g} iterations per step, "
+        f"conditions met to {s['contact_residual']:.0e}"
+    )
+
+
+def _energy_line(response: Response) -> str:
+    energy = response.energy
+    assert energy is not None
+    parts = {
+        "friction": energy.friction_j,
+        "damping": energy.damping_j,
+        "impacts": energy.impact_j,
+        "the time stepping": energy.numerical_j,
+        "left in the dam": energy.kinetic_j,
+    }
+    named = [f"{name} {value / 1e6:.3g}" for name, value in parts.items() if abs(value) > 5e-4 * abs(energy.input_j)]
+    return (
+        f"{energy.input_j / 1e6:.3g} MJ/m put in: {', '.join(named)}; the ledger closes to {energy.residual:.0e}, "
+        f"contact added {energy.gained_j:.1g} J/m"
+    )
+
+
+def _step(seconds: float) -> str:
+    return f"{1e3 * seconds:.3g} ms"
+
+
+def _exact(metres: float) -> str:
+    return f"{1e3 * metres:.4g} mm"
+
+
 def _result_table(response: Response) -> Table:
-    table = Table(show_edge=False, pad_edge=False, header_style="dim")
+    table = _table()
     table.add_column("")
     table.add_column("downstream", justify="right")
     table.add_column("upstream", justify="right")
@@ -131,21 +318,136 @@ def _result_table(response: Response) -> Table:
     rotations = (response.rocking_downstream_rad, response.rocking_upstream_rad)
     openings = (response.opening_upstream_m, response.opening_downstream_m)
     table.add_row("peak slip", *map(_length, (response.peak_slip_downstream_m, -response.peak_slip_upstream_m)))
-    table.add_row("largest rotation", *(f"{value:.3e} rad" if value else "-" for value in rotations))
-    table.add_row("opening it means, other face", *map(_length, openings))
-    parts = response.slip_by_mode_m
-    used = [f"{name.replace('_', '-')} {length(value)}" for name, value in parts.items() if abs(value) >= 5e-6]
+    table.add_row("largest rotation", *map(_rotation, rotations))
+    if response.model == "flexible":
+        table.add_row("largest opening, this face", *map(_length, reversed(openings)))
+    else:
+        table.add_row("opening it means, other face", *map(_length, openings))
+    return table
+
+
+def _result_lines(response: Response) -> list[tuple[str, str]]:
+    lines = [("slip by mode", _slip_by_mode(response))] if _slip_by_mode(response) else []
     times = [
         f"{name.replace('_', '-')} {value:.2f} s" for name, value in response.time_by_mode_s.items() if value >= 5e-3
     ]
-    energy = response.energy
-    table.caption = "\n".join(
-        [
-            *(["slip by mode: " + ", ".join(used)] if used else []),
-            "time: " + ", ".join(times),
-            f"{response.events} events, {response.impacts} impacts; energy ledger closes to "
-            f"{energy.residual if energy else 0.0:.0e}",
-        ]
+    lines.append(("time by mode", ", ".join(times)))
+    if response.model == "flexible":
+        return [*lines, ("node strikes", _strikes(response)), ("in the end", _in_the_end(response))]
+    closes = f"the energy ledger closes to {response.energy.residual if response.energy else 0.0:.0e}"
+    return [*lines, ("events", f"{response.events}, {response.impacts} of them impacts; {closes}")]
+
+
+def _slip_by_mode(response: Response) -> str:
+    parts = {name.replace("_", "-"): value for name, value in response.slip_by_mode_m.items()}
+    return ", ".join(f"{name} {length(value)}" for name, value in parts.items() if abs(value) >= 5e-6)
+
+
+def _strikes(response: Response) -> str:
+    return (
+        f"{response.impacts}, at up to {response.largest_impact_velocity_m_s:.2g} m/s" if response.impacts else "none"
+    )
+
+
+def _in_the_end(response: Response) -> str:
+    return "at rest" if comes_to_rest(response) else "still moving"
+
+
+def _spread_table(response: Response) -> Table:
+    """Value and spread, side by side, of all that is not next to nothing."""
+    spread = response.spread
+    assert spread is not None
+    table = _table()
+    table.add_column("")
+    for name in ("this run", "mean", "std. dev.", "least", "most"):
+        table.add_column(name, justify="right")
+    labels = {
+        "residual_slip_m": "residual slip",
+        "peak_slip_downstream_m": "peak slip downstream",
+        "peak_slip_upstream_m": "peak slip upstream",
+        "rocking_downstream_rad": "rotation downstream",
+        "rocking_upstream_rad": "rotation upstream",
+        "opening_upstream_m": "opening upstream",
+        "opening_downstream_m": "opening downstream",
+    }
+    for name, label in labels.items():
+        found = spread[name]
+        if found is None:
+            continue
+        sign = -1.0 if name == "peak_slip_upstream_m" else 1.0
+        write, least = (_length, 5e-6) if name.endswith("_m") else (_rotation, 1e-7)
+        values = [response.summary[name], found["mean"], found["std"], found["min"], found["max"]]
+        if max(map(abs, values)) < least:
+            continue
+        if sign < 0.0:
+            values = [-values[0], -values[1], values[2], -values[4], -values[3]]
+        table.add_row(label, *map(write, values))
+    step = f", at a step of {_step(spread['time_step_s'])}" if "time_step_s" in spread else ""
+    failed = f", {spread['failed']} of them without a result" if spread["failed"] else ""
+    table.caption = (
+        f"spread over {spread['runs']} runs with the shaking scaled by {spread['scales'][0]:g} to "
+        f"{spread['scales'][-1]:g}{step}{failed}"
     )
     table.caption_justify = "left"
     return table
+
+
+def _comparison_table(both: Comparison) -> Table:
+    table = _table()
+    table.add_column("")
+    for name in ("rigid block", "flexible dam", "flexible/rigid"):
+        table.add_column(name, justify="right")
+    models = (both.rigid, both.flexible)
+    ratio = both.ratio()
+
+    def row(label: str, name: str, write: Any, sign: float = 1.0) -> None:
+        values = [each.summary.get(name) for each in models]
+        shown = ratio[name]
+        table.add_row(
+            label,
+            *("-" if value is None else write(sign * value) for value in values),
+            "-" if shown is None else f"{shown:.3g}",
+        )
+
+    row("residual slip, + downstream", "residual_slip_m", _length)
+    if any(each.spread is not None for each in models):
+        table.add_row("  with the shaking varied by 1 %", *map(_range, models), "")
+        table.add_row("  standard deviation of that", *map(_deviation, models), "")
+    row("peak slip downstream", "peak_slip_downstream_m", _length)
+    row("peak slip upstream", "peak_slip_upstream_m", _length, -1.0)
+    row("rotation downstream", "rocking_downstream_rad", _rotation)
+    row("rotation upstream", "rocking_upstream_rad", _rotation)
+    row("opening, upstream face", "opening_upstream_m", _length)
+    row("opening, downstream face", "opening_downstream_m", _length)
+    for name in ("sliding", "slide_rocking", "drifting"):
+        slips = [each.summary.get("slip_by_mode_m", {}).get(name) for each in models]
+        if any(slips):
+            table.add_row(f"slip while {name.replace('_', '-')}", *map(_length, slips), "")
+
+    def words(write: Any) -> list[str]:
+        return [write(each) if each.summary else "-" for each in models]
+
+    table.add_row("impacts (corners; nodes of the crack)", *words(lambda each: str(each.impacts)), "")
+    table.add_row("fastest of them", *words(_fastest), "")
+    table.add_row("in the end", *words(_in_the_end), "")
+    seconds = (both.seconds[each.model] for each in models)
+    table.add_row(
+        "computed in", *(f"{value:.2g} s" if value >= 0.1 else f"{1e3 * value:.2g} ms" for value in seconds), ""
+    )
+    return table
+
+
+def _fastest(response: Response) -> str:
+    return f"{response.largest_impact_velocity_m_s:.2g} m/s" if response.impacts else "-"
+
+
+def _range(response: Response) -> str:
+    found = None if response.spread is None else response.spread["residual_slip_m"]
+    if found is None or not (found["min"] or found["max"]):
+        return "-"
+    return f"{length(found['min'])} to {length(found['max'])}"
+
+
+def _deviation(response: Response) -> str:
+    found = None if response.spread is None else response.spread["residual_slip_m"]
+    return "-" if found is None else _length(found["std"])

@@ -241,7 +241,7 @@ pub fn simulate(
         }
         let old = faces(&upper, lower.as_ref(), |part| &part.position);
         let free = faces(&upper, lower.as_ref(), |part| &part.free);
-        set_up(&mut crack, dam, old, free, idce.penalty);
+        set_up(&mut crack, dam, old, free, idce.penalty, dt);
         let held = spring_energy(&crack, idce.penalty);
         summary.note(crack.solver.solve::<false>(&crack.problem));
         let none: &mut [f64] = &mut [];
@@ -300,7 +300,7 @@ pub fn simulate(
 }
 
 /// Write the contact problem of the step, from where the nodes were and where they would be without contact.
-fn set_up(crack: &mut Crack, dam: &Dam, old: Faces, free: Faces, penalty: f64) {
+fn set_up(crack: &mut Crack, dam: &Dam, old: Faces, free: Faces, penalty: f64, dt: f64) {
     for (k, pair) in crack.contacts.pairs.iter().enumerate() {
         let status = crack.solver.status[k];
         crack.closed[k] = status.closed();
@@ -318,7 +318,8 @@ fn set_up(crack: &mut Crack, dam: &Dam, old: Faces, free: Faces, penalty: f64) {
         crack.problem.b[2 * k] = along - crack.solver.p[2 * k] / penalty;
         crack.problem.b[2 * k + 1] = relative(pair, free.upper, free.lower, 1);
         crack.problem.h[k] = 0.0;
-        crack.approach[k] = 0.0;
+        let way = crack.problem.b[2 * k + 1] - relative(pair, old.upper, old.lower, 1);
+        crack.approach[k] = way / dt;
         let slips = matches!(status, Status::SlipDownstream | Status::SlipUpstream);
         crack.problem.mu_stick[k] = dam.friction[usize::from(slips)];
     }

@@ -1,0 +1,415 @@
+"""Siconos on the push-and-sine block made elastic: Moreau and Jean's time stepping, contact without a penalty.
+
+Siconos is not on PyPI. Debian has it (python3-siconos) for its own Python and its own NumPy, which another interpreter
+cannot load; so this file calls itself: `sliding_block` hands the matrices to an interpreter that has Siconos, and what
+runs there is timed there. Siconos has no finite elements for plane bodies, so the matrices are made here.
+
+The block, its loads and the ground are those of push_and_sine.py. The mesh and the form of a result are here too, since
+`peer_opensees` needs the same and this file must load where nothing but NumPy is installed.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from measure import NothingMeasured, Timing, repeat, require
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Node = tuple[int, int]
+
+#: Elements along and up, Young's modulus [Pa], Poisson's ratio; plane stress, no damping.
+ALONG, UP, MODULUS, POISSON = 16, 4, 20e9, 0.2
+#: Residual slip of the elastic block [m], four digits of it: both peers come to 1.0535 to 1.0538 with small steps and
+#: some numerical dissipation. Without any, the undamped block flutters as it slides and no scheme settles.
+ELASTIC_SLIP = 1.0536
+
+# Corners first, then the middles of the sides, counter-clockwise: the order of both programs.
+CORNERS: tuple[Node, ...] = ((-1, -1), (1, -1), (1, 1), (-1, 1))
+SIDES: tuple[Node, ...] = ((0, -1), (1, 0), (0, 1), (-1, 0))
+
+# Found by trying on this very problem. Theta is that of the time stepping: one half keeps the energy of vibrations and
+# flutters, 0.55 wears them out down to steps of 2e-4 s but at 1e-4 s pivoting breaks off and the block flies away, 0.7
+# has held at every step. Lemke's pivoting solves the contact exactly in about 27 pivots however stiff the block is;
+# projected Gauss-Seidel needs up to a thousand sweeps at large steps and catches up at small ones.
+SETTINGS: dict[str, dict[str, Any]] = {
+    "theta 0.5, Lemke": {"theta": 0.5},
+    "theta 0.55, Lemke": {"theta": 0.55},
+    "theta 0.7, Lemke": {"theta": 0.7},
+    "theta 1, Lemke": {"theta": 1.0},
+    "theta 0.55, Gauss-Seidel": {"theta": 0.55, "solver": "SICONOS_FRICTION_2D_NSGS", "tolerance": 1e-6},
+}
+#: Error of the residual slip, and the quickest step and setting that reach it and hold it at every smaller step tried.
+BEST = {
+    0.1: (0.1, "theta 0.7, Lemke"),
+    0.01: (0.01, "theta 0.7, Lemke"),
+    0.001: (0.001, "theta 0.7, Lemke"),
+}
+
+
+class Skipped(NothingMeasured):
+    """A peer that is not installed here, and why."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """One way to slide the elastic block.
+
+    Attributes
+    ----------
+    program, settings
+        With what.
+    step, steps
+        Time step [s], and how many were made.
+    slip
+        Mean slip of the nodes of the base at the moments of push_and_sine.py that were reached [m].
+    ringing
+        Largest difference between the velocities along the base of two of its nodes at those moments [m/s]; next to
+        nothing where vibrations die out, large where energy grows.
+    finished
+        Whether the steps went on until the end.
+    timing
+        Time of the steps; building the model and the state at rest are not in it.
+    note
+        What else is to be known.
+    """
+
+    program: str
+    settings: str
+    step: float
+    steps: int
+    slip: tuple[float, ...]
+    ringing: float
+    finished: bool
+    timing: Timing
+    note: str
+
+    @property
+    def time_s(self) -> float:
+        """Median time of the steps [s]."""
+        return self.timing.median
+
+    @property
+    def residual_slip_m(self) -> float:
+        """Slip in the end, not a number where the end was not reached [m]."""
+        return self.slip[-1] if self.finished else math.nan
+
+
+def steps_between(interval: float, step: float) -> int:
+    """Number of steps from one moment of comparison to the next.
+
+    Raises
+    ------
+    NothingMeasured
+        Where the steps do not meet the moments.
+    """
+    every = round(interval / step)
+    require(every >= 1 and abs(every * step - interval) < 1e-9 * interval, f"steps of {step:g} s miss the moments")
+    return every
+
+
+def places(nodes: int) -> tuple[Node, ...]:
+    """Nodes of an element with 4 or 8 of them, as places between -1 and 1."""
+    require(nodes in (4, 8), f"elements with {nodes} nodes")
+    return CORNERS if nodes == 4 else CORNERS + SIDES
+
+
+def mesh(nodes: int) -> tuple[dict[Node, int], list[list[int]]]:
+    """Grid places, in halves of an element, with the number of the node there, and the nodes of each element."""
+    numbers: dict[Node, int] = {}
+    elements = []
+    for i in range(ALONG):
+        for j in range(UP):
+            around = [(2 * i + 1 + a, 2 * j + 1 + b) for a, b in places(nodes)]
+            elements.append([numbers.setdefault(place, len(numbers)) for place in around])
+    return numbers, elements
+
+
+def _shapes(nodes: int, x: float, y: float) -> tuple[Floats, Floats]:
+    """Shape functions and their slopes along x and y at a place between -1 and 1."""
+    values, slopes = [], []
+    for a, b in places(nodes):
+        if nodes == 4:
+            values.append((1 + a * x) * (1 + b * y) / 4)
+            slopes.append((a * (1 + b * y) / 4, b * (1 + a * x) / 4))
+        elif a and b:
+            values.append((1 + a * x) * (1 + b * y) * (a * x + b * y - 1) / 4)
+            slopes.append((a * (1 + b * y) * (2 * a * x + b * y) / 4, b * (1 + a * x) * (2 * b * y + a * x) / 4))
+        elif b:
+            values.append((1 - x * x) * (1 + b * y) / 2)
+            slopes.append((-x * (1 + b * y), b * (1 - x * x) / 2))
+        else:
+            values.append((1 + a * x) * (1 - y * y) / 2)
+            slopes.append((a * (1 - y * y) / 2, -y * (1 + a * x)))
+    return np.array(values), np.array(slopes)
+
+
+def _matrices(nodes: int, width: float, height: float, density: float) -> tuple[Floats, Floats]:
+    """Stiffness and consistent mass of the whole block, along and up by turns."""
+    half = np.array([width / ALONG, height / UP]) / 2
+    law = np.array([[1, POISSON, 0], [POISSON, 1, 0], [0, 0, (1 - POISSON) / 2]]) * MODULUS / (1 - POISSON**2)
+    one_k, one_m = np.zeros((2, 2 * nodes, 2 * nodes))
+    points, weights = np.polynomial.legendre.leggauss(3)
+    for x, along in zip(points, weights, strict=True):
+        for y, up in zip(points, weights, strict=True):
+            values, slopes = _shapes(nodes, x, y)
+            slopes = slopes / half
+            strain, move = np.zeros((3, 2 * nodes)), np.zeros((2, 2 * nodes))
+            strain[0, 0::2] = strain[2, 1::2] = slopes[:, 0]
+            strain[1, 1::2] = strain[2, 0::2] = slopes[:, 1]
+            move[0, 0::2] = move[1, 1::2] = values
+            area = along * up * half.prod()
+            one_k += area * strain.T @ law @ strain
+            one_m += area * density * move.T @ move
+    numbers, elements = mesh(nodes)
+    stiffness, mass = np.zeros((2, 2 * len(numbers), 2 * len(numbers)))
+    for element in elements:
+        of = np.array([[2 * k, 2 * k + 1] for k in element]).ravel()
+        stiffness[np.ix_(of, of)] += one_k
+        mass[np.ix_(of, of)] += one_m
+    return stiffness, mass
+
+
+@cache
+def _problem(nodes: int) -> dict[str, Any]:
+    """Everything the steps need, in modal coordinates: all modes, so that nothing is lost."""
+    # Not at the head of the file: the interpreter that has Siconos has none of this.
+    from push_and_sine import (
+        AMPLITUDE,
+        DEPTH,
+        DURATION,
+        FREQUENCY,
+        FRICTION,
+        GRAVITY,
+        HEIGHT,
+        INTERVAL,
+        MASS,
+        PUSH,
+        WIDTH,
+    )
+
+    stiffness, mass = _matrices(nodes, WIDTH, HEIGHT, MASS / (WIDTH * HEIGHT * DEPTH))
+    numbers, _ = mesh(nodes)
+    base = np.array([number for place, number in sorted(numbers.items()) if place[1] == 0])
+    inverse = np.linalg.inv(np.linalg.cholesky(mass))
+    squares, vectors = np.linalg.eigh(inverse @ stiffness @ inverse.T)
+    modes = inverse.T @ vectors
+    # Free motions of the whole; what eigh gives for them is rounding.
+    squares[:3] = 0.0
+    along = mass[:, 0::2].sum(axis=1)
+    force = PUSH * along - GRAVITY * mass[:, 1::2].sum(axis=1)
+    # At rest with its base bonded, as the elastic model starts.
+    still = np.concatenate([2 * base, 2 * base + 1])
+    free = np.setdiff1d(np.arange(mass.shape[0]), still)
+    rest = np.zeros(mass.shape[0])
+    rest[free] = np.linalg.solve(stiffness[np.ix_(free, free)], force[free])
+    return {
+        "squares": squares,
+        "start": modes.T @ mass @ rest,
+        "force": modes.T @ force,
+        "along": modes.T @ along,
+        "base_along": modes[2 * base],
+        "base_up": modes[2 * base + 1],
+        "friction": FRICTION,
+        "interval": INTERVAL,
+        "duration": DURATION,
+        "amplitude": AMPLITUDE,
+        "frequency": FREQUENCY,
+    }
+
+
+@cache
+def _interpreter() -> tuple[str, str]:
+    """An interpreter that has Siconos, this one or the system's, and what else is to be said of it.
+
+    Raises
+    ------
+    Skipped
+        Where none has it.
+    """
+    said = "not even an interpreter"
+    for candidate in (sys.executable, shutil.which("python3", path=os.defpath)):
+        if candidate is None:
+            continue
+        call = [candidate, "-c", "import numpy, siconos.kernel as k, siconos.numerics; print(numpy.__version__)"]
+        answer = subprocess.run(call, capture_output=True, text=True, check=False, env=_environment())
+        if answer.returncode == 0:
+            return candidate, f"its interpreter has NumPy {answer.stdout.strip()}"
+        said = (answer.stderr.strip().splitlines() or [f"code {answer.returncode}"])[-1]
+    raise Skipped(f"no interpreter here has Siconos ({said}); Debian's package is python3-siconos")
+
+
+def _environment() -> dict[str, str]:
+    # One thread as for everyone else, and none of this interpreter's packages in the other.
+    kept = {key: value for key, value in os.environ.items() if key not in ("PYTHONPATH", "PYTHONHOME", "VIRTUAL_ENV")}
+    return kept | {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
+
+
+def sliding_block(
+    step: float, settings: str = "theta 0.7, Lemke", nodes: int = 4, repetitions: int = 3, keep: bool = True
+) -> Result:
+    """Slide the elastic block.
+
+    Parameters
+    ----------
+    step
+        Time step, a part of the moments' interval [s].
+    settings
+        One of `SETTINGS`.
+    nodes
+        Of each element, 4 or 8.
+    repetitions
+        How often it is timed, unless it takes long.
+    keep
+        Whether Siconos is told that its contact matrix stays the same while all nodes are in contact. Left alone it
+        works the matrix out anew at every step, which takes nearly all the time and changes nothing.
+
+    Raises
+    ------
+    Skipped
+        Where Siconos is not installed.
+    NothingMeasured
+        Where it breaks down.
+    """
+    program, note = _interpreter()
+    steps_between(float(_problem(nodes)["interval"]), step)
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "problem.npz"
+        np.savez(path, **_problem(nodes))
+        order = {"step": step, "repetitions": repetitions, "keep": keep, **SETTINGS[settings]}
+        call = [program, str(Path(__file__).resolve()), str(path), json.dumps(order)]
+        answer = subprocess.run(call, capture_output=True, text=True, check=False, env=_environment())
+    require(answer.returncode == 0, f"Siconos broke down: {answer.stderr.strip()[-300:]}")
+    told = json.loads(answer.stdout.strip().splitlines()[-1])
+    notes = [f"{nodes}-node elements, {told['sweeps']:.3g} iterations of the contact per step", note]
+    if told["unsolved"]:
+        notes.append(f"contact not solved to tolerance in {told['unsolved']} steps")
+    if told["renewed"] > 1:
+        notes.append(f"contact matrix worked out anew in {told['renewed']} steps")
+    return Result(
+        "Siconos",
+        settings,
+        step,
+        told["steps"],
+        tuple(told["slip"]),
+        told["ringing"],
+        bool(np.isfinite(told["slip"]).all()),
+        Timing(tuple(told["wall"]), tuple(told["cpu"])),
+        "; ".join(notes),
+    )
+
+
+class _Run:
+    """The block in Siconos, ready to step; only where Siconos is installed."""
+
+    # A gap below this counts as contact [m]: ten times the compression by the weight, a millionth of the slip.
+    # Without it nodes that hover by rounding drop out of the contact problem and come back at every step.
+    NEAR = 1e-6
+    # Nodes start this deep in the ground, which makes them touch beyond rounding [m].
+    DEEP = 1e-9
+
+    def __init__(
+        self,
+        problem: dict[str, Any],
+        step: float,
+        keep: bool,
+        theta: float,
+        solver: str = "SICONOS_FRICTION_2D_LEMKE",
+        tolerance: float = 1e-8,
+    ) -> None:
+        from siconos import kernel, numerics
+
+        self.problem, self.step, self.keep, self.tolerance = problem, step, keep, tolerance
+        size = problem["start"].size
+        self.body = kernel.LagrangianLinearTIDS(problem["start"].copy(), np.zeros(size), np.eye(size))
+        self.body.setKPtr(np.diag(problem["squares"]))
+        self.body.setFExtPtr(kernel.SiconosVector(size))
+        world = kernel.NonSmoothDynamicalSystem(0.0, float(problem["duration"]) + 1.0)
+        world.insertDynamicalSystem(self.body)
+        law = kernel.NewtonImpactFrictionNSL(0.0, 0.0, float(problem["friction"]), 2)
+        for up, along in zip(problem["base_up"], problem["base_along"], strict=True):
+            relation = kernel.LagrangianLinearTIR(np.vstack([up, along]), np.array([-self.DEEP, 0.0]))
+            world.link(kernel.Interaction(law, relation), self.body)
+        self.scheme = kernel.MoreauJeanOSI(theta)
+        self.scheme.setConstraintActivationThreshold(self.NEAR)
+        self.scheme.setIsWSymmetricDefinitePositive(True)
+        self.contact = kernel.FrictionContact(2, getattr(numerics, solver))
+        # Small dense blocks suit Gauss-Seidel; it then needs fewer sweeps.
+        self.contact.setMStorageType(int(solver.endswith("NSGS")))
+        self.contact.setKeepLambdaAndYState(True)
+        self.options = self.contact.numericsSolverOptions()
+        self.options.iparam[numerics.SICONOS_IPARAM_MAX_ITER] = 1000
+        self.options.dparam[numerics.SICONOS_DPARAM_TOL] = tolerance
+        self.iterations, self.residual = numerics.SICONOS_IPARAM_ITER_DONE, numerics.SICONOS_DPARAM_RESIDU
+        self.clock = kernel.TimeDiscretisation(0.0, step)
+        self.simulation = kernel.TimeStepping(world, self.clock, self.scheme, self.contact)
+        self.simulation.setNewtonOptions(kernel.SICONOS_TS_LINEAR)
+        self.simulation.setComputeResiduY(False)
+        self.simulation.setComputeResiduR(False)
+        self.simulation.setWarnOnNonConvergence(False)
+        self.slip: list[float] = []
+        self.ringing, self.sweeps, self.unsolved, self.renewed = 0.0, 0, 0, 0
+
+    def solve(self) -> None:
+        """Make all steps."""
+        problem, every = self.problem, steps_between(float(self.problem["interval"]), self.step)
+        count = every * round(float(problem["duration"] / problem["interval"]))
+        # The force in the middle of each step, which serves best.
+        middle = (np.arange(count) + 0.5) * self.step
+        ground = -float(problem["amplitude"]) * np.sin(2.0 * np.pi * float(problem["frequency"]) * middle)
+        force, place, speed = self.body.fExt(), self.body.q(), self.body.velocity()
+        touching = True
+        for k in range(count):
+            np.multiply(problem["along"], ground[k], out=force)
+            np.add(force, problem["force"], out=force)
+            self.simulation.computeOneStep()
+            self.simulation.nextStep()
+            self.sweeps += int(self.options.iparam[self.iterations])
+            self.unsolved += bool(self.options.dparam[self.residual] > self.tolerance)
+            # Siconos takes a node into the next contact problem by its gap half a step ahead. The matrix may stay
+            # where all nodes were in the last problem and will be in the next.
+            before, touching = touching, self._near(place, speed)
+            stays = self.keep and before and touching
+            self.contact.setHasBeenUpdated(stays)
+            self.renewed += not stays
+            if (k + 1) % every == 0:
+                along = problem["base_along"]
+                self.slip.append(float((along @ place).mean()))
+                self.ringing = max(self.ringing, float(np.ptp(along @ speed)))
+
+    def _near(self, place: Floats, speed: Floats) -> bool:
+        ahead = self.problem["base_up"] @ (place + 0.5 * self.step * speed)
+        return bool(ahead.max() - self.DEEP < 0.9 * self.NEAR)
+
+
+def _work(path: str, order: str) -> str:
+    """Do what `sliding_block` asked for, inside the interpreter that has Siconos."""
+    with np.load(path) as file:
+        problem = {name: file[name] for name in file.files}
+    told = json.loads(order)
+    repetitions = told.pop("repetitions")
+    run = _Run(problem, **told)
+
+    def prepare() -> None:
+        nonlocal run
+        run = _Run(problem, **told)
+
+    timing = repeat(lambda: run.solve(), repetitions, prepare)
+    steps = len(run.slip) * steps_between(float(problem["interval"]), run.step)
+    answer = {"slip": run.slip, "ringing": run.ringing, "sweeps": run.sweeps / steps, "unsolved": run.unsolved}
+    return json.dumps(answer | {"renewed": run.renewed, "steps": steps, "wall": timing.wall, "cpu": timing.cpu})
+
+
+if __name__ == "__main__":
+    print(_work(*sys.argv[1:]))

@@ -1,0 +1,114 @@
+"""Everything that `--out` writes: strict JSON, histories, crack, figures, VTK files; all of it or nothing."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from shutil import rmtree
+from tempfile import TemporaryDirectory
+
+from heeltoe.comparison import Comparison
+from heeltoe.crack_history import crack_table
+from heeltoe.errors import InputError
+from heeltoe.figures import write_comparison_figure, write_figures
+from heeltoe.response import Response, json_text, write_table
+
+# Names of files that a run may leave; those of an earlier one into the same directory would not belong to this one.
+_TABLES = ("histories", "events", "crack")
+_FIGURES = ("response", "accelerations", "forces", "energy", "crack", "comparison")
+_OWN = (
+    "result.json",
+    *(f"{name}{suffix}" for name in _TABLES for suffix in (".parquet", ".csv")),
+    *(f"{name}{suffix}" for name in _FIGURES for suffix in (".png", ".svg")),
+)
+_VTK = "vtk"
+
+
+def write_all(
+    result: Response | Comparison, directory: Path, *, suffix: str = ".parquet", vtk: bool = False
+) -> list[Path]:
+    """Write a result with its histories and figures.
+
+    Of one model ``result.json``, ``histories``, ``events`` (rigid) or ``crack`` (flexible) and the figures go right
+    into the directory. Of both, ``result.json`` with both and the figure ``comparison`` do, and each model's own into
+    the directories ``rigid`` and ``flexible``. All is written aside first, so that a failure leaves nothing half-done;
+    files of these names from an earlier run are replaced or removed.
+
+    Parameters
+    ----------
+    result
+        What to write.
+    directory
+        Where; it is made if it is not there.
+    suffix
+        Of the tables, ``.parquet`` or ``.csv``.
+    vtk
+        Write the flexible model's parts as VTK files into ``vtk``, too; those of an earlier run there go.
+
+    Returns
+    -------
+    list of Path
+        What was written; of the VTK files only those that list the others.
+
+    Raises
+    ------
+    InputError
+        Where the directory cannot be written, or what VTK files need is not installed.
+    """
+    made = next((place for place in (*reversed(directory.parents), directory) if not place.exists()), None)
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        with TemporaryDirectory(dir=directory) as name:
+            fresh = Path(name)
+            if isinstance(result, Comparison):
+                (fresh / "result.json").write_text(json_text(result.to_json()) + "\n", encoding="utf-8")
+                write_comparison_figure(result, fresh)
+                for each in (result.rigid, result.flexible):
+                    _write_one(each, fresh / each.model, suffix, vtk)
+            else:
+                _write_one(result, fresh, suffix, vtk)
+            return _move(fresh, directory)
+    except (OSError, InputError) as error:
+        if made is not None:
+            rmtree(made, ignore_errors=True)
+        if isinstance(error, InputError):
+            raise
+        raise InputError("cannot-write", "--out", directory, reason=error.strerror or error) from None
+
+
+def _write_one(response: Response, directory: Path, suffix: str, vtk: bool) -> None:
+    directory.mkdir(exist_ok=True)
+    (directory / "result.json").write_text(json_text(response.to_json()) + "\n", encoding="utf-8")
+    if not response.histories:
+        return
+    response.write_histories(directory / f"histories{suffix}")
+    if response.event_log:
+        response.write_events(directory / f"events{suffix}")
+    write_figures(response, directory)
+    if response.crack is None:
+        return
+    write_table(crack_table(response.crack), directory / f"crack{suffix}")
+    if vtk:
+        from heeltoe.vtk import write_vtk_series
+
+        write_vtk_series(response.crack, directory / _VTK)
+
+
+def _move(fresh: Path, directory: Path) -> list[Path]:
+    """Move all files to where they belong; remove what an earlier run has left there under such names."""
+    sources = sorted(path for path in fresh.rglob("*") if path.is_file())
+    for folder in {source.parent.relative_to(fresh) for source in sources}:
+        for name in _OWN:
+            (directory / folder / name).unlink(missing_ok=True)
+        if folder.name == _VTK:
+            for series in ("dam", "crack"):
+                for path in (directory / folder).glob(f"{series}-*.vtu"):
+                    path.unlink()
+    written = []
+    for source in sources:
+        place = directory / source.relative_to(fresh)
+        place.parent.mkdir(parents=True, exist_ok=True)
+        source.replace(place)
+        # There are as many VTK files as frames; those that list them are the ones to open.
+        if place.suffix != ".vtu":
+            written.append(place)
+    return written

@@ -1,0 +1,84 @@
+"""What the flexible model refuses, and what it says of its result."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from heeltoe import GroundMotion, InputError, flexible, read_case
+
+FIELDS = {
+    "section": {"height": "30 m", "crest_width": "4 m", "base_width": "24 m"},
+    "concrete": {"density": "2400 kg/m^3", "modulus": "20 GPa"},
+    "crack": {"friction": 1.0},
+    "reservoir": {"depth": "20 m"},
+    "flexible": {"elements_across": 2, "convergence_check": False},
+}
+TIME = np.linspace(0.0, 1.0, 101)
+MOTION = GroundMotion.from_points(TIME, 4.0 * np.sin(2.0 * np.pi * 3.0 * TIME))
+
+
+def changed(**blocks):
+    fields = {name: dict(block) for name, block in FIELDS.items()}
+    for name, block in blocks.items():
+        fields[name] = fields.get(name, {}) | block
+    return read_case(fields)
+
+
+def test_a_step_too_long_for_the_vibration_is_refused():
+    with pytest.raises(InputError, match="too long to follow the vibration") as caught:
+        flexible(changed(flexible={"time_step": "0.05 s"}), MOTION)
+    assert caught.value.code == "time-step-long"
+
+
+@pytest.mark.parametrize("step", [1e-5, 2.0])
+def test_a_spacing_of_frames_out_of_range_is_refused(step):
+    with pytest.raises(InputError) as caught:
+        flexible(changed(), MOTION, output_step=step)
+    assert caught.value.code == "frame-step"
+
+
+def test_a_case_without_a_motion_is_refused():
+    with pytest.raises(InputError) as caught:
+        flexible(changed())
+    assert caught.value.code == "motion-missing"
+
+
+@pytest.mark.parametrize(
+    ("blocks", "words"),
+    [
+        ({}, "convergence_check is off"),
+        ({"concrete": {"damping": 0.0}, "reservoir": {"depth": "30 m"}}, "creeps downstream"),
+        ({"concrete": {"modulus": "2 GPa"}}, "is not that of concrete"),
+        ({"concrete": {"poisson": 0.45}}, "unusual for concrete"),
+        ({"crack": {"friction": 0.3}, "reservoir": {"depth": "28 m"}}, "slides under its static loads alone"),
+        ({"flexible": {"contact": "idce", "newmark_gamma": 0.5}}, "made energy out of nothing"),
+    ],
+    ids=["no evidence", "no damping", "modulus", "poisson", "unstable", "penalty"],
+)
+def test_what_a_reader_must_know_is_said(blocks, words):
+    response = flexible(changed(**blocks), MOTION)
+    assert any(words in text for text in response.warnings), response.warnings
+
+
+def test_evidence_of_convergence_comes_with_the_result():
+    response = flexible(changed(flexible={"convergence_check": True}), MOTION)
+    evidence = response.convergence
+    assert evidence["coarser_step_s"] == pytest.approx(2.0 * evidence["time_step_s"])
+    assert response.residual_slip_m == evidence["residual_slip_m"]
+    assert evidence["change"] <= evidence["allowed"]
+    assert response.time_step_s == pytest.approx(evidence["time_step_s"], rel=1e-2)
+
+
+def test_both_treatments_of_contact_agree_where_the_penalty_is_damped():
+    exact = flexible(changed(), MOTION)
+    penalty = flexible(changed(flexible={"contact": "idce"}), MOTION)
+    assert exact.residual_slip_m > 1e-3
+    assert penalty.residual_slip_m == pytest.approx(exact.residual_slip_m, rel=0.05)
+    assert exact.energy.residual < 1e-11
+    assert exact.energy.gained_j < 1e-6 * exact.energy.friction_j
+
+
+def test_a_dam_is_built_once():
+    one, two = flexible(changed(), MOTION), flexible(changed(), MOTION.scaled(0.5))
+    assert one.crack.dam is two.crack.dam
