@@ -173,11 +173,10 @@ fn walk<const FUSED: bool>(
         if let Some(frames) = &mut frames {
             since.add(&upper.impulse, impulse, dt);
             if (step + 1).is_multiple_of(options.stride) {
-                book_sums(&mut ledger, &mut upper, lower.as_mut());
-                ledger.stored = energy(&upper, lower.as_ref());
+                let now = balance(ledger, &upper, lower.as_ref());
                 keep(
                     frames,
-                    &snapshot(&upper, lower.as_ref(), &crack, &motion, &since, &summary, &ledger),
+                    &snapshot(&upper, lower.as_ref(), &crack, &motion, &since, &summary, &now),
                     options.keep_modes,
                 );
                 since.clear();
@@ -192,16 +191,17 @@ fn walk<const FUSED: bool>(
             break;
         }
     }
-    book_sums(&mut ledger, &mut upper, lower.as_mut());
-    ledger.stored = energy(&upper, lower.as_ref());
-    summary.ledger = ledger;
+    summary.ledger = balance(ledger, &upper, lower.as_ref());
     summary
 }
 
-fn book_sums<'a, 'b>(ledger: &mut Ledger, upper: &'a mut Part<'b>, lower: Option<&'a mut Part<'b>>) {
+/// The ledger with the sums of both parts and the energy they hold; the sums go on, so that frames change nothing.
+fn balance(mut ledger: Ledger, upper: &Part, lower: Option<&Part>) -> Ledger {
     for part in std::iter::once(upper).chain(lower) {
-        std::mem::take(&mut part.sums).book(ledger);
+        part.sums.book(&mut ledger);
     }
+    ledger.stored = energy(upper, lower);
+    ledger
 }
 
 fn energy(upper: &Part, lower: Option<&Part>) -> f64 {

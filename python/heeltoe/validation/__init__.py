@@ -13,7 +13,16 @@ from rich.markup import escape
 from rich.table import Table
 
 from heeltoe.errors import InputError
-from heeltoe.validation import closed_forms, thesis_blocks, thesis_dams
+from heeltoe.validation import (
+    closed_forms,
+    elastic_bar,
+    flexible_blocks,
+    flexible_dams,
+    penalty,
+    random_dams,
+    thesis_blocks,
+    thesis_dams,
+)
 from heeltoe.validation.row import Row, Skipped
 
 __all__ = ["CASES", "Row", "Skipped", "run_all", "run_case"]
@@ -29,6 +38,19 @@ CASES: dict[str, Callable[[], Iterable[Row]]] = {
     "triangular": thesis_dams.triangular,
     "table-7.6-taft": thesis_dams.taft,
     "table-7.6-el-centro": thesis_dams.el_centro,
+    "bouncing-bar": elastic_bar.bouncing_bar,
+    "elastic-impulse": flexible_blocks.elastic_impulse,
+    "elastic-sliding": flexible_blocks.elastic_sliding,
+    "elastic-rocking": flexible_blocks.elastic_rocking,
+    "contactors": flexible_blocks.contactors,
+    "random-dams": random_dams.random_dams,
+    "periods": flexible_dams.periods,
+    "table-7.1": flexible_dams.table_7_1,
+    "table-7.7": flexible_dams.table_7_7,
+    "table-7.8": flexible_dams.table_7_8,
+    "table-7.10": flexible_dams.table_7_10,
+    "halving": flexible_dams.halving,
+    "penalty": penalty.penalty,
 }
 
 

@@ -1,0 +1,243 @@
+"""Dams of Zhu (2004), chapter VII, with the flexible model. The records are not part of the project.
+
+Unless a case says otherwise: eight elements across, damping `thesis`, virtual water `thesis`, theta the default; the
+record taft-1952-s69e-caltech as stored, whole, scaled; steps of 0.2 ms for a crack at the base, 0.1 ms for one at a
+height and 0.05 ms for a dam of 2000 GPa or more, whose vibrations are as much faster; no check of the step, which is
+the business of :func:`halving`. The prototype is an independent program with four elements across. The thesis does not
+tell in full its penalty, mesh and step, on which its slips and rotations depend: 25 % for slips (30 % at 2000 GPa),
+15 % for rotations and a factor of 1.75 for cracks at a height are what two programs with the same physics were found
+to differ by.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from heeltoe.case import Case, read_case
+from heeltoe.flexible_model import Shaken
+from heeltoe.flexible_parts import build_flexible_dam
+from heeltoe.modes import intact_periods
+from heeltoe.motion import GroundMotion
+from heeltoe.rigid_model import rigid
+from heeltoe.validation.flexible_runs import Runs
+from heeltoe.validation.row import Row
+from heeltoe.validation.thesis_dams import record_named
+
+_G = 9.81
+_TYPICAL = [(0.0, 0.0), (80.0, 0.0), (8.0, 90.0), (8.0, 100.0), (0.0, 100.0)]
+_KOYNA = [(0.0, 0.0), (70.2, 0.0), (20.36, 66.5), (14.8, 103.0), (0.0, 103.0)]
+_TRIANGLE = [(0.0, 0.0), (97.536, 0.0), (0.0, 121.92)]
+
+# Thesis: slip in mm and downstream rotation in 1e-4 rad; then the prototype's.
+_TABLE_7_1 = {
+    41.42: (432.0, 2.03, 481, 2.02),
+    27.61: (359.0, 5.04, 422, 5.17),
+    13.81: (424.0, 6.15, 459, 6.40),
+    6.90: (495.0, 7.30, 496, 8.18),
+    3.45: (311.0, 4.32, 355, 4.57),
+}
+# Thesis and prototype: slip in mm by friction and depth of water.
+_TABLE_7_7 = {
+    (1.0, 100.0): (657.0, "561 to 579"),
+    (1.2, 100.0): (210.0, "218 to 228"),
+    (0.8, 50.0): (9.8, "11.3"),
+    (1.0, 50.0): (7.1, "7.9"),
+    (1.2, 50.0): (6.3, "6.9"),
+}
+# By modulus in GPa.
+_TABLE_7_8 = {20.0: (218.0, 210), 200.0: (94.0, 86), 2000.0: (52.0, 39), 20000.0: (37.0, 31)}
+_TABLE_7_10 = {
+    0.8: {90.0: (118.0, 156), 95.0: (329.0, 302), 100.0: (649.0, 669)},
+    1.0: {90.0: (85.0, 115), 95.0: (209.0, 218), 100.0: (382.0, 344)},
+    1.2: {90.0: (81.0, 102), 95.0: (157.0, 149), 100.0: (316.0, 276)},
+}
+
+
+def periods() -> Iterator[Row]:
+    """Periods of the dams without water, in s: typical dam, Koyna Dam, triangular dam."""
+    koyna = {"density": "2643 kg/m^3", "modulus": "31 GPa", "poisson": 0.2}
+    triangle = {"density": "2430 kg/m^3", "modulus": "27.61 GPa", "poisson": 0.0}
+    for name, corners, concrete, printed in (
+        ("typical", _TYPICAL, _concrete(20.0), (0.2842, 0.1292, 0.1052, 0.0768, 0.0521)),
+        ("Koyna", _KOYNA, koyna, (0.3254, 0.1218, 0.0925, 0.0627, 0.0413)),
+        ("triangular", _TRIANGLE, triangle, (0.2620, 0.1126, 0.1008)),
+    ):
+        dam = build_flexible_dam(_case(corners, concrete, friction=1.0)).dam
+        found = intact_periods(dam, len(printed), water=False)
+        for number, (reference, ours) in enumerate(zip(printed, found, strict=True), 1):
+            remark = "thesis; without Poisson's ratio" if name == "triangular" else "thesis"
+            yield Row(f"{name}, period {number}", reference, float(ours), 0.01, remark=remark)
+
+
+def table_7_1() -> Iterator[Row]:
+    """Triangular dam, friction 1, Taft at 0.5 g: slip and downstream rotation for five moduli.
+
+    Poisson's ratio is 0.2, as in the prototype; the thesis gives none, and its periods say 0.
+    """
+    motion, run = _taft(0.5), Runs()
+    for modulus, (slip, rotation, slip_too, rotation_too) in _TABLE_7_1.items():
+        response = run(_triangle(modulus), motion)
+        slip_mm, turned = 1e3 * response.residual_slip_m, 1e4 * response.rocking_downstream_rad
+        yield Row(f"{modulus} GPa: slip [mm] (prototype {slip_too})", slip, slip_mm, 0.25)
+        yield Row(f"{modulus} GPa: rotation [1e-4 rad] (prototype {rotation_too})", rotation, turned, 0.15)
+    yield Row("2000 GPa: slip [mm] (prototype 94)", 95.0, run.slip_mm(_triangle(2000.0), motion), 0.25)
+    turned = 1e4 * run(_triangle(3.45, poisson=0.0), motion).rocking_downstream_rad
+    remark = (
+        "with the Poisson's ratio that fits the thesis' periods this one of the rotations is outside 15 %; mesh (4 to "
+        "16 across), step and theta change it by 2 %, the Poisson's ratio by 30 %"
+    )
+    yield Row("3.45 GPa, Poisson's ratio 0: rotation [1e-4 rad]", 4.32, turned, None, remark=remark)
+    yield from run.energy()
+
+
+def table_7_7() -> Iterator[Row]:
+    """Typical dam cracked at its base, 20 GPa, Taft at 0.4 g: slip by friction and depth of water."""
+    motion, run = _taft(0.4), Runs()
+    for (friction, depth), (printed, prototype) in _TABLE_7_7.items():
+        ours = run.slip_mm(_typical(friction, depth), motion)
+        what = f"friction {friction}, water {depth:g} m: slip [mm] (prototype {prototype})"
+        if depth == 100.0:
+            yield Row(what, printed, ours, 0.25)
+        else:
+            yield Row(what.replace("[mm]", "[m]"), printed / 1e3, ours / 1e3, 3e-3, relative=False)
+    # The ground stands still for 15 s after the record.
+    end = motion.duration + 15.0
+    quiet = GroundMotion.from_points(
+        np.append(motion.time, [motion.duration, end]), np.append(motion.acceleration, [0.0, 0.0]), name=motion.name
+    )
+    speeds = {}
+    for damping in ("thesis", "deformation"):
+        response = run(_typical(0.8, 100.0, damping=damping), quiet)
+        time, slip = response.histories["time_s"], response.histories["slip_m"]
+        speeds[damping] = (slip[-1] - np.interp(end - 5.0, time, slip)) / 5.0, float(np.interp(50.0, time, slip))
+    (speed, at_50), (calm, calm_at_50) = speeds["thesis"], speeds["deformation"]
+    remark = (
+        f"the thesis says 'failure', the prototype slips 7 m in 50 s: here {at_50:.2f} m in 50 s, and 15 s after the "
+        f"record the dam still slides at {1e3 * speed:.0f} mm/s. It is the damping that fails: nothing damps the part "
+        f"above the crack while no node sticks. With damping deformation it slips {calm_at_50:.2f} m and comes to rest"
+    )
+    yield Row("friction 0.8, water 100 m: slides on after the record (1)", 1.0, float(speed > 0.01), 0.0, remark=remark)
+    yield Row("the same with damping deformation (0)", 0.0, float(abs(calm) > 0.01), 0.0, relative=False)
+    yield from run.energy()
+
+
+def table_7_8() -> Iterator[Row]:
+    """Typical dam cracked at its base, friction 1.2, Taft at 0.4 g: slip in mm from 20 GPa to rigid."""
+    motion, run = _taft(0.4), Runs()
+    for modulus, (printed, prototype) in _TABLE_7_8.items():
+        ours = run.slip_mm(_typical(1.2, 100.0, modulus=modulus), motion)
+        what = f"{modulus:g} GPa (prototype {prototype})"
+        yield Row(what, printed, ours, 0.30 if modulus == 2000.0 else 0.25)
+    stiff = _typical(1.2, 100.0, modulus=20000.0, damping="deformation")
+    limit = 1e3 * rigid(stiff, motion).residual_slip_m
+    yield Row("20000 GPa, damping deformation, against our rigid model", limit, run.slip_mm(stiff, motion), 0.02)
+    yield from run.energy()
+
+
+def table_7_10() -> Iterator[Row]:
+    """Typical dam cracked at 90 m, Taft at 0.4 g: factor between the thesis' slip and ours, up or down."""
+    motion, run = _taft(0.4), Runs()
+    for friction, row in _TABLE_7_10.items():
+        for depth, (printed, prototype) in row.items():
+            ours = run.slip_mm(_cracked_high(friction, depth), motion)
+            other = run.slip_mm(_cracked_high(friction, depth, across=4), motion)
+            what = (
+                f"friction {friction}, water {depth:g} m: {ours:.0f} mm, with 4 elements across {other:.0f} (thesis "
+                f"{printed:g}, prototype {prototype})"
+            )
+            yield Row(what, 1.0, max(ours / printed, printed / ours), 0.75)
+    yield from run.energy()
+
+
+def halving() -> Iterator[Row]:
+    """Half the step, half the elements: slip in mm, coarse as reference and fine as ours; Taft at 0.4 g."""
+    motion, run = _taft(0.4), Runs()
+    for friction in (1.0, 1.2):
+        base = f"base crack, friction {friction}, water 100 m"
+        yield (row := _half_step(f"{base}: 0.2 and 0.1 ms", run, _typical(friction, 100.0, check=True), motion, 0.03))
+        fine = run.slip_mm(_typical(friction, 100.0, across=16), motion)
+        yield Row(f"{base}: 8 and 16 across", row.reference, fine, 0.03)
+    high = "crack at 90 m, friction 1, water 95 m"
+    yield (row := _half_step(f"{high}: 0.1 and 0.05 ms", run, _cracked_high(1.0, 95.0, check=True), motion, 0.10))
+    fine = run.slip_mm(_cracked_high(1.0, 95.0, across=16), motion)
+    yield Row(f"{high}: 8 and 16 across", row.reference, fine, 0.10)
+    high = "crack at 90 m, friction 1, water 100 m"
+    yield _half_step(f"{high}: 0.1 and 0.05 ms", run, _cracked_high(1.0, 100.0, check=True), motion, 0.10)
+    narrow, wide = (_scattered(_cracked_high(1.0, 100.0, across=across), motion) for across in (8, 16))
+    remark = (
+        f"a single run says little about the mesh here: the record times 0.99, 1 and 1.01 gives {min(narrow):.0f} to "
+        f"{max(narrow):.0f} mm with 8 across and {min(wide):.0f} to {max(wide):.0f} mm with 16. The program checks the "
+        "step by itself, not the mesh; --spread shows how much such a result is worth"
+    )
+    yield Row(f"{high}: 8 and 16 across", narrow[1], wide[1], None, remark=remark)
+    yield from run.energy()
+
+
+def _half_step(what: str, run: Runs, case: Case, motion: GroundMotion, allowed: float) -> Row:
+    """Judge what the program itself says of half the step."""
+    response = run(case, motion)
+    evidence = response.summary["convergence"]
+    warned = any("has not converged" in text for text in response.warnings)
+    coarse, fine = 1e3 * evidence["coarser_residual_slip_m"], 1e3 * evidence["residual_slip_m"]
+    return Row(what, coarse, fine, allowed, remark="the result warns" if warned else "")
+
+
+def _scattered(case: Case, motion: GroundMotion) -> list[float]:
+    """Return the slips [mm] under a little less, the very and a little more shaking."""
+    shaken = Shaken(case, build_flexible_dam(case), motion, None, motion.duration)
+    slips: list[float] = (1e3 * shaken.run_scaled(1e-4, np.array([0.99, 1.0, 1.01]))["slip"]).tolist()
+    return slips
+
+
+def _taft(peak: float) -> GroundMotion:
+    return record_named("taft-1952-s69e-caltech").scaled_to(peak * _G)
+
+
+def _typical(friction: float, depth: float, modulus: float = 20.0, **options: Any) -> Case:
+    return _case(_TYPICAL, _concrete(modulus), friction, depth, **options)
+
+
+def _cracked_high(friction: float, depth: float, **options: Any) -> Case:
+    return _case(_TYPICAL, _concrete(20.0), friction, depth, elevation=90.0, **options)
+
+
+def _triangle(modulus: float, poisson: float = 0.2) -> Case:
+    concrete = {"density": "2430 kg/m^3", "modulus": f"{modulus} GPa", "poisson": poisson}
+    return _case(_TRIANGLE, concrete, 1.0, 121.92, uplift=0.5)
+
+
+def _concrete(modulus: float) -> dict[str, Any]:
+    return {"density": "2650 kg/m^3", "modulus": f"{modulus} GPa", "poisson": 0.143}
+
+
+def _case(
+    corners: list[tuple[float, float]],
+    concrete: dict[str, Any],
+    friction: float,
+    depth: float = 0.0,
+    *,
+    elevation: float = 0.0,
+    uplift: float = 1.0,
+    damping: str = "thesis",
+    across: int = 8,
+    check: bool = False,
+) -> Case:
+    stiff = float(concrete["modulus"].split()[0]) >= 2000.0
+    fields = {
+        "gravity": f"{_G} m/s^2",
+        "section": {"polygon": [[f"{x} m", f"{z} m"] for x, z in corners]},
+        "concrete": concrete,
+        "crack": {"friction": friction, "elevation": f"{elevation} m"},
+        "uplift": {"pattern": "triangular", "intensity": uplift},
+        "flexible": {
+            "elements_across": across,
+            "damping": damping,
+            "virtual_mass": "thesis",
+            "time_step": "0.1 ms" if elevation else "0.05 ms" if stiff else "0.2 ms",
+            "convergence_check": check,
+        },
+    }
+    return read_case(fields | ({"reservoir": {"depth": f"{depth} m"}} if depth else {}))
