@@ -162,14 +162,12 @@ def test_impulse_is_momentum():
 def test_frames_change_nothing():
     one, a = dam(8.0), ground(1000, 1e-3)
     fine, coarse = run(one, a, 1e-3), run(one, a, 1e-3, stride=100)
-    # The energies are summed up from frame to frame, in another order.
-    assert fine.summary == pytest.approx(coarse.summary, rel=1e-12, abs=1e-12)
-    assert all(value == coarse.summary[name] for name, value in fine.summary.items() if "energy" not in name)
+    assert fine.summary == coarse.summary
     assert (coarse.upper == fine.upper[::100]).all()
     # Impulses are summed up from frame to frame.
     assert coarse.force[1:] == pytest.approx(fine.force[1:].reshape(10, 100, -1).mean(axis=1))
     row, *tables = one.kernel.run(a, 1e-3, 0.52, 0, False, (1.0, 1.0))
-    assert row.tolist() == pytest.approx(list(fine.summary.values()), rel=1e-12, abs=1e-12)
+    assert row.tolist() == list(fine.summary.values())
     assert not any(table.size for table in tables)
 
 

@@ -13,13 +13,20 @@
 
 use super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
 
-/// Below this, relative to the loads, a value counts as zero and the sign of its slope decides.
+// The next three are relative to the size of the terms that make up a quantity, see [`Reaction`]. They are thus
+// changes of the loads and mean the same for every condition: the one that ends a mode and the one that admits its
+// successor agree.
+
+/// Below this a value counts as zero and the sign of its slope decides.
 const TIE: f64 = 1e-13;
-/// A condition counts as violated within a piece only if it falls below this, relative to the loads. It is far above
-/// [`TIE`], so that where an event is seen the slopes that decide what follows are told from rounding.
+/// A condition counts as violated within a piece only if it falls below this. It is far above [`TIE`], so that where an
+/// event is seen the slopes that decide what follows are told from rounding.
 pub const VIOLATION: f64 = 1e-10;
-/// Last resort where rounding makes every mode look inadmissible by a hair.
+/// Last resort where rounding makes every mode look inadmissible by a hair, as under ground accelerations a thousand
+/// times the loads, by which sizes are not measured.
 const HAIR: f64 = 1e-9;
+/// A contact that friction leaves with less than this share of its resistance to being pushed in is Painlevé's.
+const SINGULAR: f64 = 1e-9;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Corner {
@@ -132,28 +139,37 @@ impl Mode {
 }
 
 /// Reactions and accelerations of one mode, affine in the ground acceleration.
+///
+/// Each is a sum of terms, one per load, and where it vanishes what remains of it is the rounding of those terms. Close
+/// to Painlevé's paradox, where friction all but pulls the contact in, the terms are larger than the loads by any
+/// factor, and so is their rounding. Hence each comes with the size of its terms under the static loads and a ground
+/// acceleration like theirs, taken as no less than that of the loads.
 #[derive(Clone, Copy, Debug)]
 pub struct Reaction {
     /// False where the mode's own equations are singular or push the contact apart with a positive force (Painlevé).
     pub regular: bool,
     /// Friction (downstream), normal force at the heel, at the toe.
     pub force: [Affine; 3],
+    pub force_size: [f64; 3],
     /// Accelerations of slip, heel gap, toe gap; exactly zero where the mode holds them.
     pub acceleration: [Affine; 3],
+    pub acceleration_size: [f64; 3],
+    /// What is left of the friction cone downstream and upstream, `mu_s (N_h + N_t) -/+ T`.
+    pub cone: [Affine; 2],
+    pub cone_size: f64,
 }
 
 /// Reactions of a mode to a unit load `b = e_column`, or `None` where the equations are singular or Painlevé's.
 fn unit_reaction(block: &Block, mode: Mode, column: usize) -> Option<Vector> {
     let a = &block.compliance;
     let load = |i: usize| if i == column { 1.0 } else { 0.0 };
-    let solve2 = |i: usize, k: usize, m: [[f64; 2]; 2]| -> Option<[f64; 2]> {
-        let det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
-        (det > 0.0).then(|| {
-            [
-                (-load(i) * m[1][1] + load(k) * m[0][1]) / det,
-                (-load(k) * m[0][0] + load(i) * m[1][0]) / det,
-            ]
-        })
+    let determinant = |m: [[f64; 2]; 2]| m[0][0] * m[1][1] - m[0][1] * m[1][0];
+    let solve2 = |i: usize, k: usize, m: [[f64; 2]; 2]| -> [f64; 2] {
+        let det = determinant(m);
+        [
+            (-load(i) * m[1][1] + load(k) * m[0][1]) / det,
+            (-load(k) * m[0][0] + load(i) * m[1][0]) / det,
+        ]
     };
     let mut force = [0.0; 3];
     match mode {
@@ -174,13 +190,17 @@ fn unit_reaction(block: &Block, mode: Mode, column: usize) -> Option<Vector> {
             let t = -block.friction_kinetic * slip.sign();
             let n = |r: usize, c: usize| a[r][c] + t * a[r][SLIP];
             let m = [[n(HEEL, HEEL), n(HEEL, TOE)], [n(TOE, HEEL), n(TOE, TOE)]];
-            let normal = solve2(HEEL, TOE, m)?;
+            let smooth = [[a[HEEL][HEEL], a[HEEL][TOE]], [a[TOE][HEEL], a[TOE][TOE]]];
+            if determinant(m) <= SINGULAR * determinant(smooth) {
+                return None;
+            }
+            let normal = solve2(HEEL, TOE, m);
             force = [t * (normal[0] + normal[1]), normal[0], normal[1]];
         }
         Mode::Rock(corner) => {
             let i = corner_index(corner);
             let m = [[a[SLIP][SLIP], a[SLIP][i]], [a[i][SLIP], a[i][i]]];
-            let [t, n] = solve2(SLIP, i, m)?;
+            let [t, n] = solve2(SLIP, i, m);
             force[SLIP] = t;
             force[i] = n;
         }
@@ -188,7 +208,7 @@ fn unit_reaction(block: &Block, mode: Mode, column: usize) -> Option<Vector> {
             let i = corner_index(corner);
             let t = -block.friction_kinetic * slip.sign();
             let stiffness = a[i][i] + t * a[i][SLIP];
-            if stiffness <= 1e-9 * a[i][i] {
+            if stiffness <= SINGULAR * a[i][i] {
                 return None;
             }
             let n = -load(i) / stiffness;
@@ -209,10 +229,16 @@ pub fn corner_index(corner: Corner) -> usize {
 impl Reaction {
     fn new(block: &Block, mode: Mode) -> Self {
         let free = &block.free_acceleration;
+        let (forces, accelerations) = (block.force_scale, block.acceleration_scale());
+        let size = |q: &Affine| q.constant.abs() + accelerations * (q.horizontal.abs() + q.vertical.abs());
         let mut reaction = Reaction {
             regular: true,
             force: [Affine::default(); 3],
+            force_size: [0.0; 3],
             acceleration: *free,
+            acceleration_size: free.map(|q| size(&q)),
+            cone: [Affine::default(); 2],
+            cone_size: 0.0,
         };
         for (column, load) in free.iter().enumerate() {
             let Some(unit) = unit_reaction(block, mode, column) else {
@@ -220,16 +246,26 @@ impl Reaction {
                 return reaction;
             };
             for i in 0..3 {
-                let from = |k: f64, to: &mut Affine| {
+                let from = |k: f64, to: &mut Affine, terms: &mut f64| {
                     to.constant += k * load.constant;
                     to.horizontal += k * load.horizontal;
                     to.vertical += k * load.vertical;
+                    *terms += k.abs() * size(load);
                 };
-                from(unit[i], &mut reaction.force[i]);
+                from(unit[i], &mut reaction.force[i], &mut reaction.force_size[i]);
                 let coupling: f64 = (0..3).map(|k| block.compliance[i][k] * unit[k]).sum();
-                from(coupling, &mut reaction.acceleration[i]);
+                from(
+                    coupling,
+                    &mut reaction.acceleration[i],
+                    &mut reaction.acceleration_size[i],
+                );
             }
         }
+        reaction.force_size = reaction.force_size.map(|terms| terms.max(forces));
+        reaction.acceleration_size = reaction.acceleration_size.map(|terms| terms.max(accelerations));
+        reaction.cone = [1.0, -1.0].map(|direction| cone(block, &reaction.force, direction));
+        let [friction, heel, toe] = reaction.force_size;
+        reaction.cone_size = block.friction_static * (heel + toe) + friction;
         let held = [mode.sticks(), mode.contacts()[0], mode.contacts()[1]];
         for (acceleration, held) in reaction.acceleration.iter_mut().zip(held) {
             if held {
@@ -267,20 +303,20 @@ pub struct Piece {
 }
 
 /// Sign of a quantity at the start of a piece: of its value or, where that is zero to rounding, of its slope.
-fn sign(q: Affine, piece: &Piece, scale: f64, tie: f64) -> i8 {
+fn sign(q: Affine, size: f64, piece: &Piece, tie: f64) -> i8 {
     let value = q.at(piece.ground);
-    if value.abs() > tie * scale {
+    if value.abs() > tie * size {
         return if value > 0.0 { 1 } else { -1 };
     }
     let change = q.slope(piece.rate) * piece.left;
-    if change.abs() > tie * scale {
+    if change.abs() > tie * size {
         return if change > 0.0 { 1 } else { -1 };
     }
     0
 }
 
 /// `mu_s (N_h + N_t) - direction * T`: what is left of the friction cone.
-pub fn cone(block: &Block, force: &[Affine; 3], direction: f64) -> Affine {
+fn cone(block: &Block, force: &[Affine; 3], direction: f64) -> Affine {
     let left = |f: fn(&Affine) -> f64| {
         block.friction_static * (f(&force[HEEL]) + f(&force[TOE])) - direction * f(&force[SLIP])
     };
@@ -295,7 +331,6 @@ pub fn cone(block: &Block, force: &[Affine; 3], direction: f64) -> Affine {
 ///
 /// `closed` are the corners whose gap and gap velocity are zero; `velocity` is the slip velocity.
 fn admissible(
-    block: &Block,
     reaction: &Reaction,
     mode: Mode,
     closed: [bool; 2],
@@ -307,13 +342,14 @@ fn admissible(
     if (contacts[0] && !closed[0]) || (contacts[1] && !closed[1]) || !reaction.regular {
         return false;
     }
-    let (forces, accelerations) = (block.force_scale, block.acceleration_scale());
+    let (force, acceleration) = (&reaction.force, &reaction.acceleration);
+    let (force_size, acceleration_size) = (&reaction.force_size, &reaction.acceleration_size);
     for (corner, gap) in [HEEL, TOE].into_iter().enumerate() {
         if contacts[corner] {
-            if sign(reaction.force[gap], piece, forces, tie) < 0 {
+            if sign(force[gap], force_size[gap], piece, tie) < 0 {
                 return false;
             }
-        } else if closed[corner] && sign(reaction.acceleration[gap], piece, accelerations, tie) < 0 {
+        } else if closed[corner] && sign(acceleration[gap], acceleration_size[gap], piece, tie) < 0 {
             return false;
         }
     }
@@ -321,9 +357,10 @@ fn admissible(
         Mode::Drift => true,
         Mode::Rest | Mode::Rock(_) => {
             velocity == 0.0
-                && [1.0, -1.0]
+                && reaction
+                    .cone
                     .into_iter()
-                    .all(|d| sign(cone(block, &reaction.force, d), piece, forces, tie) >= 0)
+                    .all(|left| sign(left, reaction.cone_size, piece, tie) >= 0)
         }
         Mode::Slide(slip) | Mode::SlideRock(_, slip) => {
             let s = slip.sign();
@@ -331,7 +368,7 @@ fn admissible(
                 return velocity * s > 0.0;
             }
             // A slip that starts must grow; at the friction limit its acceleration is zero and its slope decides.
-            let growth = sign(reaction.acceleration[SLIP], piece, accelerations, tie);
+            let growth = sign(acceleration[SLIP], acceleration_size[SLIP], piece, tie);
             f64::from(growth) * s > 0.0 || (tie >= HAIR && growth == 0)
         }
     }
@@ -340,7 +377,6 @@ fn admissible(
 /// The mode in which the block goes on: the present one if it is still admissible, else the first of [`Mode::ALL`]
 /// that is, or drift; `None` is a Painlevé paradox.
 pub fn select(
-    block: &Block,
     reactions: &Reactions,
     present: Mode,
     closed: [bool; 2],
@@ -355,8 +391,8 @@ pub fn select(
             .into_iter()
             .chain(Mode::ALL)
             .chain(std::iter::once(Mode::Drift));
-        let found = candidates
-            .find(|&mode| admissible(block, reactions.of(mode), mode, closed, velocity, piece, tie));
+        let found =
+            candidates.find(|&mode| admissible(reactions.of(mode), mode, closed, velocity, piece, tie));
         if found.is_some() {
             return found;
         }
@@ -367,13 +403,13 @@ pub fn select(
 /// Acceleration and its slope of each contact coordinate on a piece. `starts` has the way, 1 or -1, in which a
 /// coordinate starts to move in this very moment, and 0 for the others. What starts has its rounding removed, and that
 /// against its way up to the hair by which [`select`] may have let it: it must not end the moment it begins.
-pub fn accelerations(block: &Block, reaction: &Reaction, starts: [f64; 3], piece: &Piece) -> [[f64; 2]; 3] {
-    let scale = block.acceleration_scale();
-    let nothing = |value: f64, way: f64| {
-        value.abs() <= TIE * scale || (value * way < 0.0 && value.abs() <= HAIR * scale)
-    };
+pub fn accelerations(reaction: &Reaction, starts: [f64; 3], piece: &Piece) -> [[f64; 2]; 3] {
     let mut result = [[0.0; 2]; 3];
     for i in 0..3 {
+        let size = reaction.acceleration_size[i];
+        let nothing = |value: f64, way: f64| {
+            value.abs() <= TIE * size || (value * way < 0.0 && value.abs() <= HAIR * size)
+        };
         let mut value = reaction.acceleration[i].at(piece.ground);
         let mut slope = reaction.acceleration[i].slope(piece.rate);
         if starts[i] != 0.0 && nothing(value, starts[i]) {

@@ -9,7 +9,7 @@ use super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
 use super::event;
 use super::impact::{impact, jam, Impact};
 use super::ledger::work;
-use super::mode::{accelerations, cone, select, Mode, Piece, Reactions, Slip, VIOLATION};
+use super::mode::{accelerations, select, Mode, Piece, Reactions, Slip, VIOLATION};
 use super::result::{Event, EventKind, Histories, Outcome, Summary};
 
 /// A slip slower than this many times the bound of bounces may jam unasked; it would end within a nanometre or so.
@@ -149,10 +149,12 @@ impl Walk<'_, '_> {
                 }
                 settled = true;
                 let (step, ended) = self.advance(&piece, t0 + local);
+                // A step may be too short to move the clock.
+                let moved = local + step > local;
                 local += step;
                 let Some(why) = ended else { break };
                 cause = Some(why);
-                self.standing = if step > 0.0 { 0 } else { self.standing + 1 };
+                self.standing = if moved { 0 } else { self.standing + 1 };
                 self.summary.events += 1;
                 let stop = if self.summary.events >= self.options.event_limit {
                     Outcome::EventLimit
@@ -173,20 +175,14 @@ impl Walk<'_, '_> {
 
     fn rests(&self, piece: &Piece) -> bool {
         let closed = [true, true];
-        select(self.block, self.reactions, Mode::Rest, closed, 0.0, piece) == Some(Mode::Rest)
+        select(self.reactions, Mode::Rest, closed, 0.0, piece) == Some(Mode::Rest)
     }
 
     /// While the block rests nothing moves: go through the samples as fast as they can be read and return the last
     /// one before rest may end.
     fn rest_until(&mut self, motion: &Motion, from: usize) -> usize {
-        let force = &self.reactions.of(Mode::Rest).force;
-        let block = self.block;
-        let limits = [
-            force[HEEL],
-            force[TOE],
-            cone(block, force, 1.0),
-            cone(block, force, -1.0),
-        ];
+        let rest = self.reactions.of(Mode::Rest);
+        let limits = [rest.force[HEEL], rest.force[TOE], rest.cone[0], rest.cone[1]];
         let holds = |k: usize| {
             let ground = motion.at(k);
             limits.iter().all(|limit| limit.at(ground) >= 0.0)
@@ -221,14 +217,7 @@ impl Walk<'_, '_> {
         }
         let pick = |walk: &Self| {
             let velocity = walk.summary.velocity[SLIP];
-            select(
-                walk.block,
-                walk.reactions,
-                walk.mode,
-                walk.closed(),
-                velocity,
-                piece,
-            )
+            select(walk.reactions, walk.mode, walk.closed(), velocity, piece)
         };
         let mut after = pick(self);
         // A slip too slow to matter may jam unasked.
@@ -320,7 +309,7 @@ impl Walk<'_, '_> {
             f64::from(closed[0]),
             f64::from(closed[1]),
         ];
-        let motion = accelerations(self.block, reaction, starts, piece);
+        let motion = accelerations(reaction, starts, piece);
 
         let mut step = piece.left;
         let mut cause = None;
@@ -330,22 +319,21 @@ impl Walk<'_, '_> {
                 cause = Some(why);
             }
         };
-        let floor = -VIOLATION * self.block.force_scale;
-        let mut falls = |q: Affine, why: Cause| {
+        let mut falls = |q: Affine, size: f64, why: Cause| {
             let (value, slope) = (q.at(piece.ground), q.slope(piece.rate));
-            if value + slope * piece.left < floor && slope < 0.0 {
+            if value + slope * piece.left < -VIOLATION * size && slope < 0.0 {
                 earlier(event::linear(value, slope, piece.left), why);
             }
         };
         if contacts[0] {
-            falls(reaction.force[HEEL], Cause::Normal);
+            falls(reaction.force[HEEL], reaction.force_size[HEEL], Cause::Normal);
         }
         if contacts[1] {
-            falls(reaction.force[TOE], Cause::Normal);
+            falls(reaction.force[TOE], reaction.force_size[TOE], Cause::Normal);
         }
         if self.mode.sticks() {
-            falls(cone(self.block, &reaction.force, 1.0), Cause::Cone);
-            falls(cone(self.block, &reaction.force, -1.0), Cause::Cone);
+            falls(reaction.cone[0], reaction.cone_size, Cause::Cone);
+            falls(reaction.cone[1], reaction.cone_size, Cause::Cone);
         }
         if let Some(slip) = slip {
             let s = slip.sign();
