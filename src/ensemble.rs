@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 
-use crate::rigid::block::{Block, HEEL, SLIP, TOE};
+use crate::rigid::block::{Block, FIELD_COUNT, HEEL, SLIP, TOE};
 use crate::rigid::result::Summary;
 use crate::rigid::simulate::{simulate, Motion, Options};
 
@@ -89,7 +89,7 @@ pub fn row(s: &Summary) -> Row {
 
 /// One run of an ensemble: a block, the motion it meets, and the factors on that motion.
 pub struct Case<'a> {
-    pub block: &'a [f64; 18],
+    pub block: &'a [f64; FIELD_COUNT],
     pub motion: Motion<'a>,
 }
 

@@ -11,7 +11,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2}
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use rigid::block::{Block, BLOCK_FIELDS};
+use rigid::block::{Block, BLOCK_FIELDS, FIELD_COUNT};
 use rigid::mode::Mode;
 use rigid::result::{Event, EventKind, Histories, Outcome};
 use rigid::simulate::{simulate, Motion, Options};
@@ -99,10 +99,10 @@ fn motion<'a>(
     })
 }
 
-fn parameters(values: &[f64]) -> PyResult<[f64; 18]> {
+fn parameters(values: &[f64]) -> PyResult<[f64; FIELD_COUNT]> {
     values
         .try_into()
-        .map_err(|_| PyValueError::new_err(format!("a block has {} numbers, not {}", 18, values.len())))
+        .map_err(|_| PyValueError::new_err(format!("a block has {FIELD_COUNT} numbers, not {}", values.len())))
 }
 
 fn options(settle: f64, event_limit: u64, jam: bool) -> Options {
@@ -177,13 +177,13 @@ mod _kernel {
         jam: bool,
         threads: usize,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let (parameters, rest) = blocks.as_slice()?.as_chunks::<18>();
+        let (parameters, rest) = blocks.as_slice()?.as_chunks::<FIELD_COUNT>();
         let (factors, odd) = scales.as_slice()?.as_chunks::<2>();
         let which = motion_of.as_slice()?;
         let count = parameters.len();
         if !rest.is_empty() || !odd.is_empty() || factors.len() != count || which.len() != count {
             return Err(PyValueError::new_err(
-                "blocks (n, 18), motion_of (n,) and scales (n, 2) must agree in n",
+                "blocks (n, 21), motion_of (n,) and scales (n, 2) must agree in n",
             ));
         }
         let mut checked = Vec::with_capacity(motions.len());

@@ -28,7 +28,7 @@ def named(**values: Any) -> dict[str, Any]:
 
 
 def rows(block: dict[str, Any]) -> Floats:
-    """Return the kernel's (18,) or (n, 18) array of a named block."""
+    """Return the kernel's (21,) or (n, 21) array of a named block."""
     return np.ascontiguousarray(np.stack([block[name] for name in _kernel.BLOCK_FIELDS], axis=-1), dtype=float)
 
 

@@ -57,11 +57,73 @@ REFUSED = [
     (
         dam(crack=CRACK | {"colour": "red"}),
         "crack.colour: no such field; "
-        "the fields here are elevation, friction, static_friction, kinetic_friction, restitution",
+        "the fields here are elevation, inclination, friction, static_friction, kinetic_friction, restitution",
     ),
     (
         dam(motion=FILE | {"vertical": {"file": "a", "revers": True}}),
         'motion.vertical.revers: no such field; did you mean "reverse"?',
+    ),
+    (
+        dam(anchors=[{"distance": "5 m"}]),
+        "anchors[0].distance: has no meaning without prestress, axial_stiffness or shear_stiffness; give that, or "
+        "remove this",
+    ),
+    (
+        dam(anchors=[{"distance": "85 m", "prestress": "1 MN/m"}]),
+        "anchors[0].distance: 85 m is beyond the toe: the crack is 80 m wide; give a distance from 0 m to 80 m",
+    ),
+    (
+        dam(statics={"cohesion": "1 MPa"}),
+        "statics.cohesion: has no meaning without a part of the crack that is bonded (statics.bonded); give that, or "
+        "remove this",
+    ),
+    (
+        dam(statics={"flood_tailwater": "1 m"}),
+        "statics.flood_tailwater: has no meaning without flood_depth; give that, or remove this",
+    ),
+    (
+        dam(statics={"vertical_seismic_coefficient": 0.1}),
+        "statics.vertical_seismic_coefficient: has no meaning without seismic_coefficient; give that, or remove this",
+    ),
+    (
+        dam(statics={"drain_diameter": "75 mm"}),
+        'statics.drain_diameter: has no meaning without uplift.pattern = "drained"; give that, or remove this',
+    ),
+    (
+        dam(statics={"flood_depth": "101 m"}),
+        "statics.flood_depth: 101 m is above the crest at 100 m; give a depth between 0 m and 100 m",
+    ),
+    (
+        dam(uplift={"opening": "1 mm"}),
+        "uplift.opening: has no meaning without a during_shaking that changes the pressure; give that, or remove this",
+    ),
+    (
+        dam(uplift={"pattern": "none", "during_shaking": "follows opening"}),
+        'uplift.during_shaking: "follows opening" contradicts pattern = "none"; keep one of them',
+    ),
+    (
+        dam(uplift={"during_shaking": "full while open"}, reservoir=None),
+        "uplift.during_shaking: has no meaning without a reservoir; give that, or remove this",
+    ),
+    (
+        dam(ice={"force": "150 kN/m"}, reservoir=None),
+        "ice: has no meaning without a reservoir; give that, or remove this",
+    ),
+    (
+        dam(ice={"force": "150 kN/m", "depth": "95 m"}),
+        "ice.depth: 95 m is not within the 95 m of water; give a depth below the surface, up to there",
+    ),
+    (
+        dam(silt={"depth": "101 m"}),
+        "silt.depth: 101 m is above the crest at 100 m; give a depth between 0 m and 100 m",
+    ),
+    (
+        dam(reservoir={"depth": "95 m", "follows_vertical_motion": True}),
+        "reservoir.follows_vertical_motion: has no meaning without motion.vertical; give that, or remove this",
+    ),
+    (
+        dam(crack={"friction": 1.0, "inclination": "5 %"}),
+        'crack.inclination: "5 %" is not an angle; write for example "5 deg"',
     ),
     (dam(crack=None), "crack: is required and not there; add for example [crack]"),
     (dam(reservoir={}), 'reservoir.depth: is required and not there; add for example depth = "100 m"'),

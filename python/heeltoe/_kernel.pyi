@@ -34,7 +34,7 @@ def run_rigid(
     Parameters
     ----------
     block
-        (18,) numbers in the order of ``BLOCK_FIELDS``.
+        (21,) numbers in the order of ``BLOCK_FIELDS``.
     time, horizontal, vertical
         (n,) moments in s, not decreasing, and ground accelerations in m/s2 (downstream, upward); linear between the
         moments, a repeated moment is a jump.
@@ -67,7 +67,7 @@ def run_rigid_many(
     jam: bool,
     threads: int,
 ) -> Floats:
-    """Run (n, 18) blocks, each through the motion ``motion_of`` names with the accelerations times ``scales`` (n, 2).
+    """Run (n, 21) blocks, each through the motion ``motion_of`` names with the accelerations times ``scales`` (n, 2).
 
     ``threads`` of 0 means all cores. Returns (n, len(SUMMARY_FIELDS)), the same bits for any number of threads.
     """

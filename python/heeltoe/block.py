@@ -2,11 +2,13 @@
 
 Everything is per metre of dam. The reference point stands at the height of the centre of the horizontal mass
 (concrete and virtual water) and horizontally at the centroid of the concrete; there, for small rotations,
-translation and rotation do not couple although the two masses differ.
+translation and rotation do not couple although the two masses differ. On an inclined crack they do, and the reference
+point is the centroid of the concrete.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,24 +46,31 @@ class CriticalAccelerations:
 
 @dataclass(frozen=True)
 class Block:
-    """A block on its crack, ready for the kernel.
+    """A block on its crack, ready for the kernel. "Along" and "across" count from the crack, which may be inclined: on
+    a level one they are downstream and upwards.
 
     Attributes
     ----------
     mass_horizontal, mass_vertical
-        Concrete with virtual water; concrete alone [kg/m].
+        That moves along the crack: concrete with virtual water; and across it: concrete, and on an inclined crack its
+        share of the water [kg/m].
+    coupling
+        Of the motions along and across, along and rotation, across and rotation by the water, which moves horizontally
+        [kg/m, kg, kg]; zero on a level crack.
     inertia
         Polar inertia about the reference point [kg m2/m].
     height
-        Height of the reference point above the crack [m].
+        Of the reference point across the crack [m].
     heel_distance, toe_distance
-        Horizontal distance from the reference point to heel and toe [m].
+        From the reference point to heel and toe along the crack [m].
     static
-        Sum of the static loads; its moment is about the heel [N/m, N m/m].
+        Sum of the static loads along and across; its moment is about the heel [N/m, N m/m].
     static_moment
         Moment of the static loads about the reference point, counter-clockwise [N m/m].
+    per_horizontal, per_vertical
+        Loads (along, across, moment about the reference point) per unit of ground acceleration [kg/m, kg/m, kg].
     forces
-        The loads one by one.
+        The loads one by one, horizontal and vertical.
     water
         Virtual water.
     friction_static, friction_kinetic, restitution
@@ -74,12 +83,15 @@ class Block:
 
     mass_horizontal: float
     mass_vertical: float
+    coupling: tuple[float, float, float]
     inertia: float
     height: float
     heel_distance: float
     toe_distance: float
     static: Resultant
     static_moment: float
+    per_horizontal: tuple[float, float, float]
+    per_vertical: tuple[float, float, float]
     forces: tuple[Resultant, ...]
     water: VirtualMass
     friction_static: float
@@ -112,40 +124,49 @@ class Block:
     def critical_accelerations(self) -> CriticalAccelerations:
         """Accelerations at which rest ends, each motion by itself.
 
-        At rest ``T = m_y a - P`` and the moments about the corners give
-        ``B N_h = M0 + H T + B_t N0`` and ``B N_t = B_h N0 - M0 - H T``; sliding starts where ``|T| = mu N0`` (Zhu
-        2004, 4.3.12), rocking where a normal force vanishes (the limits behind 4.3.14).
+        At rest under the loads (F, N, M) along, across and about the reference point, which are linear in the ground
+        acceleration, ``T = -F`` and the moments about the corners give ``B N_h = M - H F - B_t N`` and
+        ``B N_t = -M + H F - B_h N``; sliding starts where ``|T| = mu N`` (Zhu 2004, 4.3.12), rocking where a normal
+        force vanishes (the limits behind 4.3.14). Where an acceleration cannot do it the limit is infinite.
         """
-        push, weight, mass = self.static.horizontal, self.normal_force, self.mass_horizontal
-        friction = self.friction_static * weight
-        heel = (self.static_moment + self.toe_distance * weight) / self.height
-        toe = (self.heel_distance * weight - self.static_moment) / self.height
+        along, across, moment = self.static.horizontal, self.static.vertical, self.static_moment
+        rates = self.per_horizontal
+
+        def limit(shear: float, normal: float, turning: float, sign: float) -> float:
+            """Return the magnitude at which a sum of the loads, these many of each, vanishes."""
+            value = shear * along + normal * across + turning * moment
+            rate = sign * (shear * rates[0] + normal * rates[1] + turning * rates[2])
+            return -value / rate if rate < 0.0 else math.inf
+
+        mu, height = self.friction_static, self.height
         return CriticalAccelerations(
-            sliding_downstream=(friction - push) / mass,
-            sliding_upstream=(friction + push) / mass,
-            rocking_downstream=(heel - push) / mass,
-            rocking_upstream=(toe + push) / mass,
+            sliding_downstream=limit(-1.0, -mu, 0.0, -1.0),
+            sliding_upstream=limit(1.0, -mu, 0.0, 1.0),
+            rocking_downstream=limit(-height, -self.toe_distance, 1.0, -1.0),
+            rocking_upstream=limit(height, -self.heel_distance, -1.0, 1.0),
         )
 
     def parameters(self) -> NDArray[np.float64]:
-        """Return the numbers the kernel takes, shape (18,), in the order of ``_kernel.BLOCK_FIELDS``."""
-        values = {
-            "mass_horizontal": self.mass_horizontal,
-            "mass_vertical": self.mass_vertical,
-            "inertia": self.inertia,
-            "height": self.height,
-            "heel_distance": self.heel_distance,
-            "toe_distance": self.toe_distance,
-            "static_horizontal": self.static.horizontal,
-            "static_vertical": self.static.vertical,
-            "static_moment": self.static_moment,
-            "per_horizontal_horizontal": -self.mass_horizontal,
-            "per_vertical_vertical": -self.mass_vertical,
-            "friction_static": self.friction_static,
-            "friction_kinetic": self.friction_kinetic,
-            "restitution": self.restitution,
-        }
-        return np.array([values.get(name, 0.0) for name in _kernel.BLOCK_FIELDS])
+        """Return the numbers the kernel takes, shape (21,), in the order of ``_kernel.BLOCK_FIELDS``."""
+        values = [
+            self.mass_horizontal,
+            self.mass_vertical,
+            self.inertia,
+            self.height,
+            self.heel_distance,
+            self.toe_distance,
+            self.static.horizontal,
+            self.static.vertical,
+            self.static_moment,
+            *self.per_horizontal,
+            *self.per_vertical,
+            self.friction_static,
+            self.friction_kinetic,
+            self.restitution,
+            *self.coupling,
+        ]
+        assert len(values) == len(_kernel.BLOCK_FIELDS)
+        return np.array(values)
 
 
 def build_block(case: Case) -> Block:
@@ -163,25 +184,50 @@ def build_block(case: Case) -> Block:
     section = cut(case)
     concrete = concrete_mass(case, section)
     water = virtual_mass(case, section)
-    mass = concrete + water.mass
-    centroid = (section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1])
-    height = (concrete * centroid[1] + water.mass * water.height) / mass
-    inertia = (
-        case.concrete.density * section.polar_inertia
-        + concrete * (centroid[1] - height) ** 2
-        + water.mass * (water.height - height) ** 2
-    )
+    offset = section.in_crack_frame(section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1])
+    inertia = case.concrete.density * section.polar_inertia
     forces = static_forces(case, section)
-    static = total("static loads", forces)
+    static = _across_crack(total("static loads", forces), section)
+    # The concrete's weight, and water that hangs on the vertical motion, per unit of vertical acceleration.
+    hydrostatic = [
+        force
+        for force, side in zip(forces[1:3], (case.reservoir, case.tailwater), strict=True)
+        if side is not None and side.follows_vertical_motion
+    ]
+    pressed = _across_crack(total("following", hydrostatic), section)
+    if section.inclination == 0.0:
+        mass = concrete + water.mass
+        height = (concrete * offset[1] + water.mass * water.height) / mass
+        inertia += concrete * (offset[1] - height) ** 2 + water.mass * (water.height - height) ** 2
+        masses = (mass, concrete, inertia)
+        coupling = (0.0, 0.0, 0.0)
+        horizontal, vertical = (-mass, 0.0, 0.0), (0.0, -concrete, 0.0)
+    else:
+        # The reference point is the centroid of the concrete; the water moves with one point of the face, sideways.
+        height = offset[1]
+        e, n = section.in_crack_frame(1.0, 0.0)
+        x, z = section.in_crack_frame(_face_at(section, water.height), water.height)
+        arm = n * (x - offset[0]) - e * (z - height)
+        moved = water.mass
+        masses = (concrete + moved * e * e, concrete + moved * n * n, inertia + moved * arm * arm)
+        coupling = (moved * e * n, moved * e * arm, moved * n * arm)
+        horizontal = (-(concrete + moved) * e, -(concrete + moved) * n, -moved * arm)
+        up = section.in_crack_frame(0.0, 1.0)
+        vertical = (-concrete * up[0], -concrete * up[1], 0.0)
+    g = case.gravity
+    pressure = (pressed.horizontal / g, pressed.vertical / g, pressed.moment_about(offset[0], height) / g)
     return Block(
-        mass_horizontal=mass,
-        mass_vertical=concrete,
-        inertia=inertia,
+        mass_horizontal=masses[0],
+        mass_vertical=masses[1],
+        coupling=coupling,
+        inertia=masses[2],
         height=height,
-        heel_distance=centroid[0],
-        toe_distance=section.crack_width - centroid[0],
+        heel_distance=offset[0],
+        toe_distance=section.crack_width - offset[0],
         static=static,
-        static_moment=static.moment_about(centroid[0], height),
+        static_moment=static.moment_about(offset[0], height),
+        per_horizontal=horizontal,
+        per_vertical=(vertical[0] + pressure[0], vertical[1] + pressure[1], vertical[2] + pressure[2]),
         forces=forces,
         water=water,
         friction_static=case.crack.mu_static,
@@ -190,3 +236,15 @@ def build_block(case: Case) -> Block:
         gravity=case.gravity,
         section=section,
     )
+
+
+def _across_crack(force: Resultant, section: CutSection) -> Resultant:
+    """Return a force by its components along and across the crack."""
+    along, across = section.in_crack_frame(force.horizontal, force.vertical)
+    return Resultant(force.name, along, across, force.moment)
+
+
+def _face_at(section: CutSection, height: float) -> float:
+    """Return where the upstream face is at a height above the heel, downstream of the heel [m]."""
+    face = section.upstream_face - section.heel
+    return float(np.interp(height, face[:, 1], face[:, 0]))

@@ -20,13 +20,19 @@ from heeltoe import section
 from heeltoe.case_errors import first_error, shown
 from heeltoe.case_model import (
     Analysis,
+    Anchor,
     Case,
     Concrete,
     Crack,
+    Decoupled,
     Flexible,
+    Ice,
+    Limits,
     Motion,
     Section,
     Shaking,
+    Silt,
+    Statics,
     Uplift,
     Water,
 )
@@ -34,13 +40,19 @@ from heeltoe.errors import InputError
 
 __all__ = [
     "Analysis",
+    "Anchor",
     "Case",
     "Concrete",
     "Crack",
+    "Decoupled",
     "Flexible",
+    "Ice",
+    "Limits",
     "Motion",
     "Section",
     "Shaking",
+    "Silt",
+    "Statics",
     "Uplift",
     "Water",
     "case_schema",
@@ -91,7 +103,7 @@ def read_case(source: str | os.PathLike[str] | Mapping[str, Any], overrides: Seq
         case = Case.model_validate(fields)
     except ValidationError as found:
         raise first_error(found, Case) from None
-    section.check_water(case, section.cut(case))
+    section.check_loads(case, section.cut(case))
     return case.based_in(directory)
 
 

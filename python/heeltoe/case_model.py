@@ -18,12 +18,15 @@ from heeltoe.processing_steps import ProcessingStep
 from heeltoe.quantities import (
     STANDARD_GRAVITY,
     AccelerationField,
+    Angle,
     Density,
     DimensionlessNumber,
     Duration,
     Gravity,
     Length,
+    LineForce,
     Pressure,
+    Stiffness,
     acceleration_unit,
 )
 
@@ -43,6 +46,9 @@ Channel = Annotated[
     Field(strict=True, min_length=1),
     WithJsonSchema({"type": ["string", "integer"], "minLength": 1}),
 ]
+
+# Steeper than 45 degrees, with its rounding, a crack makes a wedge of the dam and no block.
+_STEEPEST = 0.7853982
 
 Truth = Annotated[bool, Field(strict=True)]
 Count = Annotated[int, Field(strict=True, ge=1)]
@@ -119,10 +125,12 @@ class Concrete(Block):
 
 
 class Crack(Block):
-    """The crack: a horizontal line through the section, with Coulomb friction."""
+    """The crack: a straight line through the section, with Coulomb friction."""
 
     elevation: Annotated[Length, Field(ge=0.0)] = Field(default="0 m", validate_default=True)
-    """Height of the crack above the lowest point of the section."""
+    """Height of the crack at the upstream face above the lowest point of the section."""
+    inclination: Annotated[Angle, Field(ge=-_STEEPEST, le=_STEEPEST)] = Field(default="0 deg", validate_default=True)
+    """Angle of the crack to the horizontal; positive where it rises downstream."""
     friction: FrictionCoefficient | None = None
     """Coefficient of friction, at rest and sliding."""
     static_friction: FrictionCoefficient | None = None
@@ -165,6 +173,53 @@ class Water(Block):
     """From the lowest point of the section to the water surface."""
     density: Annotated[Density, Field(ge=100.0, le=2e4)] = Field(default="1000 kg/m^3", validate_default=True)
     """Density of the water."""
+    follows_vertical_motion: Truth = False
+    """Its pressure on the faces grows and falls with the vertical motion, by the factor 1 + a_v / g, as under a
+    column of water that moves with the ground."""
+
+
+class Ice(Block):
+    """Push of an ice cover on the upstream face, at all times."""
+
+    force: Annotated[LineForce, Field(gt=0.0, le=1e8)]
+    """Push downstream."""
+    depth: Head = Field(default="0.3 m", validate_default=True)
+    """Where it acts, below the water surface."""
+
+
+class Silt(Block):
+    """Silt upstream, as a fluid that adds to the water's pressure (USBR, Design of Small Dams, 3rd edition, 8.9)."""
+
+    depth: Head
+    """From the lowest point of the section to the top of the silt."""
+    horizontal_density: Annotated[Density, Field(ge=0.0, le=5e3)] = Field(default="360 kg/m^3", validate_default=True)
+    """Of the fluid whose pressure is that of the silt sideways, the water taken off."""
+    vertical_density: Annotated[Density, Field(ge=0.0, le=5e3)] = Field(default="920 kg/m^3", validate_default=True)
+    """Of the silt that stands on a slope of the face, the water taken off."""
+
+
+class Anchor(Block):
+    """An anchor or a row of bars across the crack, per metre of dam."""
+
+    distance: Annotated[Length, Field(ge=0.0)]
+    """From the heel along the crack."""
+    inclination: Annotated[Angle, Field(ge=-1.2, le=1.2)] = Field(default="0 deg", validate_default=True)
+    """Of its axis to the normal of the crack; positive where its upper end leans downstream."""
+    prestress: Annotated[LineForce, Field(ge=0.0, le=1e9)] = Field(default="0 kN/m", validate_default=True)
+    """Tension while the crack is closed and has not slipped."""
+    axial_stiffness: Annotated[Stiffness, Field(ge=0.0, le=1e13)] = Field(default="0 MN/m/m", validate_default=True)
+    """Tension it gains by opening along its axis: its EA over its free length. It takes no compression."""
+    shear_stiffness: Annotated[Stiffness, Field(ge=0.0, le=1e13)] = Field(default="0 MN/m/m", validate_default=True)
+    """Resistance it gains by slip, as a dowel."""
+    capacity: Annotated[LineForce, Field(gt=0.0, le=1e9)] | None = None
+    """Tension it is good for; more is warned about."""
+
+    @model_validator(mode="after")
+    @collected
+    def _does_something(self) -> Self:
+        if not (self.prestress or self.axial_stiffness or self.shear_stiffness):
+            raise InputError("needs-other", "distance", other="prestress, axial_stiffness or shear_stiffness")
+        return self
 
 
 UpliftPattern = Literal["none", "uniform", "triangular", "cut-off", "drained", "profile"]
@@ -198,6 +253,12 @@ class Uplift(Block):
     points: tuple[tuple[Fraction, Head], ...] | None = None
     """Of `profile`: [distance from the heel as a part of the width, head of water], from 0 to 1; straight in
     between, twice the same distance is a jump."""
+    during_shaking: Literal["constant", "zero while open", "full while open", "follows opening"] = "constant"
+    """What the pressure does where the crack opens in the earthquake: stays (USACE); vanishes (USBR); becomes the
+    reservoir's; or falls as the water that is there fills the wider crack (after Javanmardi and others 2005)."""
+    opening: Annotated[Length, Field(ge=1e-6, le=0.1)] | None = None
+    """How far the crack opens until the pressure has vanished, is the reservoir's, or has fallen to half; 0.1 mm
+    where it is not given."""
 
     @model_validator(mode="after")
     @collected
@@ -212,7 +273,16 @@ class Uplift(Block):
             fractions = [fraction for fraction, _ in self.points]
             if len(fractions) < 2 or fractions[0] != 0.0 or fractions[-1] != 1.0 or fractions != sorted(fractions):
                 raise InputError("uplift-profile", "points", shown(fractions))
+        if self.during_shaking == "constant" and self.opening is not None:
+            raise InputError("needs-other", "opening", other="a during_shaking that changes the pressure")
+        if self.during_shaking in ("zero while open", "follows opening") and self.pattern == "none":
+            raise InputError("contradiction", "during_shaking", shown(self.during_shaking), other='pattern = "none"')
         return self
+
+    @property
+    def opening_of_change(self) -> float:
+        """Opening over which the pressure changes [m]."""
+        return 1e-4 if self.opening is None else self.opening
 
 
 class Shaking(Block):
@@ -322,6 +392,72 @@ class Analysis(Block):
     let an impulse of friction end the slip."""
     event_limit: Count = 1_000_000
     """Stop after so many events."""
+    rotation: Literal["small", "p-delta", "finite"] = "small"
+    """Of the rigid block: small; small with the weight's moment that changes with it (P-Delta); or of any size.
+    Only with the last two can the block overturn."""
+
+
+class Limits(Block):
+    """What the user allows; the verdict and the report compare the results with it."""
+
+    residual_slip: Annotated[Length, Field(ge=0.0)] | None = None
+    """Slip that remains, either way."""
+    peak_slip: Annotated[Length, Field(ge=0.0)] | None = None
+    """Largest slip on the way, either way."""
+    opening_upstream: Annotated[Length, Field(ge=0.0)] | None = None
+    """Opening of the crack at the upstream face."""
+    opening_downstream: Annotated[Length, Field(ge=0.0)] | None = None
+    """Opening of the crack at the downstream face."""
+
+
+class Statics(Block):
+    """Strength and load cases of the static checks before, during and after the earthquake."""
+
+    criteria: Literal["USACE", "USBR", "FERC", "CDA"] = "USACE"
+    """Whose required factors the checks are judged by."""
+    bonded: Fraction = 0.0
+    """Part of the crack's width, from the toe, that is not cracked; only there cohesion and tension count."""
+    cohesion: Annotated[Pressure, Field(ge=0.0, le=1e8)] = Field(default="0 MPa", validate_default=True)
+    """Cohesion of the bonded part."""
+    tensile_strength: Annotated[Pressure, Field(ge=0.0, le=1e8)] = Field(default="0 MPa", validate_default=True)
+    """Tensile strength of the bonded part; more tension than that lets the crack grow."""
+    compressive_strength: Annotated[Pressure, Field(gt=0.0, le=1e9)] | None = None
+    """Compressive strength of the concrete; stresses are judged by it where it is given."""
+    flood_depth: Head | None = None
+    """Reservoir in the flood; no such check without it."""
+    flood_tailwater: Head | None = None
+    """Tailwater in the flood; the usual one where it is not given."""
+    seismic_coefficient: Annotated[DimensionlessNumber, Field(gt=0.0, le=3.0)] | None = None
+    """Horizontal acceleration of the pseudo-static check in g; no such check without it."""
+    vertical_seismic_coefficient: Annotated[DimensionlessNumber, Field(ge=0.0, le=3.0)] = 0.0
+    """Vertical acceleration at the same time in g, taken the worse way."""
+    residual_friction: FrictionCoefficient | None = None
+    """Coefficient of friction after the earthquake; the kinetic one where it is not given."""
+    residual_slip: Annotated[Length, Field(ge=0.0)] | None = None
+    """Slip after the earthquake; that of an analysis where it is not given."""
+    drain_diameter: Annotated[Length, Field(gt=0.0, le=10.0)] | None = None
+    """Of the drains of a `drained` uplift: slip closes them in proportion, and wholly from one diameter on."""
+
+    @model_validator(mode="after")
+    @collected
+    def _belong_together(self) -> Self:
+        for name in ("cohesion", "tensile_strength"):
+            if getattr(self, name) and not self.bonded:
+                raise InputError("needs-other", name, other="a part of the crack that is bonded (statics.bonded)")
+        if self.flood_tailwater is not None and self.flood_depth is None:
+            raise InputError("needs-other", "flood_tailwater", other="flood_depth")
+        if self.vertical_seismic_coefficient and self.seismic_coefficient is None:
+            raise InputError("needs-other", "vertical_seismic_coefficient", other="seismic_coefficient")
+        return self
+
+
+class Decoupled(Block):
+    """Choices of the decoupled chain: the elastic part below the crack shakes the rigid part above it."""
+
+    vertical: Truth = False
+    """The block feels the vertical motion at the crack too."""
+    rotation: Truth = False
+    """The block feels the rotation of the crack too."""
 
 
 class Case(Block):
@@ -342,14 +478,45 @@ class Case(Block):
     """The water upstream."""
     tailwater: Water | None = None
     """The water downstream."""
+    ice: Ice | None = None
+    """The ice upstream."""
+    silt: Silt | None = None
+    """The silt upstream."""
+    anchors: tuple[Anchor, ...] = ()
+    """Anchors and bars across the crack."""
     uplift: Uplift = Uplift()
     """The water in the crack."""
     motion: Motion | None = None
     """The earthquake; statics needs none."""
     flexible: Flexible = Flexible()
     """Choices of the flexible model."""
+    decoupled: Decoupled = Decoupled()
+    """Choices of the decoupled chain."""
+    statics: Statics = Field(default_factory=Statics)
+    """Static checks."""
+    limits: Limits = Limits()
+    """What is allowed."""
     analysis: Analysis = Analysis()
     """Choices for rare situations."""
+
+    @model_validator(mode="after")
+    @collected
+    def _agree(self) -> Self:
+        if self.reservoir is None:
+            for name in ("ice", "silt"):
+                if getattr(self, name) is not None:
+                    raise InputError("needs-other", name, other="a reservoir")
+            if self.uplift.during_shaking == "full while open":
+                raise InputError("needs-other", "uplift.during_shaking", other="a reservoir")
+        elif self.ice is not None and self.ice.depth >= self.reservoir.depth:
+            raise InputError("ice-depth", "ice.depth", f"{self.ice.depth:g} m", depth=f"{self.reservoir.depth:g} m")
+        for name in ("reservoir", "tailwater"):
+            water = getattr(self, name)
+            if water and water.follows_vertical_motion and self.motion and not self.motion.vertical:
+                raise InputError("needs-other", f"{name}.follows_vertical_motion", other="motion.vertical")
+        if self.statics.drain_diameter is not None and self.uplift.pattern != "drained":
+            raise InputError("needs-other", "statics.drain_diameter", other='uplift.pattern = "drained"')
+        return self
 
     _base_directory: Path = PrivateAttr(default_factory=Path)
 

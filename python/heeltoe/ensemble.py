@@ -38,7 +38,7 @@ def rigid_many(
     Parameters
     ----------
     blocks
-        Blocks, or their parameters in the order of ``_kernel.BLOCK_FIELDS``, shape (n, 18).
+        Blocks, or their parameters in the order of ``_kernel.BLOCK_FIELDS``, shape (n, 21).
     motions
         Ground motions, each horizontal or a pair (horizontal, vertical) [m/s2].
     motion_of

@@ -18,7 +18,7 @@ from heeltoe.flexible_parts import FlexibleDam, build_flexible_dam
 from heeltoe.ground import ground, step_ends, step_means
 from heeltoe.modes import part_periods
 from heeltoe.motion import GroundMotion
-from heeltoe.response import Energy, Response
+from heeltoe.response import Energy, Response, check_limits
 from heeltoe.rigid_model import REFERENCES as RIGID_REFERENCES
 from heeltoe.rigid_model import static_state
 from heeltoe.shaking import resolve
@@ -150,6 +150,7 @@ def flexible(
     record = _history(frames, dam, case.flexible.contactors)
     block = build_block(case)
     advice = ADVICE.get(outcome)
+    summary = _summary(raw, dam, shaken, convergence)
     return Response(
         model="flexible",
         title=case.title,
@@ -160,7 +161,7 @@ def flexible(
             *motion.warnings,
             *_warnings(case, dam, raw, record, convergence, block.sliding_safety_factor, _last_change(frames[0])),
         ),
-        summary=_summary(raw, dam, shaken, convergence),
+        summary=summary,
         energy=_energy(raw),
         motion=motion,
         vertical=vertical,
@@ -171,6 +172,7 @@ def flexible(
         static=static_state(block),
         references=_references(case, dam),
         crack=record,
+        limits=check_limits(case.limits, summary),
     )
 
 

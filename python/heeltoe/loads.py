@@ -59,13 +59,18 @@ def total(name: str, forces: Iterable[Resultant]) -> Resultant:
 
 
 def static_forces(case: Case, section: CutSection) -> tuple[Resultant, ...]:
-    """Return weight, reservoir, tailwater and uplift, in this order, with zeros for what is not there."""
-    return (
+    """Return weight, reservoir, tailwater and uplift, with zeros for what is not there, then ice, silt and prestress
+    of the anchors where there are any."""
+    forces = [
         weight(case, section),
         reservoir_pressure(case, section),
         tailwater_pressure(case, section),
         uplift(case, section),
-    )
+    ]
+    for there, force in ((case.ice, ice), (case.silt, silt), (case.anchors, prestress)):
+        if there:
+            forces.append(force(case, section))
+    return tuple(forces)
 
 
 def concrete_mass(case: Case, section: CutSection) -> float:
@@ -90,6 +95,37 @@ def tailwater_pressure(case: Case, section: CutSection) -> Resultant:
     return _face_pressure("tailwater", case, section, case.tailwater, section.downstream_face, -1.0)
 
 
+def ice(case: Case, section: CutSection) -> Resultant:
+    """Return the push of the ice; zero where it acts below the crack."""
+    if case.ice is None or case.reservoir is None:
+        return Resultant("ice", 0.0, 0.0, 0.0)
+    height = section.base_elevation + case.reservoir.depth - case.ice.depth - section.crack_elevation
+    push = case.ice.force if height >= 0.0 else 0.0
+    return Resultant("ice", push, 0.0, -push * max(height, 0.0))
+
+
+def silt(case: Case, section: CutSection) -> Resultant:
+    """Return the force of the silt on the upstream face above the crack, beyond that of the water it stands in."""
+    if case.silt is None:
+        return Resultant("silt", 0.0, 0.0, 0.0)
+    densities = (case.silt.horizontal_density, case.silt.vertical_density)
+    return _face_fluid("silt", case, section, case.silt.depth, densities, section.upstream_face, 1.0)
+
+
+def prestress(case: Case, section: CutSection) -> Resultant:
+    """Return the prestress of all anchors on the part above the crack, which they pull towards the part below."""
+    forces = []
+    for anchor in case.anchors:
+        along, across = -math.sin(anchor.inclination), -math.cos(anchor.inclination)
+        x, z = section.from_crack_frame(along, across)
+        forces.append(
+            Resultant(
+                "anchors", anchor.prestress * x, anchor.prestress * z, anchor.prestress * across * anchor.distance
+            )
+        )
+    return total("anchors", forces)
+
+
 def uplift_profile(case: Case, section: CutSection) -> NDArray[np.float64]:
     """Return the pressure in the crack, straight between its points.
 
@@ -104,7 +140,7 @@ def uplift_profile(case: Case, section: CutSection) -> NDArray[np.float64]:
         is a jump.
     """
     pattern = case.uplift
-    heel, toe = _pressure(case, section, case.reservoir), _pressure(case, section, case.tailwater)
+    heel, toe = _pressure(case, section, case.reservoir), _pressure(case, section, case.tailwater, toe=True)
     drains = toe + (1.0 - (pattern.drain_efficiency or 0.0)) * (heel - toe)
     own = case.gravity * (case.reservoir.density if case.reservoir else 1000.0)
     points: dict[str, list[tuple[float, float]]] = {
@@ -119,15 +155,16 @@ def uplift_profile(case: Case, section: CutSection) -> NDArray[np.float64]:
 
 
 def uplift(case: Case, section: CutSection) -> Resultant:
-    """Return the force of the water in the crack."""
+    """Return the force of the water in the crack, which is normal to it."""
     profile = uplift_profile(case, section)
     x, pressure = profile.T
     length = np.diff(x)
     force = float(np.sum(length * (pressure[:-1] + pressure[1:]))) / 2.0
+    horizontal, vertical = section.from_crack_frame(0.0, force)
     return Resultant(
         "uplift",
-        0.0,
-        force,
+        horizontal,
+        vertical,
         float(np.sum(length * _mean_product(x[:-1], x[1:], pressure[:-1], pressure[1:]))),
     )
 
@@ -146,35 +183,48 @@ def virtual_mass(case: Case, section: CutSection) -> VirtualMass:
     return VirtualMass(7.0 / 12.0 * water.density * math.sqrt(water.depth) * depth**1.5, 0.4 * depth)
 
 
-def _pressure(case: Case, section: CutSection, water: Water | None) -> float:
-    """Return the pressure of still water at the level of the crack [Pa]."""
-    return water.density * case.gravity * section.water_above_crack(water) if water else 0.0
+def _pressure(case: Case, section: CutSection, water: Water | None, *, toe: bool = False) -> float:
+    """Return the pressure of still water at the heel, or at the toe [Pa]."""
+    return water.density * case.gravity * section.water_above_crack(water, toe=toe) if water else 0.0
 
 
 def _face_pressure(
     name: str, case: Case, section: CutSection, water: Water | None, face: NDArray[np.float64], side: float
 ) -> Resultant:
-    """Integrate edge by edge; `side` is 1 with the concrete on the right of the way up, -1 on the left."""
-    depth = section.water_above_crack(water)
-    if water is None or depth == 0.0:
+    """Return the force of still water on a face; `side` as in :func:`_face_fluid`."""
+    if water is None:
         return Resultant(name, 0.0, 0.0, 0.0)
+    return _face_fluid(name, case, section, water.depth, (water.density, water.density), face, side)
+
+
+def _face_fluid(
+    name: str,
+    case: Case,
+    section: CutSection,
+    depth: float,
+    densities: tuple[float, float],
+    face: NDArray[np.float64],
+    side: float,
+) -> Resultant:
+    """Integrate edge by edge the pressure of a fluid that has one density sideways and one in its weight; `side` is 1
+    with the concrete on the right of the way up, -1 on the left."""
+    # Counted from the heel, also where the toe is lower.
+    surface = section.base_elevation + depth - section.crack_elevation
     start, end = face[:-1] - section.heel, face[1:] - section.heel
     # The wet part of each edge, from fraction a to b of its length; along it the pressure is linear.
     with np.errstate(divide="ignore", invalid="ignore"):
-        crossing = np.clip((depth - start[:, 1]) / (end[:, 1] - start[:, 1]), 0.0, 1.0)
-    wet_start, wet_end = start[:, 1] < depth, end[:, 1] < depth
+        crossing = np.clip((surface - start[:, 1]) / (end[:, 1] - start[:, 1]), 0.0, 1.0)
+    wet_start, wet_end = start[:, 1] < surface, end[:, 1] < surface
     a = np.where(wet_start, 0.0, np.where(wet_end, crossing, 1.0))
     b = np.where(wet_end, 1.0, np.where(wet_start, crossing, 1.0))
     lower, upper = start + a[:, None] * (end - start), start + b[:, None] * (end - start)
-    unit = water.density * case.gravity
-    p0, p1 = unit * (depth - lower[:, 1]), unit * (depth - upper[:, 1])
+    h0, h1 = surface - lower[:, 1], surface - upper[:, 1]
     along = upper - lower
-    # The normal into the concrete, as long as the edge.
-    normal = side * np.column_stack([along[:, 1], -along[:, 0]])
-    mean = (p0 + p1) / 2.0
-    lever = _mean_product(lower[:, 0], upper[:, 0], p0, p1) * normal[:, 1]
-    lever -= _mean_product(lower[:, 1], upper[:, 1], p0, p1) * normal[:, 0]
-    horizontal, vertical = mean @ normal
+    # The normal into the concrete, as long as the edge, times the weight of a unit of the fluid.
+    normal = case.gravity * side * np.column_stack([densities[0] * along[:, 1], -densities[1] * along[:, 0]])
+    lever = _mean_product(lower[:, 0], upper[:, 0], h0, h1) * normal[:, 1]
+    lever -= _mean_product(lower[:, 1], upper[:, 1], h0, h1) * normal[:, 0]
+    horizontal, vertical = (h0 + h1) / 2.0 @ normal
     return Resultant(name, float(horizontal), float(vertical), float(np.sum(lever)))
 
 

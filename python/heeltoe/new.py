@@ -13,6 +13,8 @@ _TEMPLATE = """\
 title = {title}
 
 # gravity = "9.80665 m/s^2"        # one g, of the weight and of motions given in g
+# Anchors or bars across the crack, each with at least one of prestress, axial_stiffness and shear_stiffness:
+# anchors = [{{ distance = "5 m", prestress = "2 MN/m", inclination = "0 deg", capacity = "4 MN/m" }}]
 
 [section]                          # vertical upstream face at x = 0, downstream to the right
 height = "100 m"
@@ -30,7 +32,8 @@ density = "2400 kg/m^3"
 # damping = 0.05
 
 [crack]
-elevation = "0 m"                  # above the lowest point of the section
+elevation = "0 m"                  # at the upstream face, above the lowest point of the section
+# inclination = "0 deg"            # positive where the crack rises downstream
 friction = 1.0
 # static_friction = 1.1            # instead of friction, where the friction at rest
 # kinetic_friction = 1.0           # is higher than in motion
@@ -39,9 +42,19 @@ restitution = 0.5                  # of a rocking block's impacts: 0 stays down,
 [reservoir]                        # leave out for a dry dam
 depth = "95 m"                     # above the lowest point of the section
 # density = "1000 kg/m^3"
+# follows_vertical_motion = false  # pressure on the faces times 1 + a_v / g; needs motion.vertical
 
 # [tailwater]
 # depth = "5 m"
+
+# [ice]
+# force = "150 kN/m"               # downstream
+# depth = "0.3 m"                  # below the water surface
+
+# [silt]
+# depth = "10 m"                   # above the lowest point of the section
+# horizontal_density = "360 kg/m^3"   # of the fluid that it adds to the water
+# vertical_density = "920 kg/m^3"
 
 [uplift]
 pattern = "triangular"             # or none, uniform, cut-off, drained, profile
@@ -50,6 +63,8 @@ pattern = "triangular"             # or none, uniform, cut-off, drained, profile
 # drain_position = 0.1             # drained: distance from the heel as a part of the width
 # drain_efficiency = 0.667         # drained: 0 no effect on the head there, 1 down to the tailwater's
 # points = [[0.0, "95 m"], [1.0, "0 m"]]   # profile: distance as above, head of water
+# during_shaking = "constant"      # or "zero while open", "full while open", "follows opening"
+# opening = "0.1 mm"               # over which that changes the pressure
 
 [motion]                           # the ground's acceleration, positive downstream
 file = "elcentro-1940-180-nga"     # a file beside this one, or a name from the catalogue of records
@@ -86,6 +101,31 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # [analysis]
 # paradox = "stop"                 # where no motion agrees with Coulomb's law; or "tangential impact"
 # event_limit = 1_000_000
+# rotation = "small"               # or "p-delta", "finite": with these a rigid block can overturn
+
+# [decoupled]                      # of --model decoupled: the part below the crack shakes the block above it
+# vertical = false                 # with the vertical motion at the crack, too
+# rotation = false                 # and with its rotation
+
+# [limits]                         # what you allow: the verdict and the report compare with it
+# residual_slip = "150 mm"
+# peak_slip = "200 mm"
+# opening_upstream = "50 mm"
+# opening_downstream = "50 mm"
+
+# [statics]                        # of `heeltoe statics`
+# criteria = "USACE"               # or USBR, FERC, CDA
+# bonded = 0.5                     # part of the width, from the toe, that is not cracked
+# cohesion = "1 MPa"               # of that part, as is the next
+# tensile_strength = "1 MPa"
+# compressive_strength = "20 MPa"
+# flood_depth = "100 m"            # reservoir and tailwater in the flood
+# flood_tailwater = "10 m"
+# seismic_coefficient = 0.1        # of the pseudo-static check, in g
+# vertical_seismic_coefficient = 0.05
+# residual_friction = 0.8          # after the earthquake
+# residual_slip = "100 mm"         # that of an analysis without it
+# drain_diameter = "75 mm"         # drains of a drained uplift that slip closes
 """
 
 

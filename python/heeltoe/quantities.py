@@ -26,6 +26,7 @@ STANDARD_GRAVITY = 9.80665
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\d\s.,+-].{0,39})?", re.DOTALL)
 _PARTS = {"": 1.0, "%": 0.01, "percent": 0.01}
 _FREQUENCY = re.compile(r"[mkM]?Hz|hertz|1/s|s\^-1")
+_ANGLE = re.compile(r"deg|degrees?|°|rad|radians?|mrad")
 _UNIT = re.compile(r"[A-Za-z%µμ_0-9()*/^²³⁻·. -]+")
 
 
@@ -46,6 +47,9 @@ DIMENSIONS = {
     "acceleration": Dimension("an acceleration", "m/s^2", "0.4 g"),
     "velocity": Dimension("a velocity", "m/s", "0.5 m/s"),
     "frequency": Dimension("a frequency", "Hz", "0.1 Hz"),
+    "angle": Dimension("an angle", "rad", "5 deg"),
+    "line force": Dimension("a force per metre of dam", "N/m", "150 kN/m"),
+    "stiffness": Dimension("a stiffness per metre of dam", "N/m^2", "50 MN/m/m"),
     "number": Dimension("a number", "", 1.0),
 }
 
@@ -160,6 +164,9 @@ def _factor(unit: str, value: object, dimension: str, field: str) -> float:
         elif dimension == "frequency" and not _FREQUENCY.fullmatch(unit):
             # To pint a radian is 1, so that 1 rad/s would be 1 Hz.
             factor = None
+        elif dimension == "angle":
+            # To pint a per cent is an angle.
+            factor = _conversion(unit, wanted.unit) if _ANGLE.fullmatch(unit) else None
         elif _UNIT.fullmatch(unit):
             factor = _conversion(unit, wanted.unit)
         else:
@@ -209,6 +216,12 @@ Velocity = Annotated[float, BeforeValidator(_validator("velocity")), _written("v
 """A velocity, or an Arias intensity [m/s], for pydantic models."""
 Frequency = Annotated[float, BeforeValidator(_validator("frequency")), _written("frequency"), _schema("frequency")]
 """A frequency [Hz] for pydantic models."""
+Angle = Annotated[float, BeforeValidator(_validator("angle")), _written("angle"), _schema("angle")]
+"""An angle [rad] for pydantic models."""
+LineForce = Annotated[float, BeforeValidator(_validator("line force")), _written("line force"), _schema("line force")]
+"""A force per metre of dam [N/m] for pydantic models."""
+Stiffness = Annotated[float, BeforeValidator(_validator("stiffness")), _written("stiffness"), _schema("stiffness")]
+"""A force per metre of dam and metre of displacement [N/m^2] for pydantic models."""
 Gravity = Annotated[
     float,
     BeforeValidator(_validator("acceleration")),

@@ -21,14 +21,49 @@ from heeltoe.measures import measures
 from heeltoe.motion import GroundMotion
 
 if TYPE_CHECKING:
+    from heeltoe.case_model import Limits
     from heeltoe.crack_history import CrackHistory
 
 Floats = NDArray[np.float64]
 
 _MEASURES = ("arias_intensity_m_s", "cav_m_s", "significant_duration_s", "mean_period_s", "end_velocity_m_s")
 
-#: Outcomes of a run; only the first comes with a result to trust.
-OUTCOMES = ("ok", "unstable", "paradox", "event limit", "cycling", "lost", "blown up")
+#: Outcomes of a run; only the first two come with a result to trust.
+OUTCOMES = ("ok", "overturned", "unstable", "paradox", "event limit", "cycling", "lost", "blown up")
+
+
+@dataclass(frozen=True)
+class LimitCheck:
+    """A result beside what the user allows.
+
+    Attributes
+    ----------
+    name
+        Field of ``limits`` in the case.
+    value_m, allowed_m
+        Magnitude of the result, and how much it may be [m].
+    """
+
+    name: str
+    value_m: float
+    allowed_m: float
+
+    @property
+    def met(self) -> bool:
+        """Whether the result is within the limit."""
+        return self.value_m <= self.allowed_m
+
+
+def check_limits(limits: Limits, summary: Mapping[str, Any]) -> tuple[LimitCheck, ...]:
+    """Compare the numbers of a summary with the limits that the user has set."""
+    values = {
+        "residual_slip": abs(summary["residual_slip_m"]),
+        "peak_slip": max(summary["peak_slip_downstream_m"], -summary["peak_slip_upstream_m"]),
+        "opening_upstream": summary["opening_upstream_m"],
+        "opening_downstream": summary["opening_downstream_m"],
+    }
+    allowed = {name: getattr(limits, name) for name in values}
+    return tuple(LimitCheck(name, values[name], limit) for name, limit in allowed.items() if limit is not None)
 
 
 @dataclass(frozen=True)
@@ -97,6 +132,8 @@ class Response:
         Of the flexible model: what crack and parts did, frame by frame.
     spread
         The same run with slightly weaker and stronger shaking, where that was asked for.
+    limits
+        The results beside the limits that the user has set.
     """
 
     model: str
@@ -116,6 +153,7 @@ class Response:
     references: tuple[str, ...] = field(default=())
     crack: CrackHistory | None = None
     spread: Mapping[str, Any] | None = None
+    limits: tuple[LimitCheck, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("summary", "histories", "event_log", "static"):
@@ -133,7 +171,7 @@ class Response:
     @property
     def ok(self) -> bool:
         """Whether the run ended with a result to trust."""
-        return self.outcome == "ok"
+        return self.outcome in ("ok", "overturned")
 
     def citation(self) -> tuple[str, ...]:
         """Return the references for exactly the methods and options this result used."""
@@ -155,6 +193,7 @@ class Response:
             "static": {k: v for k, v in self.static.items() if k != "critical_acceleration_g"},
             "energy": energy,
             **({} if self.spread is None else {"spread": dict(self.spread)}),
+            "limits": [{**asdict(check), "met": check.met} for check in self.limits],
             "motion": motion_json(self.motion, self.gravity),
             "vertical_motion": motion_json(self.vertical, self.gravity) if self.vertical else None,
             "references": list(self.references),

@@ -13,7 +13,7 @@ from heeltoe.case import Case, case_warnings
 from heeltoe.errors import InputError
 from heeltoe.ground import ground
 from heeltoe.motion import GroundMotion
-from heeltoe.response import Energy, Response
+from heeltoe.response import Energy, Response, check_limits
 from heeltoe.shaking import resolve
 
 Floats = NDArray[np.float64]
@@ -98,13 +98,14 @@ def rigid(
     outcome = _kernel.OUTCOMES[int(raw["outcome"])]
     started = outcome != "unstable"
     moments = moments[: modes.size]
+    summary = _summary(raw, block) if started else {}
     return Response(
         model="rigid",
         title=case.title,
         outcome=outcome,
         advice=_advice(outcome, raw, block),
         warnings=(*case_warnings(case), *motion.warnings, *_warnings(raw, outcome)),
-        summary=_summary(raw, block) if started else {},
+        summary=summary,
         energy=_energy(raw) if started else None,
         motion=motion,
         vertical=vertical,
@@ -114,6 +115,7 @@ def rigid(
         event_log=_events(event_rows),
         static=static_state(block),
         references=_references(block),
+        limits=check_limits(case.limits, summary) if started else (),
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -57,23 +58,42 @@ class CutSection:
     @property
     def crack_width(self) -> float:
         """Distance from heel to toe [m]."""
-        return self.toe[0] - self.heel[0]
+        return math.hypot(self.toe[0] - self.heel[0], self.toe[1] - self.heel[1])
 
     @property
     def crack_elevation(self) -> float:
-        """z of the crack [m]; the case counts it from the lowest point instead."""
+        """z of the heel [m]; the case counts it from the lowest point instead."""
         return self.heel[1]
+
+    @property
+    def inclination(self) -> float:
+        """Angle of the crack to the horizontal, positive where it rises downstream [rad]."""
+        return math.atan2(self.toe[1] - self.heel[1], self.toe[0] - self.heel[0])
+
+    def in_crack_frame(self, x: float, z: float) -> tuple[float, float]:
+        """Return the components of a vector (x, z) along the crack, downstream, and across it, upwards."""
+        if self.toe[1] == self.heel[1]:
+            return x, z
+        along, up = math.cos(self.inclination), math.sin(self.inclination)
+        return along * x + up * z, along * z - up * x
 
     @property
     def height(self) -> float:
         """From the crack to the crest [m]."""
         return self.crest_elevation - self.crack_elevation
 
-    def water_above_crack(self, water: Water | None) -> float:
-        """Return how high the water stands above the crack [m]; zero where it does not reach it."""
+    def from_crack_frame(self, along: float, across: float) -> tuple[float, float]:
+        """Return (x, z) of a vector with components along and across the crack."""
+        if self.toe[1] == self.heel[1]:
+            return along, across
+        down, up = math.cos(self.inclination), math.sin(self.inclination)
+        return down * along - up * across, up * along + down * across
+
+    def water_above_crack(self, water: Water | None, *, toe: bool = False) -> float:
+        """Return how high the water stands above the heel, or the toe [m]; zero where it does not reach it."""
         if water is None:
             return 0.0
-        return max(0.0, self.base_elevation + water.depth - self.crack_elevation)
+        return max(0.0, self.base_elevation + water.depth - (self.toe if toe else self.heel)[1])
 
 
 def section_polygon(section: Section) -> shapely.Polygon:
@@ -114,6 +134,34 @@ def cut(case: Case) -> CutSection:
     if elevation >= crest - base - slack:
         raise InputError("crack-outside", "crack.elevation", f"{elevation:g} m", height=f"{crest - base:g} m")
     level = base + elevation
+    if case.crack.inclination:
+        corners = _cut_inclined(whole, level, case.crack.inclination, slack)
+    else:
+        corners = _cut_level(whole, level, slack, elevation)
+    return _measured(corners, base, crest)
+
+
+def _cut_inclined(whole: shapely.Polygon, level: float, inclination: float, slack: float) -> NDArray[np.float64]:
+    """Return the corners above a crack that starts at `level` on the upstream face: turned until it is level, cut as
+    a level one and turned back."""
+    left, _, right, _ = whole.bounds
+    line = shapely.LineString([(left - 1.0, level), (right + 1.0, level)])
+    heel = np.array([shapely.intersection(whole, line).bounds[0], level])
+    down, up = math.cos(inclination), math.sin(inclination)
+    turn = np.array([[down, up], [-up, down]])
+    turned = shapely.transform(whole, lambda corners: (corners - heel) @ turn.T)
+    corners = _cut_level(turned, 0.0, slack, level - whole.bounds[1])
+    back: NDArray[np.float64] = corners @ turn + heel
+    # The crest, whose corners tell the two faces apart, must be level again to the last bit.
+    for corner in shapely.get_coordinates(whole):
+        back[np.all(np.abs(back - corner) <= slack, axis=1)] = corner
+    return back
+
+
+def _cut_level(whole: shapely.Polygon, level: float, slack: float, elevation: float) -> NDArray[np.float64]:
+    """Return the corners of what is above a level crack, from the heel round; `elevation` is what the case says."""
+    left, base, right, crest = whole.bounds
+    size = max(right - left, crest - base)
     whole = _snapped(whole, level, slack)
     above = shapely.box(left - size, level, right + size, crest + size)
     below = shapely.box(left - size, base - size, right + size, level)
@@ -128,21 +176,34 @@ def cut(case: Case) -> CutSection:
     if upper.geom_type != "Polygon" or crack.geom_type != "LineString":
         raise InputError("crack-pieces", "crack.elevation", f"{elevation:g} m")
     start, _, end, _ = crack.bounds
-    return _measured(_ring(upper, start, end, level, slack), base, crest)
+    return _ring(upper, start, end, level, slack)
 
 
-def check_water(case: Case, section: CutSection) -> None:
-    """Refuse water above the crest: what flows over a dam is another problem.
+def check_loads(case: Case, section: CutSection) -> None:
+    """Refuse water and silt above the crest, as what flows over a dam is another problem, and anchors beyond the toe.
 
     Raises
     ------
     InputError
-        Where a water surface is above the highest point of the section.
+        Where a surface is above the highest point of the section, or an anchor does not cross the crack.
     """
     height = section.crest_elevation - section.base_elevation
-    for name, water in (("reservoir", case.reservoir), ("tailwater", case.tailwater)):
-        if water is not None and water.depth > height * (1.0 + _ON_LINE):
-            raise InputError("water-above-crest", f"{name}.depth", f"{water.depth:g} m", height=f"{height:g} m")
+    highest = height * (1.0 + _ON_LINE)
+    surfaces = {
+        "reservoir.depth": case.reservoir.depth if case.reservoir else None,
+        "tailwater.depth": case.tailwater.depth if case.tailwater else None,
+        "statics.flood_depth": case.statics.flood_depth,
+        "statics.flood_tailwater": case.statics.flood_tailwater,
+    }
+    for field, depth in surfaces.items():
+        if depth is not None and depth > highest:
+            raise InputError("water-above-crest", field, f"{depth:g} m", height=f"{height:g} m")
+    if case.silt is not None and case.silt.depth > highest:
+        raise InputError("silt-above-crest", "silt.depth", f"{case.silt.depth:g} m", height=f"{height:g} m")
+    for place, anchor in enumerate(case.anchors):
+        if anchor.distance > section.crack_width * (1.0 + _ON_LINE):
+            field, width = f"anchors[{place}].distance", f"{section.crack_width:g} m"
+            raise InputError("anchor-outside", field, f"{anchor.distance:g} m", width=width)
 
 
 def _solid(shape: shapely.Geometry) -> shapely.Geometry:

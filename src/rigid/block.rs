@@ -42,7 +42,10 @@ impl Affine {
 ///
 /// The nine load numbers are the generalised forces (downstream, upward, counter-clockwise moment about the reference
 /// point) that do not depend on the ground, and those per unit of horizontal and of vertical ground acceleration.
-pub const BLOCK_FIELDS: [&str; 18] = [
+///
+/// The last three are what couples the motions of the reference point: the water that moves horizontally with a block on
+/// an inclined crack moves it both along and across. They are zero on a level one.
+pub const BLOCK_FIELDS: [&str; FIELD_COUNT] = [
     "mass_horizontal",
     "mass_vertical",
     "inertia",
@@ -61,13 +64,18 @@ pub const BLOCK_FIELDS: [&str; 18] = [
     "friction_static",
     "friction_kinetic",
     "restitution",
+    "coupling_horizontal_vertical",
+    "coupling_horizontal_rotation",
+    "coupling_vertical_rotation",
 ];
+pub const FIELD_COUNT: usize = 21;
 
 #[derive(Clone, Debug)]
 pub struct Block {
     mass_horizontal: f64,
     mass_vertical: f64,
     inertia: f64,
+    coupling: Vector,
     height: f64,
     heel_distance: f64,
     pub width: f64,
@@ -88,14 +96,16 @@ pub struct Block {
 impl Block {
     /// Build from the numbers named by [`BLOCK_FIELDS`]. The caller has checked that they are finite, masses and
     /// inertia positive, the base of positive width, friction and restitution in range.
-    pub fn new(p: &[f64; 18]) -> Self {
+    pub fn new(p: &[f64; FIELD_COUNT]) -> Self {
         let [m_y, m_z, j, h, b_h, b_t] = [p[0], p[1], p[2], p[3], p[4], p[5]];
         let rows = [[1.0, 0.0, h], [0.0, 1.0, -b_h], [0.0, 1.0, b_t]];
-        let inverse_mass = [1.0 / m_y, 1.0 / m_z, 1.0 / j];
+        let coupling = [p[18], p[19], p[20]];
+        let inverse_mass = inverse([m_y, m_z, j], coupling);
+        let moved = |i: usize, c: usize| (0..3).map(|d| rows[i][d] * inverse_mass[d][c]).sum::<f64>();
         let mut compliance = [[0.0; 3]; 3];
         for i in 0..3 {
             for k in 0..3 {
-                compliance[i][k] = (0..3).map(|d| rows[i][d] * inverse_mass[d] * rows[k][d]).sum();
+                compliance[i][k] = (0..3).map(|c| moved(i, c) * rows[k][c]).sum();
             }
         }
         let width = b_h + b_t;
@@ -104,7 +114,7 @@ impl Block {
         for case in 0..3 {
             let f = [p[6 + 3 * case], p[7 + 3 * case], p[8 + 3 * case]];
             for i in 0..3 {
-                free[i][case] = (0..3).map(|d| rows[i][d] * inverse_mass[d] * f[d]).sum();
+                free[i][case] = (0..3).map(|c| moved(i, c) * f[c]).sum();
             }
             // f.q' = f_y s' + f_z z' + (m - H f_y) theta', with z' and theta' from the two gaps.
             let turning = (f[2] - h * f[0]) / width;
@@ -121,6 +131,7 @@ impl Block {
             mass_horizontal: m_y,
             mass_vertical: m_z,
             inertia: j,
+            coupling,
             height: h,
             heel_distance: b_h,
             width,
@@ -162,5 +173,25 @@ impl Block {
         0.5 * (self.mass_horizontal * downstream * downstream
             + self.mass_vertical * upward * upward
             + self.inertia * turning * turning)
+            + self.coupling[0] * downstream * upward
+            + self.coupling[1] * downstream * turning
+            + self.coupling[2] * upward * turning
     }
+}
+
+/// Inverse of the mass matrix with this diagonal and these couplings (1, 2), (1, 3) and (2, 3).
+fn inverse(diagonal: Vector, coupling: Vector) -> [Vector; 3] {
+    let ([a, b, c], [d, e, f]) = (diagonal, coupling);
+    if coupling == [0.0; 3] {
+        return [[1.0 / a, 0.0, 0.0], [0.0, 1.0 / b, 0.0], [0.0, 0.0, 1.0 / c]];
+    }
+    let first = [b * c - f * f, e * f - d * c, d * f - e * b];
+    let determinant = a * first[0] + d * first[1] + e * first[2];
+    let [x, y, z] = first;
+    [
+        [x, y, z],
+        [y, a * c - e * e, d * e - a * f],
+        [z, d * e - a * f, a * b - d * d],
+    ]
+    .map(|row| row.map(|cofactor| cofactor / determinant))
 }
