@@ -15,6 +15,9 @@ use rigid::block::{Block, BLOCK_FIELDS, FIELD_COUNT};
 use rigid::mode::Mode;
 use rigid::result::{Event, EventKind, Histories, Outcome};
 use rigid::simulate::{simulate, Motion, Options};
+use rigid::varying::block::{Rotation, TurningBlock, VARYING_COUNT, VARYING_FIELDS};
+use rigid::varying::loads::{Anchor, Rule, Water};
+use rigid::varying::walk::{self, TurningGround};
 
 type Numbers<'py> = PyReadonlyArray1<'py, f64>;
 type RunResult<'py> = (
@@ -22,6 +25,14 @@ type RunResult<'py> = (
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray1<u8>>,
     Bound<'py, PyArray2<f64>>,
+);
+
+type VaryingResult<'py> = (
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray1<u8>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray1<f64>>,
 );
 
 /// Columns of the event table.
@@ -100,9 +111,17 @@ fn motion<'a>(
 }
 
 fn parameters(values: &[f64]) -> PyResult<[f64; FIELD_COUNT]> {
-    values
-        .try_into()
-        .map_err(|_| PyValueError::new_err(format!("a block has {FIELD_COUNT} numbers, not {}", values.len())))
+    values.try_into().map_err(|_| {
+        PyValueError::new_err(format!("a block has {FIELD_COUNT} numbers, not {}", values.len()))
+    })
+}
+
+/// The choice of that name.
+fn named<T: Copy>(name: &str, names: &[&str], choices: &[T]) -> PyResult<T> {
+    let place = names.iter().position(|known| *known == name);
+    place
+        .map(|k| choices[k])
+        .ok_or_else(|| PyValueError::new_err(format!("{name} is none of {}", names.join(", "))))
 }
 
 fn options(settle: f64, event_limit: u64, jam: bool) -> Options {
@@ -159,6 +178,89 @@ mod _kernel {
             table(&histories.rows).into_pyarray(py),
             Array1::from(histories.modes).into_pyarray(py),
             table(&events).into_pyarray(py),
+        ))
+    }
+
+    /// Run one block under loads and at rotations that change; see `_kernel.pyi`.
+    #[pyfunction]
+    #[pyo3(signature = (block, varying, rotation, rule, pressure, anchors, time, horizontal, vertical, turning,
+        output_times, start, settle, event_limit, jam))]
+    #[allow(clippy::too_many_arguments)]
+    fn run_rigid_varying<'py>(
+        py: Python<'py>,
+        block: Numbers<'py>,
+        varying: Numbers<'py>,
+        rotation: &str,
+        rule: &str,
+        pressure: PyReadonlyArray2<'py, f64>,
+        anchors: PyReadonlyArray2<'py, f64>,
+        time: Numbers<'py>,
+        horizontal: Numbers<'py>,
+        vertical: Option<Numbers<'py>>,
+        turning: Option<Numbers<'py>>,
+        output_times: Numbers<'py>,
+        start: Option<[[f64; 3]; 2]>,
+        settle: f64,
+        event_limit: u64,
+        jam: bool,
+    ) -> PyResult<VaryingResult<'py>> {
+        let block = Block::new(&parameters(block.as_slice()?)?);
+        let numbers: [f64; VARYING_COUNT] = varying.as_slice()?.try_into().map_err(|_| {
+            PyValueError::new_err(format!("a block that varies has {VARYING_COUNT} more numbers"))
+        })?;
+        let (points, odd) = pressure.as_slice()?.as_chunks::<2>();
+        let (bars, rest) = anchors.as_slice()?.as_chunks::<6>();
+        if !odd.is_empty() || !rest.is_empty() {
+            return Err(PyValueError::new_err("pressure is (k, 2) and anchors (n, 6)"));
+        }
+        let water = Water {
+            rule: named(rule, &Rule::NAMES, &Rule::ALL)?,
+            points: points.to_vec(),
+            opening: 0.0,
+            full: 0.0,
+        };
+        let bars = bars
+            .iter()
+            .map(|&[distance, a, b, prestress, axial, shear]| Anchor {
+                distance,
+                axis: [a, b],
+                prestress,
+                axial_stiffness: axial,
+                shear_stiffness: shear,
+            });
+        let rotation = named(rotation, &Rotation::NAMES, &Rotation::ALL)?;
+        let body = TurningBlock::new(&numbers, rotation, water, bars.collect());
+        let (time, horizontal) = (time.as_slice()?, horizontal.as_slice()?);
+        let vertical = vertical.as_ref().map(|v| v.as_slice()).transpose()?;
+        let turning = turning.as_ref().map(|v| v.as_slice()).transpose()?;
+        motion(time, horizontal, vertical, [1.0, 1.0])?;
+        motion(time, horizontal, turning, [1.0, 1.0])?;
+        let ground = TurningGround {
+            time,
+            horizontal,
+            vertical,
+            rotation: turning,
+        };
+        let times = output_times.as_slice()?;
+        let (summary, tension, histories, log) = py.detach(|| {
+            let mut log = Vec::new();
+            let mut histories = Histories {
+                times,
+                rows: Vec::with_capacity(times.len()),
+                modes: Vec::with_capacity(times.len()),
+            };
+            let wanted = (!times.is_empty()).then_some(&mut histories);
+            let options = options(settle, event_limit, jam);
+            let (summary, tension) = walk::simulate(&block, &body, &ground, start, options, &mut log, wanted);
+            (summary, tension, histories, log)
+        });
+        let events: Vec<_> = log.iter().map(event_row).collect();
+        Ok((
+            Array1::from(ensemble::row(&summary).to_vec()).into_pyarray(py),
+            table(&histories.rows).into_pyarray(py),
+            Array1::from(histories.modes).into_pyarray(py),
+            table(&events).into_pyarray(py),
+            Array1::from(tension).into_pyarray(py),
         ))
     }
 
@@ -247,6 +349,7 @@ mod _kernel {
     #[pymodule_init]
     fn init(m: &Bound<'_, PyModule>) -> PyResult<()> {
         m.add("BLOCK_FIELDS", BLOCK_FIELDS.to_vec())?;
+        m.add("VARYING_FIELDS", VARYING_FIELDS.to_vec())?;
         m.add("SUMMARY_FIELDS", ensemble::SUMMARY_FIELDS.to_vec())?;
         m.add("HISTORY_FIELDS", HISTORY_FIELDS.to_vec())?;
         m.add("EVENT_FIELDS", EVENT_FIELDS.to_vec())?;

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 VERSION: Final[str]
 PROFILE: Final[str]
 BLOCK_FIELDS: Final[list[str]]
+VARYING_FIELDS: Final[list[str]]
 SUMMARY_FIELDS: Final[list[str]]
 HISTORY_FIELDS: Final[list[str]]
 EVENT_FIELDS: Final[list[str]]
@@ -55,6 +56,51 @@ def run_rigid(
     summary, histories, modes, events
         (len(SUMMARY_FIELDS),); (k', len(HISTORY_FIELDS)) and (k',), where k' < k if the run stopped early;
         (m, len(EVENT_FIELDS)).
+    """
+
+def run_rigid_varying(
+    block: Floats,
+    varying: Floats,
+    rotation: str,
+    rule: str,
+    pressure: Floats,
+    anchors: Floats,
+    time: Floats,
+    horizontal: Floats,
+    vertical: Floats | None,
+    turning: Floats | None,
+    output_times: Floats,
+    start: Sequence[Sequence[float]] | None,
+    settle: float,
+    event_limit: int,
+    jam: bool,
+) -> tuple[Floats, Floats, NDArray[np.uint8], Floats, Floats]:
+    """Run one block whose loads or geometry change as it moves, by integration between events.
+
+    Parameters
+    ----------
+    block
+        As of :func:`run_rigid`, with all static loads as they are while the crack is closed.
+    varying
+        (21,) numbers in the order of ``VARYING_FIELDS``.
+    rotation
+        ``small``, ``p-delta`` or ``finite``.
+    rule
+        What the pressure in the crack does as it opens: ``constant``, ``zero while open``, ``full while open``,
+        ``follows opening``.
+    pressure
+        (k, 2) distance from the heel [m] and pressure while the crack is closed [Pa]; straight in between.
+    anchors
+        (n, 6) distance from the heel [m], axis along and across, prestress [N/m], axial and shear stiffness [N/m2].
+    turning
+        (n,) rotational acceleration of the ground about the middle of the crack, counter-clockwise [rad/s2].
+
+    The others are those of :func:`run_rigid`.
+
+    Returns
+    -------
+    summary, histories, modes, events, tension
+        As of :func:`run_rigid`, and the largest tension (n,) of each anchor [N/m].
     """
 
 def run_rigid_many(

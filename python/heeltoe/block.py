@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from heeltoe import _kernel
 from heeltoe.case_model import Case
-from heeltoe.loads import Resultant, VirtualMass, concrete_mass, static_forces, total, virtual_mass
+from heeltoe.loads import Resultant, VirtualMass, concrete_mass, face_at, static_forces, total, virtual_mass
 from heeltoe.section import CutSection, cut
 
 
@@ -71,6 +71,8 @@ class Block:
         Loads (along, across, moment about the reference point) per unit of ground acceleration [kg/m, kg/m, kg].
     forces
         The loads one by one, horizontal and vertical.
+    following
+        Those of them that follow the vertical motion.
     water
         Virtual water.
     friction_static, friction_kinetic, restitution
@@ -93,6 +95,7 @@ class Block:
     per_horizontal: tuple[float, float, float]
     per_vertical: tuple[float, float, float]
     forces: tuple[Resultant, ...]
+    following: tuple[Resultant, ...]
     water: VirtualMass
     friction_static: float
     friction_kinetic: float
@@ -187,14 +190,11 @@ def build_block(case: Case) -> Block:
     offset = section.in_crack_frame(section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1])
     inertia = case.concrete.density * section.polar_inertia
     forces = static_forces(case, section)
-    static = _across_crack(total("static loads", forces), section)
-    # The concrete's weight, and water that hangs on the vertical motion, per unit of vertical acceleration.
-    hydrostatic = [
-        force
-        for force, side in zip(forces[1:3], (case.reservoir, case.tailwater), strict=True)
-        if side is not None and side.follows_vertical_motion
-    ]
-    pressed = _across_crack(total("following", hydrostatic), section)
+    static = across_crack(total("static loads", forces), section)
+    sides = {"reservoir": case.reservoir, "tailwater": case.tailwater}
+    hanging = [name for name, side in sides.items() if side is not None and side.follows_vertical_motion]
+    following = tuple(force for force in forces if force.name in hanging)
+    pressed = across_crack(total("following", following), section)
     if section.inclination == 0.0:
         mass = concrete + water.mass
         height = (concrete * offset[1] + water.mass * water.height) / mass
@@ -206,7 +206,7 @@ def build_block(case: Case) -> Block:
         # The reference point is the centroid of the concrete; the water moves with one point of the face, sideways.
         height = offset[1]
         e, n = section.in_crack_frame(1.0, 0.0)
-        x, z = section.in_crack_frame(_face_at(section, water.height), water.height)
+        x, z = section.in_crack_frame(face_at(section, water.height), water.height)
         arm = n * (x - offset[0]) - e * (z - height)
         moved = water.mass
         masses = (concrete + moved * e * e, concrete + moved * n * n, inertia + moved * arm * arm)
@@ -229,6 +229,7 @@ def build_block(case: Case) -> Block:
         per_horizontal=horizontal,
         per_vertical=(vertical[0] + pressure[0], vertical[1] + pressure[1], vertical[2] + pressure[2]),
         forces=forces,
+        following=following,
         water=water,
         friction_static=case.crack.mu_static,
         friction_kinetic=case.crack.mu_kinetic,
@@ -238,13 +239,8 @@ def build_block(case: Case) -> Block:
     )
 
 
-def _across_crack(force: Resultant, section: CutSection) -> Resultant:
+def across_crack(force: Resultant, section: CutSection) -> Resultant:
     """Return a force by its components along and across the crack."""
     along, across = section.in_crack_frame(force.horizontal, force.vertical)
-    return Resultant(force.name, along, across, force.moment)
+    return Resultant(force.name, along, across, force.moment, force.virial)
 
-
-def _face_at(section: CutSection, height: float) -> float:
-    """Return where the upstream face is at a height above the heel, downstream of the heel [m]."""
-    face = section.upstream_face - section.heel
-    return float(np.interp(height, face[:, 1], face[:, 0]))

@@ -27,12 +27,16 @@ class Resultant:
         Positive upward [N/m].
     moment
         About the heel, counter-clockwise positive with x downstream and z up [N m/m].
+    virial
+        Sum of the forces times their places from the heel: where the places turn by a small angle about the heel and
+        the forces keep their directions, the moment falls by that angle times this [N m/m].
     """
 
     name: str
     horizontal: float
     vertical: float
     moment: float
+    virial: float = 0.0
 
     def moment_about(self, x: float, z: float) -> float:
         """Return the moment [N m/m] about a point `x` downstream of the heel and `z` above the crack [m]."""
@@ -55,6 +59,7 @@ def total(name: str, forces: Iterable[Resultant]) -> Resultant:
         math.fsum(force.horizontal for force in forces),
         math.fsum(force.vertical for force in forces),
         math.fsum(force.moment for force in forces),
+        math.fsum(force.virial for force in forces),
     )
 
 
@@ -81,7 +86,8 @@ def concrete_mass(case: Case, section: CutSection) -> float:
 def weight(case: Case, section: CutSection) -> Resultant:
     """Return the weight of the concrete above the crack."""
     force = -concrete_mass(case, section) * case.gravity
-    return Resultant("weight", 0.0, force, force * (section.centroid[0] - section.heel[0]))
+    x, z = section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1]
+    return Resultant("weight", 0.0, force, force * x, force * z)
 
 
 def reservoir_pressure(case: Case, section: CutSection) -> Resultant:
@@ -101,7 +107,7 @@ def ice(case: Case, section: CutSection) -> Resultant:
         return Resultant("ice", 0.0, 0.0, 0.0)
     height = section.base_elevation + case.reservoir.depth - case.ice.depth - section.crack_elevation
     push = case.ice.force if height >= 0.0 else 0.0
-    return Resultant("ice", push, 0.0, -push * max(height, 0.0))
+    return Resultant("ice", push, 0.0, -push * max(height, 0.0), push * face_at(section, max(height, 0.0)))
 
 
 def silt(case: Case, section: CutSection) -> Resultant:
@@ -224,8 +230,16 @@ def _face_fluid(
     normal = case.gravity * side * np.column_stack([densities[0] * along[:, 1], -densities[1] * along[:, 0]])
     lever = _mean_product(lower[:, 0], upper[:, 0], h0, h1) * normal[:, 1]
     lever -= _mean_product(lower[:, 1], upper[:, 1], h0, h1) * normal[:, 0]
+    virial = _mean_product(lower[:, 0], upper[:, 0], h0, h1) * normal[:, 0]
+    virial += _mean_product(lower[:, 1], upper[:, 1], h0, h1) * normal[:, 1]
     horizontal, vertical = (h0 + h1) / 2.0 @ normal
-    return Resultant(name, float(horizontal), float(vertical), float(np.sum(lever)))
+    return Resultant(name, float(horizontal), float(vertical), float(np.sum(lever)), float(np.sum(virial)))
+
+
+def face_at(section: CutSection, height: float) -> float:
+    """Return where the upstream face is at a height above the heel, downstream of the heel [m]."""
+    face = section.upstream_face - section.heel
+    return float(np.interp(height, face[:, 1], face[:, 0]))
 
 
 def _mean_product(

@@ -150,6 +150,15 @@ impl Block {
         }
     }
 
+    /// The same block with the compliance and the free acceleration of a moment at which they are different.
+    pub fn at(&self, compliance: [Vector; 3], free_acceleration: [Affine; 3]) -> Self {
+        Block {
+            compliance,
+            free_acceleration,
+            ..self.clone()
+        }
+    }
+
     /// Mass that moves vertically (concrete alone).
     pub fn mass(&self) -> f64 {
         self.mass_vertical

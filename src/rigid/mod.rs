@@ -10,3 +10,4 @@ pub mod ledger;
 pub mod mode;
 pub mod result;
 pub mod simulate;
+pub mod varying;

@@ -159,10 +159,9 @@ pub struct Reaction {
     pub cone_size: f64,
 }
 
-/// Reactions of a mode to a unit load `b = e_column`, or `None` where the equations are singular or Painlevé's.
-fn unit_reaction(block: &Block, mode: Mode, column: usize) -> Option<Vector> {
-    let a = &block.compliance;
-    let load = |i: usize| if i == column { 1.0 } else { 0.0 };
+/// Reactions of a mode to the free acceleration `b`, or `None` where the equations are singular or Painlevé's.
+pub fn reaction_to(a: &[Vector; 3], friction_kinetic: f64, mode: Mode, b: &Vector) -> Option<Vector> {
+    let load = |i: usize| b[i];
     let determinant = |m: [[f64; 2]; 2]| m[0][0] * m[1][1] - m[0][1] * m[1][0];
     let solve2 = |i: usize, k: usize, m: [[f64; 2]; 2]| -> [f64; 2] {
         let det = determinant(m);
@@ -183,11 +182,11 @@ fn unit_reaction(block: &Block, mode: Mode, column: usize) -> Option<Vector> {
             };
             let det: f64 = (0..3).map(|c| a[0][c] * cofactor(0, c)).sum();
             for (i, f) in force.iter_mut().enumerate() {
-                *f = -cofactor(column, i) / det;
+                *f = -(0..3).map(|column| cofactor(column, i) * b[column]).sum::<f64>() / det;
             }
         }
         Mode::Slide(slip) => {
-            let t = -block.friction_kinetic * slip.sign();
+            let t = -friction_kinetic * slip.sign();
             let n = |r: usize, c: usize| a[r][c] + t * a[r][SLIP];
             let m = [[n(HEEL, HEEL), n(HEEL, TOE)], [n(TOE, HEEL), n(TOE, TOE)]];
             let smooth = [[a[HEEL][HEEL], a[HEEL][TOE]], [a[TOE][HEEL], a[TOE][TOE]]];
@@ -206,7 +205,7 @@ fn unit_reaction(block: &Block, mode: Mode, column: usize) -> Option<Vector> {
         }
         Mode::SlideRock(corner, slip) => {
             let i = corner_index(corner);
-            let t = -block.friction_kinetic * slip.sign();
+            let t = -friction_kinetic * slip.sign();
             let stiffness = a[i][i] + t * a[i][SLIP];
             if stiffness <= SINGULAR * a[i][i] {
                 return None;
@@ -241,7 +240,9 @@ impl Reaction {
             cone_size: 0.0,
         };
         for (column, load) in free.iter().enumerate() {
-            let Some(unit) = unit_reaction(block, mode, column) else {
+            let mut one = [0.0; 3];
+            one[column] = 1.0;
+            let Some(unit) = reaction_to(&block.compliance, block.friction_kinetic, mode, &one) else {
                 reaction.regular = false;
                 return reaction;
             };

@@ -14,10 +14,19 @@ pub enum Outcome {
     EventLimit,
     /// Events follow each other without time passing.
     Cycling,
+    /// The block lies on its side.
+    Overturned,
 }
 
 impl Outcome {
-    pub const NAMES: [&'static str; 5] = ["ok", "unstable", "paradox", "event limit", "cycling"];
+    pub const NAMES: [&'static str; 6] = [
+        "ok",
+        "unstable",
+        "paradox",
+        "event limit",
+        "cycling",
+        "overturned",
+    ];
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,7 +103,7 @@ pub struct Summary {
 }
 
 impl Summary {
-    pub(super) fn at_start(block: &Block, time: f64, position: Vector, velocity: Vector) -> Self {
+    pub(in crate::rigid) fn at_start(block: &Block, time: f64, position: Vector, velocity: Vector) -> Self {
         let turn = block.rotation(&position);
         Summary {
             outcome: Outcome::Done,
@@ -121,7 +130,7 @@ impl Summary {
         }
     }
 
-    pub(super) fn widen(&mut self, at: &Vector, block: &Block) {
+    pub(in crate::rigid) fn widen(&mut self, at: &Vector, block: &Block) {
         let turn = block.rotation(at);
         self.slip_range = [self.slip_range[0].min(at[SLIP]), self.slip_range[1].max(at[SLIP])];
         self.rotation_range = [self.rotation_range[0].min(turn), self.rotation_range[1].max(turn)];

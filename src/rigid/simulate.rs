@@ -13,7 +13,7 @@ use super::mode::{accelerations, select, Mode, Piece, Reactions, Slip, VIOLATION
 use super::result::{Event, EventKind, Histories, Outcome, Summary};
 
 /// A slip slower than this many times the bound of bounces may jam unasked; it would end within a nanometre or so.
-const CRAWL: f64 = 100.0;
+pub(super) const CRAWL: f64 = 100.0;
 
 /// Ground motion as read by the kernel: linear between samples; a repeated time is a jump.
 #[derive(Clone, Copy)]
@@ -44,7 +44,7 @@ pub struct Options {
 
 /// What ended a piece before its time.
 #[derive(Clone, Copy, PartialEq)]
-enum Cause {
+pub(super) enum Cause {
     Normal,
     Cone,
     Stop,
@@ -480,7 +480,7 @@ impl Walk<'_, '_> {
     }
 }
 
-fn describe(before: Mode, after: Mode, cause: Option<Cause>) -> EventKind {
+pub(super) fn describe(before: Mode, after: Mode, cause: Option<Cause>) -> EventKind {
     let (was, is) = (before.contacts(), after.contacts());
     if cause == Some(Cause::Stop) {
         EventKind::SlipStops

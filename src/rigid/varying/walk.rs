@@ -1,0 +1,797 @@
+//! The walk from event to event by integration: between two events the mode is fixed, and the motion is stepped by
+//! [`super::step`]; an event is where a normal force, what is left of the friction cone, the slip velocity or a gap falls
+//! through zero. It is found on polynomials through the ends of the step and then, by Newton's iteration, on the
+//! integrated motion itself.
+
+use super::super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
+use super::super::event;
+use super::super::impact::{impact, jam, Impact};
+use super::super::mode::{
+    accelerations, corner_index, reaction_to, select, Corner, Mode, Piece, Reactions, Slip, VIOLATION,
+};
+use super::super::result::{Event, EventKind, Histories, Outcome, Summary};
+use super::super::simulate::{describe, Cause, Options, CRAWL};
+use super::block::{Ground, Instant, Rotation, TurningBlock};
+use super::step::{step, State};
+
+/// Relative error allowed in a step, of lengths of the crack's width and of velocities of sqrt(g B).
+const TOLERANCE: f64 = 1e-12;
+/// The choice of the next mode takes accelerations as linear in time; their rate enters through a ground that passes so
+/// many seconds in one, so that it has no part in the sizes by which rounding is judged.
+const UNIT: f64 = 1e-9;
+/// A moving block's accelerations change with its motion, too: their rate is taken over at most so many seconds.
+const AHEAD: f64 = 1e-4;
+
+/// Ground motion, linear between samples; a repeated time is a jump.
+pub struct TurningGround<'a> {
+    pub time: &'a [f64],
+    pub horizontal: &'a [f64],
+    pub vertical: Option<&'a [f64]>,
+    pub rotation: Option<&'a [f64]>,
+}
+
+impl TurningGround<'_> {
+    fn at(&self, k: usize) -> Ground {
+        let or_none = |series: Option<&[f64]>| series.map_or(0.0, |s| s[k]);
+        [self.horizontal[k], or_none(self.vertical), or_none(self.rotation)]
+    }
+}
+
+/// Ground acceleration from here to the end of the piece.
+#[derive(Clone, Copy)]
+struct Stretch {
+    ground: Ground,
+    rate: Ground,
+    left: f64,
+}
+
+impl Stretch {
+    fn after(&self, since: f64) -> Ground {
+        [0, 1, 2].map(|i| self.ground[i] + self.rate[i] * since)
+    }
+}
+
+struct Walk<'a, 'h> {
+    block: &'a Block,
+    turning: &'a TurningBlock,
+    options: Options,
+    settle: f64,
+    scale: State,
+    mode: Mode,
+    corner: Corner,
+    state: State,
+    /// Length that the next step may have.
+    suggested: f64,
+    /// Accelerations of the contact coordinates right after an event, freed from rounding where a motion starts.
+    starting: Option<Vector>,
+    summary: Summary,
+    peak_tension: Vec<f64>,
+    log: &'a mut Vec<Event>,
+    histories: Option<&'a mut Histories<'h>>,
+    standing: u32,
+}
+
+/// Run one block through one motion; the arguments are those of [`super::super::simulate::simulate`]. Returns the
+/// summary and the largest tension of each anchor.
+pub fn simulate<'h>(
+    block: &Block,
+    turning: &TurningBlock,
+    motion: &TurningGround,
+    start: Option<[Vector; 2]>,
+    options: Options,
+    log: &mut Vec<Event>,
+    histories: Option<&mut Histories<'h>>,
+) -> (Summary, Vec<f64>) {
+    let [position, velocity] = start.unwrap_or([[0.0; 3]; 2]);
+    let g = -block.generalised_force[HEEL].constant - block.generalised_force[TOE].constant;
+    let speed = (g.abs() / block.mass() * block.width).sqrt();
+    let allowed = |size: f64| TOLERANCE * size;
+    let (length, turn) = (allowed(block.width), allowed(1.0));
+    let (fast, spin) = (allowed(speed), allowed(speed / block.width));
+    let corner = if position[TOE] < position[HEEL] {
+        Corner::Toe
+    } else {
+        Corner::Heel
+    };
+    let mut walk = Walk {
+        block,
+        turning,
+        options,
+        settle: options.settle * speed,
+        scale: [
+            length,
+            length,
+            turn,
+            fast,
+            fast,
+            spin,
+            f64::INFINITY,
+            f64::INFINITY,
+        ],
+        mode: Mode::Rest,
+        corner,
+        state: [0.0; 8],
+        suggested: f64::INFINITY,
+        starting: None,
+        summary: Summary::at_start(block, motion.time[0], position, velocity),
+        peak_tension: vec![0.0; turning.anchors.len()],
+        log,
+        histories,
+        standing: 0,
+    };
+    walk.place(&position, &velocity);
+    walk.run(motion, start.is_none());
+    walk.see();
+    let instant = walk.instant(&[0.0; 3]);
+    walk.summary.kinetic_energy = turning.kinetic_energy(&instant, &walk.state);
+    (walk.summary, walk.peak_tension)
+}
+
+impl Walk<'_, '_> {
+    /// Take over slip, gaps and their velocities.
+    fn place(&mut self, position: &Vector, velocity: &Vector) {
+        let own = corner_index(self.corner);
+        let ratio = self.block.rotation(position);
+        let finite = self.turning.rotation == Rotation::Finite;
+        let theta = if finite {
+            ratio.clamp(-1.0, 1.0).asin()
+        } else {
+            ratio
+        };
+        let cosine = if finite { theta.cos() } else { 1.0 };
+        let rate = self.block.rotation(velocity) / cosine;
+        self.state = [
+            position[SLIP],
+            position[own],
+            theta,
+            velocity[SLIP],
+            velocity[own],
+            rate,
+            0.0,
+            0.0,
+        ];
+    }
+
+    fn instant(&self, ground: &Ground) -> Instant {
+        self.turning.at(self.corner, &self.state, ground)
+    }
+
+    fn run(&mut self, motion: &TurningGround, stands: bool) {
+        let still = Stretch {
+            ground: [0.0; 3],
+            rate: [0.0; 3],
+            left: 1.0,
+        };
+        if stands && self.pick(&still).0 != Some(Mode::Rest) {
+            self.summary.outcome = Outcome::Unstable;
+            return;
+        }
+        for k in 0..motion.time.len() - 1 {
+            let (t0, t1) = (motion.time[k], motion.time[k + 1]);
+            let length = t1 - t0;
+            if length <= 0.0 {
+                continue;
+            }
+            let (a0, a1) = (motion.at(k), motion.at(k + 1));
+            let rate = [0, 1, 2].map(|i| (a1[i] - a0[i]) / length);
+            let mut local = 0.0;
+            let mut cause = None;
+            let mut chosen = false;
+            while local < length {
+                let stretch = Stretch {
+                    ground: [0, 1, 2].map(|i| a0[i] + rate[i] * local),
+                    rate,
+                    left: length - local,
+                };
+                self.summary.end_time = t0 + local;
+                if (cause.is_some() || !chosen) && !self.choose(&stretch, cause) {
+                    return;
+                }
+                chosen = true;
+                let (taken, ended) = self.advance(&stretch, t0 + local);
+                let moved = local + taken > local;
+                local = if taken == stretch.left {
+                    length
+                } else {
+                    local + taken
+                };
+                self.summary.end_time = t0 + local;
+                if self.turning.rotation != Rotation::Small
+                    && self.state[2].abs() >= std::f64::consts::FRAC_PI_2
+                {
+                    self.summary.outcome = Outcome::Overturned;
+                    return;
+                }
+                cause = ended;
+                if cause.is_none() {
+                    continue;
+                }
+                self.standing = if moved { 0 } else { self.standing + 1 };
+                self.summary.events += 1;
+                if self.summary.events >= self.options.event_limit {
+                    self.summary.outcome = Outcome::EventLimit;
+                    return;
+                }
+                if self.standing > 1000 {
+                    self.summary.outcome = Outcome::Cycling;
+                    return;
+                }
+            }
+            if let Some(left) = cause {
+                // The event fell on the very end of the piece: it belongs to the next.
+                let after = Stretch {
+                    ground: a1,
+                    rate: [0.0; 3],
+                    left: 1e-9 * length,
+                };
+                if !self.choose(&after, Some(left)) {
+                    return;
+                }
+            }
+        }
+        let end = motion.time.len() - 1;
+        self.summary.end_time = motion.time[end];
+        let last = Stretch {
+            ground: motion.at(end),
+            rate: [0.0; 3],
+            left: 0.0,
+        };
+        let state = self.state;
+        self.record(&state, &last, f64::INFINITY, self.summary.end_time);
+    }
+
+    fn closed(&self) -> [bool; 2] {
+        let gaps = self.turning.gaps(self.corner, &self.state);
+        let velocity = self.turning.contact_velocity(self.corner, &self.state);
+        [
+            gaps[0] == 0.0 && velocity[HEEL] == 0.0,
+            gaps[1] == 0.0 && velocity[TOE] == 0.0,
+        ]
+    }
+
+    /// The mode in which the block goes on, the accelerations with which it does, and the block as it is now.
+    fn pick(&self, stretch: &Stretch) -> (Option<Mode>, Vector, Block) {
+        let now = self.instant(&stretch.ground);
+        let still = self.state[3..6] == [0.0; 3];
+        let ahead = if still {
+            stretch.left
+        } else {
+            stretch.left.min(AHEAD)
+        };
+        let mut later = self.state;
+        for i in 0..3 {
+            later[i] += ahead * later[3 + i];
+        }
+        let then = self.turning.at(self.corner, &later, &stretch.after(ahead));
+        let affine = [SLIP, HEEL, TOE].map(|i| Affine {
+            constant: now.free_acceleration[i],
+            horizontal: (then.free_acceleration[i] - now.free_acceleration[i]) / ahead * UNIT,
+            vertical: 0.0,
+        });
+        let block = self.block.at(now.compliance, affine);
+        let reactions = Reactions::new(&block);
+        let piece = Piece {
+            ground: [0.0; 2],
+            rate: [1.0 / UNIT, 0.0],
+            left: stretch.left,
+        };
+        let closed = self.closed();
+        let velocity = self.turning.contact_velocity(self.corner, &self.state);
+        let found = select(&reactions, self.mode, closed, velocity[SLIP], &piece);
+        let starts = [
+            if velocity[SLIP] == 0.0 {
+                found.and_then(Mode::slip).map_or(0.0, Slip::sign)
+            } else {
+                0.0
+            },
+            f64::from(closed[0]),
+            f64::from(closed[1]),
+        ];
+        let first = found.map_or([0.0; 3], |mode| {
+            accelerations(reactions.of(mode), starts, &piece).map(|[value, _]| value)
+        });
+        (found, first, block)
+    }
+
+    /// Deal with what ended the last step and choose the mode of the next; false where the run cannot continue.
+    fn choose(&mut self, stretch: &Stretch, cause: Option<Cause>) -> bool {
+        let before = self.mode;
+        let approach = self.turning.contact_velocity(self.corner, &self.state);
+        let mut blow: Option<(EventKind, Impact)> = None;
+        if let Some(Cause::Gap(gap)) = cause {
+            let Some(struck) = self.strike(gap) else {
+                self.summary.outcome = Outcome::Paradox;
+                return false;
+            };
+            blow = Some(struck);
+        }
+        let (mut after, mut first, local) = self.pick(stretch);
+        let velocity = self.turning.contact_velocity(self.corner, &self.state);
+        let crawls = velocity[SLIP].abs() < CRAWL * self.settle;
+        if after.is_none() && (self.options.jam || crawls) {
+            if let Some(stop) = jam(&local, &velocity, self.closed()) {
+                self.apply(&stop);
+                self.summary.jams += u64::from(!crawls);
+                blow = Some((EventKind::Jams, stop));
+                (after, first, _) = self.pick(stretch);
+            }
+        }
+        let Some(after) = after else {
+            self.summary.outcome = Outcome::Paradox;
+            return false;
+        };
+        self.mode = after;
+        self.summary.mode = after;
+        self.starting = Some(first);
+        let stays = match after {
+            Mode::Rock(corner) | Mode::SlideRock(corner, _) => corner,
+            _ => self.corner,
+        };
+        if stays != self.corner {
+            self.turn_to(stays);
+        }
+        self.see();
+        if cause.is_some() || after != before || blow.is_some() {
+            if cause.is_none() {
+                self.summary.events += 1;
+            }
+            let kind = blow.map_or_else(|| describe(before, after, cause), |(kind, _)| kind);
+            self.summary.slip_stops += u64::from(kind == EventKind::SlipStops);
+            self.log.push(Event {
+                time: self.summary.end_time,
+                kind,
+                before,
+                after,
+                position: self.summary.position,
+                velocity: self.summary.velocity,
+                approach,
+                impulse: blow.map_or([0.0; 3], |(_, i)| i.impulse),
+                energy_lost: blow.map_or(0.0, |(_, i)| i.energy_lost),
+            });
+        }
+        true
+    }
+
+    /// Go over to the other corner, which is in contact: its gap is exactly zero.
+    fn turn_to(&mut self, corner: Corner) {
+        self.state = self.turning.other_corner(self.corner, &self.state);
+        self.corner = corner;
+        let near = 1e-13 * self.block.width;
+        if self.state[1].abs() <= near {
+            self.state[1] = 0.0;
+        }
+    }
+
+    /// Write the state as slip, gaps and velocities into the summary.
+    fn see(&mut self) {
+        let [heel, toe] = self.turning.gaps(self.corner, &self.state);
+        self.summary.position = [self.state[0], heel.max(0.0), toe.max(0.0)];
+        self.summary.velocity = self.turning.contact_velocity(self.corner, &self.state);
+    }
+
+    fn apply(&mut self, blow: &Impact) {
+        // A corner that has come to lie is at exactly zero velocity only where the motion counts from it.
+        let other = if self.corner == Corner::Heel {
+            Corner::Toe
+        } else {
+            Corner::Heel
+        };
+        if self.state[2] == 0.0 && blow.velocity[corner_index(other)] == 0.0 {
+            self.turn_to(other);
+        }
+        let own = corner_index(self.corner);
+        let cosine = match self.turning.rotation {
+            Rotation::Finite => self.state[2].cos(),
+            _ => 1.0,
+        };
+        self.state[3] = blow.velocity[SLIP];
+        self.state[4] = blow.velocity[own];
+        self.state[5] = self.block.rotation(&blow.velocity) / cosine;
+        self.summary.ledger.strike(blow.energy_lost);
+        self.summary.energy_limited += u64::from(blow.energy_limited);
+    }
+
+    fn strike(&mut self, gap: usize) -> Option<(EventKind, Impact)> {
+        let corner = if gap == HEEL { Corner::Heel } else { Corner::Toe };
+        let near = 1e-13 * self.block.width;
+        let touched = self.turning.gaps(self.corner, &self.state)[corner_index(self.corner) - HEEL] <= near;
+        if corner != self.corner {
+            self.turn_to(corner);
+        }
+        self.state[1] = 0.0;
+        let other = self.turning.gaps(corner, &self.state)[TOE - gap];
+        if other <= near || touched && self.state[2].abs() * self.block.width <= near {
+            self.state[2] = 0.0;
+        }
+        let gaps = self.turning.gaps(corner, &self.state);
+        let velocity = self.turning.contact_velocity(corner, &self.state);
+        let touching = gaps.map(|open| open <= 0.0);
+        let strikes = [
+            touching[0] && velocity[HEEL] < 0.0,
+            touching[1] && velocity[TOE] < 0.0,
+        ];
+        for (corner, gap) in [HEEL, TOE].into_iter().enumerate() {
+            if touching[corner] {
+                let s = &mut self.summary;
+                s.largest_impact_velocity = s.largest_impact_velocity.max(-velocity[gap]);
+            }
+        }
+        self.summary.impacts += 1;
+        let local = self
+            .block
+            .at(self.instant(&[0.0; 3]).compliance, self.block.free_acceleration);
+        let result = impact(&local, &velocity, touching, self.settle)?;
+        self.apply(&result);
+        let kind = match strikes {
+            [true, true] => EventKind::BothStrike,
+            [true, false] => EventKind::HeelStrikes,
+            _ => EventKind::ToeStrikes,
+        };
+        Some((kind, result))
+    }
+
+    /// Reactions in the present mode; where friction makes them infinite, none, and the choice of the next mode says so.
+    fn reactions(&self, instant: &Instant) -> Vector {
+        let friction = self.block.friction_kinetic;
+        reaction_to(
+            &instant.compliance,
+            friction,
+            self.mode,
+            &instant.free_acceleration,
+        )
+        .unwrap_or([0.0; 3])
+    }
+
+    fn rates(&self, state: &State, ground: &Ground) -> State {
+        let instant = self.turning.at(self.corner, state, ground);
+        let reactions = self.reactions(&instant);
+        let mut acceleration = instant.acceleration(&reactions);
+        let contacts = self.mode.contacts();
+        if self.mode.sticks() {
+            acceleration[0] = 0.0;
+        }
+        if contacts[corner_index(self.corner) - HEEL] {
+            acceleration[1] = 0.0;
+        }
+        if contacts == [true, true] {
+            acceleration[2] = 0.0;
+        }
+        let [a, b, c] = acceleration;
+        let rubbing = reactions[SLIP] * state[3];
+        [
+            state[3],
+            state[4],
+            state[5],
+            a,
+            b,
+            c,
+            instant.power(state),
+            rubbing,
+        ]
+    }
+
+    /// The state after `since` from `start`, by one step.
+    fn moved(&self, start: &State, rate: &State, stretch: &Stretch, since: f64) -> State {
+        if since == 0.0 || self.mode == Mode::Rest {
+            return *start;
+        }
+        let mut rates = |t: f64, y: &State| self.rates(y, &stretch.after(t));
+        step(start, rate, since, &self.scale, &mut rates).end
+    }
+
+    /// Normal forces and what is left of the friction cone, both ways, at a state; sizes to judge them by.
+    fn limits(&self, state: &State, ground: &Ground) -> [(f64, f64); 4] {
+        let instant = self.turning.at(self.corner, state, ground);
+        let [friction, heel, toe] = self.reactions(&instant);
+        let scale = self.block.force_scale;
+        let mu = self.block.friction_static;
+        let size = |force: f64| scale.max(force.abs());
+        let cone = mu * (size(heel) + size(toe)) + size(friction);
+        [
+            (heel, size(heel)),
+            (toe, size(toe)),
+            (mu * (heel + toe) - friction, cone),
+            (mu * (heel + toe) + friction, cone),
+        ]
+    }
+
+    /// Which of the limits of [`Self::limits`] end the present mode.
+    fn watched(&self) -> [Option<Cause>; 4] {
+        let [heel, toe] = self.mode.contacts().map(|on| on.then_some(Cause::Normal));
+        let cone = self.mode.sticks().then_some(Cause::Cone);
+        [heel, toe, cone, cone]
+    }
+
+    /// Move to the next event, or by one step; returns the time that took and what ended it.
+    fn advance(&mut self, stretch: &Stretch, time: f64) -> (f64, Option<Cause>) {
+        let start = self.state;
+        let rate = self.rates(&start, &stretch.ground);
+        let fresh = self.starting.take();
+        let mut length = if self.mode == Mode::Rest {
+            stretch.left
+        } else {
+            stretch.left.min(self.suggested)
+        };
+        loop {
+            let end = if self.mode == Mode::Rest {
+                start
+            } else {
+                let mut rates = |t: f64, y: &State| self.rates(y, &stretch.after(t));
+                let taken = step(&start, &rate, length, &self.scale, &mut rates);
+                if taken.error > 1.0 && length > 1e-9 {
+                    length *= (0.9 * taken.error.powf(-1.0 / 8.0)).clamp(0.1, 0.9);
+                    continue;
+                }
+                self.suggested = length * (0.9 * taken.error.max(1e-12).powf(-1.0 / 8.0)).clamp(0.2, 5.0);
+                taken.end
+            };
+            let Some((at, why, state)) = self.first_event(&start, &rate, &end, length, stretch, fresh) else {
+                self.move_on(&start, &rate, &end, stretch, length, time);
+                return (length, None);
+            };
+            if at.is_nan() {
+                // The polynomials saw an event that the motion does not have: they are better on a shorter step.
+                length *= 0.5;
+                continue;
+            }
+            self.move_on(&start, &rate, &state, stretch, at, time);
+            if why == Cause::Stop {
+                self.state[3] = 0.0;
+            }
+            if matches!(why, Cause::Normal | Cause::Cone | Cause::Stop) || at < 1e-3 * length {
+                self.suggested = self.suggested.max(length);
+            }
+            return (at, Some(why));
+        }
+    }
+
+    /// The first event of a step with its time and state; a time that is not a number asks for a shorter step.
+    fn first_event(
+        &self,
+        start: &State,
+        rate: &State,
+        end: &State,
+        length: f64,
+        stretch: &Stretch,
+        fresh: Option<Vector>,
+    ) -> Option<(f64, Cause, State)> {
+        let mut first: Option<(f64, Cause, usize)> = None;
+        let mut earlier = |t: f64, why: Cause, which: usize| {
+            if first.is_none_or(|(before, ..)| t < before) {
+                first = Some((t, why, which));
+            }
+        };
+        let watched = self.watched();
+        if watched.iter().any(Option::is_some) {
+            let middle = self.moved(start, rate, stretch, 0.5 * length);
+            let values = [
+                self.limits(start, &stretch.ground),
+                self.limits(&middle, &stretch.after(0.5 * length)),
+                self.limits(end, &stretch.after(length)),
+            ];
+            for (which, why) in watched.into_iter().enumerate() {
+                let Some(why) = why else { continue };
+                let [(v0, size), (vm, _), (v1, _)] = values.map(|row| row[which]);
+                let fallen = -VIOLATION * size;
+                if vm < fallen && vm < v0 {
+                    earlier(
+                        event::linear(v0, 2.0 * (vm - v0) / length, 0.5 * length),
+                        why,
+                        which,
+                    );
+                } else if v1 < fallen && v1 < v0 {
+                    let (c1, c2) = (4.0 * vm - 3.0 * v0 - v1, 2.0 * (v0 - 2.0 * vm + v1));
+                    let share = if v0 <= 0.0 {
+                        Some(0.0)
+                    } else {
+                        event::quadratic(v0, c1, c2, 1.0)
+                    };
+                    earlier(share.unwrap_or(1.0) * length, why, which);
+                }
+            }
+        }
+        let instant = self.turning.at(self.corner, start, &stretch.ground);
+        let now = fresh.unwrap_or_else(|| instant.contact_acceleration(&self.reactions(&instant)));
+        let speeds = [start, end].map(|y| self.turning.contact_velocity(self.corner, y));
+        if let Some(way) = self.mode.slip() {
+            let s = way.sign();
+            let (v0, v1, a0) = (s * speeds[0][SLIP], s * speeds[1][SLIP], s * now[SLIP]);
+            let bend = (v1 - v0 - a0 * length) / (length * length);
+            if let Some(t) = event::quadratic(v0, a0, bend, length) {
+                earlier(t, Cause::Stop, SLIP);
+            }
+        }
+        let gaps = [start, end].map(|y| self.turning.gaps(self.corner, y));
+        for (corner, gap) in [HEEL, TOE].into_iter().enumerate() {
+            if self.mode.contacts()[corner] {
+                continue;
+            }
+            let (p0, p1, v0, a0) = (gaps[0][corner], gaps[1][corner], speeds[0][gap], now[gap]);
+            let bend = (p1 - p0 - length * (v0 + 0.5 * length * a0)) / length.powi(3);
+            if let Some(t) = event::cubic(p0, v0, 0.5 * a0, bend, length) {
+                earlier(t, Cause::Gap(gap), gap);
+            }
+        }
+        let over = std::f64::consts::FRAC_PI_2;
+        if self.turning.rotation != Rotation::Small && end[2].abs() > over && first.is_none() {
+            let value = |y: &State, _: f64| over - y[2].abs();
+            let near = length * (over - start[2].abs()) / (end[2].abs() - start[2].abs());
+            let (t, state) = self.located(start, rate, stretch, [near, length], value)?;
+            return Some((t, Cause::Normal, state)).filter(|_| t.is_finite());
+        }
+        let (near, why, which) = first?;
+        let found = match why {
+            Cause::Normal | Cause::Cone => self.located(start, rate, stretch, [near, length], |y, t| {
+                self.limits(y, &stretch.after(t))[which].0
+            }),
+            Cause::Stop => {
+                let s = self.mode.slip().map_or(1.0, Slip::sign);
+                self.located(start, rate, stretch, [near, length], |y, _| s * y[3])
+            }
+            Cause::Gap(gap) => self.located(start, rate, stretch, [near, length], |y, _| {
+                self.turning.gaps(self.corner, y)[gap - HEEL]
+            }),
+        };
+        Some(found.map_or((f64::NAN, why, *start), |(t, state)| (t, why, state)))
+    }
+
+    /// Root of a function on the integrated motion, near a first guess: secants, kept within the step. None where the
+    /// function has none there.
+    fn located(
+        &self,
+        start: &State,
+        rate: &State,
+        stretch: &Stretch,
+        [guess, length]: [f64; 2],
+        value: impl Fn(&State, f64) -> f64,
+    ) -> Option<(f64, State)> {
+        if guess <= 0.0 {
+            return Some((0.0, *start));
+        }
+        let at = |t: f64| {
+            let state = self.moved(start, rate, stretch, t);
+            (value(&state, t), state)
+        };
+        let mut t = guess.min(length);
+        let (mut v, mut state) = at(t);
+        let mut before = if t < length {
+            (t + 1e-3 * (length - t)).min(length)
+        } else {
+            0.999 * t
+        };
+        let mut v_before = at(before).0;
+        for _ in 0..40 {
+            if v == 0.0 || v == v_before {
+                break;
+            }
+            let next = (t - v * (t - before) / (v - v_before)).clamp(0.0, length);
+            (before, v_before) = (t, v);
+            if (next - t).abs() <= 4.0 * f64::EPSILON * t {
+                break;
+            }
+            t = next;
+            (v, state) = at(t);
+        }
+        // Its slope tells a fall through zero from a value that only comes near.
+        let slope = ((v - v_before) / (t - before)).abs();
+        let reach = slope * 1e-9 * length;
+        let settled = v == 0.0 || (v - v_before).abs() == 0.0 || v.abs() <= reach;
+        (settled && v.is_finite()).then_some((t, state))
+    }
+
+    /// Take over the end of a step.
+    fn move_on(
+        &mut self,
+        start: &State,
+        rate: &State,
+        end: &State,
+        stretch: &Stretch,
+        taken: f64,
+        time: f64,
+    ) {
+        self.record(start, stretch, time + taken, time);
+        let kind = self.mode.kind();
+        self.summary.time_by_mode[kind] += taken;
+        if self.mode == Mode::Rest || taken == 0.0 {
+            return;
+        }
+        self.turning_points(start, rate, end, stretch, taken);
+        self.state = *end;
+        let (work, rubbed) = (end[6], end[7]);
+        self.state[6] = 0.0;
+        self.state[7] = 0.0;
+        let ledger = &mut self.summary.ledger;
+        ledger.input += work;
+        ledger.friction -= rubbed;
+        ledger.turnover += work.abs() + rubbed.abs();
+        let contacts = self.mode.contacts();
+        if contacts[corner_index(self.corner) - HEEL] {
+            self.state[1] = 0.0;
+            self.state[4] = 0.0;
+        }
+        self.summary.slip_by_mode[kind] += self.state[0] - start[0];
+        self.see();
+        let at = self.summary.position;
+        self.widen(&at, self.state[2]);
+        self.strain();
+    }
+
+    fn widen(&mut self, at: &Vector, theta: f64) {
+        let s = &mut self.summary;
+        s.slip_range = [s.slip_range[0].min(at[SLIP]), s.slip_range[1].max(at[SLIP])];
+        s.rotation_range = [s.rotation_range[0].min(theta), s.rotation_range[1].max(theta)];
+        s.largest_gap = [s.largest_gap[0].max(at[HEEL]), s.largest_gap[1].max(at[TOE])];
+    }
+
+    fn strain(&mut self) {
+        for (peak, anchor) in self.peak_tension.iter_mut().zip(&self.turning.anchors) {
+            let (tension, _) = anchor.pull(self.turning.anchor_moves(self.corner, &self.state, anchor));
+            *peak = peak.max(tension);
+        }
+    }
+
+    /// Extremes inside a step, where a velocity changes sign.
+    fn turning_points(&mut self, start: &State, rate: &State, end: &State, stretch: &Stretch, taken: f64) {
+        let velocities = |y: &State| {
+            let [slip, heel, toe] = self.turning.contact_velocity(self.corner, y);
+            [slip, heel, toe, y[5]]
+        };
+        let (speeds, last) = (velocities(start), velocities(end));
+        let instant = self.turning.at(self.corner, start, &stretch.ground);
+        let [slip, heel, toe] = instant.contact_acceleration(&self.reactions(&instant));
+        for (i, a0) in [slip, heel, toe, rate[5]].into_iter().enumerate() {
+            let (v0, v1) = (speeds[i], last[i]);
+            if v0 * v1 >= 0.0 {
+                continue;
+            }
+            let bend = (v1 - v0 - a0 * taken) / (taken * taken);
+            for t in event::sign_changes(v0, a0, bend, taken).into_iter().flatten() {
+                let at = self.moved(start, rate, stretch, t);
+                let [heel, toe] = self.turning.gaps(self.corner, &at);
+                self.widen(&[at[0], heel, toe], at[2]);
+            }
+        }
+    }
+
+    /// Write the state at every wanted moment before `until`; `since` is when the present step began.
+    fn record(&mut self, start: &State, stretch: &Stretch, until: f64, since: f64) {
+        let Some(h) = self.histories.take() else {
+            return;
+        };
+        let rate = self.rates(start, &stretch.ground);
+        while h.rows.len() < h.times.len() && h.times[h.rows.len()] < until {
+            let t = if stretch.left > 0.0 {
+                (h.times[h.rows.len()] - since).max(0.0)
+            } else {
+                0.0
+            };
+            let state = self.moved(start, &rate, stretch, t);
+            let ground = stretch.after(t);
+            let instant = self.turning.at(self.corner, &state, &ground);
+            let reactions = self.reactions(&instant);
+            let mut acceleration = instant.contact_acceleration(&reactions);
+            let contacts = self.mode.contacts();
+            for (held, i) in [
+                (self.mode.sticks(), SLIP),
+                (contacts[0], HEEL),
+                (contacts[1], TOE),
+            ] {
+                if held {
+                    acceleration[i] = 0.0;
+                }
+            }
+            let gaps = self.turning.gaps(self.corner, &state);
+            let velocity = self.turning.contact_velocity(self.corner, &state);
+            let mut row = [0.0; 12];
+            row[SLIP] = state[0];
+            row[HEEL] = gaps[0].max(0.0);
+            row[TOE] = gaps[1].max(0.0);
+            row[3..6].copy_from_slice(&velocity);
+            row[6..9].copy_from_slice(&acceleration);
+            row[9..12].copy_from_slice(&reactions);
+            h.rows.push(row);
+            h.modes.push(self.mode.index() as u8);
+        }
+        self.histories = Some(h);
+    }
+}
