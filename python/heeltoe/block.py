@@ -243,4 +243,3 @@ def across_crack(force: Resultant, section: CutSection) -> Resultant:
     """Return a force by its components along and across the crack."""
     along, across = section.in_crack_frame(force.horizontal, force.vertical)
     return Resultant(force.name, along, across, force.moment, force.virial)
-

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,7 +22,12 @@ def ground(motion: GroundMotion, vertical: GroundMotion | None, end: float) -> t
     """
     if vertical is None and motion.duration == end:
         return motion.time, motion.acceleration, None
-    series = [motion] if vertical is None else [motion, vertical]
+    time, horizontal, *rest = on_same_moments([motion] if vertical is None else [motion, vertical], end)
+    return time, horizontal, rest[0] if rest else None
+
+
+def on_same_moments(series: Sequence[GroundMotion], end: float) -> list[Floats]:
+    """Return common moments from zero to `end`, and the values of each motion at them, (n,) each."""
     moments = np.unique(np.concatenate([s.time for s in series] + [np.array([end])]))
     moments = moments[moments <= end]
     sides = [_both_sides(s, moments) for s in series]
@@ -28,10 +35,8 @@ def ground(motion: GroundMotion, vertical: GroundMotion | None, end: float) -> t
     time = np.repeat(moments, 1 + jumps)
     after = np.zeros(time.size, dtype=bool)
     after[np.flatnonzero(np.diff(time) == 0.0) + 1] = True
-    values = []
-    for left, right in sides:
-        values.append(np.where(after, np.repeat(right, 1 + jumps), np.repeat(left, 1 + jumps)))
-    return time, values[0], values[1] if vertical is not None else None
+    repeated = [(np.repeat(left, 1 + jumps), np.repeat(right, 1 + jumps)) for left, right in sides]
+    return [time, *(np.where(after, right, left) for left, right in repeated)]
 
 
 def step_means(time: Floats, horizontal: Floats, up: Floats | None, count: int, end: float) -> Floats:

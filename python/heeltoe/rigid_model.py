@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -11,10 +13,11 @@ from heeltoe import _kernel
 from heeltoe.block import Block, build_block
 from heeltoe.case import Case, case_warnings
 from heeltoe.errors import InputError
-from heeltoe.ground import ground
+from heeltoe.ground import ground, on_same_moments
 from heeltoe.motion import GroundMotion
 from heeltoe.response import Energy, Response, check_limits
 from heeltoe.shaking import resolve
+from heeltoe.varying import varies, varying
 
 Floats = NDArray[np.float64]
 
@@ -44,17 +47,42 @@ REFERENCES = {
         'G. W. Housner, "The behavior of inverted pendulum structures during earthquakes", Bulletin of the '
         "Seismological Society of America 53 (1963), 403-417"
     ),
+    "overturning": (
+        'J. Zhang and N. Makris, "Rocking response of free-standing blocks under cycloidal pulses", Journal of '
+        "Engineering Mechanics, ASCE 127 (2001), 473-483"
+    ),
+    "integration": (
+        "E. Hairer, S. P. Nørsett and G. Wanner, Solving Ordinary Differential Equations I, 2nd edition, Springer, "
+        "1993 (DOP853)"
+    ),
+    "zero while open": (
+        "US Bureau of Reclamation, Design of Small Dams, 3rd edition, 1987, chapter 8 (no uplift in a crack that opens "
+        "in the earthquake)"
+    ),
+    "full while open": (
+        'M. Leclerc, P. Léger and R. Tinawi, "Computer aided stability analysis of gravity dams: CADAM", Advances in '
+        "Engineering Software 34 (2003), 403-420"
+    ),
+    "follows opening": (
+        'F. Javanmardi, P. Léger and R. Tinawi, "Seismic structural stability of concrete gravity dams considering '
+        'transient uplift pressures in cracks", Engineering Structures 27 (2005), 616-628'
+    ),
 }
+
+# A block that rotates by more than this part of what would overturn it is pulled back noticeably less by its weight.
+_SHARE_OF_SLENDERNESS = 0.1
 
 
 def rigid(
     case: Case,
     motion: GroundMotion | None = None,
     vertical: GroundMotion | None = None,
+    rotation: GroundMotion | None = None,
     *,
     output_step: float | None = None,
 ) -> Response:
-    """Run the rigid model on a case.
+    """Run the rigid model on a case: exactly between events, or where loads or geometry change as the block moves by
+    integration between them.
 
     Parameters
     ----------
@@ -62,6 +90,8 @@ def rigid(
         Dam, crack, water and earthquake.
     motion, vertical
         Ground motions to use, as they are, instead of the case's [m/s2, downstream and upward].
+    rotation
+        Rotation of the ground about the middle of the crack, counter-clockwise [rad/s2].
     output_step
         Spacing of the histories [s]; at the record's samples where it is not given. It does not change the motion
         that is computed, which is exact between events.
@@ -81,41 +111,87 @@ def rigid(
         motion, vertical = resolve(case.motion, case.gravity, case.base_directory)
     block = build_block(case)
     end = case.motion.duration if case.motion and case.motion.duration else motion.duration
-    time, horizontal, up = ground(motion, vertical, end)
-    moments = _moments(time, output_step)
-    summary_row, history, modes, event_rows = _kernel.run_rigid(
-        block.parameters(),
-        time,
-        horizontal,
-        up,
-        moments,
-        None,
-        SETTLE,
-        case.analysis.event_limit,
-        case.analysis.paradox == "tangential impact",
-    )
+    shaking = GroundSeries.of(motion, vertical, rotation, end)
+    moments = _moments(shaking.time, output_step)
+    summary_row, history, modes, event_rows, tension = run_block(case, block, shaking, moments)
     raw = dict(zip(_kernel.SUMMARY_FIELDS, summary_row.tolist(), strict=True))
     outcome = _kernel.OUTCOMES[int(raw["outcome"])]
     started = outcome != "unstable"
     moments = moments[: modes.size]
-    summary = _summary(raw, block) if started else {}
+    summary = _summary(case, raw, block, tension) if started else {}
     return Response(
         model="rigid",
         title=case.title,
         outcome=outcome,
         advice=_advice(outcome, raw, block),
-        warnings=(*case_warnings(case), *motion.warnings, *_warnings(raw, outcome)),
+        warnings=(*case_warnings(case), *motion.warnings, *_warnings(case, raw, outcome, block, tension)),
         summary=summary,
         energy=_energy(raw) if started else None,
         motion=motion,
         vertical=vertical,
         gravity=case.gravity,
-        histories=_histories(moments, history, time, horizontal, up, block) if started else {},
+        histories=_histories(moments, history, shaking, block) if started else {},
         mode=tuple(_kernel.MODES[m] for m in modes) if started else (),
         event_log=_events(event_rows),
         static=static_state(block),
-        references=_references(block),
+        references=_references(case, block),
         limits=check_limits(case.limits, summary) if started else (),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class GroundSeries:
+    """The ground's motion on common moments, as the kernels take it: (n,) each, or None where there is none."""
+
+    time: Floats
+    horizontal: Floats
+    up: Floats | None
+    turning: Floats | None
+
+    @classmethod
+    def of(
+        cls, motion: GroundMotion, vertical: GroundMotion | None, rotation: GroundMotion | None, end: float
+    ) -> GroundSeries:
+        """Put the motions on the same moments, from zero to `end`."""
+        if rotation is None:
+            return cls(*ground(motion, vertical, end), None)
+        series = [motion, rotation] if vertical is None else [motion, rotation, vertical]
+        time, horizontal, turning, *rest = on_same_moments(series, end)
+        return cls(time, horizontal, rest[0] if rest else None, turning)
+
+    def scaled(self, factor: float) -> GroundSeries:
+        """Return the same motion, weaker or stronger."""
+        up, turning = (None if each is None else factor * each for each in (self.up, self.turning))
+        return GroundSeries(self.time, factor * self.horizontal, up, turning)
+
+
+_Raw = tuple[Floats, Floats, NDArray[np.uint8], Floats, Floats]
+
+
+def run_block(case: Case, block: Block, shaking: GroundSeries, moments: Floats) -> _Raw:
+    """Run the kernel that the case needs; the last array is the largest tension of each anchor [N/m]."""
+    jam = case.analysis.paradox == "tangential impact"
+    limits = (SETTLE, case.analysis.event_limit, jam)
+    if not varies(case) and shaking.turning is None:
+        found = _kernel.run_rigid(
+            block.parameters(), shaking.time, shaking.horizontal, shaking.up, moments, None, *limits
+        )
+        return *found, np.array([anchor.prestress for anchor in case.anchors])
+    what = varying(case, block)
+    return _kernel.run_rigid_varying(
+        block.parameters(),
+        what.numbers,
+        what.rotation,
+        what.rule,
+        what.pressure,
+        what.anchors,
+        shaking.time,
+        shaking.horizontal,
+        shaking.up,
+        shaking.turning,
+        moments,
+        None,
+        *limits,
     )
 
 
@@ -127,8 +203,14 @@ def _moments(time: Floats, step: float | None) -> Floats:
     return np.arange(int(np.floor(time[-1] / step * (1.0 + 1e-12))) + 1, dtype=np.float64) * step
 
 
-def _summary(raw: dict[str, float], block: Block) -> dict[str, Any]:
+def _summary(case: Case, raw: dict[str, float], block: Block, tension: Floats) -> dict[str, Any]:
     downstream, upstream = -raw["rotation_min"], raw["rotation_max"]
+    overturned = _kernel.OUTCOMES[int(raw["outcome"])] == "overturned"
+    finite = case.analysis.rotation == "finite"
+
+    def opening(rotation: float) -> float:
+        return block.width * (math.sin(min(rotation, math.pi / 2.0)) if finite else rotation)
+
     return {
         "residual_slip_m": raw["slip"],
         "peak_slip_downstream_m": raw["slip_max"],
@@ -136,8 +218,8 @@ def _summary(raw: dict[str, float], block: Block) -> dict[str, Any]:
         "rocking_downstream_rad": abs(downstream),
         "rocking_upstream_rad": abs(upstream),
         # Rocking downstream, about the toe, opens the crack at the upstream face.
-        "opening_upstream_m": block.width * abs(downstream),
-        "opening_downstream_m": block.width * abs(upstream),
+        "opening_upstream_m": opening(abs(downstream)),
+        "opening_downstream_m": opening(abs(upstream)),
         "largest_gap_heel_m": raw["largest_gap_heel"],
         "largest_gap_toe_m": raw["largest_gap_toe"],
         "slip_by_mode_m": {
@@ -159,6 +241,13 @@ def _summary(raw: dict[str, float], block: Block) -> dict[str, Any]:
         "final_slip_velocity_m_s": raw["slip_velocity"],
         "end_time_s": raw["end_time"],
         "crack_width_m": block.width,
+        "rotation": case.analysis.rotation,
+        "uplift_during_shaking": case.uplift.during_shaking,
+        "overturned_about": ("toe" if downstream > upstream else "heel") if overturned else None,
+        "anchors": [
+            {"distance_m": anchor.distance, "peak_tension_n": float(peak), "capacity_n": anchor.capacity}
+            for anchor, peak in zip(case.anchors, tension, strict=True)
+        ],
     }
 
 
@@ -172,13 +261,14 @@ def _energy(raw: dict[str, float]) -> Energy:
     )
 
 
-def _histories(
-    moments: Floats, history: Floats, time: Floats, horizontal: Floats, up: Floats | None, block: Block
-) -> dict[str, Floats]:
+def _histories(moments: Floats, history: Floats, shaking: GroundSeries, block: Block) -> dict[str, Floats]:
     column = {name: np.ascontiguousarray(history[:, k]) for k, name in enumerate(_kernel.HISTORY_FIELDS)}
-    result = {"time_s": moments, "ground_acceleration_m_s2": np.interp(moments, time, horizontal)}
-    if up is not None:
-        result["vertical_ground_acceleration_m_s2"] = np.interp(moments, time, up)
+    time = shaking.time
+    result = {"time_s": moments, "ground_acceleration_m_s2": np.interp(moments, time, shaking.horizontal)}
+    if shaking.up is not None:
+        result["vertical_ground_acceleration_m_s2"] = np.interp(moments, time, shaking.up)
+    if shaking.turning is not None:
+        result["ground_rotation_rad_s2"] = np.interp(moments, time, shaking.turning)
     result |= {
         "slip_m": column["slip"],
         "slip_velocity_m_s": column["slip_velocity"],
@@ -243,7 +333,7 @@ def static_state(block: Block) -> dict[str, Any]:
 
 
 def _advice(outcome: str, raw: dict[str, float], block: Block) -> str | None:
-    if outcome == "ok":
+    if outcome in ("ok", "overturned"):
         return None
     if outcome == "unstable":
         return f"{_instability(block)}: {ADVICE[outcome]}"
@@ -273,7 +363,7 @@ def _instability(block: Block) -> str:
     return " and ".join(reasons) or "its static loads are at the limit of friction or of overturning"
 
 
-def _warnings(raw: dict[str, float], outcome: str) -> list[str]:
+def _warnings(case: Case, raw: dict[str, float], outcome: str, block: Block, tension: Floats) -> list[str]:
     said = []
     if outcome == "ok" and _kernel.MODES[int(raw["final_mode"])] != "rest":
         said.append(
@@ -291,12 +381,33 @@ def _warnings(raw: dict[str, float], outcome: str) -> list[str]:
         )
     if raw["energy_residual"] > 1e-9:
         said.append(f"the energy ledger does not close: residual {raw['energy_residual']:.1e} of the turnover")
-    largest = max(-raw["rotation_min"], raw["rotation_max"])
-    if largest > 0.1:
-        said.append(f"the largest rotation is {largest:.3g} rad; the model is one of small rotations")
+    for anchor, peak in zip(case.anchors, tension, strict=True):
+        if anchor.capacity is not None and peak > anchor.capacity:
+            said.append(
+                f"the anchor {anchor.distance:g} m from the heel is pulled with {peak / 1e6:.3g} MN/m, which is more "
+                f"than its capacity of {anchor.capacity / 1e6:.3g} MN/m: it is taken to hold all the same"
+            )
+    if case.analysis.rotation == "small":
+        for rotation, distance, corner in (
+            (-raw["rotation_min"], block.toe_distance, "toe"),
+            (raw["rotation_max"], block.heel_distance, "heel"),
+        ):
+            slenderness = math.atan2(distance, block.height)
+            if rotation > _SHARE_OF_SLENDERNESS * slenderness:
+                said.append(
+                    f"it rotates by {rotation:.3g} rad about its {corner}, {100.0 * rotation / slenderness:.2g} % of "
+                    f'the {slenderness:.3g} rad at which it would overturn: set analysis.rotation = "finite", since '
+                    "small rotations know nothing of overturning"
+                )
     return said
 
 
-def _references(block: Block) -> tuple[str, ...]:
+def _references(case: Case, block: Block) -> tuple[str, ...]:
     keys = ["model", "rocking"] + (["water"] if block.water.mass else [])
+    if case.analysis.rotation != "small":
+        keys.append("overturning")
+    if case.uplift.during_shaking in REFERENCES:
+        keys.append(case.uplift.during_shaking)
+    if varies(case):
+        keys.append("integration")
     return tuple(REFERENCES[key] for key in keys)

@@ -11,13 +11,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe import _kernel
-from heeltoe.block import build_block
+from heeltoe.block import Block, build_block
 from heeltoe.case import Case
 from heeltoe.ensemble import rigid_many
 from heeltoe.errors import InputError
 from heeltoe.ground import ground
 from heeltoe.motion import GroundMotion
 from heeltoe.response import Response
+from heeltoe.rigid_model import GroundSeries, run_block
+from heeltoe.varying import varies
 
 Floats = NDArray[np.float64]
 Told = Callable[[int, int], None]
@@ -113,6 +115,8 @@ def _rigid(
     response: Response, case: Case, end: float, scales: Floats, told: Told | None
 ) -> tuple[dict[str, Floats], NDArray[np.bool_]]:
     block = build_block(case)
+    if varies(case):
+        return _varying(response, case, block, end, scales, told)
     # Both directions up to the end of the run, which may be after that of the record.
     time, horizontal, up = ground(response.motion, response.vertical, end)
     motion = GroundMotion.from_points(time, horizontal)
@@ -125,10 +129,28 @@ def _rigid(
     )
     if told is not None:
         told(scales.size, scales.size)
+    return _with_openings(rows, block)
+
+
+def _varying(
+    response: Response, case: Case, block: Block, end: float, scales: Floats, told: Told | None
+) -> tuple[dict[str, Floats], NDArray[np.bool_]]:
+    shaking = GroundSeries.of(response.motion, response.vertical, None, end)
+    rows = []
+    for done, scale in enumerate(scales):
+        if told is not None:
+            told(done, scales.size)
+        rows.append(run_block(case, block, shaking.scaled(float(scale)), np.empty(0))[0])
+    table = np.array(rows)
+    return _with_openings({name: table[:, k] for k, name in enumerate(_kernel.SUMMARY_FIELDS)}, block)
+
+
+def _with_openings(rows: Mapping[str, Floats], block: Block) -> tuple[dict[str, Floats], NDArray[np.bool_]]:
     found = _named(rows)
     found["opening_upstream_m"] = block.width * found["rocking_downstream_rad"]
     found["opening_downstream_m"] = block.width * found["rocking_upstream_rad"]
-    return found, rows["outcome"] == _kernel.OUTCOMES.index("ok")
+    good = [_kernel.OUTCOMES.index(name) for name in ("ok", "overturned")]
+    return found, np.isin(rows["outcome"], good)
 
 
 def _flexible(

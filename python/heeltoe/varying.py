@@ -1,5 +1,5 @@
-"""Which blocks the exact kernel cannot take, since their loads or their geometry change as they move, and what the other
-one needs to know of them."""
+"""Which blocks the exact kernel cannot take, since loads or geometry change as they move, and what the other one needs
+to know of them."""
 
 from __future__ import annotations
 

@@ -25,11 +25,37 @@ def verdict(response: Response) -> str:
     """Say what the part above the crack does, and whether it is at rest in the end."""
     if not response.ok:
         return f"No result to trust ({response.outcome}): {response.advice}."
-    if response.model == "flexible":
+    if response.outcome == "overturned":
+        about = response.overturned_about
+        way = "downstream" if about == "toe" else "upstream"
+        sentences = [f"The dam overturns {way}, about its {about}: it lies on its side at {response.end_time_s:.2f} s."]
+    elif response.model == "flexible":
         sentences = [_elastic_slip(response), _openings(response), _elastic_end(response)]
     else:
         sentences = [_slip(response), _rocking(response), _end(response)]
-    return " ".join(sentence for sentence in sentences if sentence)
+    return " ".join(sentence for sentence in [*sentences, _limits(response)] if sentence)
+
+
+def _limits(response: Response) -> str:
+    """Say which of the limits that the user has set are met."""
+    if not response.limits:
+        return ""
+    broken = [
+        f"{_LIMITS[check.name]} of {length(check.value_m)} is more than the {length(check.allowed_m)} allowed"
+        for check in response.limits
+        if not check.met
+    ]
+    if broken:
+        return f"It does not keep within its limits: its {' and its '.join(broken)}."
+    return "It keeps within its limits."
+
+
+_LIMITS = {
+    "residual_slip": "residual slip",
+    "peak_slip": "largest slip",
+    "opening_upstream": "opening at the upstream face",
+    "opening_downstream": "opening at the downstream face",
+}
 
 
 def length(metres: float) -> str:

@@ -102,19 +102,14 @@ impl Block {
         let coupling = [p[18], p[19], p[20]];
         let inverse_mass = inverse([m_y, m_z, j], coupling);
         let moved = |i: usize, c: usize| (0..3).map(|d| rows[i][d] * inverse_mass[d][c]).sum::<f64>();
-        let mut compliance = [[0.0; 3]; 3];
-        for i in 0..3 {
-            for k in 0..3 {
-                compliance[i][k] = (0..3).map(|c| moved(i, c) * rows[k][c]).sum();
-            }
-        }
+        let compliance = [0, 1, 2].map(|i| rows.map(|row| (0..3).map(|c| moved(i, c) * row[c]).sum()));
         let width = b_h + b_t;
         let mut free = [[0.0; 3]; 3];
         let mut generalised = [[0.0; 3]; 3];
         for case in 0..3 {
             let f = [p[6 + 3 * case], p[7 + 3 * case], p[8 + 3 * case]];
-            for i in 0..3 {
-                free[i][case] = (0..3).map(|c| moved(i, c) * f[c]).sum();
+            for (i, free) in free.iter_mut().enumerate() {
+                free[case] = (0..3).map(|c| moved(i, c) * f[c]).sum();
             }
             // f.q' = f_y s' + f_z z' + (m - H f_y) theta', with z' and theta' from the two gaps.
             let turning = (f[2] - h * f[0]) / width;

@@ -355,12 +355,10 @@ impl TurningBlock {
 impl Instant {
     /// Acceleration of the coordinates under these reactions.
     pub fn acceleration(&self, reactions: &Vector) -> Vector {
-        let mut total = [0.0; 3];
-        for i in 0..3 {
-            total[i] = self.load[i]
-                + self.centrifugal[i]
-                + (0..3).map(|k| self.gradient[k][i] * reactions[k]).sum::<f64>();
-        }
+        let total = [0, 1, 2].map(|i| {
+            let contact: f64 = (0..3).map(|k| self.gradient[k][i] * reactions[k]).sum();
+            self.load[i] + self.centrifugal[i] + contact
+        });
         times(&self.inverse_mass, &total)
     }
 
