@@ -259,8 +259,8 @@ impl Walk<'_, '_> {
             stretch.left.min(AHEAD)
         };
         let mut later = self.state;
-        for i in 0..3 {
-            later[i] += ahead * later[3 + i];
+        for (value, rate) in later.iter_mut().zip(self.rates(&self.state, &stretch.ground)) {
+            *value += ahead * rate;
         }
         let then = self.turning.at(self.corner, &later, &stretch.after(ahead));
         let affine = [SLIP, HEEL, TOE].map(|i| Affine {
