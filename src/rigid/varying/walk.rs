@@ -263,10 +263,17 @@ impl Walk<'_, '_> {
             *value += ahead * rate;
         }
         let then = self.turning.at(self.corner, &later, &stretch.after(ahead));
-        let affine = [SLIP, HEEL, TOE].map(|i| Affine {
-            constant: now.free_acceleration[i],
-            horizontal: (then.free_acceleration[i] - now.free_acceleration[i]) / ahead * UNIT,
-            vertical: 0.0,
+        // Where modes are at a tie they share their reactions, by which the compliance changes the accelerations, too.
+        let reactions = self.reactions(&now);
+        let affine = [SLIP, HEEL, TOE].map(|i| {
+            let stiffer: f64 = (0..3)
+                .map(|k| (then.compliance[i][k] - now.compliance[i][k]) * reactions[k])
+                .sum();
+            Affine {
+                constant: now.free_acceleration[i],
+                horizontal: (then.free_acceleration[i] - now.free_acceleration[i] + stiffer) / ahead * UNIT,
+                vertical: 0.0,
+            }
         });
         let block = self.block.at(now.compliance, affine);
         let reactions = Reactions::new(&block);
@@ -354,8 +361,11 @@ impl Walk<'_, '_> {
 
     /// Go over to the other corner, which is in contact: its gap is exactly zero.
     fn turn_to(&mut self, corner: Corner) {
+        let slip = self.state[0];
         self.state = self.turning.other_corner(self.corner, &self.state);
         self.corner = corner;
+        // The corners of a block that stands on neither are not at the same slip: to have turned is part of drifting.
+        self.summary.slip_by_mode[Mode::Drift.kind()] += self.state[0] - slip;
         let near = 1e-13 * self.block.width;
         if self.state[1].abs() <= near {
             self.state[1] = 0.0;
@@ -557,7 +567,9 @@ impl Walk<'_, '_> {
     ) -> Option<(f64, Cause, State)> {
         let mut first: Option<(f64, Cause, usize)> = None;
         let mut earlier = |t: f64, why: Cause, which: usize| {
-            if first.is_none_or(|(before, ..)| t < before) {
+            // Of two at once a gap goes first: what has struck is no longer what it was.
+            let gap = matches!(why, Cause::Gap(_));
+            if first.is_none_or(|(before, ..)| t < before || t == before && gap) {
                 first = Some((t, why, which));
             }
         };
