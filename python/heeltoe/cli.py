@@ -225,6 +225,30 @@ def periods(
 
 
 @app.command()
+def overturning(
+    case: CasePath,
+    pulse: Annotated[str, typer.Option(metavar="sine|half-sine|cosine", help="Shape of the pulse.")] = "sine",
+    count: Annotated[int, typer.Option(metavar="N", help="How many frequencies, and how many amplitudes.")] = 60,
+    set_: Changes = None,
+    json_: JsonPath = None,
+    out: Annotated[Path, typer.Option(metavar="DIR", help="Write map and figure here.")] = Path("overturning"),
+) -> None:
+    """Draw which pulses overturn the block: a map over their frequency and amplitude, with the safe gap."""
+    from heeltoe.case import read_case
+    from heeltoe.overturning import overturning_map, write_overturning
+    from heeltoe.summary import print_overturning
+
+    loaded = read_case(case, list(set_ or []))
+    _check_directory(out)
+    _check_json(json_)
+    with _status() as say:
+        say(f"running {count * count} pulses")
+        found = overturning_map(loaded, pulse, count=count)
+        written = write_overturning(found, out)
+    _finish(found.to_json(), json_, written, lambda console: print_overturning(found, console))
+
+
+@app.command()
 def motion(
     file: Annotated[str | None, typer.Argument(metavar="FILE-or-NAME")] = None,
     unit: Annotated[str | None, typer.Option(help="Unit of a file that does not state it: g, cm/s^2, ...")] = None,

@@ -244,6 +244,12 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "period-count": ("{value} periods are not to be had", "give 1 to {most}"),
     "vtk-without-out": ("has no place to go", "add --out DIR"),
     "vtk-rigid": ("shows elastic parts, and the rigid model has none", "use --model flexible or both"),
+    "pulse-kind": ("{value} is no pulse", "choose sine, half-sine or cosine"),
+    "pulse-count": ("{value} is no number of pulses", "give 2 to {most}"),
+    "pulse-unstable": (
+        "the dam does not even stand without a pulse",
+        "give it less water, less uplift or more friction",
+    ),
     "no-such-validation": ("{value} is no reference case", "choose one of {names}"),
     "record-missing": ("is required and not there", "give a file or a name, or --list"),
     "file-exists": ("is there already", "give another name, or remove it first"),

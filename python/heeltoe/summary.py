@@ -21,6 +21,7 @@ from heeltoe.verdicts import angle, comes_to_rest, length, verdict
 if TYPE_CHECKING:
     from heeltoe.comparison import Comparison
     from heeltoe.flexible_parts import FlexibleDam
+    from heeltoe.overturning import OverturningMap
     from heeltoe.periods import DamPeriods
 
 # What the names of the choices mean.
@@ -90,6 +91,34 @@ def print_periods(periods: DamPeriods, console: Console) -> None:
     grid.add_row("parts", f"each by itself, with its water; the part above is free, rigid-body motion left out{below}")
     grid.add_row("mesh", _mesh_line(periods.elements, periods.nodes))
     grid.add_row("damping", _damping_line(periods.damping, periods.damping_ratio, periods.rayleigh))
+    console.print(grid)
+
+
+def print_overturning(found: OverturningMap, console: Console) -> None:
+    """Print which pulses overturn a block."""
+    console.print(f"[bold]{escape(found.title or 'Untitled case')}[/bold]  (overturning)", soft_wrap=True)
+    console.print()
+    grid = _grid()
+    p, slenderness = found.frequency_parameter_1_s, found.slenderness_rad
+    grid.add_row("block", f"slenderness {slenderness:.4g} rad, p = {p:.4g} 1/s")
+    low, high = found.frequency_hz[0], found.frequency_hz[-1]
+    sizes = f"{found.amplitude_g[0]:.3g} to {found.amplitude_g[-1]:.3g} g"
+    grid.add_row("pulses", f"one {found.pulse}, {low:.3g} to {high:.3g} Hz, {sizes}: {found.end.size} runs")
+    least = [(size, hertz) for size, hertz in zip(found.least_g(), found.frequency_hz, strict=True) if size is not None]
+    if not least:
+        grid.add_row("overturning", "by none of them")
+    else:
+        size, hertz = min(least)
+        grid.add_row("overturning", f"from {size:.3g} g on, at {hertz:.3g} Hz")
+        gaps = found.safe_gap()
+        widest = max(gaps, key=lambda gap: gap[2] - gap[1], default=None)
+        text = (
+            "none: what overturns it is weaker than all it stands"
+            if widest is None
+            else f"widest at {widest[0]:.3g} Hz: it stands {widest[1]:.3g} to {widest[2]:.3g} g, though weaker ones "
+            "overturn it"
+        )
+        grid.add_row("safe gap", text)
     console.print(grid)
 
 

@@ -22,6 +22,7 @@ from heeltoe.validation import (
     random_dams,
     thesis_blocks,
     thesis_dams,
+    turning,
 )
 from heeltoe.validation.row import Row, Skipped
 
@@ -33,6 +34,8 @@ CASES: dict[str, Callable[[], Iterable[Row]]] = {
     "push-and-sine": closed_forms.push_and_sine,
     "pulse": closed_forms.pulse,
     "free-rocking": closed_forms.free_rocking,
+    "finite-rocking": turning.free_finite_rocking,
+    "overturning": turning.overturning_pulses,
     "drifting": thesis_blocks.drifting,
     "dry-block": thesis_blocks.dry_block,
     "triangular": thesis_dams.triangular,

@@ -1,0 +1,114 @@
+"""Rotations of any size: a block that rocks freely, and blocks that a pulse overturns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe import _kernel
+from heeltoe.block import Block, build_block
+from heeltoe.case import Case, read_case
+from heeltoe.rigid_model import SETTLE
+from heeltoe.validation.row import Row
+from heeltoe.varying import varying
+
+Floats = NDArray[np.float64]
+_G = 9.81
+
+
+def free_finite_rocking() -> Iterator[Row]:
+    """Block 1 x 4 m let go at half its slenderness: impacts and peaks at rotations of any size, restitution 0."""
+    case = _slender("finite")
+    slenderness = math.atan(0.25)
+    moments = np.linspace(0.0, 4.4, 8801)
+    lifted = [0.0, 0.0, math.sin(0.5 * slenderness)]
+    _, history, _, events = _run(case, np.array([0.0, 4.4]), np.zeros(2), moments, [lifted, [0.0, 0.0, 0.0]])
+    strikes = [_kernel.EVENT_KINDS.index(kind) for kind in ("heel strikes", "toe strikes")]
+    impacts = [float(row[0]) for row in events if int(row[1]) in strikes]
+    remark = "sine of the rotation over the crack is the gap"
+    for number, (reference, ours) in enumerate(zip((0.698343, 1.834900, 2.799281, 3.635548), impacts, strict=False)):
+        yield Row(f"impact {number + 1} [s]", reference, ours, 1e-6)
+    rotation = np.arcsin(history[:, 2] - history[:, 1])
+    references = (0.386714, 0.306397, 0.246057, 0.199314)
+    for reference, (start, end) in zip(references, pairwise(impacts), strict=False):
+        between = (moments > start) & (moments < end)
+        peak = float(np.abs(rotation[between]).max()) / slenderness
+        yield Row("peak after it, over the slenderness", reference, peak, 5e-6, remark=remark)
+
+
+def overturning_pulses() -> Iterator[Row]:
+    """Least A / (alpha g) of half and full sines that overturn a slender block without impact, with P-Delta."""
+    case = _slender("p-delta")
+    block = build_block(case)
+    for whole, references in (
+        (False, (1.3224, 1.80072, 2.29387, 3.28915)),
+        (True, (1.41832, 2.34990, 3.63115, 7.16813)),
+    ):
+        for ratio, reference in zip((1, 2, 3, 5), references, strict=True):
+            ours = _least(case, block, ratio, whole=whole)
+            name = "full sine" if whole else "half sine"
+            yield Row(f"{name}, w/p = {ratio}", reference, ours, 1e-5, remark="linearised block: its own p and alpha")
+
+
+def _slender(rotation: str) -> Case:
+    """Return a block 1 m wide and 4 m high that does not slide."""
+    return read_case(
+        {
+            "gravity": f"{_G} m/s^2",
+            "section": {"polygon": [["0 m", "0 m"], ["1 m", "0 m"], ["1 m", "4 m"], ["0 m", "4 m"]]},
+            "crack": {"friction": 10.0, "restitution": 0.0},
+            "analysis": {"rotation": rotation},
+        }
+    )
+
+
+def _run(
+    case: Case, time: Floats, ground: Floats, moments: Floats | None = None, start: list[list[float]] | None = None
+) -> tuple[Floats, Floats, NDArray[np.uint8], Floats]:
+    block = build_block(case)
+    what = varying(case, block)
+    wanted = np.empty(0) if moments is None else moments
+    row, history, modes, events, _ = _kernel.run_rigid_varying(
+        block.parameters(),
+        what.numbers,
+        what.rotation,
+        what.rule,
+        what.pressure,
+        what.anchors,
+        time,
+        ground,
+        None,
+        None,
+        wanted,
+        start,
+        SETTLE,
+        1_000_000,
+        False,
+    )
+    return row, history, modes, events
+
+
+def _least(case: Case, block: Block, ratio: float, *, whole: bool) -> float:
+    """Return the least amplitude over g B / H that overturns the block before it strikes, by bisection."""
+    half, height, mass = block.toe_distance, block.height, block.mass_vertical
+    rate = math.sqrt(mass * _G * height / (block.inertia + mass * (height**2 + half**2)))
+    circular = ratio * rate
+    end = (2.0 if whole else 1.0) * math.pi / circular
+    time = np.linspace(0.0, end, 4001)
+    pulse = np.append(np.sin(circular * time), 0.0)
+    pulse[-2] = 0.0
+    time = np.append(time, end + 40.0 / rate)
+    outcome, impacts = (_kernel.SUMMARY_FIELDS.index(name) for name in ("outcome", "impacts"))
+    low, high = 1.0, 12.0
+    while high - low > 1e-6:
+        middle = 0.5 * (low + high)
+        row = _run(case, time, middle * _G * half / height * pulse)[0]
+        if _kernel.OUTCOMES[int(row[outcome])] == "overturned" and row[impacts] == 0.0:
+            high = middle
+        else:
+            low = middle
+    return high

@@ -1,0 +1,88 @@
+"""Maps of overturning: the branches of the linearised slender block, the safe gap, files, refusals."""
+
+import json
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from heeltoe import InputError, overturning_map, read_case
+from heeltoe.cli import app
+from heeltoe.overturning import ENDS
+
+SLENDER = {
+    "gravity": "9.81 m/s^2",
+    "section": {"polygon": [["0 m", "0 m"], ["1 m", "0 m"], ["1 m", "4 m"], ["0 m", "4 m"]]},
+    "crack": {"friction": 2.0, "restitution": 0.0},
+}
+
+
+def test_the_branch_without_impact_and_the_safe_gap_below_it():
+    case = read_case(SLENDER | {"analysis": {"rotation": "p-delta"}})
+    # Frequency of w/p = 5 and least amplitude 7.16813 alpha g, alpha = B / H = 1/4, p by the linearised block.
+    rate = np.sqrt(9.81 * 2.0 / (17.0 / 12.0 + 4.25))
+    amplitudes = 0.25 * np.array([2.0, 4.0, 6.0, 7.0, 7.15, 7.19, 8.0])
+    found = overturning_map(case, frequencies_hz=np.array([5.0 * rate / (2.0 * np.pi)]), amplitudes_g=amplitudes)
+    assert [ENDS[k] for k in found.end[0]] == [
+        "rocks and stands",
+        "overturns after an impact",
+        "overturns after an impact",
+        "rocks and stands",
+        "rocks and stands",
+        "overturns without impact",
+        "overturns without impact",
+    ]
+    ((_, low, high),) = found.safe_gap()
+    assert (low, high) == (pytest.approx(1.75), pytest.approx(1.7875))
+    assert found.least_g() == [1.0]
+
+
+def test_small_rotations_are_taken_as_finite():
+    found = overturning_map(read_case(SLENDER), "half-sine", count=6)
+    again = overturning_map(read_case(SLENDER | {"analysis": {"rotation": "finite"}}), "half-sine", count=6)
+    assert (found.end == again.end).all()
+    assert (found.end >= 2).any()
+
+
+def test_weak_pulses_do_nothing():
+    found = overturning_map(read_case(SLENDER), "cosine", count=3, amplitudes_g=np.array([0.1, 0.2]))
+    assert (found.end == 0).all()
+    assert found.least_g() == [None, None, None]
+    assert found.safe_gap() == []
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"pulse": "square"}, "pulse: square is no pulse; choose sine, half-sine or cosine"),
+        ({"count": 1}, "count: 1 is no number of pulses; give 2 to 400"),
+    ],
+)
+def test_refused(options, message):
+    with pytest.raises(InputError) as caught:
+        overturning_map(read_case(SLENDER), **options)
+    assert str(caught.value) == message
+
+
+def test_a_dam_that_does_not_stand_is_refused():
+    flooded = SLENDER | {"reservoir": {"depth": "4 m"}, "crack": {"friction": 0.1}}
+    with pytest.raises(InputError, match="does not even stand"):
+        overturning_map(read_case(flooded))
+
+
+def test_on_the_command_line(tmp_path):
+    case = tmp_path / "block.toml"
+    case.write_text(
+        '[section]\npolygon = [["0 m", "0 m"], ["1 m", "0 m"], ["1 m", "4 m"], ["0 m", "4 m"]]\n'
+        "[crack]\nfriction = 2.0\nrestitution = 0.0\n"
+    )
+    out = tmp_path / "out"
+    result = CliRunner().invoke(
+        app, ["overturning", str(case), "--count", "8", "--out", str(out), "--json", str(tmp_path / "map.json")]
+    )
+    assert result.exit_code == 0, result.output
+    assert "safe gap" in result.output
+    assert sorted(path.name for path in out.iterdir()) == ["overturning.csv", "overturning.png", "overturning.svg"]
+    data = json.loads((tmp_path / "map.json").read_text())
+    assert np.array(data["end"]).shape == (8, 8)
+    assert len((out / "overturning.csv").read_text().splitlines()) == 65
