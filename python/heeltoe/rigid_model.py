@@ -379,7 +379,8 @@ def _warnings(case: Case, raw: dict[str, float], outcome: str, block: Block, ten
         said.append(
             f"{int(raw['jams'])} Painlevé paradox(es) were resolved by a tangential impact, as analysis.paradox asks"
         )
-    if raw["energy_residual"] > 1e-9:
+    # Integration is exact to a part of the crack's width, of which tiny motions are a tiny part.
+    if raw["energy_residual"] > (1e-6 if varies(case) else 1e-9):
         said.append(f"the energy ledger does not close: residual {raw['energy_residual']:.1e} of the turnover")
     for anchor, peak in zip(case.anchors, tension, strict=True):
         if anchor.capacity is not None and peak > anchor.capacity:

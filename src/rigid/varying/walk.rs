@@ -120,6 +120,7 @@ pub fn simulate<'h>(
         standing: 0,
     };
     walk.place(&position, &velocity);
+    walk.strain();
     walk.run(motion, start.is_none());
     walk.see();
     let instant = walk.instant(&[0.0; 3]);
