@@ -31,6 +31,9 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 
+# What --model takes; "both" is the rigid and the flexible one.
+_MODELS = ("rigid", "decoupled", "flexible", "both", "rigid,flexible", "decoupled,flexible")
+
 BAD_INPUT = 2
 NO_RESULT = 3
 
@@ -89,7 +92,7 @@ class _Run(TyperCommand):
 @app.command(cls=_Run)
 def run(
     case: CasePath,
-    model: Annotated[str, typer.Option(metavar="rigid|flexible|both", help="What the dam is taken for.")] = "rigid",
+    model: Annotated[str, typer.Option(metavar="rigid|decoupled|flexible|both", help="What the dam is taken for.")] = "rigid",
     motion: Annotated[str | None, typer.Option(metavar="FILE-or-NAME", help="Another ground motion.")] = None,
     pga: Annotated[str | None, typer.Option(metavar="0.4g", help="Scale the motion to this peak.")] = None,
     reverse: Annotated[bool, typer.Option("--reverse", help="Turn the motion round.")] = False,
@@ -120,13 +123,13 @@ def run(
     from heeltoe.case import read_case
     from heeltoe.quantities import parse
 
-    if model not in ("rigid", "flexible", "both"):
+    if model not in _MODELS:
         raise InputError("unknown-model", "--model", model)
     if report:
         raise InputError("not-yet", "--report", "the report", remedy="leave it out; --out DIR writes figures and JSON")
     if vtk and out is None:
         raise InputError("vtk-without-out", "--vtk")
-    if vtk and model == "rigid":
+    if vtk and model in ("rigid", "decoupled"):
         raise InputError("vtk-rigid", "--vtk")
     runs = None
     if spread is not None:
@@ -169,6 +172,11 @@ def _analysis(
 
         say("running the rigid model")
         result = rigid(case, output_step=step)
+    elif model == "decoupled":
+        from heeltoe.decoupled import decoupled
+
+        say("running the decoupled chain")
+        result = decoupled(case, output_step=step)
     elif model == "flexible":
         from heeltoe.flexible_model import flexible
 
@@ -178,7 +186,7 @@ def _analysis(
         from heeltoe.comparison import compare
 
         say("running both models")
-        result = compare(case, output_step=step)
+        result = compare(case, output_step=step, block="decoupled" if model.startswith("decoupled") else "rigid")
     if runs is None:
         return result
 
