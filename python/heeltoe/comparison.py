@@ -114,8 +114,8 @@ class Comparison:
         else:
             text = f"The flexible dam slides {dam / block:.2g} times as far as the decoupled top"
         return (
-            f"{text}: in the decoupled chain the part below vibrates as if the top never slid or rocked, and the top does "
-            "not vibrate itself. Trust the flexible model."
+            f"{text}: in the decoupled chain the part below vibrates as if the top never slid or rocked, and the top "
+            "does not vibrate itself. Trust the flexible model."
         )
 
     def to_json(self) -> dict[str, Any]:

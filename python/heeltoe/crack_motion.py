@@ -6,7 +6,9 @@ decoupled chain, and what the flexible model is for (docs/koyna.md)."""
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy.sparse as sparse
@@ -14,12 +16,14 @@ from numpy.typing import NDArray
 
 from heeltoe.block import Block, build_block
 from heeltoe.case_model import Case
-from heeltoe.elastic import Body, Sparse, dam, dofs
+from heeltoe.elastic import Sparse, dam, dofs, side_by_side
 from heeltoe.errors import InputError
+from heeltoe.flexible_parts import fingerprints
 from heeltoe.ground import ground
 from heeltoe.mesh import BodyMesh, dam_mesh
 from heeltoe.modes import lowest
 from heeltoe.motion import GroundMotion
+from heeltoe.section import cut
 
 Floats = NDArray[np.float64]
 
@@ -41,18 +45,12 @@ class CrackMotion:
         Total acceleration at the middle of the crack: downstream, upward [m/s2], counter-clockwise [rad/s2].
     step
         Longest step between samples [s].
-    straightness
-        What straight lines between samples twice as far apart miss, over the peak; those of these a quarter of it.
-    half_the_modes
-        What the slower half of the modes alone miss, over the peak.
     """
 
     horizontal: GroundMotion
     vertical: GroundMotion
     rotation: GroundMotion
     step: float
-    straightness: float
-    half_the_modes: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,6 +79,11 @@ class Chain:
         """Periods of the modes, longest first [s]."""
         return 2.0 * math.pi / self.omega
 
+    def slower_half(self) -> Chain:
+        """Return the same with the slower half of its modes alone."""
+        half = self.omega.size // 2
+        return Chain(self.omega[:half], self.participation[:half], self.shapes[:, :half], self.damping)
+
     def transfer(self, periods: Floats) -> Floats:
         """Return the amplitude of the crack's horizontal acceleration under a horizontal ground motion that is a
         steady vibration of amplitude 1, by its period [s]."""
@@ -91,7 +94,7 @@ class Chain:
 
 
 def chain(case: Case) -> Chain:
-    """Return the part below the crack with the part above attached.
+    """Return the part below the crack with the part above attached; the last few are kept.
 
     Every mode has the damping ratio of the concrete: its damping is one of material, which hardly depends on
     frequency, while the mass-proportional part of Rayleigh's damping has no counterpart in a dam on rock.
@@ -101,6 +104,40 @@ def chain(case: Case) -> Chain:
     InputError
         Where the crack is at the base, or the case has no modulus or no mesh.
     """
+    return _kept(case, _chain)
+
+
+def bonded_chain(case: Case) -> Chain:
+    """Return the whole dam, both parts elastic and the crack bonded, as what the motion at the crack is compared with.
+
+    Raises
+    ------
+    InputError
+        As :func:`chain`.
+    """
+    return _kept(case, _bonded)
+
+
+# Chains built before, newest last: a table of runs shakes the same one again and again.
+_BUILT: dict[tuple[str, ...], Chain] = {}
+_MOST_KEPT = 8
+
+
+def _kept(case: Case, build: Callable[[Case], Chain]) -> Chain:
+    """Build a chain, or find it by all that it depends on."""
+    fields: Any = dict.fromkeys(("section", "concrete", "reservoir", "flexible", "gravity"), True)
+    fields["crack"] = {"elevation", "inclination"}
+    # Files may change under their name.
+    key = (build.__name__, case.model_dump_json(include=fields), *fingerprints(case))
+    if key not in _BUILT:
+        built = build(case)
+        while len(_BUILT) >= _MOST_KEPT:
+            _BUILT.pop(next(iter(_BUILT)), None)
+        _BUILT[key] = built
+    return _BUILT[key]
+
+
+def _chain(case: Case) -> Chain:
     block = build_block(case)
     section = block.section
     if section.crack_elevation == section.base_elevation:
@@ -108,32 +145,34 @@ def chain(case: Case) -> Chain:
     body = dam(case, section, dam_mesh(case, section, case.base_directory)).lower
     assert body is not None
     plane = plane_fit(body.mesh)
-    # Symmetric by its form; what is attached moves as the fitted plane does.
-    mass = (body.mass + plane.T @ sparse.csr_array(attached_mass(case, block)) @ plane).tocsc()
+    # What is attached moves as the fitted plane does.
+    mass = body.mass + plane.T @ sparse.csr_array(attached_mass(case, block)) @ plane
     free = np.setdiff1d(np.arange(body.mesh.nodes.size), dofs(body.mesh.fixed))
-    return in_modes(body.stiffness[free][:, free], mass[free][:, free], plane[:, free], free, case.concrete.damping)
+    hold = sparse.eye_array(body.mesh.nodes.size, format="csr")[:, free]
+    return _in_modes(body.stiffness, mass, plane, hold, case.concrete.damping)
 
 
-def in_modes(stiffness: Sparse, mass: Sparse, plane: Sparse, places: NDArray[np.int64], damping: float) -> Chain:
-    """Return a held body in its modes.
+def _bonded(case: Case) -> Chain:
+    section = cut(case)
+    whole = dam(case, section, dam_mesh(case, section, case.base_directory))
+    if whole.lower is None:
+        raise InputError("crack-at-base", "crack.elevation", f"{case.crack.elevation:g} m")
+    above = sparse.csr_array((3, whole.upper.load.size))
+    plane = sparse.hstack([above, plane_fit(whole.lower.mesh)], format="csr")
+    matrices = side_by_side(whole, "stiffness"), side_by_side(whole, "mass")
+    return _in_modes(*matrices, plane, whole.tie, case.concrete.damping)
 
-    Parameters
-    ----------
-    stiffness, mass
-        Of the free degrees of freedom, (f, f).
-    plane
-        (3, f) the motion of the crack by these.
-    places
-        (f,) which are horizontal (even) and vertical (odd).
-    damping
-        Ratio of every mode.
-    """
-    squares, shapes = lowest(stiffness, mass, min(MOST_MODES, stiffness.shape[0]), 0.0)
+
+def _in_modes(stiffness: Sparse, mass: Sparse, plane: Sparse, hold: Sparse, damping: float) -> Chain:
+    """Return what stands on the ground in its modes; all displacements are ``hold @ free``, x and z in turn, `plane`
+    takes them to the motion of the crack."""
+    count = min(MOST_MODES, hold.shape[1])
+    squares, shapes = lowest((hold.T @ stiffness @ hold).tocsc(), (hold.T @ mass @ hold).tocsc(), count, 0.0)
     omega = np.sqrt(squares)
     kept = omega <= 2.0 * math.pi / SHORTEST_PERIOD
-    omega, shapes = omega[kept], shapes[:, kept]
-    moves = np.column_stack([places % 2 == 0, places % 2 == 1]).astype(np.float64)
-    return Chain(omega, shapes.T @ (mass @ moves), plane @ shapes, damping)
+    everywhere = hold @ shapes[:, kept]
+    moved = np.tile(np.eye(2), (hold.shape[0] // 2, 1))
+    return Chain(omega[kept], everywhere.T @ (mass @ moved), plane @ everywhere, damping)
 
 
 def plane_fit(mesh: BodyMesh) -> Sparse:
@@ -177,14 +216,8 @@ def attached_mass(case: Case, block: Block) -> Floats:
 
 
 def crack_motion(
-    chain: Chain,
-    motion: GroundMotion,
-    vertical: GroundMotion | None,
-    end: float,
-    *,
-    width: float,
-    step: float | None = None,
-) -> CrackMotion:
+    chain: Chain, motion: GroundMotion, vertical: GroundMotion | None, end: float
+) -> tuple[CrackMotion, float]:
     """Return the motion of the crack, sampled so that straight lines between the samples are good enough.
 
     Parameters
@@ -195,49 +228,58 @@ def crack_motion(
         The ground's motion, downstream and upward.
     end
         Length of the run [s]; where a record has ended the ground stands still.
-    width
-        Of the crack [m]; half of it turns a rotation into an acceleration that can be compared.
-    step
-        Longest step [s]; found by halving where it is not given.
+
+    Returns
+    -------
+    found : CrackMotion
+    straightness : float
+        What straight lines between samples twice as far apart miss of the horizontal and the vertical motion, over the
+        horizontal peak; between these samples it is a quarter of that.
     """
     series = ground(motion, vertical, end)
-    arms = np.array([1.0, 1.0, width / 2.0])[:, None]
-
-    def missed(found: Floats, exact: Floats) -> float:
-        return float((np.abs(found - exact) * arms).max() / np.abs(exact[:2]).max(initial=1e-300))
-
-    length = step or FIRST_STEP / 2.0
-    for _ in range(1 if step else HALVINGS):
-        time, crack, _ = shaken(chain, *series, length)
-        coarse, rough, _ = shaken(chain, *series, 2.0 * length)
+    step = FIRST_STEP
+    coarse, rough, _ = shaken(chain, *series, step)
+    for _ in range(HALVINGS):
+        step /= 2.0
+        time, crack, _ = shaken(chain, *series, step)
         # The ground's own moments are samples of both; among them are the jumps, which have two values.
         between = ~np.isin(time, series[0])
-        straight = np.array([np.interp(time[between], coarse, row) for row in rough])
-        straightness = missed(straight, crack[:, between]) if between.any() else 0.0
+        straight = np.array([np.interp(time[between], coarse, row) for row in rough[:2]])
+        straightness = relative(straight, crack[:2, between], crack)
         if straightness <= STRAIGHT:
             break
-        length /= 2.0
-    # Without what the rounding of the moments adds.
-    length = round(float(np.diff(time).max()), 9)
-    slow = replace(chain, omega=chain.omega[: chain.omega.size // 2])
-    half = slow.omega.size
-    slow = replace(slow, participation=chain.participation[:half], shapes=chain.shapes[:, :half])
-    return CrackMotion(
-        *(
-            GroundMotion(
-                name=f"{motion.name}, {what}",
-                time=time,
-                acceleration=values,
-                source=motion.source,
-                processing=(*motion.processing, f"through the part of the dam below the crack, {chain.omega.size} modes"),
-                warnings=motion.warnings,
-            )
-            for what, values in zip(("at the crack", "at the crack, upward", "rotation of the crack"), crack, strict=True)
-        ),
-        step=length,
-        straightness=straightness,
-        half_the_modes=missed(shaken(slow, *series, length)[1], crack),
+        coarse, rough = time, crack
+    return _named(chain, motion, time, crack), straightness
+
+
+def crack_motion_at(
+    chain: Chain, motion: GroundMotion, vertical: GroundMotion | None, end: float, step: float
+) -> CrackMotion:
+    """Return the motion of the crack with samples no more than `step` [s] apart."""
+    time, crack, _ = shaken(chain, *ground(motion, vertical, end), step)
+    return _named(chain, motion, time, crack)
+
+
+def relative(found: Floats, exact: Floats, crack: Floats) -> float:
+    """Return the largest difference over the peak of the crack's horizontal acceleration; 0 where nothing moves."""
+    peak = float(np.abs(crack[0]).max())
+    return float(np.abs(found - exact).max(initial=0.0)) / peak if peak else 0.0
+
+
+def _named(chain: Chain, motion: GroundMotion, time: Floats, crack: Floats) -> CrackMotion:
+    horizontal, vertical, rotation = (
+        GroundMotion(
+            name=f"{motion.name}, {what}",
+            time=time,
+            acceleration=values,
+            source=motion.source,
+            processing=(*motion.processing, f"through the part of the dam below the crack, {chain.omega.size} modes"),
+            warnings=motion.warnings,
+        )
+        for what, values in zip(("at the crack", "at the crack, upward", "rotation of the crack"), crack, strict=True)
     )
+    # Without what the rounding of the moments adds.
+    return CrackMotion(horizontal, vertical, rotation, round(float(np.diff(time).max()), 9))
 
 
 def shaken(
@@ -271,7 +313,8 @@ def shaken(
     base = np.stack([horizontal, np.zeros_like(horizontal) if up is None else up])
     load = -(chain.participation @ base)
     root = 1j * math.sqrt(1.0 - chain.damping**2)
-    w, eigen = chain.omega, chain.omega * (root - chain.damping)
+    w = chain.omega
+    eigen = (w * (root - chain.damping)).astype(np.complex128)
     constants = _states(pieces, load, w, chain.damping, eigen)
     response = chain.shapes * eigen**2
     count = np.maximum(1, np.ceil(pieces / step * (1.0 - 1e-9))).astype(np.int64)

@@ -10,13 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.case import Case
-from heeltoe.crack_motion import Chain, CrackMotion, chain, crack_motion
+from heeltoe.crack_motion import Chain, CrackMotion, bonded_chain, chain, crack_motion, crack_motion_at, relative
 from heeltoe.errors import InputError
 from heeltoe.ground import ground
 from heeltoe.motion import GroundMotion
 from heeltoe.response import Response
 from heeltoe.rigid_model import rigid
-from heeltoe.section import cut
 from heeltoe.shaking import resolve
 from heeltoe.spectrum import response_spectrum
 
@@ -25,7 +24,7 @@ Floats = NDArray[np.float64]
 #: Damping ratio of the response spectra.
 SPECTRUM_DAMPING = 0.05
 # Periods of the spectra [s]; those of the dam come between them.
-_PERIODS = np.geomspace(0.02, 4.0, 120)
+_PERIODS = np.geomspace(0.02, 4.0, 160)
 _SHOWN = 5
 # Longest spacing of the histories [s], where it is not given: the dam vibrates faster than records are sampled.
 _OUTPUT_STEP = 0.005
@@ -78,9 +77,9 @@ def decoupled(
             raise InputError("motion-missing", "motion")
         motion, vertical = resolve(case.motion, case.gravity, case.base_directory)
     part = chain(case)
-    end, width = _end(case, motion), cut(case).crack_width
-    at_crack = crack_motion(part, motion, vertical, end, width=width)
-    rough = crack_motion(part, motion, vertical, end, width=width, step=2.0 * at_crack.step)
+    end = _end(case, motion)
+    at_crack, straightness = crack_motion(part, motion, vertical, end)
+    rough = crack_motion_at(part, motion, vertical, end, 2.0 * at_crack.step)
     if output_step is None:
         spacing = motion.dt if motion.is_uniform else _OUTPUT_STEP
         output_step = min(end, spacing / math.ceil(spacing / _OUTPUT_STEP * (1.0 - 1e-9)))
@@ -89,7 +88,12 @@ def decoupled(
     if not block.summary:
         return replace(block, model="decoupled", motion=motion, vertical=vertical)
     level = _crack_level(case, part, at_crack, motion, vertical)
-    level["convergence"] |= _change(block, coarser, rough.step)
+    level["convergence"] = {
+        "step_s": at_crack.step,
+        "straightness": straightness,
+        "half_the_modes": _of_half_the_modes(part, at_crack, motion, vertical, end),
+        **_change(block, coarser, rough.step),
+    }
     return replace(
         block,
         model="decoupled",
@@ -106,7 +110,7 @@ def crack_motions(
     case: Case, motion: GroundMotion, vertical: GroundMotion | None
 ) -> tuple[GroundMotion, GroundMotion | None]:
     """Return what shakes the block: the motion of the crack downstream and, where the block feels it, upward."""
-    found = crack_motion(chain(case), motion, vertical, _end(case, motion), width=cut(case).crack_width)
+    found, _ = crack_motion(chain(case), motion, vertical, _end(case, motion))
     return found.horizontal, found.vertical if _feels_vertical(case, vertical is not None) else None
 
 
@@ -142,6 +146,8 @@ def _crack_level(
         f"{name}_g": (response_spectrum(each, periods, SPECTRUM_DAMPING).pseudo_acceleration / g).tolist()
         for name, each in (("ground", motion), ("crack", found.horizontal))
     }
+    bonded = bonded_chain(case)
+    beside = crack_motion_at(bonded, motion, vertical, _end(case, motion), found.step)
     return {
         "peak_horizontal_g": found.horizontal.pga / g,
         "peak_vertical_g": found.vertical.pga / g,
@@ -157,13 +163,23 @@ def _crack_level(
             "periods_s": periods.tolist(),
             **spectra,
             "transfer": part.transfer(periods).tolist(),
+            "bonded_transfer": bonded.transfer(periods).tolist(),
         },
-        "convergence": {
-            "step_s": found.step,
-            "straightness": found.straightness,
-            "half_the_modes": found.half_the_modes,
+        "bonded": {
+            "periods_s": bonded.periods[:_SHOWN].tolist(),
+            "peak_horizontal_g": beside.horizontal.pga / g,
+            "amplification": beside.horizontal.pga / motion.pga if motion.pga else None,
         },
     }
+
+
+def _of_half_the_modes(
+    part: Chain, found: CrackMotion, motion: GroundMotion, vertical: GroundMotion | None, end: float
+) -> float:
+    """Return what the slower half of the modes misses of the horizontal motion, over its peak."""
+    less = crack_motion_at(part.slower_half(), motion, vertical, end, found.step).horizontal.acceleration
+    exact = found.horizontal.acceleration
+    return relative(less, exact, exact[None])
 
 
 def _change(block: Response, coarser: Response, step: float) -> dict[str, float]:

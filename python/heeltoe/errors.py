@@ -239,7 +239,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "vary-form": ("{value} varies nothing", "write PATH=VALUE,VALUE, for example crack.friction=0.8,1.0,1.2"),
     "vary-twice": ("{value} is varied twice", "give all its values at once"),
     "vary-many": ("{value} runs are too many for a table", "vary less: up to {most} runs"),
-    "vary-option": ("goes with one run, not with a table of runs", "leave out it or --vary"),
+    "vary-option": ("goes with one run, not with a table of runs", "leave it out, or --vary"),
     # analysis and command line
     "motion-missing": (
         "is required and not there",

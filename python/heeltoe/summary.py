@@ -270,6 +270,12 @@ def _crack_lines(response: Response) -> list[tuple[str, str]]:
     factor = "" if level["amplification"] is None else f", {level['amplification']:.3g} times the ground's"
     felt = level["felt"][0] if len(level["felt"]) == 1 else f"{', '.join(level['felt'][:-1])} and {level['felt'][-1]}"
     periods = " ".join(f"{period:.4f}" for period in level["periods_s"])
+    bonded = level["bonded"]
+    whole = f"peak {bonded['peak_horizontal_g']:.3g} g"
+    if bonded["amplification"] is not None:
+        whole += f", {bonded['amplification']:.3g} times the ground's"
+    if bonded["periods_s"]:
+        whole += f"; its first period is {bonded['periods_s'][0]:.4f} s"
     return [
         (
             "crack level",
@@ -278,9 +284,10 @@ def _crack_lines(response: Response) -> list[tuple[str, str]]:
         ),
         (
             "periods below",
-            f"{periods or 'none above 5 ms'} s, of the part below with the part above attached; {level['modes']} modes, "
-            f"{100.0 * level['damping_ratio']:.3g} % damping in each",
+            f"{periods or 'none above 0.005'} s, of the part below with the part above attached; "
+            f"{level['modes']} modes, {100.0 * level['damping_ratio']:.3g} % damping in each",
         ),
+        ("dam without a crack", f"{whole}, all of it elastic"),
         (
             "sampling",
             f"every {_step(found['step_s'])}; residual slip {_exact(response.residual_slip_m)}, with "
