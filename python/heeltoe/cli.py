@@ -239,7 +239,7 @@ def _run_model(case: Case, model: str, step: float | None) -> Response:
 
         return rigid(case, output_step=step)
     if model == "decoupled":
-        from heeltoe.decoupled import decoupled
+        from heeltoe.decoupled_model import decoupled
 
         return decoupled(case, output_step=step)
     from heeltoe.flexible_model import flexible

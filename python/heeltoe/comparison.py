@@ -9,7 +9,7 @@ from types import MappingProxyType
 from typing import Any, Literal
 
 from heeltoe.case import Case
-from heeltoe.decoupled import decoupled
+from heeltoe.decoupled_model import decoupled
 from heeltoe.errors import InputError
 from heeltoe.flexible_model import flexible
 from heeltoe.flexible_parts import build_flexible_dam

@@ -95,7 +95,7 @@ def with_spread(response: Response, case: Case, runs: int = RUNS, *, told: Told 
     if response.model == "rigid":
         found, good = _rigid(case, response.motion, response.vertical, end, scales, told)
     elif response.model == "decoupled":
-        from heeltoe.decoupled import crack_motions
+        from heeltoe.decoupled_model import crack_motions
 
         # The part below is linear: its motion grows as the ground's does.
         found, good = _rigid(case, *crack_motions(case, response.motion, response.vertical), end, scales, told)

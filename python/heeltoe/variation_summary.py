@@ -16,29 +16,30 @@ from heeltoe.variations import Grid
 from heeltoe.verdicts import comes_to_rest
 
 
-def _scaled(factor: float) -> Callable[[float], str]:
-    def write(value: float) -> str:
-        size = abs(factor * value)
-        return f"{factor * value:.{0 if size >= 1e3 else 1 if size >= 1.0 else 2}f}"
+def _mm(metres: float) -> str:
+    size = abs(1e3 * metres)
+    return f"{1e3 * metres:.{0 if size >= 1e3 else 1 if size >= 1.0 else 2}f}"
 
-    return write
+
+def _mrad(value: float) -> str:
+    return f"{1e3 * value:.3g}"
 
 
 # Heading, name in the rows, sign, how to write it.
 _Column = tuple[str, str, float, Callable[[Any], str]]
 _SLIP: tuple[_Column, ...] = (
-    ("residual", "residual_slip_m", 1.0, _scaled(1e3)),
-    ("peak\ndown", "peak_slip_downstream_m", 1.0, _scaled(1e3)),
-    ("peak\nup", "peak_slip_upstream_m", -1.0, _scaled(1e3)),
-    ("sliding", "slip_sliding_m", 1.0, _scaled(1e3)),
-    ("slide-\nrocking", "slip_slide_rocking_m", 1.0, _scaled(1e3)),
-    ("drifting", "slip_drifting_m", 1.0, _scaled(1e3)),
+    ("residual", "residual_slip_m", 1.0, _mm),
+    ("peak\ndown", "peak_slip_downstream_m", 1.0, _mm),
+    ("peak\nup", "peak_slip_upstream_m", -1.0, _mm),
+    ("sliding", "slip_sliding_m", 1.0, _mm),
+    ("slide-\nrocking", "slip_slide_rocking_m", 1.0, _mm),
+    ("drifting", "slip_drifting_m", 1.0, _mm),
 )
 _ROCKING: tuple[_Column, ...] = (
-    ("rotation\ndown", "rocking_downstream_rad", 1.0, _scaled(1e3)),
-    ("rotation\nup", "rocking_upstream_rad", 1.0, _scaled(1e3)),
-    ("opening\nupstream", "opening_upstream_m", 1.0, _scaled(1e3)),
-    ("opening\ndownstr.", "opening_downstream_m", 1.0, _scaled(1e3)),
+    ("rotation\ndown", "rocking_downstream_rad", 1.0, _mrad),
+    ("rotation\nup", "rocking_upstream_rad", 1.0, _mrad),
+    ("opening\nupstream", "opening_upstream_m", 1.0, _mm),
+    ("opening\ndownstr.", "opening_downstream_m", 1.0, _mm),
     ("impacts", "impacts", 1.0, str),
 )
 
