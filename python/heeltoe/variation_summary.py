@@ -60,11 +60,18 @@ def print_grid(grid: Grid, console: Console) -> None:
         console.print()
         console.print(table)
     console.print("slips and openings in mm, slip positive downstream; rotations in mrad", style="dim")
-    failed = [each for each in grid.responses if not each.ok]
-    for text in dict.fromkeys(f"{each.outcome}: {each.advice}" for each in failed):
+    for text in _remarks(grid):
         console.print(f"[yellow]warning[/yellow]  {escape(text)}")
-    for text in dict.fromkeys(text for each in grid.responses for text in each.warnings):
-        console.print(f"[yellow]warning[/yellow]  {escape(text)}")
+
+
+def _remarks(grid: Grid) -> list[str]:
+    """Return all warnings, once each; what belongs to some of the runs says to which."""
+    runs: dict[str, list[str]] = {}
+    for cell, response in zip(grid.cells, grid.responses, strict=True):
+        said = response.warnings if response.ok else (f"{response.outcome}: {response.advice}", *response.warnings)
+        for text in dict.fromkeys(said):
+            runs.setdefault(text, []).append(", ".join(cell))
+    return [text if len(which) == len(grid.cells) else f"{'; '.join(which)}: {text}" for text, which in runs.items()]
 
 
 def _table(grid: Grid, columns: tuple[_Column, ...]) -> Table:
