@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
 import os
 import subprocess
@@ -12,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
+from rich.console import Console
 
 from conftest import ROOT
 from heeltoe import GroundMotion, InputError, compare, decoupled, read_case, rigid, verdict, with_spread
@@ -19,6 +21,7 @@ from heeltoe.comparison import Comparison
 from heeltoe.decoupled_model import crack_motions
 from heeltoe.outputs import write_all
 from heeltoe.response import json_text
+from heeltoe.variation_summary import print_grid
 from heeltoe.variations import MOST, parse_variations, run_grid
 
 KOYNA = ROOT / "examples" / "koyna.toml"
@@ -288,6 +291,25 @@ def test_a_run_without_a_result_has_its_row():
     assert grid.ok
     assert (grid.model, grid.title) == ("rigid", "Koyna Dam cracked at 66.5 m")
     assert not run_grid(KOYNA, SHORT, parse_variations(["crack.friction=0.1"]), rigid).ok
+
+
+def test_a_narrow_terminal_cuts_no_number():
+    texts = ["crack.friction=0.1,1.0", "reservoir.depth=85 m,91.75 m", "uplift.pattern=none,triangular"]
+    grid = run_grid(KOYNA, SHORT, parse_variations(texts), rigid)
+    tables = []
+    for width in (60, 80, 160):
+        console = Console(file=io.StringIO(), width=width)
+        print_grid(grid, console)
+        text = console.file.getvalue()
+        assert "…" not in text
+        assert text.count("impacts") == 1
+        assert max(map(len, text.splitlines()[3:])) <= width
+        tables.append(sum(line.startswith("friction ") for line in text.splitlines()))
+        # What belongs to some runs says to which; what belongs to all is said once.
+        assert "0.1, 91.75 m, none: unstable" in " ".join(text.split())
+        assert text.count("baseline") == 1
+    # As many as it takes, and one where there is room.
+    assert tables[0] > tables[1] > tables[2] == 1
 
 
 @pytest.mark.parametrize(

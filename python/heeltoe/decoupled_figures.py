@@ -130,7 +130,7 @@ def slips_figure(grid: Grid) -> Figure:
         for cell, response in zip(grid.cells, grid.responses, strict=True):
             if cell[1:] != values:
                 continue
-            colour, dash = _LINES[first.values.index(cell[0]) % len(_LINES)]
+            colour, dash = _line(first.values.index(cell[0]))
             label = f"{cell[0]}: {length(response.residual_slip_m) if response.ok else response.outcome}"
             h = response.histories
             time, slip = (h["time_s"], 1e3 * h["slip_m"]) if h else ([], [])
@@ -143,6 +143,12 @@ def slips_figure(grid: Grid) -> Figure:
     for unused in axes[len(panels) :]:
         unused.set_visible(False)
     return figure
+
+
+def _line(number: int) -> tuple[str, str]:
+    """Return colour and dash of a line; with the colours used up, the same with other dashes."""
+    turn, place = divmod(number, len(_LINES))
+    return _LINES[place][0], _LINES[(place + turn) % len(_LINES)][1]
 
 
 def _write(draw: Callable[[Any], Figure], result: Response | Grid, path: Path) -> list[Path]:

@@ -138,7 +138,9 @@ def _crack_level(
 ) -> dict[str, Any]:
     g = case.gravity
     own = part.periods[:_SHOWN]
-    periods = np.unique(np.concatenate([_PERIODS, own[own >= _PERIODS[0]]]))
+    bonded = bonded_chain(case)
+    marked = np.concatenate([own, bonded.periods[:_SHOWN]])
+    periods = np.unique(np.concatenate([_PERIODS, marked[marked >= _PERIODS[0]]]))
     felt = ["horizontal"]
     felt += ["vertical"] if _feels_vertical(case, vertical is not None) else []
     felt += ["rotation"] if case.decoupled.rotation else []
@@ -146,7 +148,6 @@ def _crack_level(
         f"{name}_g": (response_spectrum(each, periods, SPECTRUM_DAMPING).pseudo_acceleration / g).tolist()
         for name, each in (("ground", motion), ("crack", found.horizontal))
     }
-    bonded = bonded_chain(case)
     beside = crack_motion_at(bonded, motion, vertical, _end(case, motion), found.step)
     return {
         "peak_horizontal_g": found.horizontal.pga / g,

@@ -22,7 +22,7 @@ def _mm(metres: float) -> str:
 
 
 def _mrad(value: float) -> str:
-    return f"{1e3 * value:.3g}"
+    return f"{1e3 * value:.3g}" if value >= 1e-5 else f"{1e3 * value:.2f}"
 
 
 # Heading, name in the rows, sign, how to write it.
@@ -52,16 +52,33 @@ def print_grid(grid: Grid, console: Console) -> None:
     runs = f"{first.motion.name}, peak {peak:.3g} g; {len(grid.cells)} runs"
     console.print(escape(runs), style="dim", soft_wrap=True)
     _print_crack_level(grid, console)
-    # One table where there is room for it, else one of the slips and one of the rocking below it.
-    tables = [_table(grid, _SLIP + _ROCKING)]
-    if Measurement.get(console, console.options.update(max_width=1000), tables[0]).maximum > console.width:
-        tables = [_table(grid, _SLIP), _table(grid, _ROCKING)]
-    for table in tables:
+    # One table where there is room for it, else one of the slips and one of the rocking, in parts if need be.
+    whole = _SLIP + _ROCKING
+    groups = (
+        [whole] if _fits(grid, whole, console) else [*_parts(grid, _SLIP, console), *_parts(grid, _ROCKING, console)]
+    )
+    for columns in groups:
         console.print()
-        console.print(table)
+        console.print(_table(grid, columns))
     console.print("slips and openings in mm, slip positive downstream; rotations in mrad", style="dim")
     for text in _remarks(grid):
         console.print(f"[yellow]warning[/yellow]  {escape(text)}")
+
+
+def _fits(grid: Grid, columns: tuple[_Column, ...], console: Console) -> bool:
+    wide = console.options.update(max_width=10_000)
+    return Measurement.get(console, wide, _table(grid, columns)).maximum <= console.width
+
+
+def _parts(grid: Grid, columns: tuple[_Column, ...], console: Console) -> list[tuple[_Column, ...]]:
+    """Divide columns so that no number has to be cut, as far as at least one fits beside the varied fields."""
+    parts: list[tuple[_Column, ...]] = [columns[:1]]
+    for column in columns[1:]:
+        if _fits(grid, (*parts[-1], column), console):
+            parts[-1] = (*parts[-1], column)
+        else:
+            parts.append((column,))
+    return parts
 
 
 def _remarks(grid: Grid) -> list[str]:

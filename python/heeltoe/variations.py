@@ -16,7 +16,7 @@ from heeltoe.errors import InputError
 from heeltoe.response import Response, build_info
 
 #: More runs than this are a study, not a table.
-MOST = 36
+MOST = 32
 
 Run = Callable[[Case], Response]
 
