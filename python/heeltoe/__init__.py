@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from heeltoe.block import Block, build_block
     from heeltoe.case import Case, read_case
     from heeltoe.comparison import Comparison, compare
+    from heeltoe.decoupled_model import decoupled
     from heeltoe.ensemble import rigid_many
     from heeltoe.errors import HeeltoeError, InputError
     from heeltoe.flexible_model import flexible
@@ -41,6 +42,7 @@ __all__ = [
     "build_flexible_dam",
     "compare",
     "dam_periods",
+    "decoupled",
     "en_1998",
     "flexible",
     "match",
@@ -71,6 +73,7 @@ _HOME = {
     "build_flexible_dam": "flexible_parts",
     "compare": "comparison",
     "dam_periods": "periods",
+    "decoupled": "decoupled_model",
     "en_1998": "targets",
     "flexible": "flexible_model",
     "FlexibleDam": "flexible_parts",

@@ -31,6 +31,9 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 
+# What --model takes; "both" is the rigid and the flexible one.
+_MODELS = ("rigid", "decoupled", "flexible", "both", "rigid,flexible", "decoupled,flexible")
+
 BAD_INPUT = 2
 NO_RESULT = 3
 
@@ -89,7 +92,9 @@ class _Run(TyperCommand):
 @app.command(cls=_Run)
 def run(
     case: CasePath,
-    model: Annotated[str, typer.Option(metavar="rigid|flexible|both", help="What the dam is taken for.")] = "rigid",
+    model: Annotated[
+        str, typer.Option(metavar="rigid|decoupled|flexible|both", help="What the dam is taken for.")
+    ] = "rigid",
     motion: Annotated[str | None, typer.Option(metavar="FILE-or-NAME", help="Another ground motion.")] = None,
     pga: Annotated[str | None, typer.Option(metavar="0.4g", help="Scale the motion to this peak.")] = None,
     reverse: Annotated[bool, typer.Option("--reverse", help="Turn the motion round.")] = False,
@@ -114,20 +119,28 @@ def run(
             metavar="0.001s", help="Spacing of the histories; without it the record's own, 0.01 s if flexible."
         ),
     ] = None,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(metavar="PATH=V1,V2,...", help="A table of runs: every combination of the values of some fields."),
+    ] = None,
     report: Annotated[bool, typer.Option("--report", help="Not there yet.")] = False,
 ) -> None:
     """Run a case and say what the dam does."""
     from heeltoe.case import read_case
     from heeltoe.quantities import parse
 
-    if model not in ("rigid", "flexible", "both"):
+    if model not in _MODELS:
         raise InputError("unknown-model", "--model", model)
     if report:
         raise InputError("not-yet", "--report", "the report", remedy="leave it out; --out DIR writes figures and JSON")
     if vtk and out is None:
         raise InputError("vtk-without-out", "--vtk")
-    if vtk and model == "rigid":
+    if vtk and model in ("rigid", "decoupled"):
         raise InputError("vtk-rigid", "--vtk")
+    if vary and (spread is not None or vtk):
+        raise InputError("vary-option", "--vtk" if vtk else "--spread")
+    if vary and model not in _MODELS[:3]:
+        raise InputError("vary-option", "--model", model)
     runs = None
     if spread is not None:
         from heeltoe.spread import RUNS, check_runs
@@ -139,11 +152,15 @@ def run(
     changes += [f"motion.{name}={value}" for name, value in options if value is not None]
     loaded = read_case(case, changes)
     if reverse and loaded.motion is not None:
-        loaded = read_case(case, [*changes, f"motion.reverse={'false' if loaded.motion.reverse else 'true'}"])
+        changes.append(f"motion.reverse={'false' if loaded.motion.reverse else 'true'}")
+        loaded = read_case(case, changes)
     step = None if output_step is None else parse(output_step, "duration", "--output-step")
     if out is not None:
         _check_directory(out)
     _check_json(json_)
+    if vary:
+        _vary(case, changes, vary, model, step, json_, out)
+        return
     with _status() as say:
         result = _analysis(loaded, model, step, runs, say)
         # Files first: if they cannot be written that is all there is to say.
@@ -159,26 +176,47 @@ def run(
         raise typer.Exit(NO_RESULT)
 
 
+def _vary(
+    case: str, changes: list[str], vary: list[str], model: str, step: float | None, json_: str | None, out: Path | None
+) -> None:
+    """Run a table of runs, show and write it."""
+    from heeltoe.variation_summary import print_grid
+    from heeltoe.variations import parse_variations, run_grid
+
+    variations = parse_variations(vary)
+    with _status() as say:
+
+        def run_one(each: Case) -> Response:
+            return _run_model(each, model, step)
+
+        def told(done: int, of: int) -> None:
+            say(f"running the {model} model, {done} of {of} runs done")
+
+        grid = run_grid(case, changes, variations, run_one, told=told)
+        written = []
+        if out is not None:
+            from heeltoe.outputs import write_all
+
+            say("writing")
+            written = write_all(grid, out)
+    _finish(grid.to_json(), json_, written, lambda console: print_grid(grid, console))
+    if not grid.ok:
+        raise typer.Exit(NO_RESULT)
+
+
 def _analysis(
     case: Case, model: str, step: float | None, runs: int | None, say: Callable[[str], None]
 ) -> Response | Comparison:
     """Run what is asked for; `say` is told what goes on."""
     result: Response | Comparison
-    if model == "rigid":
-        from heeltoe.rigid_model import rigid
-
-        say("running the rigid model")
-        result = rigid(case, output_step=step)
-    elif model == "flexible":
-        from heeltoe.flexible_model import flexible
-
-        say("running the flexible model")
-        result = flexible(case, output_step=step)
+    if model in _MODELS[:3]:
+        say(f"running the {model} model")
+        result = _run_model(case, model, step)
     else:
         from heeltoe.comparison import compare
 
         say("running both models")
-        result = compare(case, output_step=step)
+        result = compare(case, output_step=step, block="decoupled" if model.startswith("decoupled") else "rigid")
     if runs is None:
         return result
 
@@ -192,6 +230,21 @@ def _analysis(
         return with_spread(response, case, runs, told=told)
 
     return result.with_responses(vary) if isinstance(result, Comparison) else vary(result)
+
+
+def _run_model(case: Case, model: str, step: float | None) -> Response:
+    """Run one of the models; what another one needs is not loaded."""
+    if model == "rigid":
+        from heeltoe.rigid_model import rigid
+
+        return rigid(case, output_step=step)
+    if model == "decoupled":
+        from heeltoe.decoupled_model import decoupled
+
+        return decoupled(case, output_step=step)
+    from heeltoe.flexible_model import flexible
+
+    return flexible(case, output_step=step)
 
 
 def _print(result: Response | Comparison, console: Console) -> None:

@@ -1,4 +1,4 @@
-"""The rigid and the flexible model side by side on the same ground motion."""
+"""The rigid model, or the decoupled chain, and the flexible model side by side on the same ground motion."""
 
 from __future__ import annotations
 
@@ -6,9 +6,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from time import perf_counter
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Literal
 
 from heeltoe.case import Case
+from heeltoe.decoupled_model import decoupled
 from heeltoe.errors import InputError
 from heeltoe.flexible_model import flexible
 from heeltoe.flexible_parts import build_flexible_dam
@@ -37,12 +38,14 @@ _TABLE = "Zhu 2004, table 7.8: a dam of 20, 200, 2000 and 20000 GPa slides 218, 
 
 @dataclass(frozen=True, eq=False)
 class Comparison:
-    """Both models on one case.
+    """Two models on one case.
 
     Attributes
     ----------
-    rigid, flexible
-        Their responses, to the same ground motion.
+    rigid
+        Response of the rigid part above the crack: of the model ``"rigid"`` or ``"decoupled"``.
+    flexible
+        That of the flexible model, to the same ground motion.
     seconds
         How long each took to compute, by model [s]; building the elastic parts is part of it.
     """
@@ -76,6 +79,8 @@ class Comparison:
         block, dam = (abs(each.residual_slip_m) for each in (self.rigid, self.flexible))
         if max(block, dam) < _LITTLE:
             return "Both say that the dam slides by less than a millimetre."
+        if self.rigid.model == "decoupled":
+            return self._meaning_of_decoupling(block, dam)
         if block < _LITTLE:
             return (
                 "Only the flexible dam slides: its own vibration adds to the shaking, of which a rigid block knows "
@@ -96,12 +101,29 @@ class Comparison:
             )
         return "They agree: the dam is so stiff against this shaking that a rigid block says what it does."
 
+    def _meaning_of_decoupling(self, block: float, dam: float) -> str:
+        """Say the same where the block was shaken by the part below it."""
+        if self.rigid.residual_slip_m * self.flexible.residual_slip_m < 0.0:
+            text = "They slide opposite ways"
+        elif max(block, dam) <= _CLOSE * min(block, dam):
+            return "They agree: the part below shakes the top as if the top never slid on it."
+        elif dam < 0.01 * block:
+            text = "The flexible dam slides less than a hundredth of what the decoupled top does"
+        elif block < 0.01 * dam:
+            text = "The decoupled top slides less than a hundredth of what the flexible dam does"
+        else:
+            text = f"The flexible dam slides {dam / block:.2g} times as far as the decoupled top"
+        return (
+            f"{text}: in the decoupled chain the part below vibrates as if the top never slid or rocked, and the top "
+            "does not vibrate itself. Trust the flexible model."
+        )
+
     def to_json(self) -> dict[str, Any]:
         """Return both results and their ratio as plain numbers, strings and lists."""
         return {
             "model": "both",
             "title": self.title,
-            "rigid": self.rigid.to_json(),
+            self.rigid.model: self.rigid.to_json(),
             "flexible": self.flexible.to_json(),
             "ratio": self.ratio(),
             "meaning": self.meaning(),
@@ -125,14 +147,16 @@ def compare(
     vertical: GroundMotion | None = None,
     *,
     output_step: float | None = None,
+    block: Literal["rigid", "decoupled"] = "rigid",
 ) -> Comparison:
-    """Run both models on a case; the parameters and errors are those of :func:`heeltoe.flexible`."""
+    """Run two models on a case: the flexible one and `block`, which knows a rigid part above the crack. Parameters and
+    errors are those of :func:`heeltoe.flexible` and :func:`heeltoe.decoupled`."""
     if motion is None:
         if case.motion is None:
             raise InputError("motion-missing", "motion")
         motion, vertical = resolve(case.motion, case.gravity, case.base_directory)
     began = perf_counter()
-    block = rigid(case, motion, vertical, output_step=output_step)
+    stiff = (rigid if block == "rigid" else decoupled)(case, motion, vertical, output_step=output_step)
     between = perf_counter()
     dam = flexible(case, motion, vertical, output_step=output_step, dam=build_flexible_dam(case))
-    return Comparison(block, dam, {"rigid": between - began, "flexible": perf_counter() - between})
+    return Comparison(stiff, dam, {block: between - began, "flexible": perf_counter() - between})

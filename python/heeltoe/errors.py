@@ -231,6 +231,15 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         'add for example modulus = "20 GPa" under [concrete]',
     ),
     "modulus-range": ("{value} is no modulus of a solid", "give 1 MPa to 1e7 GPa"),
+    # decoupled chain, tables
+    "crack-at-base": (
+        "{value} is at the base: there is nothing below the crack to shake the part above it",
+        "use --model rigid or flexible, or give an elevation above the base",
+    ),
+    "vary-form": ("{value} varies nothing", "write PATH=VALUE,VALUE, for example crack.friction=0.8,1.0,1.2"),
+    "vary-twice": ("{value} is varied twice", "give all its values at once"),
+    "vary-many": ("{value} runs are too many for a table", "vary less: up to {most} runs"),
+    "vary-option": ("goes with one run, not with a table of runs", "leave it out, or --vary"),
     # analysis and command line
     "motion-missing": (
         "is required and not there",
@@ -239,11 +248,11 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "figure-format": ("{value} has no ending of a figure", "end it in .png, .svg or .pdf"),
     "output-step": ("{value} is not a step within the run", "give one above 0 s and up to {duration}"),
     "not-yet": ("{value} comes with a later release", "{remedy}"),
-    "unknown-model": ("{value} is no model", "use rigid, flexible or both"),
+    "unknown-model": ("{value} is no model", "use rigid, decoupled, flexible, both or decoupled,flexible"),
     "spread-runs": ("{value} is no number of runs", "give {fewest} to {most}, or none for {usual}"),
     "period-count": ("{value} periods are not to be had", "give 1 to {most}"),
     "vtk-without-out": ("has no place to go", "add --out DIR"),
-    "vtk-rigid": ("shows elastic parts, and the rigid model has none", "use --model flexible or both"),
+    "vtk-rigid": ("shows elastic parts, and a rigid block has none", "use --model flexible or both"),
     "pulse-kind": ("{value} is no pulse", "choose sine, half-sine or cosine"),
     "pulse-count": ("{value} is no number of pulses", "give 2 to {most}"),
     "pulse-unstable": (

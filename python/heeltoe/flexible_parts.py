@@ -103,7 +103,7 @@ def build_flexible_dam(case: Case) -> FlexibleDam:
         Where the case has no modulus, or a mesh cannot be made or used.
     """
     # The earthquake plays no part, and files may change under their name.
-    key = (case.model_dump_json(exclude={"motion", "title", "analysis"}), *_fingerprints(case))
+    key = (case.model_dump_json(exclude={"motion", "title", "analysis"}), *fingerprints(case))
     if key not in _BUILT:
         built = _build(case)
         while len(_BUILT) >= _KEPT:
@@ -112,7 +112,7 @@ def build_flexible_dam(case: Case) -> FlexibleDam:
     return _BUILT[key]
 
 
-def _fingerprints(case: Case) -> list[str]:
+def fingerprints(case: Case) -> list[str]:
     """Return what the mesh files contain, as a hash; a missing one is the reader's to complain about."""
     found = []
     for name in (case.flexible.mesh_above, case.flexible.mesh_below):

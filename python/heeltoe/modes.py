@@ -136,7 +136,7 @@ def intact_periods(dam: Dam, count: int = 5, *, water: bool = True) -> NDArray[n
     tie = dam.tie
     stiffness = tie.T @ side_by_side(dam, "stiffness") @ tie
     mass = tie.T @ side_by_side(dam, "mass" if water else "mass_concrete") @ tie
-    squares, _ = _lowest(stiffness, mass, min(count, tie.shape[1]), 0.0)
+    squares, _ = lowest(stiffness, mass, min(count, tie.shape[1]), 0.0)
     return 2.0 * math.pi / np.sqrt(squares)
 
 
@@ -196,7 +196,7 @@ def _truncated(
 
     count = rigid.shape[1]
     shift = _small_shift(stiffness, mass, rigid) if count else 0.0
-    squares, shapes = _with_rigid(*_lowest(stiffness, mass, keep + count, shift), mass, rigid)
+    squares, shapes = _with_rigid(*lowest(stiffness, mass, keep + count, shift), mass, rigid)
     static = _factor(stiffness + shift * mass)(forces)
     for _ in range(2):  # the second time takes away what rounding has left
         static -= _projected(static, shapes, mass)
@@ -239,10 +239,11 @@ def _factor(operator: Sparse) -> Any:
     return splu(operator.tocsc(), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}).solve
 
 
-def _lowest(
+def lowest(
     stiffness: Sparse, mass: Sparse, count: int, shift: float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the lowest squared frequencies, ascending, and their shapes; ``stiffness + shift mass`` is regular."""
+    """Return the lowest squared frequencies, ascending, and their shapes, orthonormal in the mass;
+    ``stiffness + shift mass`` must be regular."""
     import scipy.linalg
     from scipy.sparse.linalg import LinearOperator, eigsh
 

@@ -11,10 +11,11 @@ from heeltoe.crack_history import crack_table
 from heeltoe.errors import InputError
 from heeltoe.figures import write_comparison_figure, write_figures
 from heeltoe.response import Response, json_text, write_table
+from heeltoe.variations import Grid
 
 # Names of files that a run may leave; those of an earlier one into the same directory would not belong to this one.
-_TABLES = ("histories", "events", "crack")
-_FIGURES = ("response", "accelerations", "forces", "energy", "crack", "comparison")
+_TABLES = ("histories", "events", "crack", "table")
+_FIGURES = ("crack-level", "slips", "response", "accelerations", "forces", "energy", "crack", "comparison")
 _OWN = (
     "result.json",
     *(f"{name}{suffix}" for name in _TABLES for suffix in (".parquet", ".csv")),
@@ -24,14 +25,15 @@ _VTK = "vtk"
 
 
 def write_all(
-    result: Response | Comparison, directory: Path, *, suffix: str = ".parquet", vtk: bool = False
+    result: Response | Comparison | Grid, directory: Path, *, suffix: str = ".parquet", vtk: bool = False
 ) -> list[Path]:
     """Write a result with its histories and figures.
 
     Of one model ``result.json``, ``histories``, ``events`` (rigid) or ``crack`` (flexible) and the figures go right
     into the directory. Of both, ``result.json`` with both and the figure ``comparison`` do, and each model's own into
-    the directories ``rigid`` and ``flexible``. All is written aside first, so that a failure leaves nothing half-done;
-    files of these names from an earlier run are replaced or removed.
+    the directories named after the models. Of a table of runs ``result.json``, ``table`` and its figures. All is
+    written aside first, so that a failure leaves nothing half-done; files of these names from an earlier run are
+    replaced or removed.
 
     Parameters
     ----------
@@ -64,6 +66,8 @@ def write_all(
                 write_comparison_figure(result, fresh)
                 for each in (result.rigid, result.flexible):
                     _write_one(each, fresh / each.model, suffix, vtk)
+            elif isinstance(result, Grid):
+                _write_grid(result, fresh)
             else:
                 _write_one(result, fresh, suffix, vtk)
             return _move(fresh, directory)
@@ -84,6 +88,10 @@ def _write_one(response: Response, directory: Path, suffix: str, vtk: bool) -> N
     if response.event_log:
         response.write_events(directory / f"events{suffix}")
     write_figures(response, directory)
+    if response.model == "decoupled":
+        from heeltoe.decoupled_figures import write_crack_level_figure
+
+        write_crack_level_figure(response, directory)
     if response.crack is None:
         return
     write_table(crack_table(response.crack), directory / f"crack{suffix}")
@@ -91,6 +99,15 @@ def _write_one(response: Response, directory: Path, suffix: str, vtk: bool) -> N
         from heeltoe.vtk import write_vtk_series
 
         write_vtk_series(response.crack, directory / _VTK)
+
+
+def _write_grid(grid: Grid, directory: Path) -> None:
+    from heeltoe.decoupled_figures import write_grid_figures
+
+    (directory / "result.json").write_text(json_text(grid.to_json()) + "\n", encoding="utf-8")
+    for suffix in (".csv", ".parquet"):
+        write_table(grid.to_table(), directory / f"table{suffix}")
+    write_grid_figures(grid, directory)
 
 
 def _move(fresh: Path, directory: Path) -> list[Path]:

@@ -103,7 +103,7 @@ class Response:
     Attributes
     ----------
     model
-        ``"rigid"`` or ``"flexible"``.
+        ``"rigid"``, ``"decoupled"`` or ``"flexible"``.
     title
         Of the case.
     outcome, advice

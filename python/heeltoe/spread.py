@@ -69,7 +69,8 @@ def with_spread(response: Response, case: Case, runs: int = RUNS, *, told: Told 
     Parameters
     ----------
     response
-        Of :func:`heeltoe.rigid` or :func:`heeltoe.flexible`, which says the model and the motion.
+        Of :func:`heeltoe.rigid`, :func:`heeltoe.decoupled` or :func:`heeltoe.flexible`, which says the model and the
+        motion.
     case
         What it is the response of.
     runs
@@ -94,7 +95,12 @@ def with_spread(response: Response, case: Case, runs: int = RUNS, *, told: Told 
     end = case.motion.duration if case.motion and case.motion.duration else response.motion.duration
     step = None
     if response.model == "rigid":
-        found, good = _rigid(response, case, end, scales, told)
+        found, good = _rigid(case, response.motion, response.vertical, end, scales, told)
+    elif response.model == "decoupled":
+        from heeltoe.decoupled_model import crack_motions
+
+        # The part below is linear: its motion grows as the ground's does.
+        found, good = _rigid(case, *crack_motions(case, response.motion, response.vertical), end, scales, told)
     else:
         step = _step(response)
         found, good = _flexible(response, case, end, scales, step, told)
@@ -112,13 +118,13 @@ def with_spread(response: Response, case: Case, runs: int = RUNS, *, told: Told 
 
 
 def _rigid(
-    response: Response, case: Case, end: float, scales: Floats, told: Told | None
+    case: Case, shaking: GroundMotion, vertical: GroundMotion | None, end: float, scales: Floats, told: Told | None
 ) -> tuple[dict[str, Floats], NDArray[np.bool_]]:
     block = build_block(case)
     if varies(case):
         return _varying(response, case, block, end, scales, told)
     # Both directions up to the end of the run, which may be after that of the record.
-    time, horizontal, up = ground(response.motion, response.vertical, end)
+    time, horizontal, up = ground(shaking, vertical, end)
     motion = GroundMotion.from_points(time, horizontal)
     rows = rigid_many(
         [block] * scales.size,

@@ -57,7 +57,13 @@ def print_summary(response: Response, console: Console) -> None:
 
 def print_comparison(both: Comparison, console: Console) -> None:
     """Print the same of both models, side by side."""
-    _print_head(both.flexible, "rigid and flexible model", console)
+    _print_head(both.flexible, f"{both.rigid.model} and flexible model", console)
+    if both.rigid.model == "decoupled" and both.rigid.summary:
+        lines = _grid()
+        for label, text in _crack_lines(both.rigid):
+            lines.add_row(label, text)
+        console.print(lines)
+        console.print()
     console.print(_comparison_table(both))
     shared = [text for text in both.rigid.warnings if text in both.flexible.warnings]
     for each in (both.rigid, both.flexible):
@@ -135,6 +141,9 @@ def _print_head(response: Response, model: str, console: Console) -> None:
         grid.add_row(label, text)
     if response.model == "flexible":
         for label, text in _elastic_lines(response):
+            grid.add_row(label, text)
+    if response.model == "decoupled" and response.summary:
+        for label, text in _crack_lines(response):
             grid.add_row(label, text)
     console.print(grid)
     console.print()
@@ -244,7 +253,7 @@ def _static_lines(response: Response) -> list[tuple[str, str]]:
         )
     )
     critical = static["critical_acceleration_g"]
-    of = " (rigid block)" if response.model == "flexible" else ""
+    of = {"flexible": " (rigid block)", "decoupled": ", of the crack's own motion"}.get(response.model, "")
     for kind in ("sliding", "rocking"):
         down, up = critical[f"{kind}_downstream"], critical[f"{kind}_upstream"]
         lines.append((f"{kind} starts at", f"{down:.4f} g downstream, {up:.4f} g upstream{of}"))
@@ -281,6 +290,39 @@ def _elastic_lines(response: Response) -> list[tuple[str, str]]:
     if response.energy is not None:
         lines.append(("energy", _energy_line(response)))
     return lines
+
+
+def _crack_lines(response: Response) -> list[tuple[str, str]]:
+    """Return how the crack moves that shakes the part above it."""
+    level = response.crack_level
+    found = level["convergence"]
+    factor = "" if level["amplification"] is None else f", {level['amplification']:.3g} times the ground's"
+    felt = level["felt"][0] if len(level["felt"]) == 1 else f"{', '.join(level['felt'][:-1])} and {level['felt'][-1]}"
+    periods = " ".join(f"{period:.4f}" for period in level["periods_s"])
+    bonded = level["bonded"]
+    whole = f"peak {bonded['peak_horizontal_g']:.3g} g"
+    if bonded["amplification"] is not None:
+        whole += f", {bonded['amplification']:.3g} times the ground's"
+    if bonded["periods_s"]:
+        whole += f"; its first period is {bonded['periods_s'][0]:.4f} s"
+    return [
+        (
+            "crack level",
+            f"peak {level['peak_horizontal_g']:.3g} g{factor}; {level['peak_vertical_g']:.3g} g upward and "
+            f"{level['peak_rotation_rad_s2']:.3g} rad/s2 beside it; the block feels the {felt} motion",
+        ),
+        (
+            "periods below",
+            f"{periods or 'none above 0.005'} s, of the part below with the part above attached; "
+            f"{level['modes']} modes, {100.0 * level['damping_ratio']:.3g} % damping in each",
+        ),
+        ("dam without a crack", f"{whole}, all of it elastic"),
+        (
+            "sampling",
+            f"every {_step(found['step_s'])}; residual slip {_exact(response.residual_slip_m)}, with "
+            f"{_step(found['coarser_step_s'])} {_exact(found['coarser_residual_slip_m'])}",
+        ),
+    ]
 
 
 def _mesh_line(elements: Any, nodes: Any) -> str:
@@ -424,7 +466,8 @@ def _spread_table(response: Response) -> Table:
 def _comparison_table(both: Comparison) -> Table:
     table = _table()
     table.add_column("")
-    for name in ("rigid block", "flexible dam", "flexible/rigid"):
+    first = both.rigid.model
+    for name in ("rigid block" if first == "rigid" else "decoupled top", "flexible dam", f"flexible/{first}"):
         table.add_column(name, justify="right")
     models = (both.rigid, both.flexible)
     ratio = both.ratio()
