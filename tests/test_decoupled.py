@@ -103,7 +103,7 @@ def test_on_a_stiff_dam_it_is_the_rigid_model():
 
 def test_what_drives_the_block_is_the_motion_of_the_crack(koyna):
     case = read_case(KOYNA, SHORT)
-    horizontal, vertical = crack_motions(case, koyna.motion, None)
+    horizontal, vertical, _ = crack_motions(case, koyna.motion, None)
     assert vertical is None
     assert "at the crack" in horizontal.name
     assert "through the part of the dam below the crack" in horizontal.processing[-1]
@@ -141,10 +141,25 @@ def test_output_step_changes_no_number(koyna):
     assert coarse.residual_slip_m == koyna.residual_slip_m
 
 
+def test_a_block_that_feels_the_rotation_of_its_crack(koyna):
+    turned = decoupled(read_case(KOYNA, [*SHORT, "decoupled.rotation=true"]))
+    assert turned.crack_level["felt"] == ["horizontal", "rotation"]
+    felt = turned.histories["ground_rotation_rad_s2"]
+    assert np.abs(felt).max() == pytest.approx(turned.crack_level["peak_rotation_rad_s2"], rel=0.05)
+    assert turned.residual_slip_m != koyna.residual_slip_m
+    # A stiff dam turns as little as its foundation.
+    stiff, level = (
+        decoupled(read_case(KOYNA, [*STIFF, f"decoupled.rotation={felt}"])).residual_slip_m
+        for felt in ("true", "false")
+    )
+    assert stiff == pytest.approx(level, rel=1e-3)
+    varied = with_spread(turned, read_case(KOYNA, [*SHORT, "decoupled.rotation=true"]), 3)
+    assert varied.spread["residual_slips_m"][1] == pytest.approx(turned.residual_slip_m, rel=1e-6)
+
+
 def test_refusals():
     for changes, code in (
         (["crack.elevation=0 m"], "crack-at-base"),
-        (["decoupled.rotation=true"], "not-yet"),
         (["concrete.modulus=1 Pa"], "modulus-range"),
     ):
         with pytest.raises(InputError) as refused:

@@ -108,10 +108,14 @@ def decoupled(
 
 def crack_motions(
     case: Case, motion: GroundMotion, vertical: GroundMotion | None
-) -> tuple[GroundMotion, GroundMotion | None]:
-    """Return what shakes the block: the motion of the crack downstream and, where the block feels it, upward."""
+) -> tuple[GroundMotion, GroundMotion | None, GroundMotion | None]:
+    """Return what shakes the block: the crack's motion downstream and, where the block feels it, upward and rotation."""
     found, _ = crack_motion(chain(case), motion, vertical, _end(case, motion))
-    return found.horizontal, found.vertical if _feels_vertical(case, vertical is not None) else None
+    return (
+        found.horizontal,
+        found.vertical if _feels_vertical(case, vertical is not None) else None,
+        found.rotation if case.decoupled.rotation else None,
+    )
 
 
 def _end(case: Case, motion: GroundMotion) -> float:
@@ -125,12 +129,9 @@ def _feels_vertical(case: Case, shaken_upward: bool) -> bool:
 
 def _driven(case: Case, found: CrackMotion, shaken_upward: bool, output_step: float) -> Response:
     """Shake the block by the motion of the crack."""
-    if case.decoupled.rotation:
-        raise InputError(
-            "not-yet", "decoupled.rotation", "a block that feels the rotation of its crack", remedy="leave it out"
-        )
     vertical = found.vertical if _feels_vertical(case, shaken_upward) else None
-    return rigid(case, found.horizontal, vertical, output_step=output_step)
+    rotation = found.rotation if case.decoupled.rotation else None
+    return rigid(case, found.horizontal, vertical, rotation, output_step=output_step)
 
 
 def _crack_level(

@@ -95,12 +95,12 @@ def with_spread(response: Response, case: Case, runs: int = RUNS, *, told: Told 
     end = case.motion.duration if case.motion and case.motion.duration else response.motion.duration
     step = None
     if response.model == "rigid":
-        found, good = _rigid(case, response.motion, response.vertical, end, scales, told)
+        found, good = _rigid(case, (response.motion, response.vertical, None), end, scales, told)
     elif response.model == "decoupled":
         from heeltoe.decoupled_model import crack_motions
 
         # The part below is linear: its motion grows as the ground's does.
-        found, good = _rigid(case, *crack_motions(case, response.motion, response.vertical), end, scales, told)
+        found, good = _rigid(case, crack_motions(case, response.motion, response.vertical), end, scales, told)
     else:
         step = _step(response)
         found, good = _flexible(response, case, end, scales, step, told)
@@ -117,14 +117,17 @@ def with_spread(response: Response, case: Case, runs: int = RUNS, *, told: Told 
     return replace(response, spread=spread, warnings=(*response.warnings, *_warnings(spread)))
 
 
+_Motions = tuple[GroundMotion, GroundMotion | None, GroundMotion | None]
+
+
 def _rigid(
-    case: Case, shaking: GroundMotion, vertical: GroundMotion | None, end: float, scales: Floats, told: Told | None
+    case: Case, motions: _Motions, end: float, scales: Floats, told: Told | None
 ) -> tuple[dict[str, Floats], NDArray[np.bool_]]:
     block = build_block(case)
-    if varies(case):
-        return _varying(response, case, block, end, scales, told)
+    if varies(case) or motions[2] is not None:
+        return _varying(case, block, motions, end, scales, told)
     # Both directions up to the end of the run, which may be after that of the record.
-    time, horizontal, up = ground(shaking, vertical, end)
+    time, horizontal, up = ground(motions[0], motions[1], end)
     motion = GroundMotion.from_points(time, horizontal)
     rows = rigid_many(
         [block] * scales.size,
@@ -139,9 +142,9 @@ def _rigid(
 
 
 def _varying(
-    response: Response, case: Case, block: Block, end: float, scales: Floats, told: Told | None
+    case: Case, block: Block, motions: _Motions, end: float, scales: Floats, told: Told | None
 ) -> tuple[dict[str, Floats], NDArray[np.bool_]]:
-    shaking = GroundSeries.of(response.motion, response.vertical, None, end)
+    shaking = GroundSeries.of(*motions, end)
     rows = []
     for done, scale in enumerate(scales):
         if told is not None:
