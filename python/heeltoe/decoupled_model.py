@@ -109,7 +109,7 @@ def decoupled(
 def crack_motions(
     case: Case, motion: GroundMotion, vertical: GroundMotion | None
 ) -> tuple[GroundMotion, GroundMotion | None, GroundMotion | None]:
-    """Return what shakes the block: the crack's motion downstream and, where the block feels it, upward and rotation."""
+    """Return what shakes the block: the crack's motion downstream and, where it is felt, upward and rotation."""
     found, _ = crack_motion(chain(case), motion, vertical, _end(case, motion))
     return (
         found.horizontal,
