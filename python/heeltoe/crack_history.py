@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from heeltoe import _kernel
 from heeltoe.elastic import stresses
-from heeltoe.flexible_parts import FlexibleDam
+from heeltoe.flexible_parts import FlexibleDam, along_and_across
 
 Floats = NDArray[np.float64]
 
@@ -95,7 +95,7 @@ class CrackHistory:
     def forces(self) -> Floats:
         """Return `force` with the first frame, which has no time before it, filled from the static state."""
         found = self.force.copy()
-        found[0] = self.dam.crack_force.reshape(-1, 2).T
+        found[0] = along_and_across(self.dam.crack_force.reshape(-1, 2), self.dam.section).T
         return found
 
     def node_status(self) -> tuple[NDArray[np.int8], ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from hashlib import sha256
 
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from heeltoe import _kernel
 from heeltoe.case_model import Case
-from heeltoe.elastic import Body, Dam, bonded_state, dam, dofs
+from heeltoe.elastic import Body, Dam, bonded_state, dam
 from heeltoe.mesh import dam_mesh
 from heeltoe.modes import Modes, intact_periods, part_periods, rayleigh, reduce, residual_error
 from heeltoe.section import CutSection, cut
@@ -178,18 +179,36 @@ def _damping(
 
 def _part(body: Body, modes: Modes, static: Floats, damping: tuple[Floats, Floats], section: CutSection) -> Part:
     crack = body.mesh.crack
-    order = np.concatenate([dofs(crack)[::2], dofs(crack)[1::2]])
     horizontal = np.zeros(static.size)
     horizontal[::2] = 1.0
-    place = (body.mesh.nodes[crack] - section.heel).T.reshape(-1)
+    place = along_and_across(body.mesh.nodes[crack] - section.heel, section).T.reshape(-1)
+    moved = along_and_across(static.reshape(-1, 2)[crack], section).T.reshape(-1)
+    shapes = along_and_across(modes.shapes.T.reshape(modes.omega_squared.size, -1, 2)[:, crack], section)
+    pushed = body.mass @ (1.0 - horizontal) - body.load_per_vertical
     return Part(
         omega_squared=np.ascontiguousarray(modes.omega_squared),
         damping_sticking=np.ascontiguousarray(damping[0]),
         damping_free=np.ascontiguousarray(damping[1]),
         load=modes.shapes.T @ body.load,
         participation_horizontal=modes.shapes.T @ (body.mass @ horizontal),
-        participation_vertical=modes.shapes.T @ (body.mass @ (1.0 - horizontal)),
+        participation_vertical=modes.shapes.T @ pushed,
         start=modes.shapes.T @ (body.mass @ static),
-        shapes=np.ascontiguousarray(modes.shapes[order].T),
-        position=place + static[order],
+        shapes=np.ascontiguousarray(shapes.swapaxes(1, 2).reshape(modes.omega_squared.size, -1)),
+        position=place + moved,
     )
+
+
+def along_and_across(vectors: Floats, section: CutSection) -> Floats:
+    """Return the components along and across the crack of vectors (..., 2) in x and z."""
+    return vectors if section.inclination == 0.0 else vectors @ _crack_axes(section).T
+
+
+def in_x_and_z(vectors: Floats, section: CutSection) -> Floats:
+    """Return x and z of vectors (..., 2) along and across the crack."""
+    return vectors if section.inclination == 0.0 else vectors @ _crack_axes(section)
+
+
+def _crack_axes(section: CutSection) -> Floats:
+    """Return the unit vectors along and across the crack, row by row."""
+    down, up = math.cos(section.inclination), math.sin(section.inclination)
+    return np.array([[down, up], [-up, down]])
