@@ -190,6 +190,14 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "has a layer of {value} at z = {level}, too thin for elements",
         "remove a corner that is so close to another, or move the crack to the base",
     ),
+    "mesh-wedge": (
+        "makes rows of elements {value} thin and {width} wide",
+        "incline the crack less, or give meshes of your own in flexible.mesh_above and flexible.mesh_below",
+    ),
+    "mesh-nothing": (
+        "leaves nothing of the part {side} the crack at its {end}",
+        "move the crack or incline it less; of a dam on a sloping foundation, draw the section with that slope as base",
+    ),
     "mesh-tip": ("{value} element across cannot fill a pointed crest", "give at least 2"),
     "mesh-none-below": ("{value} has no place: the crack is at the base", "remove it"),
     "mesh-missing": ("there is no such file", "give the path of a mesh"),
