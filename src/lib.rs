@@ -100,9 +100,9 @@ fn motion<'a>(
 }
 
 fn parameters(values: &[f64]) -> PyResult<[f64; FIELD_COUNT]> {
-    values
-        .try_into()
-        .map_err(|_| PyValueError::new_err(format!("a block has {FIELD_COUNT} numbers, not {}", values.len())))
+    values.try_into().map_err(|_| {
+        PyValueError::new_err(format!("a block has {FIELD_COUNT} numbers, not {}", values.len()))
+    })
 }
 
 fn options(settle: f64, event_limit: u64, jam: bool) -> Options {
