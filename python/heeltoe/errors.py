@@ -58,6 +58,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "{value} is too long to follow the vibration of the part above the crack",
         "give at most {longest}, or leave it out",
     ),
+    "step-stiff": (
+        "is so stiff that a time step would have to be below {step}",
+        "give a wider uplift.opening or a softer anchor, or a flexible.time_step of that size",
+    ),
     "crack-outside": ("{value} is outside the section", "give an elevation from 0 m to below {height}"),
     "crack-pieces": (
         "the line at {value} meets the section in several pieces",

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from heeltoe import _kernel
 from heeltoe.case_model import Case
+from heeltoe.crack_forces import CrackAnchor, CrackWater, crack_anchors, crack_water
 from heeltoe.elastic import Body, Dam, bonded_state, dam
 from heeltoe.mesh import dam_mesh
 from heeltoe.modes import Modes, intact_periods, part_periods, rayleigh, reduce, residual_error
@@ -71,6 +72,8 @@ class FlexibleDam:
         Rayleigh coefficients of mass [1/s] and stiffness [s]; None with `modal` damping.
     basis_error
         Largest error of the crack's flexibility by the modes left out, over the range of those kept; 0 where none is.
+    water, anchors
+        What acts in the crack beside contact: water whose pressure changes, anchors with stiffness.
     """
 
     section: CutSection
@@ -83,6 +86,8 @@ class FlexibleDam:
     periods: Floats
     coefficients: tuple[float, float] | None
     basis_error: float
+    water: CrackWater | None
+    anchors: tuple[CrackAnchor, ...]
 
     @property
     def bodies(self) -> tuple[Body, ...]:
@@ -137,7 +142,9 @@ def _build(case: Case) -> FlexibleDam:
         damping = _damping(case, basis, coefficients, above=place == 0)
         parts.append(_part(body, basis, static, damping, section))
     friction = (case.crack.mu_static, case.crack.mu_kinetic)
-    kernel = _kernel.CrackedDam(parts[0], parts[1] if len(parts) > 1 else None, friction, case.flexible.contactors)
+    water, anchors = crack_water(case, section, held), crack_anchors(case, section, held)
+    lower_part = parts[1] if len(parts) > 1 else None
+    kernel = _kernel.CrackedDam(parts[0], lower_part, friction, case.flexible.contactors, water, anchors)
     statics = (upper, lower)[: len(parts)]
     errors = [residual_error(body, basis) for body, basis in zip(held, modes, strict=True) if basis.truncated]
     return FlexibleDam(
@@ -151,6 +158,8 @@ def _build(case: Case) -> FlexibleDam:
         periods=periods,
         coefficients=coefficients,
         basis_error=max(errors, default=0.0),
+        water=water,
+        anchors=anchors,
     )
 
 
