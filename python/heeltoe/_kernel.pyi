@@ -192,9 +192,10 @@ class CrackedDam:
         Returns
         -------
         summary, frames, upper, lower, force, status, modes of the upper and the lower part
-            ``CRACK_SUMMARY_FIELDS`` and the largest tension [N] of each anchor; then tables with one row for each frame: ``FRAME_FIELDS``, positions of the
-            crack nodes of either face (all along the crack, then all across it) [m], mean forces on those of the
-            upper face since the frame before [N], statuses of the watched nodes, amplitudes.
+            ``CRACK_SUMMARY_FIELDS`` and the largest tension [N] of each anchor; then tables with one row for each
+            frame: ``FRAME_FIELDS``, positions of the crack nodes of either face (all along the crack, then all across
+            it) [m], mean forces on those of the upper face since the frame before [N], statuses of the watched nodes,
+            amplitudes.
         """
 
     def run_many(

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from heeltoe.case_errors import shown
 from heeltoe.case_model import Case
+from heeltoe.crack_axes import along_and_across
 from heeltoe.dam_loads import crack_point, full_head_profile, uplift_forces
 from heeltoe.elastic import Body
 from heeltoe.errors import InputError
@@ -78,8 +79,8 @@ def crack_water(case: Case, section: CutSection, bodies: list[Body]) -> CrackWat
         found = []
         for place, body in enumerate(bodies):
             forces = uplift_forces(body.mesh, case, section, above=place == 0, profile=profile)
-            x, z = forces.reshape(-1, 2)[body.mesh.crack].T
-            found.append(np.array([section.in_crack_frame(*pair)[1] for pair in zip(x, z, strict=True)]))
+            turned = along_and_across(forces.reshape(-1, 2)[body.mesh.crack], section)
+            found.append(np.ascontiguousarray(turned[:, 1]))
         return tuple(found)
 
     return CrackWater(case.uplift.during_shaking, case.uplift.opening_of_change, across(None), across(full))
@@ -98,9 +99,7 @@ def crack_anchors(case: Case, section: CutSection, bodies: list[Body]) -> tuple[
             nodes, shares = crack_point(body.mesh, section, anchor.distance)
             points.append(tuple(zip(nodes.tolist(), shares.tolist(), strict=True)))
         axis = (math.sin(anchor.inclination), math.cos(anchor.inclination))
-        found.append(
-            CrackAnchor(tuple(points), axis, anchor.prestress, anchor.axial_stiffness, anchor.shear_stiffness)
-        )
+        found.append(CrackAnchor(tuple(points), axis, anchor.prestress, anchor.axial_stiffness, anchor.shear_stiffness))
     return tuple(found)
 
 

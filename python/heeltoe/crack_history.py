@@ -11,8 +11,9 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from heeltoe import _kernel
+from heeltoe.crack_axes import along_and_across
 from heeltoe.elastic import stresses
-from heeltoe.flexible_parts import FlexibleDam, along_and_across
+from heeltoe.flexible_parts import FlexibleDam
 
 Floats = NDArray[np.float64]
 

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from scipy.sparse import coo_array
 
 from heeltoe.case_model import Case
+from heeltoe.crack_axes import places
 from heeltoe.loads import uplift_profile
 from heeltoe.mesh import BodyMesh
 from heeltoe.section import CutSection
@@ -83,7 +84,7 @@ def uplift_forces(
     side = -1.0 if above else 1.0
     for edge in _edges(mesh.crack):
         corners = mesh.nodes[edge]
-        along = _along(corners, section)
+        along = places(corners, section)[:, 0]
         for (x0, p0), (x1, p1) in pairwise(points):
             if x1 <= x0:
                 continue
@@ -104,7 +105,7 @@ def full_head_profile(case: Case, section: CutSection) -> Floats:
 def crack_point(mesh: BodyMesh, section: CutSection, distance: float) -> tuple[NDArray[np.int64], Floats]:
     """Return the three nodes of the crack edge at a distance from the heel, counted along the crack from 0, and their
     shares in the motion of that point."""
-    along = _along(mesh.nodes[mesh.crack], section)
+    along = places(mesh.nodes[mesh.crack], section)[:, 0]
     edge = 2 * int(np.clip(np.searchsorted(along[2:-1:2], distance), 0, (len(along) - 3) // 2))
     s = np.clip(_place(along[edge : edge + 3], np.array([distance]), -1.0, 1.0), -1.0, 1.0)
     return edge + np.arange(3), edge_shapes(s)[0]
@@ -114,10 +115,10 @@ def anchor_forces(mesh: BodyMesh, case: Case, section: CutSection, *, above: boo
     """Return the prestress of all anchors on the crack face of a body, shape (2 n,) [N/m]: towards the other one."""
     forces = np.zeros(mesh.nodes.size)
     for anchor in case.anchors:
-        places, shares = crack_point(mesh, section, anchor.distance)
+        found, shares = crack_point(mesh, section, anchor.distance)
         down, up = section.from_crack_frame(-math.sin(anchor.inclination), -math.cos(anchor.inclination))
         pull = anchor.prestress if above else -anchor.prestress
-        nodes = mesh.crack[places]
+        nodes = mesh.crack[found]
         forces[2 * nodes] += pull * down * shares
         forces[2 * nodes + 1] += pull * up * shares
     return forces
@@ -162,9 +163,7 @@ def _moving(heights: NDArray[np.float64], start: float, end: float, surface: flo
     return matrix
 
 
-def _fluid(
-    mesh: BodyMesh, surface: float, gravity: float, densities: tuple[float, float], *, upstream: bool
-) -> Floats:
+def _fluid(mesh: BodyMesh, surface: float, gravity: float, densities: tuple[float, float], *, upstream: bool) -> Floats:
     """Return the forces on a face of a fluid with one density sideways and one in its weight, below a surface."""
     forces = np.zeros(mesh.nodes.size)
     sideways, downwards = (gravity * density for density in densities)
@@ -177,13 +176,6 @@ def _fluid(
             depth = surface - edge_shapes(s) @ corners[:, 1]
             _press(forces, edge, corners, s, side * (sideways * depth) * weights, side * (downwards * depth) * weights)
     return forces
-
-
-def _along(points: Floats, section: CutSection) -> Floats:
-    """Return the distances of points from the heel, counted along the crack."""
-    x, z = (points - section.heel).T
-    down, up = section.in_crack_frame(1.0, 0.0)[0], section.in_crack_frame(0.0, 1.0)[0]
-    return down * x + up * z if up else x
 
 
 def _edges(path: NDArray[np.int64]) -> Iterator[NDArray[np.int64]]:

@@ -68,12 +68,12 @@ REFERENCES = {
     ),
     "water": RIGID_REFERENCES["water"],
     "zero while open": (
-        "U.S. Bureau of Reclamation, Design of Gravity Dams, 1976, chapter III (uplift in a crack that opens in an "
-        "earthquake is taken as zero)"
+        "U.S. Bureau of Reclamation, Design of Small Dams, 3rd edition, 1987 (no uplift in a crack that an earthquake "
+        "opens)"
     ),
     "full while open": (
-        "International Commission on Large Dams and others take the reservoir's full pressure in an open crack as the "
-        "bound on the safe side"
+        "International Commission on Large Dams, Bulletin 52, Earthquake analysis procedures for dams, 1986 (the "
+        "reservoir's head in cracks at once)"
     ),
     "follows opening": (
         'F. Javanmardi, P. Léger, R. Tinawi, "Seismic structural stability of concrete gravity dams considering '

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from hashlib import sha256
 
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 
 from heeltoe import _kernel
 from heeltoe.case_model import Case
+from heeltoe.crack_axes import along_and_across, places
 from heeltoe.crack_forces import CrackAnchor, CrackWater, crack_anchors, crack_water
 from heeltoe.elastic import Body, Dam, bonded_state, dam
 from heeltoe.mesh import dam_mesh
@@ -190,7 +190,7 @@ def _part(body: Body, modes: Modes, static: Floats, damping: tuple[Floats, Float
     crack = body.mesh.crack
     horizontal = np.zeros(static.size)
     horizontal[::2] = 1.0
-    place = along_and_across(body.mesh.nodes[crack] - section.heel, section).T.reshape(-1)
+    place = places(body.mesh.nodes[crack], section).T.reshape(-1)
     moved = along_and_across(static.reshape(-1, 2)[crack], section).T.reshape(-1)
     shapes = along_and_across(modes.shapes.T.reshape(modes.omega_squared.size, -1, 2)[:, crack], section)
     pushed = body.mass @ (1.0 - horizontal) - body.load_per_vertical
@@ -205,19 +205,3 @@ def _part(body: Body, modes: Modes, static: Floats, damping: tuple[Floats, Float
         shapes=np.ascontiguousarray(shapes.swapaxes(1, 2).reshape(modes.omega_squared.size, -1)),
         position=place + moved,
     )
-
-
-def along_and_across(vectors: Floats, section: CutSection) -> Floats:
-    """Return the components along and across the crack of vectors (..., 2) in x and z."""
-    return vectors if section.inclination == 0.0 else vectors @ _crack_axes(section).T
-
-
-def in_x_and_z(vectors: Floats, section: CutSection) -> Floats:
-    """Return x and z of vectors (..., 2) along and across the crack."""
-    return vectors if section.inclination == 0.0 else vectors @ _crack_axes(section)
-
-
-def _crack_axes(section: CutSection) -> Floats:
-    """Return the unit vectors along and across the crack, row by row."""
-    down, up = math.cos(section.inclination), math.sin(section.inclination)
-    return np.array([[down, up], [-up, down]])

@@ -13,6 +13,8 @@ import shapely
 from numpy.typing import NDArray
 
 from heeltoe.case_model import Case
+from heeltoe.crack_axes import in_x_and_z
+from heeltoe.crack_axes import places as locate
 from heeltoe.errors import InputError
 from heeltoe.mesh_checks import boundary_edges
 from heeltoe.mesh_rows import meshed_rows
@@ -119,11 +121,6 @@ def _check_ends(section: CutSection, *, grounded: bool) -> None:
             raise InputError("mesh-nothing", "crack.inclination", side="above", end=end)
 
 
-def _local(nodes: NDArray[np.float64], section: CutSection) -> NDArray[np.float64]:
-    """Return places along the crack from the heel and across it."""
-    return np.column_stack(section.in_crack_frame(*(nodes - section.heel).T))
-
-
 def _from_file(path: Path, section: CutSection, area: float, *, above: bool) -> BodyMesh:
     # Needs an optional package and is seldom used.
     from heeltoe.mesh_file import read_quadrilaterals
@@ -131,7 +128,7 @@ def _from_file(path: Path, section: CutSection, area: float, *, above: bool) -> 
     nodes, elements = read_quadrilaterals(path)
     name = str(path)
     # The crack line in the middle of the lower or upper side, as far as one can tell where a mesh is.
-    places = _local(nodes, section)
+    places = locate(nodes, section)
     (left, bottom), (right, top) = places.min(axis=0), places.max(axis=0)
     edge = bottom if above else top
     if right <= 0.0 or left >= section.crack_width or abs(edge) > max(top - bottom, section.crack_width):
@@ -142,7 +139,7 @@ def _from_file(path: Path, section: CutSection, area: float, *, above: bool) -> 
     # Exactly on the line, so that the two faces of the crack touch.
     along = places[mesh.crack, 0]
     along[[0, -1]] = 0.0, section.crack_width
-    nodes[mesh.crack] = np.column_stack(section.from_crack_frame(along, np.zeros(len(along)))) + section.heel
+    nodes[mesh.crack] = in_x_and_z(np.column_stack([along, np.zeros(len(along))]), section) + section.heel
     nodes[mesh.crack[[0, -1]]] = section.heel, section.toe
     edges = boundary_edges(elements)
     # Green's theorem with Simpson's rule, exact on edges of three nodes.
@@ -172,7 +169,7 @@ def _body(
 ) -> BodyMesh:
     """Find crack, faces and base on the boundary of a mesh."""
     slack = _ON_LINE * np.ptp(nodes, axis=0).max()
-    places = _local(nodes, section)
+    places = locate(nodes, section)
     edges = boundary_edges(elements)
     t, n = places[edges, 0], places[edges, 1]
     on_crack = np.all((np.abs(n) <= slack) & (t >= -slack) & (t <= section.crack_width + slack), axis=1)

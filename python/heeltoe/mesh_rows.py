@@ -1,16 +1,15 @@
 """Rows of quadrilaterals between the upstream and the downstream face of a part of the dam.
 
 Every line of nodes runs straight from face to face, every kink of a face is on such a line, and the rows grow and
-shrink with the width of the dam. Above and below an inclined crack the lines turn evenly, from the crack's direction to
-level, as they join points of the two faces at the same part of their heights. A pointed crest ends in three fields of quadrilaterals that meet inside the tip, so
-that the mesh has the very area of the section: blunting the tip would need many thin rows and still change weight
-and water pressure."""
+shrink with the width of the dam. Above and below an inclined crack the lines turn evenly, from the crack's direction
+to level, as they join points of the two faces at the same part of their heights. A pointed crest ends in three fields
+of quadrilaterals that meet inside the tip, so that the mesh has the very area of the section: blunting the tip would
+need many thin rows and still change weight and water pressure."""
 
 from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -65,12 +64,12 @@ def meshed_rows(
         run, rise = np.diff(face, axis=0).T
         if np.any(rise <= 0.0) or np.any(np.abs(run) > _FLATTEST * rise):
             raise InputError("mesh-section", "section")
-    upright = left, right
+    faces = left, right
     sloping = left[0, 1] != right[0, 1] or left[-1, 1] != right[-1, 1]
+    span = (left[[0, -1], 1] + right[[0, -1], 1]) / 2.0
     if sloping:
         # Rows are laid out between faces that are stretched to the same heights, and put back.
-        span = (left[[0, -1], 1] + right[[0, -1], 1]) / 2.0
-        left, right = (np.column_stack([face[:, 0], _stretched(face[:, 1], face[[0, -1], 1], span)]) for face in upright)
+        left, right = (_stretched(face, face[[0, -1], 1], span) for face in faces)
     keys = _key_lines(left, right, across)
     start, end = keys[-1]
     pointed = end[0] - start[0] <= 1e-9 * (end[1] - keys[0][0][1])
@@ -81,24 +80,25 @@ def meshed_rows(
         keys[-1] = ((keys[-2][0] + left[-1]) / 2.0, (keys[-2][1] + left[-1]) / 2.0)
     lines = _graded(keys, across, across * (_ROWS - _ROWS_OF_TIP if pointed else _ROWS))
     if sloping:
-        lines = [
-            tuple(
-                np.array([point[0], _stretched(point[1], span, face[[0, -1], 1])])
-                for point, face in zip(line, upright, strict=True)
-            )
-            for line in lines
+        ends = (face[[0, -1], 1] for face in faces)
+        back = [
+            _stretched(np.array(points), span, given)
+            for points, given in zip(zip(*lines, strict=True), ends, strict=True)
         ]
+        lines = list(zip(*back, strict=True))
         _check_wedges(lines, across)
     fields = [_field(lines, across)]
     if pointed:
-        fields += _tip(*lines[-1], upright[0][-1], across)
+        fields += _tip(*lines[-1], faces[0][-1], across)
     return _joined(fields)
 
 
-def _stretched(heights: Any, given: NDArray[np.float64], wanted: NDArray[np.float64]) -> Any:
-    """Return heights moved as the two ends of their range are, which come out to the last bit."""
-    part = (heights - given[0]) / (given[1] - given[0])
-    return wanted[0] * (1.0 - part) + wanted[1] * part
+def _stretched(
+    points: NDArray[np.float64], given: NDArray[np.float64], wanted: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return points with their heights moved as the two ends of their range are, which come out to the last bit."""
+    part = (points[:, 1] - given[0]) / (given[1] - given[0])
+    return np.column_stack([points[:, 0], wanted[0] * (1.0 - part) + wanted[1] * part])
 
 
 def _check_wedges(lines: list[Line], across: int) -> None:

@@ -15,10 +15,10 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
+from heeltoe.crack_axes import in_x_and_z, places
 from heeltoe.crack_history import CrackHistory
 from heeltoe.elastic import principal, stresses
 from heeltoe.errors import InputError
-from heeltoe.flexible_parts import along_and_across, in_x_and_z
 
 Floats = NDArray[np.float64]
 
@@ -126,7 +126,7 @@ class _Crack:
         drawn = [body.mesh.nodes[body.mesh.crack] for body in record.dam.bodies]
         self.points = _spatial(np.vstack(drawn))
         self.section = record.dam.section
-        self.start = [along_and_across(nodes - self.section.heel, self.section).T for nodes in drawn]
+        self.start = [places(nodes, self.section).T for nodes in drawn]
         counts = [len(nodes) for nodes in drawn]
         first = np.cumsum([0, *counts])
         nodes = np.arange(first[-1])
