@@ -195,7 +195,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "remove a corner that is so close to another, or move the crack to the base",
     ),
     "mesh-wedge": (
-        "makes rows of elements {value} thin and {width} wide",
+        "leaves rows of elements that run together to a wedge, or fold over",
         "incline the crack less, or give meshes of your own in flexible.mesh_above and flexible.mesh_below",
     ),
     "mesh-nothing": (

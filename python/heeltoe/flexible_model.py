@@ -160,7 +160,8 @@ def flexible(
     raw, frames, convergence = _converged(shaken, output_step or min(_FRAME_STEP, end))
     outcome = _kernel.CRACK_OUTCOMES[int(raw["outcome"])]
     safety = build_block(case).sliding_safety_factor
-    if outcome == "ok" and safety is not None and safety < 1.0:
+    # Anchors with stiffness hold what friction does not.
+    if outcome == "ok" and safety is not None and safety < 1.0 and not dam.anchors:
         outcome = "unstable"
     record = _history(frames, dam, case.flexible.contactors)
     block = build_block(case)
@@ -441,7 +442,12 @@ def _warnings(
             f"{convergence.coarser_step:.3g} s, {1e3 * convergence.slip:.4g} mm with half of it (allowed "
             f"{100.0 * convergence.allowed:g} %); read it with its spread"
         )
-    if safety is not None and safety < 1.0:
+    if safety is not None and safety < 1.0 and dam.anchors:
+        said.append(
+            f"friction and prestress alone do not hold the dam before the earthquake (sliding safety factor {safety:.3f}): "
+            "it begins by sliding until its anchors hold it"
+        )
+    elif safety is not None and safety < 1.0:
         said.append(
             f"the dam slides under its static loads alone (sliding safety factor {safety:.3f}): its slip grows as long "
             "as the run lasts"

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.errors import InputError
+from heeltoe.mesh_checks import check_elements
 
 Line = tuple[NDArray[np.float64], NDArray[np.float64]]
 
@@ -86,11 +87,13 @@ def meshed_rows(
             for points, given in zip(zip(*lines, strict=True), ends, strict=True)
         ]
         lines = list(zip(*back, strict=True))
-        _check_wedges(lines, across)
     fields = [_field(lines, across)]
     if pointed:
         fields += _tip(*lines[-1], faces[0][-1], across)
-    return _joined(fields)
+    nodes, elements = _joined(fields)
+    if sloping:
+        _check_turned(lines, nodes, elements, across)
+    return nodes, elements
 
 
 def _stretched(
@@ -101,13 +104,18 @@ def _stretched(
     return np.column_stack([points[:, 0], wanted[0] * (1.0 - part) + wanted[1] * part])
 
 
-def _check_wedges(lines: list[Line], across: int) -> None:
+def _check_turned(lines: list[Line], nodes: NDArray[np.float64], elements: NDArray[np.int64], across: int) -> None:
+    """Refuse rows that turn so much that nothing is left of their elements."""
     ends = np.array(lines)
-    rows = np.diff(ends[:, :, 1], axis=0)
-    width = (ends[:, 1, 0] - ends[:, 0, 0]).max() / across
-    thinnest = float(rows.min())
-    if thinnest < _WEDGE * width:
-        raise InputError("mesh-wedge", "crack.inclination", f"{thinnest:.3g} m", width=f"{width:.3g} m")
+    thinnest = np.diff(ends[:, :, 1], axis=0).min()
+    widest = (ends[:, 1, 0] - ends[:, 0, 0]).max() / across
+    try:
+        check_elements(nodes, elements, "section")
+        folded = False
+    except InputError:
+        folded = True
+    if folded or thinnest < _WEDGE * widest:
+        raise InputError("mesh-wedge", "crack.inclination")
 
 
 def _key_lines(left: NDArray[np.float64], right: NDArray[np.float64], across: int) -> list[Line]:
