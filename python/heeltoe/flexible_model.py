@@ -444,8 +444,8 @@ def _warnings(
         )
     if safety is not None and safety < 1.0 and dam.anchors:
         said.append(
-            f"friction and prestress alone do not hold the dam before the earthquake (sliding safety factor {safety:.3f}): "
-            "it begins by sliding until its anchors hold it"
+            "friction and prestress alone do not hold the dam before the earthquake (sliding safety factor "
+            f"{safety:.3f}): it begins by sliding until its anchors hold it"
         )
     elif safety is not None and safety < 1.0:
         said.append(
