@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use crate::crack::body::{Body, Modes, LANES};
 use crate::crack::dam::{Dam, Options};
 use crate::crack::idce::{self, Idce};
+use crate::crack::inside::{Anchor, Inside, Law, Water};
 use crate::crack::result::{Frames, Summary};
 use crate::crack::step;
 
@@ -66,6 +67,74 @@ impl Part<'_> {
     }
 }
 
+/// Water in the crack as Python gives it, in the order of `Water`.
+#[derive(FromPyObject)]
+pub struct CrackWater<'py> {
+    law: String,
+    opening: f64,
+    still: Vec<Numbers<'py>>,
+    full: Vec<Numbers<'py>>,
+}
+
+impl CrackWater<'_> {
+    /// Take the forces of the nodes of each face; a face that is not there has none.
+    fn water(&self, counts: [usize; 2]) -> PyResult<Water> {
+        let law = Law::named(&self.law).ok_or_else(|| PyValueError::new_err("no such law of the water"))?;
+        let forces = |given: &[Numbers]| -> PyResult<[Vec<f64>; 2]> {
+            let mut found = [Vec::new(), Vec::new()];
+            for (face, numbers) in found.iter_mut().zip(given) {
+                face.extend_from_slice(numbers.as_slice()?);
+            }
+            if [found[0].len(), found[1].len()] != counts {
+                return Err(PyValueError::new_err(
+                    "the water needs a force for each crack node",
+                ));
+            }
+            Ok(found)
+        };
+        Ok(Water {
+            law,
+            opening: self.opening,
+            still: forces(&self.still)?,
+            full: forces(&self.full)?,
+        })
+    }
+}
+
+/// An anchor as Python gives it, in the order of `Anchor`.
+#[derive(FromPyObject)]
+pub struct CrackAnchor {
+    points: Vec<[(usize, f64); 3]>,
+    axis: [f64; 2],
+    prestress: f64,
+    axial_stiffness: f64,
+    shear_stiffness: f64,
+}
+
+impl CrackAnchor {
+    fn anchor(&self, counts: [usize; 2]) -> PyResult<Anchor> {
+        let mut points = [[(0, 0.0); 3]; 2];
+        points
+            .iter_mut()
+            .zip(&self.points)
+            .for_each(|(mine, given)| *mine = *given);
+        let outside = points
+            .iter()
+            .zip(counts)
+            .any(|(point, count)| point.iter().any(|(node, _)| *node >= count.max(1)));
+        if outside {
+            return Err(PyValueError::new_err("an anchor needs nodes that are there"));
+        }
+        Ok(Anchor {
+            points,
+            axis: self.axis,
+            prestress: self.prestress,
+            axial: self.axial_stiffness,
+            shear: self.shear_stiffness,
+        })
+    }
+}
+
 /// See `_kernel.pyi`.
 #[pyclass(frozen)]
 pub struct CrackedDam {
@@ -84,6 +153,16 @@ type Run<'py> = (
 );
 
 impl CrackedDam {
+    /// Refuse what the penalty method does not know.
+    fn check(&self, penalty: Option<[f64; 3]>) -> PyResult<()> {
+        if penalty.is_some() && !self.dam.inside.is_empty() {
+            return Err(PyValueError::new_err(
+                "the penalty method knows contact alone in the crack",
+            ));
+        }
+        Ok(())
+    }
+
     /// Run one scheme or the other.
     fn simulate(
         &self,
@@ -105,14 +184,32 @@ impl CrackedDam {
 #[pymethods]
 impl CrackedDam {
     #[new]
-    fn new(upper: Part, lower: Option<Part>, friction: [f64; 2], contactors: u8) -> PyResult<Self> {
+    #[pyo3(signature = (upper, lower, friction, contactors, water=None, anchors=Vec::new()))]
+    fn new(
+        upper: Part,
+        lower: Option<Part>,
+        friction: [f64; 2],
+        contactors: u8,
+        water: Option<CrackWater>,
+        anchors: Vec<CrackAnchor>,
+    ) -> PyResult<Self> {
+        let upper = upper.body()?;
         let lower = lower.map(|part| part.body()).transpose()?;
+        let counts = [upper.nodes, lower.as_ref().map_or(0, |body| body.nodes)];
+        let inside = Inside {
+            water: water.map(|water| water.water(counts)).transpose()?,
+            anchors: anchors
+                .iter()
+                .map(|anchor| anchor.anchor(counts))
+                .collect::<PyResult<_>>()?,
+        };
         Ok(CrackedDam {
             dam: Dam {
-                upper: upper.body()?,
+                upper,
                 lower,
                 friction,
                 contactors,
+                inside,
             },
         })
     }
@@ -131,6 +228,7 @@ impl CrackedDam {
         scale: [f64; 2],
         penalty: Option<[f64; 3]>,
     ) -> PyResult<Run<'py>> {
+        self.check(penalty)?;
         let options = Options {
             dt,
             theta,
@@ -146,7 +244,7 @@ impl CrackedDam {
         let table = |values: Vec<f64>| -> PyResult<Bound<'py, PyArray2<f64>>> { shaped(py, values, count) };
         let rows = frames.rows.as_flattened().to_vec();
         Ok((
-            Array1::from(summary.row().to_vec()).into_pyarray(py),
+            Array1::from(summary.row()).into_pyarray(py),
             table(rows)?,
             table(frames.upper)?,
             table(frames.lower)?,
@@ -173,6 +271,7 @@ impl CrackedDam {
         threads: usize,
         penalty: Option<[f64; 3]>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        self.check(penalty)?;
         let ground = pairs(ground.as_slice()?)?;
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)

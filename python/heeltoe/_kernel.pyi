@@ -153,6 +153,32 @@ class CrackPart(Protocol):
     @property
     def position(self) -> Floats: ...
 
+class CrackWater(Protocol):
+    """Water in the crack; see :class:`heeltoe.crack_forces.CrackWater`."""
+
+    @property
+    def law(self) -> str: ...
+    @property
+    def opening(self) -> float: ...
+    @property
+    def still(self) -> Sequence[Floats]: ...
+    @property
+    def full(self) -> Sequence[Floats]: ...
+
+class CrackAnchor(Protocol):
+    """An anchor; see :class:`heeltoe.crack_forces.CrackAnchor`."""
+
+    @property
+    def points(self) -> Sequence[Sequence[tuple[int, float]]]: ...
+    @property
+    def axis(self) -> tuple[float, float]: ...
+    @property
+    def prestress(self) -> float: ...
+    @property
+    def axial_stiffness(self) -> float: ...
+    @property
+    def shear_stiffness(self) -> float: ...
+
 class CrackedDam:
     """Two elastic parts with a frictional crack between them; immutable, so that many runs may share one.
 
@@ -164,10 +190,20 @@ class CrackedDam:
         Coefficients at rest and sliding.
     contactors
         Which nodes are watched, 1 to 5.
+    water
+        Where its pressure follows the opening.
+    anchors
+        Those with stiffness. Neither goes with the penalty method.
     """
 
     def __init__(
-        self, upper: CrackPart, lower: CrackPart | None, friction: tuple[float, float], contactors: int
+        self,
+        upper: CrackPart,
+        lower: CrackPart | None,
+        friction: tuple[float, float],
+        contactors: int,
+        water: CrackWater | None = None,
+        anchors: Sequence[CrackAnchor] = (),
     ) -> None: ...
     def run(
         self,
@@ -202,9 +238,10 @@ class CrackedDam:
         Returns
         -------
         summary, frames, upper, lower, force, status, modes of the upper and the lower part
-            ``CRACK_SUMMARY_FIELDS``; then tables with one row for each frame: ``FRAME_FIELDS``, positions of the
-            crack nodes of either face (all along the crack, then all across it) [m], mean forces on those of the
-            upper face since the frame before [N], statuses of the watched nodes, amplitudes.
+            ``CRACK_SUMMARY_FIELDS`` and the largest tension [N] of each anchor; then tables with one row for each
+            frame: ``FRAME_FIELDS``, positions of the crack nodes of either face (all along the crack, then all across
+            it) [m], mean forces on those of the upper face since the frame before [N], statuses of the watched nodes,
+            amplitudes.
         """
 
     def run_many(
@@ -216,4 +253,4 @@ class CrackedDam:
         threads: int,
         penalty: tuple[float, float, float] | None = None,
     ) -> Floats:
-        """Shake it once for each pair of factors, on `threads` cores (0 for all); (n, len(CRACK_SUMMARY_FIELDS))."""
+        """Shake it once for each pair of factors, on `threads` cores (0 for all); rows of summaries."""

@@ -11,6 +11,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from heeltoe import _kernel
+from heeltoe.crack_axes import along_and_across
 from heeltoe.elastic import stresses
 from heeltoe.flexible_parts import FlexibleDam
 
@@ -95,7 +96,7 @@ class CrackHistory:
     def forces(self) -> Floats:
         """Return `force` with the first frame, which has no time before it, filled from the static state."""
         found = self.force.copy()
-        found[0] = self.dam.crack_force.reshape(-1, 2).T
+        found[0] = along_and_across(self.dam.crack_force.reshape(-1, 2), self.dam.section).T
         return found
 
     def node_status(self) -> tuple[NDArray[np.int8], ...]:

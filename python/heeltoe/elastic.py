@@ -14,7 +14,15 @@ import scipy.sparse as sparse
 from numpy.typing import NDArray
 
 from heeltoe.case_model import Case
-from heeltoe.dam_loads import edge_shapes, uplift_forces, virtual_masses, water_forces
+from heeltoe.dam_loads import (
+    anchor_forces,
+    edge_shapes,
+    ice_forces,
+    silt_forces,
+    uplift_forces,
+    virtual_masses,
+    water_forces,
+)
 from heeltoe.errors import InputError
 from heeltoe.mesh import BodyMesh, DamMesh
 from heeltoe.mesh_checks import CORNERS, MIDDLES, jacobians, shape_gradients
@@ -44,7 +52,10 @@ class Body:
     load
         Sum of the static loads, shape (2 n,) [N per m], x downstream and z up.
     loads
-        The static loads by name: weight, reservoir, tailwater, uplift.
+        The static loads by name: weight, reservoir, tailwater, uplift; ice, silt and anchors (their prestress) where
+        there are any.
+    load_per_vertical
+        Loads per unit of upward ground acceleration beside inertia, of water that follows it, shape (2 n,) [kg per m].
     elasticity
         Stresses (xx, zz, xz) of the strains (xx, zz, 2 xz), shape (3, 3) [Pa].
     """
@@ -55,6 +66,7 @@ class Body:
     mass_concrete: Sparse
     load: NDArray[np.float64]
     loads: dict[str, NDArray[np.float64]]
+    load_per_vertical: NDArray[np.float64]
     elasticity: NDArray[np.float64]
 
 
@@ -193,9 +205,19 @@ def _body(case: Case, section: CutSection, mesh: BodyMesh, *, above: bool) -> Bo
         "tailwater": water_forces(mesh, case, section, upstream=False),
         "uplift": uplift_forces(mesh, case, section, above=above),
     }
+    if case.ice:
+        loads["ice"] = ice_forces(mesh, case, section, above=above)
+    if case.silt:
+        loads["silt"] = silt_forces(mesh, case, section)
+    if case.anchors:
+        loads["anchors"] = anchor_forces(mesh, case, section, above=above)
+    following = np.zeros(mesh.nodes.size)
+    for name, side in (("reservoir", case.reservoir), ("tailwater", case.tailwater)):
+        if side is not None and side.follows_vertical_motion:
+            following += loads[name] / case.gravity
     water = virtual_masses(mesh, case, section, above=above)
     load = np.sum(list(loads.values()), axis=0)
-    return Body(mesh, stiffness, (concrete + water).tocsc(), concrete, load, loads, elasticity)
+    return Body(mesh, stiffness, (concrete + water).tocsc(), concrete, load, loads, following, elasticity)
 
 
 def _elasticity(case: Case) -> NDArray[np.float64]:
@@ -281,6 +303,7 @@ def _tie(mesh: DamMesh) -> Sparse:
 
 def _led(upper: BodyMesh, lower: BodyMesh) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Return for each crack node of the upper part three nodes of the lower face and their shares in it, flat."""
+    # Along a straight crack that is not upright, x tells the places as well as the distance does.
     x, face = upper.nodes[upper.crack, 0], lower.nodes[lower.crack, 0]
     edge = 2 * np.searchsorted(face[2:-1:2], x)
     start, middle, end = face[edge], face[edge + 1], face[edge + 2]

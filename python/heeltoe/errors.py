@@ -58,6 +58,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "{value} is too long to follow the vibration of the part above the crack",
         "give at most {longest}, or leave it out",
     ),
+    "step-stiff": (
+        "is so stiff that a time step would have to be below {step}",
+        "give a wider uplift.opening or a softer anchor, or a flexible.time_step of that size",
+    ),
     "crack-outside": ("{value} is outside the section", "give an elevation from 0 m to below {height}"),
     "crack-pieces": (
         "the line at {value} meets the section in several pieces",
@@ -189,6 +193,14 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "mesh-thin": (
         "has a layer of {value} at z = {level}, too thin for elements",
         "remove a corner that is so close to another, or move the crack to the base",
+    ),
+    "mesh-wedge": (
+        "leaves rows of elements that run together to a wedge, or fold over",
+        "incline the crack less, or give meshes of your own in flexible.mesh_above and flexible.mesh_below",
+    ),
+    "mesh-nothing": (
+        "leaves nothing of the part {side} the crack at its {end}",
+        "move the crack or incline it less; of a dam on a sloping foundation, draw the section with that slope as base",
     ),
     "mesh-tip": ("{value} element across cannot fill a pointed crest", "give at least 2"),
     "mesh-none-below": ("{value} has no place: the crack is at the base", "remove it"),

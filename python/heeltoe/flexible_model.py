@@ -12,14 +12,15 @@ from numpy.typing import NDArray
 from heeltoe import _kernel
 from heeltoe.block import build_block
 from heeltoe.case import Case, case_warnings
+from heeltoe.crack_forces import longest_step
 from heeltoe.crack_history import CrackHistory
 from heeltoe.errors import InputError
 from heeltoe.flexible_parts import FlexibleDam, build_flexible_dam
+from heeltoe.flexible_references import REFERENCES
 from heeltoe.ground import ground, step_ends, step_means
 from heeltoe.modes import part_periods
 from heeltoe.motion import GroundMotion
 from heeltoe.response import Energy, Response, check_limits
-from heeltoe.rigid_model import REFERENCES as RIGID_REFERENCES
 from heeltoe.rigid_model import static_state
 from heeltoe.shaking import resolve
 
@@ -28,6 +29,8 @@ Floats = NDArray[np.float64]
 #: A blow lasts about as long as the part above the crack takes for one vibration; the step is this part of it.
 _STEPS_PER_PERIOD = 100.0
 _SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
+#: What acts in the crack may ask for a shorter one, down to this.
+_SHORTEST_OF_ALL = 1e-5
 #: A given step must follow that vibration at least so closely.
 _FEWEST_STEPS = 8.0
 #: Frames kept: enough for an animation, few enough for memory.
@@ -48,22 +51,6 @@ ADVICE = {
     "blown up": (
         'energy came from nothing, as penalties can make it; use flexible.contact = "coulomb" or a smaller time_step'
     ),
-}
-
-REFERENCES = {
-    "model": RIGID_REFERENCES["model"].replace("chapters IV and V", "chapters VI and VII"),
-    "coulomb": (
-        'J. J. Moreau, "Unilateral contact and dry friction in finite freedom dynamics", in Nonsmooth Mechanics and '
-        "Applications, CISM 302, Springer, 1988, 1-82; M. Jean, "
-        '"The non-smooth contact dynamics method", Computer Methods in Applied Mechanics and Engineering 177 (1999), '
-        "235-257"
-    ),
-    "idce": (
-        'X. Zhu, "Seismic Behavior of Cracked Concrete Gravity Dams", PhD thesis, 2004, chapter VI (incremental '
-        'displacement constraint equations); N. M. Newmark, "A method of computation for structural dynamics", '
-        "Journal of the Engineering Mechanics Division, ASCE 85 (1959), 67-94"
-    ),
-    "water": RIGID_REFERENCES["water"],
 }
 
 
@@ -145,12 +132,15 @@ def flexible(
     raw, frames, convergence = _converged(shaken, output_step or min(_FRAME_STEP, end))
     outcome = _kernel.CRACK_OUTCOMES[int(raw["outcome"])]
     safety = build_block(case).sliding_safety_factor
-    if outcome == "ok" and safety is not None and safety < 1.0:
+    # Anchors with stiffness hold what friction does not.
+    if outcome == "ok" and safety is not None and safety < 1.0 and not dam.anchors:
         outcome = "unstable"
     record = _history(frames, dam, case.flexible.contactors)
     block = build_block(case)
     advice = ADVICE.get(outcome)
     summary = _summary(raw, dam, shaken, convergence)
+    if case.anchors:
+        summary["anchors"] = _anchors(case, raw)
     return Response(
         model="flexible",
         title=case.title,
@@ -196,12 +186,17 @@ class Shaken:
         Raises
         ------
         InputError
-            Where the step of the case is too long to follow it.
+            Where the step of the case is too long to follow it, or what acts in the crack is too stiff for any step.
         """
         period = float(part_periods(self.dam.modes[0], 1)[0])
         given = self.case.flexible.time_step
+        wanted = given or float(np.clip(period / _STEPS_PER_PERIOD, _SHORTEST_STEP, _LONGEST_STEP))
+        dam = self.dam
+        step, field = longest_step(dam.parts, dam.water, dam.anchors, self.case.flexible.theta, wanted)
+        if step < (wanted if given else _SHORTEST_OF_ALL):
+            raise InputError("step-stiff", field, step=f"{step:.2g} s")
         if given is None:
-            return float(np.clip(period / _STEPS_PER_PERIOD, _SHORTEST_STEP, _LONGEST_STEP))
+            return step
         if given > period / _FEWEST_STEPS:
             raise InputError(
                 "time-step-long", "flexible.time_step", f"{given:g} s", longest=f"{period / _FEWEST_STEPS:.2g} s"
@@ -268,7 +263,22 @@ def _converged(shaken: Shaken, frame_step: float) -> tuple[dict[str, float], _Fr
 
 
 def _named(row: Floats) -> dict[str, float]:
-    return dict(zip(_kernel.CRACK_SUMMARY_FIELDS, row.tolist(), strict=True))
+    """Return the summary by name; the tensions of anchors with stiffness are counted from 0."""
+    names = [*_kernel.CRACK_SUMMARY_FIELDS, *(f"tension_{k}" for k in range(len(row)))]
+    return dict(zip(names, row.tolist(), strict=False))
+
+
+def _anchors(case: Case, raw: dict[str, float]) -> list[dict[str, float | None]]:
+    """Return the largest tension [N] of each anchor, and what it is good for."""
+    stiff = 0
+    found: list[dict[str, float | None]] = []
+    for anchor in case.anchors:
+        tension = anchor.prestress
+        if anchor.axial_stiffness or anchor.shear_stiffness:
+            tension = raw[f"tension_{stiff}"]
+            stiff += 1
+        found.append({"peak_tension_n": tension, "capacity_n": anchor.capacity})
+    return found
 
 
 def _history(frames: _Frames, dam: FlexibleDam, contactors: int) -> CrackHistory:
@@ -404,7 +414,12 @@ def _warnings(
             f"{convergence.coarser_step:.3g} s, {1e3 * convergence.slip:.4g} mm with half of it (allowed "
             f"{100.0 * convergence.allowed:g} %); read it with its spread"
         )
-    if safety is not None and safety < 1.0:
+    if safety is not None and safety < 1.0 and dam.anchors:
+        said.append(
+            "friction and prestress alone do not hold the dam before the earthquake (sliding safety factor "
+            f"{safety:.3f}): it begins by sliding until its anchors hold it"
+        )
+    elif safety is not None and safety < 1.0:
         said.append(
             f"the dam slides under its static loads alone (sliding safety factor {safety:.3f}): its slip grows as long "
             "as the run lasts"
@@ -430,6 +445,18 @@ def _warnings(
             "the dam still moves when the run ends: in the last second its slip changes by "
             f"{1e3 * last_change:.3g} mm; the residual slip is that of this moment, and a longer motion.duration lets "
             "it come to rest"
+        )
+    for number, anchor in enumerate(_anchors(case, raw), start=1):
+        tension, capacity = anchor["peak_tension_n"] or 0.0, anchor["capacity_n"]
+        if capacity is not None and tension > capacity:
+            said.append(
+                f"anchor {number} is pulled with {tension / 1e3:.4g} kN/m, beyond its capacity of "
+                f"{capacity / 1e3:.4g} kN/m, and would have yielded; the result takes it for elastic"
+            )
+    if case.analysis.rotation != "small":
+        said.append(
+            f'analysis.rotation = "{case.analysis.rotation}" has no say here: it is of the rigid block, and the '
+            "rotations of the flexible model are small"
         )
     depth = record.deepest_penetration()
     if depth > 1e-3 * dam.section.crack_width:
@@ -465,4 +492,6 @@ def _references(case: Case, dam: FlexibleDam) -> tuple[str, ...]:
     keys = ["model", case.flexible.contact]
     if dam.dam.upper.mass.sum() > dam.dam.upper.mass_concrete.sum() * (1.0 + 1e-12):
         keys.append("water")
+    if dam.water is not None:
+        keys.append(case.uplift.during_shaking)
     return tuple(REFERENCES[key] for key in keys)

@@ -10,7 +10,9 @@ from numpy.typing import NDArray
 
 from heeltoe import _kernel
 from heeltoe.case_model import Case
-from heeltoe.elastic import Body, Dam, bonded_state, dam, dofs
+from heeltoe.crack_axes import along_and_across, places
+from heeltoe.crack_forces import CrackAnchor, CrackWater, crack_anchors, crack_water
+from heeltoe.elastic import Body, Dam, bonded_state, dam
 from heeltoe.mesh import dam_mesh
 from heeltoe.modes import Modes, intact_periods, part_periods, rayleigh, reduce, residual_error
 from heeltoe.section import CutSection, cut
@@ -70,6 +72,8 @@ class FlexibleDam:
         Rayleigh coefficients of mass [1/s] and stiffness [s]; None with `modal` damping.
     basis_error
         Largest error of the crack's flexibility by the modes left out, over the range of those kept; 0 where none is.
+    water, anchors
+        What acts in the crack beside contact: water whose pressure changes, anchors with stiffness.
     """
 
     section: CutSection
@@ -82,6 +86,8 @@ class FlexibleDam:
     periods: Floats
     coefficients: tuple[float, float] | None
     basis_error: float
+    water: CrackWater | None
+    anchors: tuple[CrackAnchor, ...]
 
     @property
     def bodies(self) -> tuple[Body, ...]:
@@ -136,7 +142,9 @@ def _build(case: Case) -> FlexibleDam:
         damping = _damping(case, basis, coefficients, above=place == 0)
         parts.append(_part(body, basis, static, damping, section))
     friction = (case.crack.mu_static, case.crack.mu_kinetic)
-    kernel = _kernel.CrackedDam(parts[0], parts[1] if len(parts) > 1 else None, friction, case.flexible.contactors)
+    water, anchors = crack_water(case, section, held), crack_anchors(case, section, held)
+    lower_part = parts[1] if len(parts) > 1 else None
+    kernel = _kernel.CrackedDam(parts[0], lower_part, friction, case.flexible.contactors, water, anchors)
     statics = (upper, lower)[: len(parts)]
     errors = [residual_error(body, basis) for body, basis in zip(held, modes, strict=True) if basis.truncated]
     return FlexibleDam(
@@ -150,6 +158,8 @@ def _build(case: Case) -> FlexibleDam:
         periods=periods,
         coefficients=coefficients,
         basis_error=max(errors, default=0.0),
+        water=water,
+        anchors=anchors,
     )
 
 
@@ -178,18 +188,20 @@ def _damping(
 
 def _part(body: Body, modes: Modes, static: Floats, damping: tuple[Floats, Floats], section: CutSection) -> Part:
     crack = body.mesh.crack
-    order = np.concatenate([dofs(crack)[::2], dofs(crack)[1::2]])
     horizontal = np.zeros(static.size)
     horizontal[::2] = 1.0
-    place = (body.mesh.nodes[crack] - section.heel).T.reshape(-1)
+    place = places(body.mesh.nodes[crack], section).T.reshape(-1)
+    moved = along_and_across(static.reshape(-1, 2)[crack], section).T.reshape(-1)
+    shapes = along_and_across(modes.shapes.T.reshape(modes.omega_squared.size, -1, 2)[:, crack], section)
+    pushed = body.mass @ (1.0 - horizontal) - body.load_per_vertical
     return Part(
         omega_squared=np.ascontiguousarray(modes.omega_squared),
         damping_sticking=np.ascontiguousarray(damping[0]),
         damping_free=np.ascontiguousarray(damping[1]),
         load=modes.shapes.T @ body.load,
         participation_horizontal=modes.shapes.T @ (body.mass @ horizontal),
-        participation_vertical=modes.shapes.T @ (body.mass @ (1.0 - horizontal)),
+        participation_vertical=modes.shapes.T @ pushed,
         start=modes.shapes.T @ (body.mass @ static),
-        shapes=np.ascontiguousarray(modes.shapes[order].T),
-        position=place + static[order],
+        shapes=np.ascontiguousarray(shapes.swapaxes(1, 2).reshape(modes.omega_squared.size, -1)),
+        position=place + moved,
     )

@@ -13,6 +13,8 @@ import shapely
 from numpy.typing import NDArray
 
 from heeltoe.case_model import Case
+from heeltoe.crack_axes import in_x_and_z
+from heeltoe.crack_axes import places as locate
 from heeltoe.errors import InputError
 from heeltoe.mesh_checks import boundary_edges
 from heeltoe.mesh_rows import meshed_rows
@@ -22,6 +24,8 @@ from heeltoe.section import CutSection, section_polygon
 # and the area may differ by this much.
 _ON_LINE = 1e-6
 _AREA = 0.01
+# A part below the crack with less than this part of the area above it is rounding.
+_NOTHING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,25 +85,40 @@ def dam_mesh(case: Case, section: CutSection, base_directory: Path | None = None
     Raises
     ------
     InputError
-        Where rows of elements cannot follow the section, or a mesh from a file is unfit.
+        Where rows of elements cannot follow the section or the crack, or a mesh from a file is unfit.
     """
     options = case.flexible
+    below = section_polygon(case.section).area - section.area
+    # At the base, or along a sloping one, there is nothing below.
+    grounded = below <= _NOTHING * section.area
+    _check_ends(section, grounded=grounded)
     directory = case.base_directory if base_directory is None else base_directory
     if options.mesh_above:
         upper = _from_file(directory / options.mesh_above, section, section.area, above=True)
     else:
         rows = meshed_rows(section.upstream_face, section.downstream_face, options.elements_across)
         upper = _body(*rows, section, "section", above=True)
-    if section.crack_elevation == section.base_elevation:
+    if grounded:
         if options.mesh_below:
             raise InputError("mesh-none-below", "flexible.mesh_below", options.mesh_below)
         return DamMesh(upper, None)
     if options.mesh_below:
-        area = section_polygon(case.section).area - section.area
-        return DamMesh(upper, _from_file(directory / options.mesh_below, section, area, above=False))
+        return DamMesh(upper, _from_file(directory / options.mesh_below, section, below, above=False))
     across = options.elements_across_below or options.elements_across
     rows = meshed_rows(*_faces_below(case, section), across)
     return DamMesh(upper, _body(*rows, section, "section", above=False))
+
+
+def _check_ends(section: CutSection, *, grounded: bool) -> None:
+    """Refuse an inclined crack at one of whose ends there is nothing above or below it."""
+    if section.inclination == 0.0:
+        return
+    slack = _ON_LINE * section.crack_width
+    for end, (_, z) in (("heel", section.heel), ("toe", section.toe)):
+        if z <= section.base_elevation + slack and not grounded:
+            raise InputError("mesh-nothing", "crack.inclination", side="below", end=end)
+        if z >= section.crest_elevation - slack:
+            raise InputError("mesh-nothing", "crack.inclination", side="above", end=end)
 
 
 def _from_file(path: Path, section: CutSection, area: float, *, above: bool) -> BodyMesh:
@@ -108,18 +127,20 @@ def _from_file(path: Path, section: CutSection, area: float, *, above: bool) -> 
 
     nodes, elements = read_quadrilaterals(path)
     name = str(path)
-    (heel, level), (toe, _) = section.heel, section.toe
     # The crack line in the middle of the lower or upper side, as far as one can tell where a mesh is.
-    (left, bottom), (right, top) = nodes.min(axis=0), nodes.max(axis=0)
+    places = locate(nodes, section)
+    (left, bottom), (right, top) = places.min(axis=0), places.max(axis=0)
     edge = bottom if above else top
-    height = top - bottom
-    if right <= heel or left >= toe or abs(edge - level) > max(height, section.crack_width):
+    if right <= 0.0 or left >= section.crack_width or abs(edge) > max(top - bottom, section.crack_width):
+        (left, bottom), (right, top) = nodes.min(axis=0), nodes.max(axis=0)
         found = f"x from {left:g} to {right:g} m, z from {bottom:g} to {top:g} m"
         raise InputError("mesh-far", name, found, crack=_said(section))
     mesh = _body(nodes, elements, section, name, above=above)
     # Exactly on the line, so that the two faces of the crack touch.
-    nodes[mesh.crack, 1] = level
-    nodes[mesh.crack[[0, -1]], 0] = heel, toe
+    along = places[mesh.crack, 0]
+    along[[0, -1]] = 0.0, section.crack_width
+    nodes[mesh.crack] = in_x_and_z(np.column_stack([along, np.zeros(len(along))]), section) + section.heel
+    nodes[mesh.crack[[0, -1]]] = section.heel, section.toe
     edges = boundary_edges(elements)
     # Green's theorem with Simpson's rule, exact on edges of three nodes.
     start, middle, end = (nodes[edges[:, i]] for i in range(3))
@@ -137,7 +158,10 @@ def _from_file(path: Path, section: CutSection, area: float, *, above: bool) -> 
 
 
 def _said(section: CutSection) -> str:
-    return f"x from {section.heel[0]:g} to {section.toe[0]:g} m at z = {section.crack_elevation:g} m"
+    (heel, bottom), (toe, top) = section.heel, section.toe
+    if bottom == top:
+        return f"x from {heel:g} to {toe:g} m at z = {bottom:g} m"
+    return f"x from {heel:g} to {toe:g} m and z from {bottom:g} to {top:g} m"
 
 
 def _body(
@@ -145,20 +169,21 @@ def _body(
 ) -> BodyMesh:
     """Find crack, faces and base on the boundary of a mesh."""
     slack = _ON_LINE * np.ptp(nodes, axis=0).max()
-    (heel, level), (toe, _) = section.heel, section.toe
+    places = locate(nodes, section)
     edges = boundary_edges(elements)
-    x, z = nodes[edges, 0], nodes[edges, 1]
-    on_crack = np.all((np.abs(z - level) <= slack) & (x >= heel - slack) & (x <= toe + slack), axis=1)
+    t, n = places[edges, 0], places[edges, 1]
+    on_crack = np.all((np.abs(n) <= slack) & (t >= -slack) & (t <= section.crack_width + slack), axis=1)
     # With the body on the left, the crack runs downstream along the upper part and upstream along the lower.
-    on_crack &= (x[:, 2] > x[:, 0]) == above
-    start, end = (heel, toe) if above else (toe, heel)
-    starts = np.flatnonzero(on_crack & (np.abs(x[:, 0] - start) <= slack))
+    on_crack &= (t[:, 2] > t[:, 0]) == above
+    start, end = (0.0, section.crack_width) if above else (section.crack_width, 0.0)
+    starts = np.flatnonzero(on_crack & (np.abs(t[:, 0] - start) <= slack))
     path = _walked(edges, int(starts[0])) if starts.size else np.empty(0, dtype=np.int64)
     last = 2 * int(on_crack.sum())
-    if last >= len(path) or abs(nodes[path[last], 0] - end) > slack or np.ptp(nodes[path[: last + 1], 1]) > 2.0 * slack:
-        side = nodes[:, 1].min() if above else nodes[:, 1].max()
-        width = nodes[np.abs(nodes[:, 1] - side) <= slack, 0]
-        found = f"x from {width.min():g} to {width.max():g} m at z = {side:g} m"
+    walked = path[: last + 1]
+    if last >= len(path) or abs(places[path[last], 0] - end) > slack or np.ptp(places[walked, 1]) > 2.0 * slack:
+        side = places[:, 1].min() if above else places[:, 1].max()
+        width = nodes[np.abs(places[:, 1] - side) <= slack]
+        found = f"x from {width[:, 0].min():g} to {width[:, 0].max():g} m at z = {width[0, 1]:g} m"
         raise InputError("mesh-crack", name, found, crack=_said(section), side="lower" if above else "upper")
     crack, rest = path[: last + 1], path[last:]
     heights = nodes[rest, 1]
@@ -185,7 +210,7 @@ def _walked(edges: NDArray[np.int64], first: int) -> NDArray[np.int64]:
 def _faces_below(case: Case, section: CutSection) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the two faces of the part below the crack, from the base up."""
     corners = shapely.get_coordinates(section_polygon(case.section).exterior)[:-1]
-    base, level, slack = section.base_elevation, section.crack_elevation, 1e-9 * np.ptp(corners, axis=0).max()
+    base, slack = section.base_elevation, 1e-9 * np.ptp(corners, axis=0).max()
     on_base = np.abs(corners[:, 1] - base) <= slack
     first = np.flatnonzero(on_base & ~np.roll(on_base, 1))
     ring, count = np.roll(corners, -first[0], axis=0), int(on_base.sum())
@@ -193,6 +218,7 @@ def _faces_below(case: Case, section: CutSection) -> tuple[NDArray[np.float64], 
         raise InputError("mesh-section", "section")
     faces = []
     for chain, end in ((np.vstack([ring[:1], ring[:0:-1]]), section.heel), (ring[count - 1 :], section.toe)):
+        level = end[1]
         higher = int(np.flatnonzero(chain[:, 1] > level - slack)[0])
         (x0, z0), (x1, z1) = chain[higher - 1 : higher + 1]
         # A face that does not lead to the end of the crack leads to a ledge.

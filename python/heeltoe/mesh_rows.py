@@ -1,9 +1,10 @@
 """Rows of quadrilaterals between the upstream and the downstream face of a part of the dam.
 
 Every line of nodes runs straight from face to face, every kink of a face is on such a line, and the rows grow and
-shrink with the width of the dam. A pointed crest ends in three fields of quadrilaterals that meet inside the tip, so
-that the mesh has the very area of the section: blunting the tip would need many thin rows and still change weight
-and water pressure."""
+shrink with the width of the dam. Above and below an inclined crack the lines turn evenly, from the crack's direction
+to level, as they join points of the two faces at the same part of their heights. A pointed crest ends in three fields
+of quadrilaterals that meet inside the tip, so that the mesh has the very area of the section: blunting the tip would
+need many thin rows and still change weight and water pressure."""
 
 from __future__ import annotations
 
@@ -14,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.errors import InputError
+from heeltoe.mesh_checks import check_elements
 
 Line = tuple[NDArray[np.float64], NDArray[np.float64]]
 
@@ -30,6 +32,8 @@ _FLATTEST = 20.0
 _THINNEST = 1e-4
 # Kinks of the two faces closer than this part of a row share a line, which then slopes.
 _NEAR = 0.25
+# Rows that run together towards one face may become so much thinner than their elements are wide, and no more.
+_WEDGE = 0.02
 
 
 def meshed_rows(
@@ -40,8 +44,8 @@ def meshed_rows(
     Parameters
     ----------
     left, right
-        Upstream and downstream face, straight between points (x, z) [m], from bottom to top; they start at the same
-        height and end at the same, or at one point.
+        Upstream and downstream face, straight between points (x, z) [m], from bottom to top; they end at one point, or
+        two. Where they start or end at two heights, the first or the last line of nodes slopes.
     across
         Number of elements in a row.
 
@@ -54,12 +58,19 @@ def meshed_rows(
     ------
     InputError
         Where a face has a ledge or doubles back, two of its kinks are so close that elements between them would be
-        too thin, or a single element across would have to fill a tip.
+        too thin, rows run together to wedges thinner than elements can be, or a single element across would have to
+        fill a tip.
     """
     for face in (left, right):
         run, rise = np.diff(face, axis=0).T
         if np.any(rise <= 0.0) or np.any(np.abs(run) > _FLATTEST * rise):
             raise InputError("mesh-section", "section")
+    faces = left, right
+    sloping = left[0, 1] != right[0, 1] or left[-1, 1] != right[-1, 1]
+    span = (left[[0, -1], 1] + right[[0, -1], 1]) / 2.0
+    if sloping:
+        # Rows are laid out between faces that are stretched to the same heights, and put back.
+        left, right = (_stretched(face, face[[0, -1], 1], span) for face in faces)
     keys = _key_lines(left, right, across)
     start, end = keys[-1]
     pointed = end[0] - start[0] <= 1e-9 * (end[1] - keys[0][0][1])
@@ -69,10 +80,42 @@ def meshed_rows(
         # Rows up to half the height of the uppermost segment, the tip from there.
         keys[-1] = ((keys[-2][0] + left[-1]) / 2.0, (keys[-2][1] + left[-1]) / 2.0)
     lines = _graded(keys, across, across * (_ROWS - _ROWS_OF_TIP if pointed else _ROWS))
+    if sloping:
+        ends = (face[[0, -1], 1] for face in faces)
+        back = [
+            _stretched(np.array(points), span, given)
+            for points, given in zip(zip(*lines, strict=True), ends, strict=True)
+        ]
+        lines = list(zip(*back, strict=True))
     fields = [_field(lines, across)]
     if pointed:
-        fields += _tip(*lines[-1], left[-1], across)
-    return _joined(fields)
+        fields += _tip(*lines[-1], faces[0][-1], across)
+    nodes, elements = _joined(fields)
+    if sloping:
+        _check_turned(lines, nodes, elements, across)
+    return nodes, elements
+
+
+def _stretched(
+    points: NDArray[np.float64], given: NDArray[np.float64], wanted: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return points with their heights moved as the two ends of their range are, which come out to the last bit."""
+    part = (points[:, 1] - given[0]) / (given[1] - given[0])
+    return np.column_stack([points[:, 0], wanted[0] * (1.0 - part) + wanted[1] * part])
+
+
+def _check_turned(lines: list[Line], nodes: NDArray[np.float64], elements: NDArray[np.int64], across: int) -> None:
+    """Refuse rows that turn so much that nothing is left of their elements."""
+    ends = np.array(lines)
+    thinnest = np.diff(ends[:, :, 1], axis=0).min()
+    widest = (ends[:, 1, 0] - ends[:, 0, 0]).max() / across
+    try:
+        check_elements(nodes, elements, "section")
+        folded = False
+    except InputError:
+        folded = True
+    if folded or thinnest < _WEDGE * widest:
+        raise InputError("mesh-wedge", "crack.inclination")
 
 
 def _key_lines(left: NDArray[np.float64], right: NDArray[np.float64], across: int) -> list[Line]:

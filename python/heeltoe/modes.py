@@ -76,7 +76,8 @@ def reduce(body: Body, keep: int | None = None) -> Modes:
     if keep is None:
         keep = free.size if free.size <= _ALL else _KEPT
     stiffness, mass = body.stiffness[free][:, free], body.mass[free][:, free]
-    forces = np.column_stack([_unit_forces(body), body.load])[free]
+    following = [body.load_per_vertical] if body.load_per_vertical.any() else []
+    forces = np.column_stack([_unit_forces(body), body.load, *following])[free]
     if not rigid.size:
         forces = np.column_stack([forces, (body.mass @ np.tile(np.eye(2), (size // 2, 1)))[free]])
     truncated = keep + rigid.shape[1] + forces.shape[1] < free.size

@@ -62,7 +62,7 @@ def varying(case: Case, block: Block) -> Varying:
     profile = uplift_profile(case, section)
     full = 0.0
     if case.reservoir is not None:
-        full = case.reservoir.density * g * section.water_above_crack(case.reservoir) * uplift.intensity
+        full = case.reservoir.density * g * section.water_above_crack(case.reservoir)
     numbers = {
         "mass": case.concrete.density * section.area,
         "inertia": case.concrete.density * section.polar_inertia,

@@ -15,6 +15,7 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
+from heeltoe.crack_axes import in_x_and_z, places
 from heeltoe.crack_history import CrackHistory
 from heeltoe.elastic import principal, stresses
 from heeltoe.errors import InputError
@@ -124,7 +125,8 @@ class _Crack:
         self.faces = record.faces
         drawn = [body.mesh.nodes[body.mesh.crack] for body in record.dam.bodies]
         self.points = _spatial(np.vstack(drawn))
-        self.start = [(nodes - record.dam.section.heel).T for nodes in drawn]
+        self.section = record.dam.section
+        self.start = [places(nodes, self.section).T for nodes in drawn]
         counts = [len(nodes) for nodes in drawn]
         first = np.cumsum([0, *counts])
         nodes = np.arange(first[-1])
@@ -137,7 +139,10 @@ class _Crack:
         self.status = np.hstack(record.node_status()).astype(np.int32)
 
     def point_data(self, frame: int) -> dict[str, NDArray[Any]]:
-        moved = [(face[frame] - start).T for face, start in zip(self.faces, self.start, strict=True)]
+        moved = [
+            in_x_and_z((face[frame] - start).T, self.section)
+            for face, start in zip(self.faces, self.start, strict=True)
+        ]
         force = np.zeros_like(self.points)
         force[: self.force.shape[2], :2] = self.force[frame].T
         return {

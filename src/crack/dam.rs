@@ -1,6 +1,7 @@
 //! What is shaken, and how.
 
 use super::body::Body;
+use super::inside::Inside;
 
 /// Two parts, and the crack between them.
 pub struct Dam {
@@ -11,6 +12,8 @@ pub struct Dam {
     pub friction: [f64; 2],
     /// Which nodes are watched; see [`Contacts::new`].
     pub contactors: u8,
+    /// What acts in the crack beside contact.
+    pub inside: Inside,
 }
 
 impl Dam {

@@ -16,11 +16,13 @@ use super::body::{Group, LANES};
 pub struct Ledger {
     /// Strain and kinetic energy at the start.
     pub start: f64,
-    /// Strain and kinetic energy now.
+    /// Strain and kinetic energy now, with that of the anchors.
     pub stored: f64,
+    /// Energy held by the anchors, now.
+    pub springs: f64,
     /// Energy held by the springs of a penalty, now.
     pub penalty: f64,
-    /// Work of the static loads and of the ground on the motion relative to it.
+    /// Work of the static loads, of pressure that changes, and of the ground on the motion relative to it.
     pub input: f64,
     pub damping: f64,
     /// Taken by the scheme itself.

@@ -7,6 +7,7 @@ pub mod coupling;
 pub mod dam;
 pub mod frames;
 pub mod idce;
+pub mod inside;
 pub mod ledger;
 pub mod observe;
 pub mod part;

@@ -57,7 +57,7 @@ fn chord(face: &[f64]) -> f64 {
 
 /// Height of the lower face at `t`; beyond its ends that of the end, and zero on a rigid plane.
 #[inline(always)]
-fn height(face: &[f64], t: f64) -> f64 {
+pub fn height(face: &[f64], t: f64) -> f64 {
     if face.is_empty() {
         return 0.0;
     }

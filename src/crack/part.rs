@@ -42,6 +42,8 @@ pub struct Part<'a> {
     pub velocity: Vec<f64>,
     pub free: Vec<f64>,
     pub impulse: Vec<f64>,
+    /// Impulse of what acts in the crack beside contact; stays zero where there is nothing.
+    pub push: Vec<f64>,
     answer: Vec<f64>,
     /// Room for the sums of `free`, lane by lane.
     lanes: Vec<Group>,
@@ -69,6 +71,7 @@ impl<'a> Part<'a> {
             velocity: zeros.clone(),
             free: zeros.clone(),
             impulse: zeros.clone(),
+            push: zeros.clone(),
             answer: zeros,
             lanes: vec![[0.0; LANES]; columns],
             sums: Sums::default(),
@@ -166,26 +169,41 @@ impl<'a> Part<'a> {
         free
     }
 
+    /// Add to the velocities of the crack nodes without contact what `push` changes in them.
+    #[inline(always)]
+    pub fn push_crack<const FUSED: bool>(&mut self, damping: usize) {
+        answered::<FUSED>(&self.operator.w[damping], &self.push, &mut self.free);
+    }
+
+    /// Count `push` with the impulses of contact, which have been used by themselves where they must be.
+    #[inline(always)]
+    pub fn join_push(&mut self) {
+        for (impulse, push) in self.impulse.iter_mut().zip(&self.push) {
+            *impulse += push;
+        }
+    }
+
     /// Velocities and positions of the crack nodes at the end of the step.
     #[inline(always)]
     pub fn move_crack<const FUSED: bool>(&mut self, damping: usize, options: &Options) {
-        let columns = self.body.columns();
         self.answer.copy_from_slice(&self.free);
-        for (p, row) in self
-            .impulse
-            .iter()
-            .zip(self.operator.w[damping].chunks_exact(columns))
-        {
-            if *p != 0.0 {
-                for (u, w) in self.answer.iter_mut().zip(row) {
-                    *u = fma::<FUSED>(*p, *w, *u);
-                }
-            }
-        }
+        answered::<FUSED>(&self.operator.w[damping], &self.impulse, &mut self.answer);
         let (dt, theta) = (options.dt, options.theta);
         for ((x, u), new) in self.position.iter_mut().zip(&mut self.velocity).zip(&self.answer) {
             *x += dt * fma::<FUSED>(theta, *new, (1.0 - theta) * *u);
             *u = *new;
+        }
+    }
+}
+
+/// Add to velocities how the crack nodes answer to impulses.
+#[inline(always)]
+fn answered<const FUSED: bool>(w: &[f64], impulse: &[f64], velocity: &mut [f64]) {
+    for (p, row) in impulse.iter().zip(w.chunks_exact(velocity.len())) {
+        if *p != 0.0 {
+            for (u, w) in velocity.iter_mut().zip(row) {
+                *u = fma::<FUSED>(*p, *w, *u);
+            }
         }
     }
 }

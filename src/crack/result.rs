@@ -20,7 +20,7 @@ impl Outcome {
 }
 
 /// Peaks and sums over all steps.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Summary {
     pub outcome: Outcome,
     pub end_time: f64,
@@ -51,6 +51,8 @@ pub struct Summary {
     pub residual: f64,
     /// State of the crack in the last step.
     pub final_state: u8,
+    /// Largest tension of each anchor.
+    pub tensions: Vec<f64>,
 }
 
 impl Summary {
@@ -96,8 +98,14 @@ impl Summary {
         "final_state",
     ];
 
-    /// The numbers in the order of `FIELDS`.
-    pub fn row(&self) -> [f64; 39] {
+    /// The numbers in the order of `FIELDS`, then the tensions.
+    pub fn row(&self) -> Vec<f64> {
+        let mut row = self.numbers().to_vec();
+        row.extend(&self.tensions);
+        row
+    }
+
+    fn numbers(&self) -> [f64; 39] {
         let (e, t, s) = (&self.ledger, self.time_by_state, self.slip_by_state);
         [
             f64::from(self.outcome as u8),

@@ -22,6 +22,7 @@ use super::coulomb::Status;
 use super::coupling::{Answer, Crack};
 use super::dam::{Dam, Options};
 use super::frames::{keep, Since, Snapshot};
+use super::inside::Acting;
 use super::ledger::Ledger;
 use super::observe::{self, Faces, Motion};
 use super::part::{Drive, Part};
@@ -80,6 +81,7 @@ fn walk<const FUSED: bool>(
         - lower.as_ref().map_or(0.0, |l| observe::mean_along(&l.position));
     let mut motion = Motion::of(faces(&upper, lower.as_ref(), |part| &part.position), zero);
     let reach = 100.0 * (upper.position[dam.upper.nodes - 1] - upper.position[0]);
+    let mut acting = Acting::new(&dam.inside, faces(&upper, lower.as_ref(), |part| &part.position));
     // The dam has been standing: it starts with the damping of a crack that sticks.
     let mut drive = Drive {
         ground: [0.0; 2],
@@ -127,12 +129,18 @@ fn walk<const FUSED: bool>(
                 crack.assemble(above, below, drive.damping, |largest| softness * largest);
             }
         }
+        if let Some(acting) = &mut acting {
+            act::<FUSED>(acting, &mut upper, lower.as_mut(), drive.damping, options);
+        }
         let free = faces(&upper, lower.as_ref(), |part| &part.free);
         let before = faces(&upper, lower.as_ref(), |part| &part.velocity);
         crack.set_up(dam, free, before, options);
         summary.note(crack.solver.solve::<FUSED>(&crack.problem));
         // The nodes move; the parts get their impulses.
         let old = crack.work(faces(&upper, lower.as_ref(), |part| &part.velocity));
+        let acted = acting
+            .as_ref()
+            .map(|acting| acting.work(faces(&upper, lower.as_ref(), |part| &part.velocity)));
         let impulse = crack.impulses(
             &mut upper.impulse,
             lower.as_mut().map_or(&mut [][..], |part| &mut part.impulse),
@@ -147,6 +155,16 @@ fn walk<const FUSED: bool>(
         ledger.impact -= work[1];
         ledger.gained += (work[0] + work[1]).max(0.0);
         ledger.turnover += work[0].abs() + work[1].abs();
+        if let (Some(acting), Some(old)) = (&mut acting, acted) {
+            let new = acting.work(faces(&upper, lower.as_ref(), |part| &part.velocity));
+            let work = [0, 1].map(|k| (1.0 - options.theta) * old[k] + options.theta * new[k]);
+            let taken_up = acting.settle(faces(&upper, lower.as_ref(), |part| &part.position));
+            ledger.input += work[0];
+            // What the anchors have not taken up of their work is the scheme's doing.
+            ledger.numerical -= work[1] + taken_up;
+            ledger.springs = acting.stored;
+            ledger.turnover += work[0].abs() + work[1].abs();
+        }
         let after = Motion::of(faces(&upper, lower.as_ref(), |part| &part.position), zero);
         let state = observe::state(&crack.solver.status);
         summary.end_time = (step + 1) as f64 * dt;
@@ -159,6 +177,15 @@ fn walk<const FUSED: bool>(
             &crack.approach,
         );
         motion = after;
+        if frames.is_some() {
+            since.add(&upper.impulse, impulse, dt);
+        }
+        if acting.is_some() {
+            upper.join_push();
+            if let Some(lower) = &mut lower {
+                lower.join_push();
+            }
+        }
         // The modes follow, and begin the next step.
         let sticks = crack.solver.status.contains(&Status::Stick);
         let next = Drive {
@@ -171,7 +198,6 @@ fn walk<const FUSED: bool>(
         }
         drive = next;
         if let Some(frames) = &mut frames {
-            since.add(&upper.impulse, impulse, dt);
             if (step + 1).is_multiple_of(options.stride) {
                 let now = balance(ledger, &upper, lower.as_ref());
                 keep(
@@ -192,7 +218,39 @@ fn walk<const FUSED: bool>(
         }
     }
     summary.ledger = balance(ledger, &upper, lower.as_ref());
+    summary.tensions = acting.map_or_else(Vec::new, |acting| acting.peaks);
     summary
+}
+
+/// Let what is in the crack beside contact push the nodes of both faces.
+#[inline(always)]
+fn act<const FUSED: bool>(
+    acting: &mut Acting,
+    upper: &mut Part,
+    mut lower: Option<&mut Part>,
+    damping: usize,
+    options: &Options,
+) {
+    let mut above = std::mem::take(&mut upper.push);
+    let mut below = lower
+        .as_mut()
+        .map_or_else(Vec::new, |part| std::mem::take(&mut part.push));
+    let position = faces(upper, lower.as_deref(), |part| &part.position);
+    let velocity = faces(upper, lower.as_deref(), |part| &part.velocity);
+    acting.push(
+        position,
+        velocity,
+        options.dt,
+        options.theta,
+        &mut above,
+        &mut below,
+    );
+    upper.push = above;
+    upper.push_crack::<FUSED>(damping);
+    if let Some(lower) = lower {
+        lower.push = below;
+        lower.push_crack::<FUSED>(damping);
+    }
 }
 
 /// The ledger with the sums of both parts and the energy they hold; the sums go on, so that frames change nothing.
@@ -200,7 +258,7 @@ fn balance(mut ledger: Ledger, upper: &Part, lower: Option<&Part>) -> Ledger {
     for part in std::iter::once(upper).chain(lower) {
         part.sums.book(&mut ledger);
     }
-    ledger.stored = energy(upper, lower);
+    ledger.stored = energy(upper, lower) + ledger.springs;
     ledger
 }
 
