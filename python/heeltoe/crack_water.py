@@ -65,8 +65,8 @@ def still_water(case: Case, section: CutSection, start: float, end: float) -> Cr
     pressure of the reservoir over all of its area, whatever the intensity, and the rest of the pattern starts at the
     tip: from there straight to the next of its points (extent, drains or toe), so that drains which the crack has
     passed no longer count (so does USACE, EM 1110-2-2200, 1995, chapter 3). A profile of the user's own stays beyond
-    the tip as it is. What opens from the toe has the pressure of the tailwater. The base outside the contact, left
-    there by a slip, feels reservoir and tailwater. With the pattern "none" no water enters.
+    the tip as it is. What opens from the toe has the pressure of the tailwater, in the same way. The base outside the
+    contact, left there by a slip, feels reservoir and tailwater. With the pattern "none" no water enters.
     """
     dry = case.uplift.pattern == "none"
     base = uplift_profile(case, section) * [(end - start) / section.crack_width, 1.0] + [start, 0.0]
@@ -83,19 +83,18 @@ def still_water(case: Case, section: CutSection, start: float, end: float) -> Cr
 
     def pressure(heel: float, toe: float) -> Floats:
         tip, back = start + heel, end - toe
-        points = outside(case.reservoir, 0.0, start)
-        if heel <= 0.0 or dry:
-            points += cut_out(base, start, back)
-        else:
-            points += outside(case.reservoir, start, tip)
-            if own:
-                points += cut_out(base, tip, back)
-            elif tip < back:
-                points.append((tip, case.uplift.intensity * _pressure_at(case, section, case.reservoir, tip)))
-                points += [(x, p) for x, p in base.tolist() if tip < x < back]
-                points.append((back, float(base[-1, 1])))
-        points += outside(case.tailwater, back, end) if not dry else cut_out(base, back, end)
-        points += outside(case.tailwater, end, section.crack_width)
+        points = outside(case.reservoir, 0.0, tip)
+        if own or dry:
+            points += cut_out(base, tip, back)
+        elif tip < back:
+            ends = [float(base[0, 1]), float(base[-1, 1])]
+            if heel > 0.0:
+                ends[0] = case.uplift.intensity * _pressure_at(case, section, case.reservoir, tip)
+            # A uniform pressure ends at the tip as it did at the toe: it knows no tailwater.
+            if toe > 0.0 and case.uplift.pattern != "uniform":
+                ends[1] = case.uplift.intensity * _pressure_at(case, section, case.tailwater, back)
+            points += [(tip, ends[0]), *((x, p) for x, p in base.tolist() if tip < x < back), (back, ends[1])]
+        points += outside(case.tailwater, back, section.crack_width)
         return np.array(points)
 
     bends = [float(x) for x in base[:, 0]]

@@ -96,7 +96,7 @@ def settle(contact: Contact, load: Resultant, water: CrackWater) -> Settled:
     """
     state = _State(contact, load, water)
     normal, heel, toe = state.at(0.0, 0.0)
-    if heel >= -state.strength(0.0, "heel") and toe >= -state.strength(0.0, "toe"):
+    if state.holds(heel, state.strength(0.0, "heel")) and state.holds(toe, state.strength(0.0, "toe")):
         return state.settled("stands", 0.0, 0.0, 0)
     if normal <= 0.0 and not contact.tensile_strength:
         return state.settled("floats", 0.0, 0.0, 0)
@@ -137,6 +137,10 @@ class _State:
         )
         return contact.tensile_strength if bonded else 0.0
 
+    def holds(self, stress: float, strength: float) -> bool:
+        """Whether a stress is no more tension than the strength, to the rounding of the loads it comes from."""
+        return stress >= -strength - 1e-12 * abs(self.load.vertical) / self.contact.width
+
     def margin(self, length: float, side: str) -> float:
         """Return what the tip could still bear, times the square of the length in contact; negative where it opens."""
         stress = self.at(*((length, 0.0) if side == "heel" else (0.0, length)))[1 if side == "heel" else 2]
@@ -162,7 +166,7 @@ class _State:
         """Whether the far end bears its stress too; not where the block floats."""
         _, heel, toe = self.at(*((length, 0.0) if side == "heel" else (0.0, length)))
         far = "toe" if side == "heel" else "heel"
-        return (toe if side == "heel" else heel) >= -self.strength(0.0, far)
+        return self.holds(toe if side == "heel" else heel, self.strength(0.0, far))
 
     def _stretches(self, side: str) -> Iterator[tuple[float, float]]:
         """Return the lengths from 0 to the whole contact in stretches on which the margin rises or falls throughout."""

@@ -41,8 +41,8 @@ class Statics:
         where no acceleration does it, negative where the static loads do.
     critical_water_level_m
         Depth of the reservoir, from the lowest point of the section, at which the usual loads bring the factor of
-        sliding downstream to 1 ("sliding") and to what is required ("sliding_required"), the resultant out of the base or the crack
-        through ("overturning") and the normal force to nothing ("flotation"); None where none up to the crest does.
+        sliding downstream to 1 ("sliding") and to what is required ("sliding_required"), open the crack through
+        ("overturning") and leave no normal force ("flotation"); None where no depth up to the crest does.
     slip_m, slip_source
         Residual slip of the post-seismic case and where it comes from; None without that case.
     warnings

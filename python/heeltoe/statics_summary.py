@@ -28,7 +28,7 @@ _ROWS: tuple[tuple[str, Callable[[LoadCase], str]], ...] = (
     ("stress at heel, MPa", lambda found: _number(found.heel_stress_pa, 1e6, 3)),
     ("stress at toe, MPa", lambda found: _number(found.toe_stress_pa, 1e6, 3)),
     ("crack open, m", lambda found: _open(found)),
-    ("in compression, m", lambda found: f"{found.compressed_length_m:.2f} of {found.contact_width_m:.2f}"),
+    ("compressed, m", lambda found: f"{found.compressed_length_m:.2f} of {found.contact_width_m:.2f}"),
 )
 
 
@@ -45,11 +45,13 @@ def print_statics(found: Statics, console: Console) -> None:
     console.print()
     console.print(_checks(found.checks))
     said = _grid()
-    for each in found.cases:
-        for text in each.assumptions:
-            said.add_row(each.name, escape(text))
-    for note in dict.fromkeys(check.note for check in found.checks if check.note):
-        said.add_row("on the criteria", escape(note))
+    for (source, note), number in _sources(found.checks).items():
+        said.add_row(str(number), escape(f"{source}; {note}" if note else source))
+    console.print()
+    console.print(said)
+    said = _grid()
+    for label, text in _assumptions(found.cases):
+        said.add_row(label, escape(text))
     if said.row_count:
         console.print()
         console.print(said)
@@ -88,6 +90,16 @@ def _head(found: Statics) -> list[tuple[str, str]]:
     return lines
 
 
+def _assumptions(cases: tuple[LoadCase, ...]) -> list[tuple[str, str]]:
+    """Return each assumption once, beside the load cases that share it."""
+    shared: dict[str, list[str]] = {}
+    for each in cases:
+        for text in each.assumptions:
+            shared.setdefault(text, []).append(each.name)
+    # The two ways of the earthquake share nearly all.
+    return [(names[0] if len(names) == 1 else names[0].split()[0], text) for text, names in shared.items()]
+
+
 def _cases(found: Statics) -> Table:
     table = _table()
     table.add_column("")
@@ -106,7 +118,8 @@ def _checks(checks: tuple[Check, ...]) -> Table:
     table.add_column("is", justify="right")
     table.add_column("required", justify="right")
     table.add_column("")
-    table.add_column("source")
+    table.add_column("by", justify="right")
+    numbers = _sources(checks)
     for check in checks:
         bound = "-"
         if check.required is not None:
@@ -117,9 +130,15 @@ def _checks(checks: tuple[Check, ...]) -> Table:
             _value(check, check.value),
             bound,
             "met" if check.met else "[bold red]fails[/]",
-            check.source,
+            str(numbers.get((check.source, check.note), "")),
         )
     return table
+
+
+def _sources(checks: tuple[Check, ...]) -> dict[tuple[str, str], int]:
+    """Return the sources of the required values with their notes, numbered."""
+    found = dict.fromkeys((check.source, check.note) for check in checks if check.required is not None)
+    return {source: number for number, source in enumerate(found, start=1)}
 
 
 def _value(check: Check, value: float | None) -> str:
@@ -136,7 +155,8 @@ def _open(found: LoadCase) -> str:
 
 
 def _number(value: float | None, unit: float = 1.0, digits: int = 2) -> str:
-    return "-" if value is None else f"{value / unit:.{digits}f}"
+    # Rounded first and added to zero: there is no minus zero.
+    return "-" if value is None else f"{round(value / unit, digits) + 0.0:.{digits}f}"
 
 
 def _acceleration(value: float) -> str:
