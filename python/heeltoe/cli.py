@@ -254,11 +254,11 @@ def statics(
 
             say("running the rigid model")
             response = rigid(loaded)
-            slipped = response.summary.get("residual_slip_m") if response.ok else None
-            source = f"rigid model, {response.motion.name}, PGA {response.motion.pga / response.gravity:.4g} g"
-            if slipped is None:
-                source = f"the rigid model ends {response.outcome}, zero is taken"
-            found = judge(loaded, slipped or 0.0, slip_source=source)
+            if response.outcome == "ok":
+                source = f"rigid model, {response.motion.name}, PGA {response.motion.pga / response.gravity:.4g} g"
+                found = judge(loaded, response.residual_slip_m, slip_source=source)
+            else:
+                found = judge(loaded, 0.0, slip_source=f"the rigid model ends {response.outcome!r}, zero is taken")
         else:
             found = judge(loaded)
     _finish(found.to_json(), json_, [], lambda console: print_statics(found, console))
