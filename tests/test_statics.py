@@ -366,6 +366,31 @@ def test_an_inclined_crack(degrees):
     assert math.copysign(1.0, found.shear_force_n) == -math.copysign(1.0, degrees)
 
 
+def test_a_crack_nearly_level_opens_as_a_level_one():
+    level = only(heeltoe.statics(dam("100 m")), "usual")
+    for degrees in (1e-7, -1e-7):
+        crack = {"friction": 0.9, "elevation": "0.001 m", "inclination": f"{degrees} deg"}
+        found = only(heeltoe.statics(dam("100 m", crack=crack), 1.0), "usual")
+        assert found.cracked_length_m == pytest.approx(level.cracked_length_m, rel=1e-3)
+        assert found.sliding_factor == pytest.approx(level.sliding_factor, rel=1e-3)
+
+
+def test_water_above_an_inclined_crack():
+    # The crack rises by 5 deg from 30 m; 20 m of water stand above its heel, none at the toe. It is open where the slip
+    # upstream has left the heel, and there the pressure falls with the height: 0.2 - 0.01 x sin(5 deg).
+    crack = {"friction": 0.9, "elevation": "30 m", "inclination": "5 deg"}
+    case = dam("50 m", crack=crack)
+    section = cut(case)
+    width, rise = section.crack_width, math.sin(math.radians(5.0))
+    found = only(heeltoe.statics(case, -1.0), "post-seismic")
+    uplift = next(force for force in found.forces if force.name == "uplift")
+    # The toe opens a little, dry.
+    assert found.cracked_from == "toe"
+    assert 0.0 < found.cracked_length_m < 3.0
+    expected = 0.2 - 0.01 * rise / 2.0 + 0.2 / 2.0 * (width - 1.0 - found.cracked_length_m)
+    assert math.hypot(uplift.horizontal, uplift.vertical) == pytest.approx(expected * M, **CLOSE)
+
+
 def test_an_anchor_holds():
     # 10 MN/m at 10 from the heel, leaning upstream by 30 deg: N + 8.66, T - ... pulled towards the part below
     anchor = {"distance": "10 m", "prestress": "10 MN/m", "inclination": "30 deg"}

@@ -11,10 +11,11 @@ from scipy.optimize import brentq
 from heeltoe.block import build_block
 from heeltoe.case import Case, case_warnings
 from heeltoe.criteria import criteria
+from heeltoe.load_case import LoadCase
 from heeltoe.response import build_info
 from heeltoe.rigid_model import REFERENCES, static_state
 from heeltoe.section import CutSection, cut
-from heeltoe.static_cases import LoadCase, at_depth, flood, post_seismic, pseudo_static, usual
+from heeltoe.static_cases import at_depth, flood, post_seismic, pseudo_static, usual
 from heeltoe.static_checks import Check, check_case, slid_off
 
 # Depths that the search for a critical water level looks at: a sign that changes twice between two of them is no level
