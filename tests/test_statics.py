@@ -552,6 +552,11 @@ def test_a_slip_that_nobody_knows_is_said_to_be_zero():
     assert (given_.slip_source, given_.warnings) == ("given", ())
 
 
+def test_a_crack_that_the_usual_loads_open_is_warned_about():
+    assert "open the crack by 32.50 m" in heeltoe.statics(dam("100 m")).warnings[0]
+    assert heeltoe.statics(dam()).warnings == ()
+
+
 def test_anchors_that_gain_by_slip_are_warned_about():
     anchor = {"distance": "10 m", "prestress": "1 MN/m", "shear_stiffness": "10 MN/m/m"}
     result = heeltoe.statics(dam(anchors=[anchor]), 0.1)

@@ -137,6 +137,11 @@ def statics(case: Case, slip_m: float | None = None, *, slip_source: str = "give
             checks += check_case(after.load_case, choice)
         if source == _UNKNOWN:
             warnings.append(f"post-seismic: {_UNKNOWN}; statics.residual_slip, or a run of the motion, says how much")
+    if before.load_case.cracked_length_m:
+        warnings.append(
+            f"the usual loads open the crack by {before.load_case.cracked_length_m:.2f} m, and water follows; the "
+            "critical accelerations keep the case's uplift, as the time histories do at the start"
+        )
     if any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors):
         warnings.append("anchors: the static checks count their prestress, not what opening and slip would add")
     references = dict.fromkeys(check.source for check in checks if check.required is not None)

@@ -25,7 +25,7 @@ _ROWS: tuple[tuple[str, Callable[[LoadCase], str]], ...] = (
     ("  about the", lambda found: found.overturning_about),
     ("flotation factor", lambda found: _number(found.flotation_factor)),
     ("resultant at, m", lambda found: _number(found.resultant_from_heel_m)),
-    ("  within", lambda found: found.resultant_zone),
+    ("  within", lambda found: found.resultant_zone.replace("middle", "mid")),
     ("stress at heel, MPa", lambda found: _number(found.heel_stress_pa, 1e6, 3)),
     ("stress at toe, MPa", lambda found: _number(found.toe_stress_pa, 1e6, 3)),
     ("contact B, m", lambda found: _number(found.contact_width_m)),
@@ -113,8 +113,7 @@ def _cases(found: Statics) -> Table:
     table.add_column("", no_wrap=True)
     for each in found.cases:
         # Five cases with long names are to fit beside each other.
-        lines = each.name.replace(" ", "\n").replace("-", "-\n")
-        table.add_column(lines, justify="right", min_width=max(map(len, lines.split("\n"))))
+        table.add_column(each.name.replace(" ", "\n").replace("-", "-\n"), justify="right", no_wrap=True)
     for label, text in _ROWS:
         table.add_row(label, *(text(each) for each in found.cases))
     return table
