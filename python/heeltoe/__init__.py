@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from heeltoe.scenario import synthetic
     from heeltoe.spectrum import response_spectrum
     from heeltoe.spread import with_spread
+    from heeltoe.statics_model import Statics, statics
     from heeltoe.targets import asce_7, en_1998
     from heeltoe.verdicts import verdict
 
@@ -37,6 +38,7 @@ __all__ = [
     "HeeltoeError",
     "InputError",
     "Response",
+    "Statics",
     "asce_7",
     "build_block",
     "build_flexible_dam",
@@ -53,6 +55,7 @@ __all__ = [
     "response_spectrum",
     "rigid",
     "rigid_many",
+    "statics",
     "stochastic_motion",
     "synthetic",
     "verdict",
@@ -68,6 +71,7 @@ _HOME = {
     "HeeltoeError": "errors",
     "InputError": "errors",
     "Response": "response",
+    "Statics": "statics_model",
     "asce_7": "targets",
     "build_block": "block",
     "build_flexible_dam": "flexible_parts",
@@ -85,6 +89,7 @@ _HOME = {
     "response_spectrum": "spectrum",
     "rigid": "rigid_model",
     "rigid_many": "ensemble",
+    "statics": "statics_model",
     "stochastic_motion": "made_to_order",
     "synthetic": "scenario",
     "verdict": "verdicts",
