@@ -21,10 +21,10 @@ Floats = NDArray[np.float64]
 # From light to dark in black and white: nothing, open, stick, slip one way, slip the other way.
 STATUS_COLOURS = {
     "absent": "#FFFFFF",
-    "open": "#F0E442",
+    "open": "#F7EE90",
     "stick": "#B8B8B8",
     "slip downstream": "#0072B2",
-    "slip upstream": "#8C2D04",
+    "slip upstream": "#4A1500",
 }
 # Of the pressures, the largest in a thousand are single blows of single nodes; the colours end before them.
 _SHOWN = 99.5

@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
 from heeltoe.elastic import side_by_side
@@ -35,7 +36,9 @@ def mesh_figure(dam: FlexibleDam, units: str = "si") -> Figure:
     (left, bottom), (right, top) = extent(dam)
     ratio = (top - bottom) / (right - left)
     small = dam.section.crack_width < 0.4 * (right - left)
-    figure = Figure(figsize=(WIDTH, float(np.clip((4.2 if small else 5.6) * ratio + 1.2, 3.0, 7.5))), layout="constrained")
+    figure = Figure(
+        figsize=(WIDTH, float(np.clip((4.0 if small else 4.8) * ratio + 1.2, 3.0, 7.5))), layout="constrained"
+    )
     elements, nodes = sum(len(mesh.elements) for mesh in bodies), sum(len(mesh.nodes) for mesh in bodies)
     heading(figure, f"{elements} elements of eight nodes, {nodes} nodes, {len(bodies[0].crack)} of them on the crack")
     axes = np.atleast_1d(figure.subplots(1, 2 if small else 1, width_ratios=[1.4, 1.0] if small else None))
@@ -55,7 +58,9 @@ def mesh_figure(dam: FlexibleDam, units: str = "si") -> Figure:
     base = "rigid plane below the crack" if len(bodies) == 1 else "base, held"
     handles = [
         Line2D([], [], color=COLOURS["crack"], marker="o", markersize=3, linestyle="", label="nodes of the crack"),
-        Line2D([], [], color="#000000", marker="^", fillstyle="none", markersize=5, linestyle="", label=base),
+        Patch(facecolor="white", edgecolor="#555555", hatch="////", linewidth=0.0, label=base)
+        if len(bodies) == 1
+        else Line2D([], [], color="#000000", marker="^", fillstyle="none", markersize=5, linestyle="", label=base),
     ]
     figure.legend(handles=handles, loc="outside lower center", ncols=2)
     return figure

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation
 from numpy.typing import NDArray
 
@@ -15,7 +16,7 @@ from heeltoe.crack_history import CrackHistory
 from heeltoe.elastic import principal
 from heeltoe.figures.dam import dam_axes, extent
 from heeltoe.figures.style import WIDTH, describe, styled
-from heeltoe.figures.units import Scale, number, unit_system
+from heeltoe.figures.units import Scale, unit_system
 from heeltoe.mesh_checks import boundary_edges
 from heeltoe.response import Response
 
@@ -31,7 +32,7 @@ _LOOKED_AT = 100
 _SLIDES = 1e-4
 # Stresses at the ends of the crack are singular; the colours end at what nearly all nodes are below.
 _SHOWN = 99.0
-_LEVELS = 10
+_LEVELS = 8
 
 
 @styled
@@ -104,7 +105,9 @@ def _stress_map(
     axes: Axes, record: CrackHistory, places: list[Floats], values: tuple[Floats, ...], most: float, colours: str
 ) -> object:
     """Fill contours of the positive part; what is not positive stays white."""
-    levels = np.linspace(0.0, most, _LEVELS + 1)
+    # Round numbers up to the last one below the largest that is shown.
+    levels = MaxNLocator(_LEVELS, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, most)
+    levels = levels[levels <= most * (1.0 + 1e-9)]
     image = None
     for body, place, each in zip(record.dam.bodies, places, values, strict=True):
         triangles = np.vstack([body.mesh.elements[:, corners] for corners in _TRIANGLES])
@@ -143,4 +146,5 @@ def _outlines(axes: Axes, record: CrackHistory, places: list[Floats], length: Sc
         still = length(body.mesh.nodes)[outline]
         axes.add_collection(LineCollection(still, colors="#777777", linewidths=0.6, linestyles=":"))
         axes.add_collection(LineCollection(place[outline], colors="#000000", linewidths=1.0))
+    axes.margins(0.04)
     axes.autoscale_view()

@@ -54,9 +54,7 @@ def energy_figure(response: Response, units: str = "si") -> Figure:
     describe(figure, response)
     time = response.histories["time_s"]
     for entry, values in curves:
-        over_time.plot(
-            time, scale(values), color=entry.colour, linestyle=entry.dash, linewidth=1.2, label=entry.label
-        )
+        over_time.plot(time, scale(values), color=entry.colour, linestyle=entry.dash, linewidth=1.2, label=entry.label)
     over_time.set_ylabel(f"energy [{scale.unit}]")
     time_axis(over_time, time[-1])
     _waterfall(in_the_end, bars, scale)
@@ -123,7 +121,7 @@ def _waterfall(axes: Axes, bars: list[tuple[_Entry, float]], scale: Scale) -> No
             width=0.7,
             facecolor=entry.colour if place == 0 else "white",
             edgecolor=entry.colour,
-            hatch=entry.hatch * 2,
+            hatch=entry.hatch,
             linewidth=1.0,
         )
         if place:

@@ -155,7 +155,8 @@ def slip_by_mode_figure(response: Response, units: str = "si") -> Figure:
     bars.set_xticks(range(len(ends) + 1), [*ends, "all"], rotation=30, ha="right")
     bars.set_xlabel(f"in the end [{scale.unit}]")
     bars.grid(visible=False, axis="x")
-    bars.margins(y=0.12)
+    (low, high), room = curves.get_ylim(), 0.09
+    curves.set_ylim(low - room * (high - low) * (min(ends.values()) < 0.0), high + room * (high - low))
     figure.legend(*curves.get_legend_handles_labels(), loc="outside lower center", ncols=1 + len(summed))
     return figure
 
@@ -187,5 +188,4 @@ def slip_by_kind(response: Response) -> dict[str, Floats]:
         # What slips within a frame that ends at rest has slid.
         kinds = np.where(np.isin(kinds, list(_SLIP_KINDS)), kinds, "slide")
         found = {kind: np.cumsum(np.where(kinds == kind, steps, 0.0)) for kind in _SLIP_KINDS}
-    present = {kind: values for kind, values in found.items() if response.slip_by_mode_m[_SLIP_KINDS[kind]]}
-    return present
+    return {kind: values for kind, values in found.items() if response.slip_by_mode_m[_SLIP_KINDS[kind]]}

@@ -13,9 +13,11 @@ from heeltoe.figures.style import COLOURS, WIDTH, describe, styled
 from heeltoe.figures.units import number, unit_system
 from heeltoe.motion import GroundMotion
 from heeltoe.response import Response
-from heeltoe.spectrum import response_spectrum
+from heeltoe.spectrum import PERIODS, response_spectrum
 
 _MARKED = 4
+# Two periods nearer to each other than this ratio have no room for a text between them.
+_CLOSE = 1.25
 
 
 @styled
@@ -58,11 +60,11 @@ def spectrum_figure(response: Response, units: str = "si", periods_s: Sequence[f
         axes.axhline(limit, color=COLOURS["rotation"], linestyle="-.", linewidth=1.1)
         axes.annotate(
             f"{kind} of a rigid block starts at {number(limit, 2)} g",
-            (1.0, limit),
+            (0.0, limit),
             xycoords=("axes fraction", "data"),
-            xytext=(-3, 3),
+            xytext=(4, 3),
             textcoords="offset points",
-            ha="right",
+            ha="left",
             fontsize=8,
             color=COLOURS["rotation"],
             bbox=BEHIND_TEXT,
@@ -81,16 +83,18 @@ def spectrum_figure(response: Response, units: str = "si", periods_s: Sequence[f
 
 def _mark(axes: Axes, periods: Sequence[float]) -> None:
     """Mark the longest periods, counted from the longest."""
-    left, top = 0.02, axes.get_ylim()[1]
+    left, top = PERIODS[0], axes.get_ylim()[1]
     marked = [period for period in list(periods)[:_MARKED] if period > left]
     for place, period in enumerate(marked, start=1):
+        # The text stands before its line, or after it where the next shorter period is close.
+        crowded = place < len(marked) and period < _CLOSE * marked[place]
         axes.axvline(period, color=COLOURS["toe"], linewidth=1.0, linestyle=(0, (4, 2)))
         axes.text(
             period,
             0.98 * top,
             f"T{place} = {number(period, 3)} s ",
             rotation=90,
-            ha="right",
+            ha="left" if crowded else "right",
             va="top",
             fontsize=7,
             color="#006B4E",

@@ -129,9 +129,7 @@ def _elastic_drawings(response: Response, units: str) -> dict[str, Callable[[], 
     }
 
 
-def write_figures(
-    response: Response, directory: Path, *, case: Case | None = None, units: str = "si"
-) -> list[Path]:
+def write_figures(response: Response, directory: Path, *, case: Case | None = None, units: str = "si") -> list[Path]:
     """Write the figures of a response into `directory` as PNG and SVG and return their paths.
 
     A response without histories (the run never started) has none but the section, where its case is given.
