@@ -86,7 +86,7 @@ class Canvas:
 
     def arrow(self, tail: ArrayLike, tip: ArrayLike, colour: str, *, width: float = 2.0) -> None:
         """Draw an arrow whose head does not outgrow it."""
-        points = self.points([tail, tip])
+        points = self.points(np.stack([tail, tip]))
         pixels = self.axes.transData.transform(points)
         figure = self.axes.figure
         long = 72.0 / figure.dpi * float(np.hypot(*(pixels[1] - pixels[0])))
@@ -103,7 +103,7 @@ class Canvas:
 
     def dimension(self, start: ArrayLike, end: ArrayLike, text: str, *, shift: ArrayLike = (0.0, 0.0)) -> None:
         """Draw a dimension line, `shift` [m] away from what it measures, with its text on it."""
-        ends = np.asarray([start, end], dtype=float)
+        ends = np.stack([np.asarray(start, dtype=float), np.asarray(end, dtype=float)])
         moved = ends + np.asarray(shift, dtype=float)
         for place, far in zip(ends, moved, strict=True):
             # Below the dam, whose outline it would cover.

@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 _KINDS = {"sliding": "slide", "rocking": "rock", "slide-rocking": "slide-rock", "drifting": "drift"}
 # Text on top of lines stays readable.
 BEHIND_TEXT = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.6}
-# An axis that is cut shows a block that overturns up to this rotation at least [rad].
+# Up to which rotation a block that overturns at once is shown [rad].
 _TILTED = 0.05
 
 
@@ -159,7 +159,8 @@ def shown_rotation(response: Response) -> float | None:
     rotation = response.histories["rotation_rad"]
     turns = np.flatnonzero(np.diff(np.sign(rotation)) != 0)
     before = np.abs(rotation[: turns[-1] + 1]) if turns.size else np.zeros(1)
-    return float(min(max(_TILTED, 3.0 * before.max()), math.pi / 2.0))
+    rocking = float(before.max())
+    return min(3.0 * rocking if rocking > 1e-5 else _TILTED, math.pi / 2.0)
 
 
 def note_overturned(axes: Axes, response: Response) -> None:
