@@ -82,7 +82,8 @@ def deformed_figure(response: Response, time: float | None = None, units: str = 
         dam_axes(axes, length)
     panels[1].set_ylabel("")
     moment = f"t = {record.time[frame]:.2f} s{why}; displacements exaggerated {exaggeration:g} times"
-    figure.supxlabel(moment, fontsize=9)
+    key = "short lines: direction of the stress; dashed line: where it is zero; dotted outline: undeformed"
+    figure.supxlabel(f"{moment}\n{key}", fontsize=9)
     return figure
 
 
@@ -145,5 +146,7 @@ def _outlines(axes: Axes, record: CrackHistory, places: list[Floats], length: Sc
         still = length(body.mesh.nodes)[outline]
         axes.add_collection(LineCollection(list(still), colors="#777777", linewidths=0.6, linestyles=":"))
         axes.add_collection(LineCollection(list(place[outline]), colors="#000000", linewidths=1.0))
-    axes.margins(0.04)
-    axes.autoscale_view()
+    corners = np.vstack([*places, *(length(body.mesh.nodes) for body in record.dam.bodies)])
+    room = 0.03 * np.ptp(corners, axis=0).max()
+    axes.set_xlim(corners[:, 0].min() - room, corners[:, 0].max() + room)
+    axes.set_ylim(corners[:, 1].min() - room, corners[:, 1].max() + room)

@@ -208,7 +208,9 @@ def _draw_dimensions(
         )
     foot = corners[corners[:, 1] == base]
     if np.ptp(foot[:, 0]) > 0.0:
-        drop = -(0.1 * size + (below if section.crack_elevation == base else 0.0))
+        # Below the uplift diagram, as far as that comes out of the dam.
+        lowest = min(section.heel[1], section.toe[1]) - base
+        drop = -(0.1 * size + max(0.0, below - lowest))
         canvas.dimension(
             [foot[:, 0].min(), base], [foot[:, 0].max(), base], said(float(np.ptp(foot[:, 0]))), shift=[0.0, drop]
         )
