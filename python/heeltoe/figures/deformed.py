@@ -68,12 +68,12 @@ def deformed_figure(response: Response, time: float | None = None, units: str = 
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
     turned = tuple(each + math.pi / 2.0 for each in angle)
     both = (
-        (major, angle, "Oranges", "tension", 1.0),
-        (tuple(-each for each in minor), turned, "Blues", "compression", -1.0),
+        (major, angle, "Oranges", "tension"),
+        (tuple(-each for each in minor), turned, "Blues", "compression"),
     )
-    for axes, (values, direction, colours, name, _) in zip(panels, both, strict=True):
-        most = max(float(np.percentile(np.concatenate(values), _SHOWN)), 1e-9)
-        stress = system.scale("pressure", most)
+    tops = [max(float(np.percentile(np.concatenate(values), _SHOWN)), 1e-9) for values, *_ in both]
+    stress = system.scale("pressure", max(tops))
+    for axes, most, (values, direction, colours, name) in zip(panels, tops, both, strict=True):
         image = _stress_map(axes, record, places, tuple(stress(each) for each in values), stress(most), colours)
         _crosses(axes, record, places, values, direction, 0.1 * most)
         _outlines(axes, record, places, length)
@@ -113,7 +113,6 @@ def _stress_map(
         triangles = np.vstack([body.mesh.elements[:, corners] for corners in _TRIANGLES])
         net = Triangulation(place[:, 0], place[:, 1], triangles)
         image = axes.tricontourf(net, np.maximum(each, -1e-12), levels=levels, cmap=colours, extend="max")
-        # The lowest colour is for the lowest stress; none of it is white paper.
         axes.tricontour(net, each, levels=[0.0], colors="#555555", linewidths=0.7, linestyles="--")
     return image
 
