@@ -49,7 +49,7 @@ def section_figure(case: Case, units: str = "si") -> Figure:
     if not one:
         near = max(section.crack_width, section.height)
         bottom, top = section.polygon.min(axis=0), section.polygon.max(axis=0)
-        views.append((bottom - np.array([0.95, 0.55]) * near, top + np.array([0.6, 0.12]) * near))
+        views.append((bottom - np.array([1.2, 0.55]) * near, top + np.array([0.5, 0.12]) * near))
         widths = [3.1, WIDTH - 3.1 - 2.0 * _LEFT - _EDGE]
     asked = max(w * (top[1] - low[1]) / (top[0] - low[0]) for w, (low, top) in zip(widths, views, strict=True))
     tall = float(np.clip(asked, 2.5, _TALLEST))
