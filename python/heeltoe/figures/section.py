@@ -146,6 +146,8 @@ def _draw_surface(canvas: Canvas, whole: shapely.Polygon, level: float, side: st
         linewidth=0.9,
         zorder=4,
     )
+    canvas.keep_off([[at - size, level - size], [at + size, level + 1.7 * size]])
+    canvas.keep_off([[at - size, level + 1.7 * size], [at + size, level - size]])
     for step, part in ((0.6, 0.9), (1.2, 0.5)):
         z = level - step * size
         canvas.line([[at - part * size, z], [at + part * size, z]], color="#0072B2", linewidth=0.8, zorder=4)
