@@ -129,7 +129,7 @@ def test_what_an_earlier_run_left_does_not_stay(both, tmp_path):
 
 
 def test_a_failure_leaves_nothing_behind(both, tmp_path, monkeypatch):
-    def fail(*_):
+    def fail(*_, **__):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("heeltoe.outputs.write_figures", fail)

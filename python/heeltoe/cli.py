@@ -113,6 +113,7 @@ def run(
     vtk: Annotated[
         bool, typer.Option("--vtk", help="With --out: VTK files of the flexible model for ParaView.")
     ] = False,
+    units: Annotated[str, typer.Option(metavar="si|us", help="Units of the figures.")] = "si",
     output_step: Annotated[
         str | None,
         typer.Option(
@@ -131,6 +132,8 @@ def run(
 
     if model not in _MODELS:
         raise InputError("unknown-model", "--model", model)
+    if units not in ("si", "us"):
+        raise InputError("unknown-units", "--units", units)
     if report:
         raise InputError("not-yet", "--report", "the report", remedy="leave it out; --out DIR writes figures and JSON")
     if vtk and out is None:
@@ -170,7 +173,7 @@ def run(
 
             say("writing")
             suffix = ".csv" if csv else ".parquet"
-            written = write_all(result, out, suffix=suffix, vtk=vtk)
+            written = write_all(result, out, loaded, units, suffix=suffix, vtk=vtk)
     _finish(result.to_json(), json_, written, lambda console: _print(result, console))
     if not result.ok:
         raise typer.Exit(NO_RESULT)

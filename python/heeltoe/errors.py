@@ -261,6 +261,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "output-step": ("{value} is not a step within the run", "give one above 0 s and up to {duration}"),
     "not-yet": ("{value} comes with a later release", "{remedy}"),
     "unknown-model": ("{value} is no model", "use rigid, decoupled, flexible, both or decoupled,flexible"),
+    "unknown-units": ("{value} is no system of units", "use si or us"),
     "spread-runs": ("{value} is no number of runs", "give {fewest} to {most}, or none for {usual}"),
     "period-count": ("{value} periods are not to be had", "give 1 to {most}"),
     "vtk-without-out": ("has no place to go", "add --out DIR"),

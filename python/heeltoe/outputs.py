@@ -6,32 +6,39 @@ from pathlib import Path
 from shutil import rmtree
 from tempfile import TemporaryDirectory
 
+from heeltoe.case import Case
 from heeltoe.comparison import Comparison
 from heeltoe.crack_history import crack_table
 from heeltoe.errors import InputError
-from heeltoe.figures import write_comparison_figure, write_figures
+from heeltoe.figures import NAMES, write_comparison_figure, write_figures
 from heeltoe.response import Response, json_text, write_table
 from heeltoe.variations import Grid
 
 # Names of files that a run may leave; those of an earlier one into the same directory would not belong to this one.
 _TABLES = ("histories", "events", "crack", "table")
-_FIGURES = ("crack-level", "slips", "response", "accelerations", "forces", "energy", "crack", "comparison")
 _OWN = (
     "result.json",
     *(f"{name}{suffix}" for name in _TABLES for suffix in (".parquet", ".csv")),
-    *(f"{name}{suffix}" for name in _FIGURES for suffix in (".png", ".svg")),
+    *(f"{name}{suffix}" for name in NAMES for suffix in (".png", ".svg")),
 )
 _VTK = "vtk"
 
 
 def write_all(
-    result: Response | Comparison | Grid, directory: Path, *, suffix: str = ".parquet", vtk: bool = False
+    result: Response | Comparison | Grid,
+    directory: Path,
+    case: Case | None = None,
+    units: str = "si",
+    *,
+    suffix: str = ".parquet",
+    vtk: bool = False,
 ) -> list[Path]:
     """Write a result with its histories and figures.
 
     Of one model ``result.json``, ``histories``, ``events`` (rigid) or ``crack`` (flexible) and the figures go right
     into the directory. Of both, ``result.json`` with both and the figure ``comparison`` do, and each model's own into
-    the directories named after the models. Of a table of runs ``result.json``, ``table`` and its figures. All is
+    the directories named after the models. Of a table of runs ``result.json``, ``table`` and its figures. With the case
+    there is a figure of the section, too. All is
     written aside first, so that a failure leaves nothing half-done; files of these names from an earlier run are
     replaced or removed.
 
@@ -41,6 +48,10 @@ def write_all(
         What to write.
     directory
         Where; it is made if it is not there.
+    case
+        Of the result.
+    units
+        Of the figures, ``"si"`` or ``"us"``; numbers in files are SI.
     suffix
         Of the tables, ``.parquet`` or ``.csv``.
     vtk
@@ -54,7 +65,7 @@ def write_all(
     Raises
     ------
     InputError
-        Where the directory cannot be written, or what VTK files need is not installed.
+        Where the directory cannot be written, the units are unknown, or what VTK files need is not installed.
     """
     made = next((place for place in (*reversed(directory.parents), directory) if not place.exists()), None)
     try:
@@ -63,13 +74,13 @@ def write_all(
             fresh = Path(name)
             if isinstance(result, Comparison):
                 (fresh / "result.json").write_text(json_text(result.to_json()) + "\n", encoding="utf-8")
-                write_comparison_figure(result, fresh)
+                write_comparison_figure(result, fresh, case=case, units=units)
                 for each in (result.rigid, result.flexible):
-                    _write_one(each, fresh / each.model, suffix, vtk)
+                    _write_one(each, fresh / each.model, None, units, suffix, vtk)
             elif isinstance(result, Grid):
                 _write_grid(result, fresh)
             else:
-                _write_one(result, fresh, suffix, vtk)
+                _write_one(result, fresh, case, units, suffix, vtk)
             return _move(fresh, directory)
     except (OSError, InputError) as error:
         if made is not None:
@@ -79,19 +90,15 @@ def write_all(
         raise InputError("cannot-write", "--out", directory, reason=error.strerror or error) from None
 
 
-def _write_one(response: Response, directory: Path, suffix: str, vtk: bool) -> None:
+def _write_one(response: Response, directory: Path, case: Case | None, units: str, suffix: str, vtk: bool) -> None:
     directory.mkdir(exist_ok=True)
     (directory / "result.json").write_text(json_text(response.to_json()) + "\n", encoding="utf-8")
+    write_figures(response, directory, case=case, units=units)
     if not response.histories:
         return
     response.write_histories(directory / f"histories{suffix}")
     if response.event_log:
         response.write_events(directory / f"events{suffix}")
-    write_figures(response, directory)
-    if response.model == "decoupled":
-        from heeltoe.decoupled_figures import write_crack_level_figure
-
-        write_crack_level_figure(response, directory)
     if response.crack is None:
         return
     write_table(crack_table(response.crack), directory / f"crack{suffix}")
@@ -102,7 +109,7 @@ def _write_one(response: Response, directory: Path, suffix: str, vtk: bool) -> N
 
 
 def _write_grid(grid: Grid, directory: Path) -> None:
-    from heeltoe.decoupled_figures import write_grid_figures
+    from heeltoe.figures import write_grid_figures
 
     (directory / "result.json").write_text(json_text(grid.to_json()) + "\n", encoding="utf-8")
     for suffix in (".csv", ".parquet"):

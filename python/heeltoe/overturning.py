@@ -12,7 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 import pyarrow as pa
@@ -24,9 +24,6 @@ from heeltoe.case import Case
 from heeltoe.errors import InputError
 from heeltoe.response import build_info
 from heeltoe.rigid_model import GroundSeries, run_block
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 Floats = NDArray[np.float64]
 Pulse = Literal["sine", "half-sine", "cosine"]
@@ -219,55 +216,13 @@ def _end(case: Case, block: Block, time: Floats, ground: Floats) -> int:
     return int(max(row[_ROW["largest_gap_heel"]], row[_ROW["largest_gap_toe"]]) > 0.0)
 
 
-def overturning_figure(found: OverturningMap) -> Figure:
-    """Draw the map: what each pulse does, told by colours that differ in lightness, too."""
-    import matplotlib as mpl
-    from matplotlib.colors import BoundaryNorm, ListedColormap
-    from matplotlib.figure import Figure
-    from matplotlib.patches import Patch
-
-    from heeltoe.figures import STYLE
-
-    colours = ("#FFFFFF", "#D9E8F5", "#E69F00", "#8C2D04", "#999999")
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(7.0, 5.0), layout="constrained")
-        axes = figure.subplots()
-        axes.pcolormesh(
-            found.frequency_hz,
-            found.amplitude_g,
-            found.end.T,
-            cmap=ListedColormap(colours),
-            norm=BoundaryNorm(np.arange(len(ENDS) + 1) - 0.5, len(ENDS)),
-            shading="nearest",
-            rasterized=True,
-        )
-        axes.grid(visible=False)
-        axes.set_xlabel("frequency of the pulse [Hz]")
-        axes.set_ylabel("amplitude of the pulse [g]")
-        one = 2.0 * math.pi / found.frequency_parameter_1_s
-        ratio: Any = (lambda hertz: one * hertz, lambda over: over / one)
-        above = axes.secondary_xaxis("top", functions=ratio)
-        above.set_xlabel(f"circular frequency over p, p = {found.frequency_parameter_1_s:.3g} 1/s")
-        seen = [k for k in range(len(ENDS)) if (found.end == k).any()]
-        axes.legend(
-            handles=[Patch(facecolor=colours[k], edgecolor="#888888", label=ENDS[k]) for k in seen],
-            loc="upper center",
-            bbox_to_anchor=(0.5, -0.13),
-            ncols=2,
-        )
-        figure.suptitle(f"{found.title or 'Untitled case'}\none {found.pulse} pulse", fontsize=10, x=0.01, ha="left")
-    return figure
-
-
 def write_overturning(found: OverturningMap, directory: Path) -> list[Path]:
     """Write the map as ``overturning.csv``, ``.png`` and ``.svg`` and return their paths."""
+    from heeltoe.figures import save_all
+    from heeltoe.figures.overturning import overturning_figure
     from heeltoe.response import write_table
 
     directory.mkdir(parents=True, exist_ok=True)
-    written = [directory / "overturning.csv"]
-    write_table(found.to_table(), written[0])
-    figure = overturning_figure(found)
-    for suffix in (".png", ".svg"):
-        written.append(directory / f"overturning{suffix}")
-        figure.savefig(written[-1], dpi=150)
-    return written
+    table = directory / "overturning.csv"
+    write_table(found.to_table(), table)
+    return [table, *save_all({"overturning": overturning_figure(found)}, directory)]

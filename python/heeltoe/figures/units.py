@@ -1,0 +1,95 @@
+"""Units of figures: SI, or those of the United States; one factor and one label for each quantity."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from heeltoe.errors import InputError
+
+# Exact by definition (NIST Special Publication 811, appendix B.8): metres, newtons.
+_FOOT, _INCH, _POUND_FORCE = 0.3048, 0.0254, 4.4482216152605
+_KIP = 1e3 * _POUND_FORCE
+
+# A quantity has one or more scales (SI value of one unit, its name), from the largest; one is taken whose unit the
+# largest value reaches, else the last.
+_SI: dict[str, tuple[tuple[float, str], ...]] = {
+    "length": ((1.0, "m"),),
+    "displacement": ((1.0, "m"), (1e-3, "mm")),
+    "velocity": ((1.0, "m/s"),),
+    "force": ((1e6, "MN/m"), (1e3, "kN/m")),
+    "pressure": ((1e6, "MPa"), (1e3, "kPa")),
+    "energy": ((1e6, "MJ/m"), (1e3, "kJ/m"), (1.0, "J/m")),
+}
+_US: dict[str, tuple[tuple[float, str], ...]] = {
+    "length": ((_FOOT, "ft"),),
+    "displacement": ((_FOOT, "ft"), (_INCH, "in")),
+    "velocity": ((_FOOT, "ft/s"),),
+    "force": ((_KIP / _FOOT, "kip/ft"),),
+    "pressure": ((_POUND_FORCE / _INCH**2, "psi"),),
+    "energy": ((_KIP, "ft-kip/ft"),),
+}
+_BOTH: dict[str, tuple[tuple[float, str], ...]] = {
+    "rotation": ((1.0, "rad"), (1e-3, "mrad")),
+}
+# How many of a unit the largest value must come to, for that unit to be taken; 1 where nothing is said.
+_ENOUGH = {"ft": 10.0, "rad": 0.2, "MPa": 0.1, "MN/m": 0.5, "MJ/m": 0.1, "kJ/m": 0.1}
+_SYSTEMS = {"si": _SI | _BOTH, "us": _US | _BOTH}
+
+
+@dataclass(frozen=True)
+class Scale:
+    """One unit: `factor` times a value in SI is the number in it."""
+
+    factor: float
+    unit: str
+
+    def __call__(self, values: Any) -> Any:
+        """Return values in SI as numbers in this unit."""
+        return values * self.factor
+
+    def text(self, value: float, digits: int = 3) -> str:
+        """Write a value in SI with this unit, to so many digits, none cut off before the point."""
+        return f"{number(value * self.factor, digits)} {self.unit}"
+
+
+@dataclass(frozen=True)
+class Units:
+    """A system of units, ``"si"`` or ``"us"``."""
+
+    name: str
+
+    def scale(self, quantity: str, largest: float | None = None) -> Scale:
+        """Return the unit of a quantity for values up to `largest` in SI; the first one where none is given."""
+        choices = _SYSTEMS[self.name][quantity]
+        if largest is None:
+            value, unit = choices[0]
+        else:
+            reached = (each for each in choices if largest >= _ENOUGH.get(each[1], 1.0) * each[0])
+            value, unit = next(reached, choices[-1])
+        return Scale(1.0 / value, unit)
+
+
+def unit_system(name: str, field: str = "units") -> Units:
+    """Return the system of units of this name.
+
+    Raises
+    ------
+    InputError
+        Where it is neither ``"si"`` nor ``"us"``.
+    """
+    if name not in _SYSTEMS:
+        raise InputError("unknown-units", field, name)
+    return Units(name)
+
+
+def number(value: float, digits: int = 3) -> str:
+    """Write a number to so many digits, without an exponent where people would write none."""
+    if value == 0.0:
+        return "0"
+    size = abs(value)
+    if not 1e-3 <= size < 1e6:
+        return f"{value:.{digits}g}"
+    rounded = float(f"{value:.{digits}g}")
+    decimals = max(0, digits - 1 - int(f"{abs(rounded):e}".rpartition("e")[2]))
+    return f"{rounded if decimals else value:.{decimals}f}"
