@@ -130,7 +130,7 @@ def rigid(
         motion=motion,
         vertical=vertical,
         gravity=case.gravity,
-        histories=_histories(moments, history, shaking, block) if started else {},
+        histories=_histories(case, moments, history, shaking, block) if started else {},
         mode=tuple(_kernel.MODES[m] for m in modes) if started else (),
         event_log=_events(event_rows),
         static=static_state(block),
@@ -261,7 +261,7 @@ def _energy(raw: dict[str, float]) -> Energy:
     )
 
 
-def _histories(moments: Floats, history: Floats, shaking: GroundSeries, block: Block) -> dict[str, Floats]:
+def _histories(case: Case, moments: Floats, history: Floats, shaking: GroundSeries, block: Block) -> dict[str, Floats]:
     column = {name: np.ascontiguousarray(history[:, k]) for k, name in enumerate(_kernel.HISTORY_FIELDS)}
     time = shaking.time
     result = {"time_s": moments, "ground_acceleration_m_s2": np.interp(moments, time, shaking.horizontal)}
@@ -269,14 +269,20 @@ def _histories(moments: Floats, history: Floats, shaking: GroundSeries, block: B
         result["vertical_ground_acceleration_m_s2"] = np.interp(moments, time, shaking.up)
     if shaking.turning is not None:
         result["ground_rotation_rad_s2"] = np.interp(moments, time, shaking.turning)
+    rotation = (column["gap_toe"] - column["gap_heel"]) / block.width
+    rate = (column["gap_velocity_toe"] - column["gap_velocity_heel"]) / block.width
+    if case.analysis.rotation == "finite":
+        # The gaps go with its sine.
+        rotation = np.arcsin(np.clip(rotation, -1.0, 1.0))
+        rate = rate / np.maximum(np.cos(rotation), 1e-9)
     result |= {
         "slip_m": column["slip"],
         "slip_velocity_m_s": column["slip_velocity"],
         "slip_acceleration_m_s2": column["slip_acceleration"],
         "gap_heel_m": column["gap_heel"],
         "gap_toe_m": column["gap_toe"],
-        "rotation_rad": (column["gap_toe"] - column["gap_heel"]) / block.width,
-        "rotation_velocity_rad_s": (column["gap_velocity_toe"] - column["gap_velocity_heel"]) / block.width,
+        "rotation_rad": rotation,
+        "rotation_velocity_rad_s": rate,
         "friction_force_n": column["friction_force"],
         "normal_force_heel_n": column["normal_force_heel"],
         "normal_force_toe_n": column["normal_force_toe"],

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, NullFormatter
 
-from heeltoe.figures.style import COLOURS
+from heeltoe.figures.style import COLOURS, heading, styled
 from heeltoe.response import Response
 
 _CRACK = COLOURS["rotation"]

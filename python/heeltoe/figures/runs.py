@@ -10,6 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from heeltoe.figures.crack_level import crack_level_figure
+from heeltoe.figures.style import heading, styled
 from heeltoe.figures.write import save_all
 from heeltoe.verdicts import length
 
