@@ -6,6 +6,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from heeltoe.animation import animate
     from heeltoe.block import Block, build_block
     from heeltoe.case import Case, read_case
     from heeltoe.comparison import Comparison, compare
@@ -36,6 +37,7 @@ __all__ = [
     "HeeltoeError",
     "InputError",
     "Response",
+    "animate",
     "asce_7",
     "build_block",
     "build_flexible_dam",
@@ -65,6 +67,7 @@ _HOME = {
     "HeeltoeError": "errors",
     "InputError": "errors",
     "Response": "response",
+    "animate": "animation",
     "asce_7": "targets",
     "build_block": "block",
     "build_flexible_dam": "flexible_parts",
