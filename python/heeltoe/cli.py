@@ -231,7 +231,7 @@ def animate(
         str, typer.Option(metavar="rigid|flexible|decoupled", help="What the dam is taken for.")
     ] = "rigid",
     to: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="A .mp4, .gif or .html; CASE.html here if not said.")
+        Path | None, typer.Option(metavar="FILE", help="A .mp4, .gif or .html; CASE.animation.html here if not said.")
     ] = None,
     exaggerate: Annotated[
         str, typer.Option(metavar="N|auto", help="Draw displacements N times as far as they are.")
@@ -254,7 +254,7 @@ def animate(
 
     if model not in ("rigid", "flexible", "decoupled"):
         raise InputError("animation-model", "--model", model)
-    place = to or Path(f"{Path(case).stem}.html")
+    place = to or Path(f"{Path(case).stem}.animation.html")
     many = None if exaggerate == "auto" else parse(exaggerate, "number", "--exaggerate")
     start = parse(from_, "duration", "--from")
     end = None if until is None else parse(until, "duration", "--until")

@@ -1,4 +1,4 @@
-"""The parts of the dam as an animation moves them: points, and displacements as a few shapes with amplitudes in time."""
+"""The parts of the dam as an animation moves them: points, and displacements as shapes with amplitudes in time."""
 
 from __future__ import annotations
 

@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe import _kernel
 from heeltoe.animation.bodies import Moments, Part, elastic_parts, rigid_parts
 from heeltoe.case import Case
 from heeltoe.crack_history import CrackHistory
@@ -246,9 +245,11 @@ def _views(
     left, right = min(points[:, 0].min(), low[0]), max(points[:, 0].max(), high[0])
     base, height = section.base_elevation, section.crest_elevation - section.base_elevation
     top = max(section.crest_elevation, high[1])
-    bottom = min(base - 0.14 * height, low[1])
+    near_crack = section.height <= _SMALL * height
+    # Below a crack that has no picture of its own there must be room for its forces.
+    bottom = min(base - 0.14 * height, section.heel[1] - (0.0 if near_crack else 0.2 * height), low[1])
     whole = (float(left - 0.35 * height), float(right + 0.12 * height), float(bottom), float(top + 0.05 * height))
-    if section.height > _SMALL * height:
+    if not near_crack:
         return (whole,)
     size = max(section.height, section.crack_width)
     sides = (float(low[0] - 0.3 * size), float(high[0] + 0.3 * size))

@@ -6,6 +6,7 @@ UPPER, LOWER = "#dedcd5", "#c2bfb6"
 EDGE, GRID = "#3a3a38", "#aaa8a0"
 WATER, SURFACE = "#cfe5f4", "#5b9bc8"
 GROUND = "#d9cbb2"
+BEFORE = "#6a6a66"
 FORCE, FORCE_CUT = "#882255", "#e08bb4"
 #: By `Scene.status`; what is open is a mere rim.
 STATUS = ("#ffffff", "#333333", "#0072B2", "#D55E00")
@@ -17,6 +18,8 @@ TRACES = {
     "opening at the heel": "#CC79A7",
     "opening at the toe": "#009E73",
 }
+#: Colours that say something, which no picture may lose.
+SPEAKING = (*STATUS, *MODES.values(), *TRACES.values(), FORCE, FORCE_CUT, WATER, UPPER, LOWER, GROUND)
 # The states of an elastic dam's crack as kinds of motion.
 _KINDS = {"sliding": "slide", "rocking": "rock", "slide-rocking": "slide-rock", "drifting": "drift"}
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import warnings
-from typing import Any, NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple, cast
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,7 +18,7 @@ from numpy.typing import NDArray
 from heeltoe.animation import look
 from heeltoe.animation.bodies import Part
 from heeltoe.animation.charts import Charts, animated
-from heeltoe.animation.frames import ARROW, CUT, STATUSES, Scene
+from heeltoe.animation.frames import ARROW, CUT, Scene
 
 Floats = NDArray[np.float64]
 
@@ -41,7 +42,8 @@ class Picture:
 
     def __init__(self, scene: Scene, pixels_per_inch: int) -> None:
         self.figure = Figure(figsize=SIZE, dpi=pixels_per_inch, facecolor="white")
-        self.canvas = FigureCanvasAgg(self.figure)
+        # matplotlib has no types for what follows.
+        self.canvas = cast(Any, FigureCanvasAgg(self.figure))
         _heading(self.figure, scene)
         places = [_ONE] if len(scene.views) == 1 else [_WHOLE, _NEAR]
         views = [_View(_fitted(self.figure, view, at), scene) for view, at in zip(scene.views, places, strict=True)]
@@ -49,7 +51,7 @@ class Picture:
         views[-1].add_crack()
         if len(views) > 1:
             views[0].add_frame(scene.views[1])
-        self.moving = [*views, Charts(self.figure, scene)]
+        self.moving: list[_View | Charts] = [*views, Charts(self.figure, scene)]
         with warnings.catch_warnings():
             # A title may be in letters that no font here has; boxes stand for them.
             warnings.filterwarnings("ignore", "Glyph .* missing from", UserWarning)
@@ -59,7 +61,8 @@ class Picture:
     @property
     def size(self) -> tuple[int, int]:
         """Width and height in pixels."""
-        return self.canvas.get_width_height()
+        width, height = self.canvas.get_width_height()
+        return int(width), int(height)
 
     def draw(self, frame: int) -> memoryview:
         """Draw one moment and return its pixels, row by row from the top: red, green, blue and opacity."""
@@ -67,7 +70,8 @@ class Picture:
         for part in self.moving:
             for artist in part.at(frame):
                 self.figure.draw_artist(artist)
-        return self.canvas.buffer_rgba()
+        pixels: memoryview = self.canvas.buffer_rgba()
+        return pixels
 
 
 def _heading(figure: Figure, scene: Scene) -> None:
@@ -114,8 +118,8 @@ class _View:
         self.foot = axes.get_ylim()[0]
         # Where there is a picture of the crack, the other one is too small for lines between elements.
         self.detailed = False
-        #: Called at each moment; return what is drawn over the dam.
-        self.overlays: list[Any] = []
+        # Told the frame and where the parts are drawn; they return what is drawn over the dam.
+        self.overlays: list[Callable[[int, dict[int, Floats]], list[Any]]] = []
         x0, x1 = self.sides
         if scene.base > self.foot:
             depth = scene.base - self.foot
@@ -132,6 +136,11 @@ class _View:
         # The part below the crack behind the part above.
         colours = (look.UPPER, look.LOWER)
         self.bodies = [self._body(part, colour) for part, colour in zip(scene.parts, colours, strict=False)][::-1]
+        # Where the part above the crack was before the earthquake, against which its slip is seen.
+        upper = scene.parts[0]
+        before = upper.points[[*upper.outline, upper.outline[0]]].T
+        line = animated(axes.plot(*before, color=look.BEFORE, linewidth=0.8, dashes=(5, 4))[0])
+        self.overlays.append(lambda frame, drawn: [line])
 
     def _body(self, part: Part, colour: str) -> _Body:
         fill = Polygon([(0, 0)], facecolor=colour, edgecolor=look.EDGE, linewidth=0.9)
@@ -152,16 +161,15 @@ class _View:
         scene = self.scene
         trace = scene.traces[0]
         peak = float(np.abs(trace.values).max()) or 1.0
-        lengths = np.interp(scene.times, scene.history_times, trace.values) / peak * 0.25 * np.ptp(self.sides)
-        points = scene.parts[-1].points
+        wide = np.ptp(self.sides)
+        lengths = np.interp(scene.times, scene.history_times, trace.values) / peak * 0.13 * wide
         depth = scene.base - self.foot
-        at = np.array([(points[:, 0].min() + points[:, 0].max()) / 2.0, scene.base - 0.66 * depth])
+        # Upstream of the dam, where no forces are drawn.
+        at = np.array([self.sides[0] + 0.15 * wide, scene.base - 0.66 * depth])
         arrow = self._arrows("#222222")
-        self.axes.text(
-            at[0], scene.base - 0.06 * depth, "ground accelerates", fontsize=8, ha="center", va="top", zorder=4
-        )
-        # In the units of the picture, as high as the ground allows.
-        width = 0.14 * depth
+        self.axes.text(at[0], scene.base - 0.06 * depth, "ground accelerates", fontsize=8, ha="center", va="top")
+        # As high as the ground allows.
+        width = min(0.14 * depth, 0.015 * wide)
 
         def move(frame: int, drawn: dict[int, Floats]) -> list[Any]:
             vector = np.array([[lengths[frame], 0.0]])
@@ -214,7 +222,8 @@ class _View:
             figure.add_artist(dot)
             figure.text(x + 0.013, 0.038, name, fontsize=9, va="center")
             x += 0.03 + 0.006 * len(name)
-        assert len(look.STATUS) == len(STATUSES)
+        figure.add_artist(Line2D([x, x + 0.018], [0.038, 0.038], color=look.BEFORE, linewidth=0.8, dashes=(5, 4)))
+        figure.text(x + 0.023, 0.038, "before", fontsize=9, va="center")
 
     def _arrows(self, colour: str) -> Any:
         return animated(

@@ -115,7 +115,11 @@
       stroke(outline, "edge", 1, true);
       stroke(picked(points, part.crack).map(at), "edge", 2, false);
     });
-    if (number === 0) drawGroundArrow(fill, at, colour, context, moment, width, ground, foot);
+    // Where the part above the crack was before the earthquake, against which its slip is seen.
+    context.setLineDash([5, 4]);
+    stroke(picked(scene.parts[0].points, scene.parts[0].outline).map(at), "faint", 1, true);
+    context.setLineDash([]);
+    if (number === 0) drawGroundArrow(fill, colour, context, [left, width, ground, foot]);
     if (detailed) drawCrack(context, colour, fill, at, moment, picked(drawn[0], scene.parts[0].crack), scale);
     else {
       const [near0, near1, low, high] = scene.views[1];
@@ -129,19 +133,18 @@
     context.strokeRect(left + 0.5, top + 0.5, width - 1, height - 1);
   }
 
-  function drawGroundArrow(fill, at, colour, context, moment, width, ground, foot) {
-    const lower = scene.parts[scene.parts.length - 1].points.filter((_, k) => k % 2 === 0);
-    const [x] = at([(Math.min(...lower) + Math.max(...lower)) / 2, scene.base]);
-    const depth = foot - ground;
+  /** Draw the ground's acceleration upstream of the dam, where no forces are drawn. */
+  function drawGroundArrow(fill, colour, context, [left, width, ground, foot]) {
     const trace = scene.traces[0].values;
     const peak = trace.reduce((most, value) => Math.max(most, Math.abs(value)), 0) || 1;
     const now = between(trace, momentAt(scene.historyTimes, state.time)) / peak;
-    const long = 0.25 * width * now;
-    fill(arrowOutline([x + long, ground + 0.7 * depth], [long, 0], 0.14 * depth), "text");
+    const [x, depth, long] = [left + 0.15 * width, foot - ground, 0.13 * width * now];
     context.fillStyle = colour("text");
+    context.font = "11px system-ui, sans-serif";
     context.textAlign = "center";
     context.textBaseline = "middle";
-    context.fillText("ground accelerates", x, ground + 0.28 * depth);
+    context.fillText("ground accelerates", Math.max(x, left + 52), ground + 0.25 * depth);
+    fill(arrowOutline([x + long, ground + 0.66 * depth], [long, 0], Math.min(0.14 * depth, 0.015 * width)), "text");
   }
 
   function drawCrack(context, colour, fill, at, moment, crack, scale) {
@@ -226,7 +229,7 @@
     context.fillStyle = colour("faint");
     context.textBaseline = "middle";
     context.textAlign = "right";
-    for (const value of ticks(low, high, Math.max(2, (to - from) / 35))) {
+    for (const value of ticks(low, high, Math.max(3, (to - from) / 35))) {
       path(context, [[plot.left, up(value)], [width - plot.right, up(value)]], false);
       context.stroke();
       context.fillText(String(value), plot.left - 6, up(value));
@@ -331,8 +334,11 @@
       entry.append(name);
       element(id).append(entry);
     };
+    // A rigid part has no elements.
+    element("grid").parentElement.hidden = scene.parts.every((part) => part.grid.length === 0);
     legend("legend", "arrow", scene.forceText, {});
     scene.statusNames.forEach((name, k) => legend("legend", "dot", name, { background: `var(--status-${k})` }));
+    legend("legend", "dashed", "before the earthquake", {});
     const kinds = new Set(Array.from(new Set(scene.historyMode), (mode) => scene.modes[mode].kind));
     for (const kind of kinds) legend("mode-legend", "", kind, { background: `var(--mode-${kind})` });
   }

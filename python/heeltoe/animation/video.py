@@ -6,8 +6,9 @@ from pathlib import Path
 from types import ModuleType
 
 import numpy as np
-from PIL import Image
+from PIL import Image, ImageColor
 
+from heeltoe.animation import look
 from heeltoe.animation.frames import Scene
 from heeltoe.animation.picture import Picture
 from heeltoe.errors import InputError
@@ -18,7 +19,7 @@ _HUNDREDTHS = 100
 _SHORTEST_DELAY = 2
 #: Pictures in a GIF, which has no good compression: some 15 kB each.
 _MOST_GIF_FRAMES = 300
-_GIF_COLOURS = 64
+_GIF_COLOURS = 80
 
 
 def gif_delay(frames_per_second: float, seconds: float) -> int:
@@ -70,11 +71,13 @@ def write_gif(scene: Scene, delay: int, path: Path) -> None:
     picture = Picture(scene, _GIF_PIXELS)
 
     def image(frame: int) -> Image.Image:
-        return Image.frombuffer("RGBA", picture.size, picture.draw(frame), "raw", "RGBA", 0, 1).convert("RGB")
+        return Image.fromarray(np.asarray(picture.draw(frame))).convert("RGB")
 
-    # One palette for all, from moments all over the animation, lest colours flicker.
-    chosen = sorted({round(k) for k in np.linspace(0, len(scene.times) - 1, 4)})
-    sample = np.vstack([np.asarray(image(frame)) for frame in chosen])
+    # One palette for all, from moments all over the animation, lest colours flicker; with a stripe of each colour that
+    # says something, lest small things lose theirs.
+    chosen = sorted({round(k) for k in np.linspace(0, len(scene.times) - 1, 3)})
+    stripes = [np.full((12, picture.size[0], 3), ImageColor.getrgb(colour), dtype=np.uint8) for colour in look.SPEAKING]
+    sample = np.vstack([*(np.asarray(image(frame)) for frame in chosen), *stripes])
     palette = Image.fromarray(sample).quantize(_GIF_COLOURS, method=Image.Quantize.MEDIANCUT)
     images = (image(frame).quantize(palette=palette, dither=Image.Dither.NONE) for frame in range(len(scene.times)))
     next(images).save(path, "GIF", save_all=True, append_images=images, duration=10 * delay, loop=0, optimize=False)
