@@ -185,7 +185,8 @@ def _nodes(section: CutSection, record: CrackHistory, moments: Moments) -> tuple
     A node's force counts on the length over which an even stress gives it that force: of an element of length L the
     ends have L/6, the node in its middle 2 L/3 (Simpson's rule).
     """
-    along = record.upper_position[0, 0]
+    mesh = record.dam.bodies[0].mesh
+    along = np.hypot(*(mesh.nodes[mesh.crack] - mesh.nodes[mesh.crack[0]]).T)
     lengths = np.zeros(along.size)
     elements = along[2::2] - along[:-2:2]
     lengths[:-2:2] += elements / 6.0

@@ -78,7 +78,9 @@ def animate(
             _write(case, response, fresh, exaggerate, frames_per_second, speed, first, last)
             return fresh.replace(place)
     except OSError as error:
-        raise InputError("cannot-write", "animation", place, reason=error.strerror or error) from None
+        # ffmpeg says what it has to say in many lines.
+        reason = error.strerror or str(error).strip().split("\n")[0]
+        raise InputError("cannot-write", "animation", place, reason=reason) from None
 
 
 def check_options(
