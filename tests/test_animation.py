@@ -106,6 +106,7 @@ def test_an_overturned_block_keeps_its_shape_and_stands_on_its_corner(block, ang
     tilted = replace(response, outcome="overturned", histories={**response.histories, **made})
     scene = build_scene(case, tilted, response.histories["time_s"], None)
     assert scene.exaggeration == 1.0
+    assert scene.subtitle.endswith("; rigid model; overturned")
     assert look.exaggeration_text(scene.exaggeration) == "displacements drawn to scale"
     upper = scene.parts[0]
     drawn = upper.drawn(count - 1, 1.0)
@@ -128,13 +129,17 @@ def test_an_elastic_dam_moves_as_its_record_says(elastic):
 
 
 def test_outlines_go_round_the_parts(block, elastic):
-    for case, response in (block, elastic):
+    inclined = read_case(EXAMPLES["typical-height"], [*SMALL, "crack.inclination=10 deg"])
+    for case, response in (block, elastic, (inclined, block[1])):
         scene = build_scene(case, response, np.array([0.0]), 1.0)
         areas = []
         for part in scene.parts:
             x, z = part.points[part.outline].T
             areas.append(0.5 * float(np.sum(x * np.roll(z, -1) - np.roll(x, -1) * z)))
-            assert part.upstream[-1] != part.downstream[-1]
+            # No slivers: no two sides double back on each other.
+            sides = np.diff(part.points[[*part.outline, *part.outline[:2]]], axis=0)
+            sides /= np.hypot(*sides.T)[:, None]
+            assert np.sum(sides[1:] * sides[:-1], axis=1).min() > -0.99
         # Counter-clockwise, together as large as the section.
         assert min(areas) > 0.0
         assert areas[0] == pytest.approx(cut(case).area)

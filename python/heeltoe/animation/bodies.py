@@ -141,7 +141,12 @@ def rigid_parts(case: Case, section: CutSection, histories: Mapping[str, Floats]
 def _still(case: Case, section: CutSection, frames: int) -> Part | None:
     """Return the part below the crack, which stands still; None where there is none to speak of."""
     whole = section_polygon(case.section)
-    rest = shapely.difference(whole, shapely.Polygon(section.polygon))
+    # By the line of the crack: the outline of the part above it is rounded, and would leave slivers along the faces.
+    far = 10.0 * float(np.ptp(shapely.get_coordinates(whole), axis=0).max())
+    along, across = np.array(section.from_crack_frame(far, 0.0)), np.array(section.from_crack_frame(0.0, far))
+    heel_side, toe_side = np.array(section.heel) - along, np.array(section.toe) + along
+    below = shapely.Polygon([heel_side - across, toe_side - across, toe_side, heel_side])
+    rest = shapely.intersection(whole, below)
     rest = max(shapely.get_parts(rest), key=shapely.area, default=None)
     if rest is None or rest.area < 1e-6 * whole.area:
         return None

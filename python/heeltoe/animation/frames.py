@@ -47,7 +47,7 @@ class Scene:
     Attributes
     ----------
     title, subtitle
-        Of the case; the motion, its peak and the model.
+        Of the case; the motion, its peak, the model, and the outcome where it is not ok.
     times
         (f,) moments [s].
     exaggeration
@@ -215,7 +215,8 @@ def _usual(forces: Floats) -> float:
 
 def _subtitle(response: Response) -> str:
     peak = response.motion.pga / response.gravity
-    return f"{response.motion.name}, peak {peak:.3g} g; {response.model} model"
+    ending = "" if response.outcome == "ok" else f"; {response.outcome}"
+    return f"{response.motion.name}, peak {peak:.3g} g; {response.model} model{ending}"
 
 
 def _traces(response: Response, within: NDArray[np.bool_]) -> tuple[Trace, ...]:

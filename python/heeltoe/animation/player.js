@@ -143,7 +143,7 @@
     context.font = "11px system-ui, sans-serif";
     context.textAlign = "center";
     context.textBaseline = "middle";
-    context.fillText("ground accelerates", Math.max(x, left + 52), ground + 0.25 * depth);
+    context.fillText("ground accelerates", Math.max(x, left + 60), ground + 0.25 * depth);
     fill(arrowOutline([x + long, ground + 0.66 * depth], [long, 0], Math.min(0.14 * depth, 0.015 * width)), "text");
   }
 
