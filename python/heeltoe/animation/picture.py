@@ -165,9 +165,11 @@ class _View:
         lengths = np.interp(scene.times, scene.history_times, trace.values) / peak * 0.13 * wide
         depth = scene.base - self.foot
         # Upstream of the dam, where no forces are drawn.
-        at = np.array([self.sides[0] + 0.15 * wide, scene.base - 0.66 * depth])
+        at = np.array([self.sides[0] + 0.18 * wide, scene.base - 0.66 * depth])
         arrow = self._arrows("#222222")
-        self.axes.text(at[0], scene.base - 0.06 * depth, "ground accelerates", fontsize=8, ha="center", va="top")
+        self.axes.text(
+            self.sides[0] + 0.02 * wide, scene.base - 0.06 * depth, "ground accelerates", fontsize=8, va="top"
+        )
         # As high as the ground allows.
         width = min(0.14 * depth, 0.015 * wide)
 
