@@ -693,8 +693,10 @@ def test_examples(example, name):
     case = read_case(example, [f"statics.criteria={name}", "statics.seismic_coefficient=0.1"])
     result = heeltoe.statics(case, 0.05)
     data = result.to_json()
+    flood = [] if case.statics.flood_depth is None else ["flood"]
     assert [each["name"] for each in data["cases"]] == [
         "usual",
+        *flood,
         "pseudo-static downstream",
         "pseudo-static upstream",
         "post-seismic",

@@ -6,6 +6,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from heeltoe.animation import animate
     from heeltoe.block import Block, build_block
     from heeltoe.case import Case, read_case
     from heeltoe.comparison import Comparison, compare
@@ -39,6 +40,7 @@ __all__ = [
     "InputError",
     "Response",
     "Statics",
+    "animate",
     "asce_7",
     "build_block",
     "build_flexible_dam",
@@ -72,6 +74,7 @@ _HOME = {
     "InputError": "errors",
     "Response": "response",
     "Statics": "statics_model",
+    "animate": "animation",
     "asce_7": "targets",
     "build_block": "block",
     "build_flexible_dam": "flexible_parts",

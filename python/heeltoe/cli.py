@@ -345,6 +345,75 @@ def statics(
 
 
 @app.command()
+def animate(
+    case: CasePath,
+    model: Annotated[
+        str, typer.Option(metavar="rigid|flexible|decoupled", help="What the dam is taken for.")
+    ] = "rigid",
+    to: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="A .mp4, .gif or .html; CASE.animation.html here if not said.")
+    ] = None,
+    exaggerate: Annotated[
+        str, typer.Option(metavar="N|auto", help="Draw displacements N times as far as they are.")
+    ] = "auto",
+    fps: Annotated[float, typer.Option(metavar="30", help="Pictures per second of a video.")] = 30.0,
+    speed: Annotated[float, typer.Option(metavar="1.0", help="Seconds of the earthquake per second.")] = 1.0,
+    from_: Annotated[str, typer.Option("--from", metavar="0s", help="Where to start.")] = "0 s",
+    until: Annotated[str | None, typer.Option(metavar="20s", help="Where to end.")] = None,
+    motion: Annotated[str | None, typer.Option(metavar="FILE-or-NAME", help="Another ground motion.")] = None,
+    pga: Annotated[str | None, typer.Option(metavar="0.4g", help="Scale the motion to this peak.")] = None,
+    set_: Changes = None,
+) -> None:
+    """Show what the dam does: a video, or a page that plays in any browser without a network."""
+    from time import perf_counter
+
+    from heeltoe.animation.write import animate as write_animation
+    from heeltoe.animation.write import check_options
+    from heeltoe.case import read_case
+    from heeltoe.quantities import parse
+
+    if model not in ("rigid", "flexible", "decoupled"):
+        raise InputError("animation-model", "--model", model)
+    place = to or Path(f"{Path(case).stem}.animation.html")
+    many = None if exaggerate == "auto" else parse(exaggerate, "number", "--exaggerate")
+    start = parse(from_, "duration", "--from")
+    end = None if until is None else parse(until, "duration", "--until")
+    check_options(place, exaggerate=many, frames_per_second=fps, speed=speed)
+    if not place.absolute().parent.is_dir():
+        raise InputError("no-directory", str(place.parent))
+    changes = list(set_ or [])
+    options = (("file", motion and json.dumps(_as_given(motion))), ("pga", pga))
+    changes += [f"motion.{name}={value}" for name, value in options if value is not None]
+    loaded = read_case(case, changes)
+    with _status() as say:
+        began = perf_counter()
+        response = _one_response(loaded, model, say)
+        analysed = perf_counter()
+        if response.histories:
+            say("drawing")
+            write_animation(
+                loaded, response, place, exaggerate=many, frames_per_second=fps, speed=speed, start=start, end=end
+            )
+        drawn = perf_counter()
+    console = Console(highlight=False)
+    if response.histories:
+        spent = f"analysis {analysed - began:.1f} s, writing {drawn - analysed:.1f} s"
+        console.print(f"wrote {place} ({place.stat().st_size / 1e6:.1f} MB; {spent})", soft_wrap=True, markup=False)
+    if not response.ok:
+        console.print(f"{response.outcome}: {response.advice}", soft_wrap=True, markup=False)
+        raise typer.Exit(NO_RESULT)
+
+
+def _one_response(case: Case, model: str, say: Callable[[str], None]) -> Response:
+    """Run one model."""
+    import heeltoe
+
+    say(f"running the {model} model")
+    found: Response = getattr(heeltoe, model)(case)
+    return found
+
+
+@app.command()
 def motion(
     file: Annotated[str | None, typer.Argument(metavar="FILE-or-NAME")] = None,
     unit: Annotated[str | None, typer.Option(help="Unit of a file that does not state it: g, cm/s^2, ...")] = None,

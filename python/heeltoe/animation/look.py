@@ -1,0 +1,40 @@
+"""What an animation looks like: colours that readers with colour-blindness can tell apart (after Okabe and Ito)."""
+
+from __future__ import annotations
+
+UPPER, LOWER = "#dedcd5", "#c2bfb6"
+EDGE, GRID = "#3a3a38", "#aaa8a0"
+WATER, SURFACE = "#cfe5f4", "#5b9bc8"
+GROUND = "#d9cbb2"
+BEFORE = "#6a6a66"
+FORCE, FORCE_CUT = "#882255", "#e08bb4"
+#: By `Scene.status`; what is open is a mere rim.
+STATUS = ("#ffffff", "#333333", "#0072B2", "#D55E00")
+STATUS_NAMES = ("open", "sticks", "slips downstream", "slips upstream")
+MODES = {"rest": "#DDDDDD", "slide": "#56B4E9", "rock": "#E69F00", "slide-rock": "#D55E00", "drift": "#000000"}
+TRACES = {
+    "ground acceleration": "#000000",
+    "slip": "#0072B2",
+    "opening at the heel": "#CC79A7",
+    "opening at the toe": "#009E73",
+}
+#: Colours that say something, which no picture may lose.
+SPEAKING = (*STATUS, *MODES.values(), *TRACES.values(), FORCE, FORCE_CUT, WATER, UPPER, LOWER, GROUND)
+# The states of an elastic dam's crack as kinds of motion.
+_KINDS = {"sliding": "slide", "rocking": "rock", "slide-rocking": "slide-rock", "drifting": "drift"}
+
+
+def mode_kind(mode: str) -> str:
+    """Return the kind of a mode by its name in a response: "slide-rock on toe upstream" is a slide-rock."""
+    return _KINDS.get(mode, mode.split(" ")[0])
+
+
+def exaggeration_text(exaggeration: float) -> str:
+    """Say how large displacements are drawn."""
+    return "displacements drawn to scale" if exaggeration == 1.0 else f"displacements drawn × {exaggeration:g}"
+
+
+def force_text(force: float, unit: str, cut: float) -> str:
+    """Say what the arrow of the legend stands for."""
+    what = "force on the part above" if unit == "MN/m" else "stress on the part above"
+    return f"{what}, {force:g} {unit}; pale where cut at {cut * force:g}"
