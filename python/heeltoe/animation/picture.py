@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from typing import Any, NamedTuple, cast
 
@@ -19,6 +18,7 @@ from heeltoe.animation import look
 from heeltoe.animation.bodies import Part
 from heeltoe.animation.charts import Charts, animated
 from heeltoe.animation.frames import ARROW, CUT, Scene
+from heeltoe.figures.fonts import readable
 
 Floats = NDArray[np.float64]
 
@@ -52,10 +52,7 @@ class Picture:
         if len(views) > 1:
             views[0].add_frame(scene.views[1])
         self.moving: list[_View | Charts] = [*views, Charts(self.figure, scene)]
-        with warnings.catch_warnings():
-            # A title may be in letters that no font here has; boxes stand for them.
-            warnings.filterwarnings("ignore", "Glyph .* missing from", UserWarning)
-            self.canvas.draw()
+        self.canvas.draw()
         self.still = self.canvas.copy_from_bbox(self.figure.bbox)
 
     @property
@@ -77,8 +74,13 @@ class Picture:
 def _heading(figure: Figure, scene: Scene) -> None:
     title = " ".join(scene.title.split())
     title = title if len(title) <= 90 else title[:87] + "..."
-    figure.text(0.016, 0.955, title, fontsize=15, fontweight="bold", va="center", parse_math=False)
-    figure.text(0.016, 0.908, scene.subtitle, fontsize=10, color="#444444", va="center", parse_math=False)
+    lines: tuple[tuple[str, float, dict[str, Any]], ...] = (
+        (title, 0.955, {"fontsize": 15, "fontweight": "bold"}),
+        (scene.subtitle, 0.908, {"fontsize": 10, "color": "#444444"}),
+    )
+    for line, height, style in lines:
+        shown, families = readable(line)
+        figure.text(0.016, height, shown, va="center", parse_math=False, fontfamily=families, **style)
     text = look.exaggeration_text(scene.exaggeration)
     figure.text(0.984, 0.908, text, fontsize=11, color="#a03000", va="center", ha="right")
 

@@ -100,7 +100,7 @@ def modes_figure(dam: FlexibleDam, units: str = "si") -> Figure:
         Line2D([], [], color="#777777", linestyle="--", linewidth=0.8, label="at rest"),
         Line2D([], [], color="#000000", linewidth=1.0, label="vibrating"),
     ]
-    figure.legend(handles=handles, loc="outside lower center", ncols=2)
+    figure.legend(handles=handles, loc="outside lower center", ncols=2, borderpad=0.1)
     return figure
 
 
