@@ -269,8 +269,8 @@ def periods(
 ) -> None:
     """Say in which periods the dam vibrates: intact, and the parts above and below its crack by themselves."""
     from heeltoe.case import read_case
+    from heeltoe.dam_summary import print_periods
     from heeltoe.periods import dam_periods
-    from heeltoe.summary import print_periods
 
     loaded = read_case(case, list(set_ or []))
     _check_json(json_)
@@ -291,8 +291,8 @@ def overturning(
 ) -> None:
     """Draw which pulses overturn the block: a map over their frequency and amplitude, with the safe gap."""
     from heeltoe.case import read_case
+    from heeltoe.dam_summary import print_overturning
     from heeltoe.overturning import overturning_map, write_overturning
-    from heeltoe.summary import print_overturning
 
     loaded = read_case(case, list(set_ or []))
     _check_directory(out)
@@ -426,8 +426,8 @@ def motion(
     list_: Annotated[bool, typer.Option("--list", help="List the records that can be used by name.")] = False,
 ) -> None:
     """Say what is in a record: peaks, measures, origin, warnings; and draw it."""
+    from heeltoe.motion_summary import print_motion
     from heeltoe.records.catalog import available
-    from heeltoe.summary import print_motion
 
     console = Console(highlight=False)
     if list_:

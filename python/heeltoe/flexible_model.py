@@ -141,6 +141,7 @@ def flexible(
     summary = _summary(raw, dam, shaken, convergence)
     if case.anchors:
         summary["anchors"] = _anchors(case, raw)
+    summary["uplift_during_shaking"] = case.uplift.during_shaking
     return Response(
         model="flexible",
         title=case.title,

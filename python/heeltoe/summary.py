@@ -1,28 +1,23 @@
-"""What the terminal shows of a motion, of responses and of periods (rich)."""
+"""What the terminal shows of responses (rich)."""
 
 from __future__ import annotations
 
 import math
-from itertools import zip_longest
 from typing import TYPE_CHECKING, Any
 
-from rich import box
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from heeltoe.errors import InputError
-from heeltoe.measures import measures
-from heeltoe.motion import GroundMotion, check
+from heeltoe.motion import GroundMotion
 from heeltoe.response import Response
+from heeltoe.terminal import label_grid, print_warnings, quiet_table, sampling
 from heeltoe.verdicts import angle, comes_to_rest, length, verdict
 
 # Not at run time: a run of the rigid model need not wait for the elastic parts.
 if TYPE_CHECKING:
     from heeltoe.comparison import Comparison
     from heeltoe.flexible_parts import FlexibleDam
-    from heeltoe.overturning import OverturningMap
-    from heeltoe.periods import DamPeriods
 
 # What the names of the choices mean.
 _DAMPING = {
@@ -44,14 +39,14 @@ def print_summary(response: Response, console: Console) -> None:
     if response.summary:
         console.print(_result_table(response))
         console.print()
-        lines = _grid()
+        lines = label_grid()
         for label, text in _result_lines(response):
             lines.add_row(label, text)
         console.print(lines)
         if response.spread is not None:
             console.print()
             console.print(_spread_table(response))
-    _print_warnings(response.warnings, console)
+    print_warnings(response.warnings, console)
     _print_verdicts([("Verdict", response.ok, verdict(response))], console)
 
 
@@ -59,7 +54,7 @@ def print_comparison(both: Comparison, console: Console) -> None:
     """Print the same of both models, side by side."""
     _print_head(both.flexible, f"{both.rigid.model} and flexible model", console)
     if both.rigid.model == "decoupled" and both.rigid.summary:
-        lines = _grid()
+        lines = label_grid()
         for label, text in _crack_lines(both.rigid):
             lines.add_row(label, text)
         console.print(lines)
@@ -68,64 +63,9 @@ def print_comparison(both: Comparison, console: Console) -> None:
     shared = [text for text in both.rigid.warnings if text in both.flexible.warnings]
     for each in (both.rigid, both.flexible):
         shared += [f"{each.model}: {text}" for text in each.warnings if text not in shared]
-    _print_warnings(tuple(shared), console)
+    print_warnings(tuple(shared), console)
     verdicts = [(each.model.capitalize(), each.ok, verdict(each)) for each in (both.rigid, both.flexible)]
     _print_verdicts([*verdicts, ("Difference", both.ok, both.meaning())], console)
-
-
-def print_periods(periods: DamPeriods, console: Console) -> None:
-    """Print the periods of a dam and of its parts."""
-    console.print(f"[bold]{escape(periods.title or 'Untitled case')}[/bold]  (periods)", soft_wrap=True)
-    console.print()
-    columns = {
-        "intact, dry": periods.intact_dry,
-        "intact, with water": periods.intact,
-        "above the crack": periods.above,
-        "below the crack": periods.below,
-    }
-    shown = {name: values for name, values in columns.items() if values is not None}
-    table = _table()
-    table.add_column("")
-    for name in shown:
-        table.add_column(name, justify="right")
-    for number, row in enumerate(zip_longest(*shown.values()), start=1):
-        table.add_row(str(number), *("-" if value is None else f"{value:.4f} s" for value in row))
-    console.print(table)
-    console.print()
-    grid = _grid()
-    below = "" if periods.below is None else "; the part below is held at its base"
-    grid.add_row("parts", f"each by itself, with its water; the part above is free, rigid-body motion left out{below}")
-    grid.add_row("mesh", _mesh_line(periods.elements, periods.nodes))
-    grid.add_row("damping", _damping_line(periods.damping, periods.damping_ratio, periods.rayleigh))
-    console.print(grid)
-
-
-def print_overturning(found: OverturningMap, console: Console) -> None:
-    """Print which pulses overturn a block."""
-    console.print(f"[bold]{escape(found.title or 'Untitled case')}[/bold]  (overturning)", soft_wrap=True)
-    console.print()
-    grid = _grid()
-    p, slenderness = found.frequency_parameter_1_s, found.slenderness_rad
-    grid.add_row("block", f"slenderness {slenderness:.4g} rad, p = {p:.4g} 1/s")
-    low, high = found.frequency_hz[0], found.frequency_hz[-1]
-    sizes = f"{found.amplitude_g[0]:.3g} to {found.amplitude_g[-1]:.3g} g"
-    grid.add_row("pulses", f"one {found.pulse}, {low:.3g} to {high:.3g} Hz, {sizes}: {found.end.size} runs")
-    least = [(size, hertz) for size, hertz in zip(found.least_g(), found.frequency_hz, strict=True) if size is not None]
-    if not least:
-        grid.add_row("overturning", "by none of them")
-    else:
-        size, hertz = min(least)
-        grid.add_row("overturning", f"from {size:.3g} g on, at {hertz:.3g} Hz")
-        gaps = found.safe_gap()
-        widest = max(gaps, key=lambda gap: gap[2] - gap[1], default=None)
-        text = (
-            "none: what overturns it is weaker than all it stands"
-            if widest is None
-            else f"widest at {widest[0]:.3g} Hz: it stands {widest[1]:.3g} to {widest[2]:.3g} g, though weaker ones "
-            "overturn it"
-        )
-        grid.add_row("safe gap", text)
-    console.print(grid)
 
 
 def _print_head(response: Response, model: str, console: Console) -> None:
@@ -133,7 +73,7 @@ def _print_head(response: Response, model: str, console: Console) -> None:
     # Titles and names are people's words, in which brackets mean brackets.
     console.print(f"[bold]{escape(response.title or 'Untitled case')}[/bold]  ({model})", soft_wrap=True)
     console.print()
-    grid = _grid()
+    grid = label_grid()
     for label, motion in (("motion", response.motion), ("vertical motion", response.vertical)):
         if motion is not None:
             grid.add_row(label, escape(_motion_line(motion, response.gravity)))
@@ -160,68 +100,6 @@ def _print_verdicts(rows: list[tuple[str, bool, str]], console: Console) -> None
     console.print(grid)
 
 
-def print_motion(motion: GroundMotion, console: Console, gravity: float = 9.80665) -> None:
-    """Print what is in a record."""
-    grid = _grid()
-    for label, text in (
-        ("name", motion.name),
-        ("event", motion.event),
-        ("station", motion.station),
-        ("component", motion.component),
-        ("date", motion.date),
-        ("format", motion.format),
-        ("read as", motion.units_as_read),
-        ("samples", f"{motion.time.size}, {_steps(motion)}, {motion.duration:.5g} s in all"),
-        ("PGA", f"{motion.pga / gravity:.5g} g"),
-        ("PGV", f"{motion.pgv:.4g} m/s"),
-        ("PGD", f"{motion.pgd:.4g} m"),
-        *_measure_lines(motion, gravity),
-        ("processing", "; ".join(motion.processing)),
-        ("source", motion.source),
-    ):
-        if text:
-            grid.add_row(label, text)
-    console.print(grid)
-    _print_warnings((*motion.warnings, *_suspicions(motion, gravity)), console)
-
-
-def _measure_lines(motion: GroundMotion, gravity: float) -> list[tuple[str, str]]:
-    found = measures(motion, gravity)
-    lines = [("Arias intensity", f"{found['arias_intensity_m_s']:.4g} m/s"), ("CAV", f"{found['cav_m_s']:.4g} m/s")]
-    if "significant_duration_s" in found:
-        lines.append(("significant duration", f"{found['significant_duration_s']:.4g} s (5-95 %)"))
-    if "mean_period_s" in found:
-        lines.append(("mean period", f"{found['mean_period_s']:.4g} s"))
-    end = f"{found['end_velocity_m_s']:.3g} m/s, {found['end_displacement_m']:.3g} m"
-    return [*lines, ("at the end, from rest", end)]
-
-
-def _suspicions(motion: GroundMotion, gravity: float) -> tuple[str, ...]:
-    """What an analysis would say about the record; here even what it would refuse is only said."""
-    try:
-        return check(motion, gravity, allow_zero=True)
-    except InputError as error:
-        return (str(error),)
-
-
-def _table() -> Table:
-    return Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, header_style="dim", border_style="dim")
-
-
-def _grid() -> Table:
-    grid = Table.grid(padding=(0, 2))
-    grid.add_column(style="dim", no_wrap=True)
-    grid.add_column()
-    return grid
-
-
-def _print_warnings(warnings: tuple[str, ...], console: Console) -> None:
-    if warnings:
-        console.print()
-    for warning in warnings:
-        console.print(f"[yellow]warning[/yellow]  {escape(warning)}")
-
-
 def _length(value: float | None) -> str:
     return length(value) if value and math.isfinite(value) else "-"
 
@@ -230,14 +108,10 @@ def _rotation(value: float | None) -> str:
     return angle(value) if value and math.isfinite(value) else "-"
 
 
-def _steps(motion: GroundMotion) -> str:
-    return f"every {motion.dt:.5g} s" if motion.is_uniform else "in unequal steps"
-
-
 def _motion_line(motion: GroundMotion, gravity: float) -> str:
     line = (
         f"{motion.name}: PGA {motion.pga / gravity:.4g} g, PGV {motion.pgv:.3g} m/s, PGD {motion.pgd:.3g} m, "
-        f"{motion.duration:.4g} s {_steps(motion)}"
+        f"{motion.duration:.4g} s {sampling(motion)}"
     )
     return "\n".join([line, *motion.processing])
 
@@ -266,15 +140,13 @@ def _elastic_lines(response: Response) -> list[tuple[str, str]]:
     periods = " ".join(f"{period:.4f}" for period in s["periods_s"])
     lines = [("periods", f"{periods} s, of the intact dam with its water")]
     mesh = s["mesh"]
-    lines.append(
-        ("mesh", f"{_mesh_line(mesh['elements'], mesh['nodes'])}; {mesh['crack_nodes']} nodes along the crack")
-    )
+    lines.append(("mesh", f"{mesh_line(mesh['elements'], mesh['nodes'])}; {mesh['crack_nodes']} nodes along the crack"))
     modes = " above and ".join(map(str, mesh["modes"])) + (" below" if len(mesh["modes"]) > 1 else "")
     kept = f"{mesh['basis_error']:.1e} is what those left out take from the flexibility of the crack"
     lines.append(("modes", f"{modes}, {kept if mesh['basis_error'] else 'which is all there are'}"))
     dam = None if response.crack is None else response.crack.dam
     ratio, coefficients = (None, None) if dam is None else (_damping_ratio(dam), dam.coefficients)
-    lines.append(("damping", _damping_line(s["damping"], ratio, coefficients)))
+    lines.append(("damping", damping_line(s["damping"], ratio, coefficients)))
     lines.append(("contact", _contact_line(response)))
     step = f"{_step(s['time_step_s'])}, {s['steps']} steps; "
     evidence = s["convergence"]
@@ -289,6 +161,20 @@ def _elastic_lines(response: Response) -> list[tuple[str, str]]:
     lines.append(("time step", step))
     if response.energy is not None:
         lines.append(("energy", _energy_line(response)))
+    return lines
+
+
+def _chosen_lines(response: Response) -> list[tuple[str, str]]:
+    """Return what was chosen beyond the usual, where it plays a part."""
+    s = response.summary
+    lines = []
+    if s.get("rotation", "small") != "small":
+        lines.append(("rotation", "of any size" if s["rotation"] == "finite" else "small, with P-Delta"))
+    if s.get("uplift_during_shaking", "constant") != "constant":
+        lines.append(("uplift", f"{s['uplift_during_shaking']} in the earthquake"))
+    for number, anchor in enumerate(s.get("anchors", ()), 1):
+        of = "" if anchor["capacity_n"] is None else f" of {anchor['capacity_n'] / 1e6:.3g} MN/m it is good for"
+        lines.append((f"anchor {number}", f"largest tension {anchor['peak_tension_n'] / 1e6:.3g} MN/m{of}"))
     return lines
 
 
@@ -325,12 +211,14 @@ def _crack_lines(response: Response) -> list[tuple[str, str]]:
     ]
 
 
-def _mesh_line(elements: Any, nodes: Any) -> str:
+def mesh_line(elements: Any, nodes: Any) -> str:
+    """Say how large the meshes of the parts are."""
     parts = [f"{e} elements, {n} nodes" for e, n in zip(elements, nodes, strict=True)]
     return parts[0] if len(parts) == 1 else f"{parts[0]} above the crack; {parts[1]} below"
 
 
-def _damping_line(choice: str, ratio: float | None, rayleigh: tuple[float, float] | None) -> str:
+def damping_line(choice: str, ratio: float | None, rayleigh: tuple[float, float] | None) -> str:
+    """Say how the concrete is damped."""
     text = f"{choice}: " + ("" if ratio is None else f"{100.0 * ratio:.3g} % ")
     if rayleigh is not None:
         text += f"in the 1st and 3rd mode (Rayleigh: {rayleigh[0]:.3g} 1/s of mass, {rayleigh[1]:.3g} s of stiffness), "
@@ -380,7 +268,7 @@ def _exact(metres: float) -> str:
 
 
 def _result_table(response: Response) -> Table:
-    table = _table()
+    table = quiet_table()
     table.add_column("")
     table.add_column("downstream", justify="right")
     table.add_column("upstream", justify="right")
@@ -403,6 +291,7 @@ def _result_lines(response: Response) -> list[tuple[str, str]]:
         f"{name.replace('_', '-')} {value:.2f} s" for name, value in response.time_by_mode_s.items() if value >= 5e-3
     ]
     lines.append(("time by mode", ", ".join(times)))
+    lines += _chosen_lines(response)
     if response.model == "flexible":
         return [*lines, ("node strikes", _strikes(response)), ("in the end", _in_the_end(response))]
     closes = f"the energy ledger closes to {response.energy.residual if response.energy else 0.0:.0e}"
@@ -428,7 +317,7 @@ def _spread_table(response: Response) -> Table:
     """Value and spread, side by side, of all that is not next to nothing."""
     spread = response.spread
     assert spread is not None
-    table = _table()
+    table = quiet_table()
     table.add_column("")
     for name in ("this run", "mean", "std. dev.", "least", "most"):
         table.add_column(name, justify="right")
@@ -464,7 +353,7 @@ def _spread_table(response: Response) -> Table:
 
 
 def _comparison_table(both: Comparison) -> Table:
-    table = _table()
+    table = quiet_table()
     table.add_column("")
     first = both.rigid.model
     for name in ("rigid block" if first == "rigid" else "decoupled top", "flexible dam", f"flexible/{first}"):
