@@ -74,7 +74,8 @@ def test_an_anchor_holds_a_block_that_would_fly():
     rise = net / stiffness * (1.0 - np.cos(math.sqrt(stiffness / MASS) * time))
     assert gap == pytest.approx(rise, abs=0.02 * rise.max())
     said = found.summary["anchors"]
-    assert said == [{"peak_tension_n": pytest.approx(prestress + 2.0 * net, rel=0.01), "capacity_n": 70e3}]
+    peak = pytest.approx(prestress + 2.0 * net, rel=0.01)
+    assert said == [{"distance_m": 2.0, "peak_tension_n": peak, "capacity_n": 70e3}]
     assert any("beyond its capacity of 70 kN/m" in text for text in found.warnings)
     assert found.energy.residual < 1e-12
 
@@ -87,7 +88,7 @@ def test_prestress_alone_is_a_constant_load():
     moving = flexible(block(anchors=[anchor]), *pushed(-1.2 * held, 0.0, 0.3))
     assert abs(still.residual_slip_m) < 1e-5
     assert moving.residual_slip_m == pytest.approx(0.2 * held * 0.3**2 / 2.0, rel=0.02)
-    assert still.summary["anchors"] == [{"peak_tension_n": 4e4, "capacity_n": 5e4}]
+    assert still.summary["anchors"] == [{"distance_m": 2.0, "peak_tension_n": 4e4, "capacity_n": 5e4}]
     assert not any("capacity" in text for text in moving.warnings)
 
 

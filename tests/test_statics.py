@@ -475,8 +475,6 @@ def test_the_crack_stops_at_the_first_place_that_holds(
     found = usual(case, section).load_case
     load = total("", (force for force in found.forces if force.name != "uplift"))
     knots = uplift_profile(case, section)
-    # Off the bends, where an average would not do.
-    x = (np.arange(20000) + 0.5) * base / 20000
 
     def tip(length):
         """Stress at the tip and strength there, times the square of what is left, all by sums."""
@@ -485,9 +483,12 @@ def test_the_crack_stops_at_the_first_place_that_holds(
             points = np.vstack([[length, intensity * 1e4 * depth], points])
         else:
             points = knots
+        # Strips that end where the pressure bends or jumps.
+        ends = np.unique(np.concatenate([np.linspace(0.0, base, 20001), knots[:, 0], [length]]))
+        x, wide = (ends[1:] + ends[:-1]) / 2.0, np.diff(ends)
         p = np.where(x < length, 1e4 * depth, np.interp(x, *points.T))
-        normal = -load.vertical - p.sum() * base / x.size
-        moment = -load.moment - (p * x).sum() * base / x.size
+        normal = -load.vertical - (p * wide).sum()
+        moment = -load.moment - (p * x * wide).sum()
         left = base - length
         stress = 4.0 * normal / left - 6.0 * (moment - normal * length) / left**2
         holds = strength * M if bonded and length >= (1.0 - bonded) * base else 0.0

@@ -278,7 +278,7 @@ def _anchors(case: Case, raw: dict[str, float]) -> list[dict[str, float | None]]
         if anchor.axial_stiffness or anchor.shear_stiffness:
             tension = raw[f"tension_{stiff}"]
             stiff += 1
-        found.append({"peak_tension_n": tension, "capacity_n": anchor.capacity})
+        found.append({"distance_m": anchor.distance, "peak_tension_n": tension, "capacity_n": anchor.capacity})
     return found
 
 
