@@ -243,6 +243,8 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "unknown-units": ("{value} is no system of units", "use si or us"),
     "spread-runs": ("{value} is no number of runs", "give {fewest} to {most}, or none for {usual}"),
     "period-count": ("{value} periods are not to be had", "give 1 to {most}"),
+    "report-package": ("needs the package {value}, which is not installed", "pip install heeltoe[report]"),
+    "report-kind": ("{value} is no kind of report", "use pdf or html"),
     "vtk-without-out": ("has no place to go", "add --out DIR"),
     "vtk-rigid": ("shows elastic parts, and the rigid model has none", "use --model flexible or both"),
     "no-such-validation": ("{value} is no reference case", "choose one of {names}"),
