@@ -37,9 +37,9 @@ def given_input(subject: Subject) -> Section:
     return Section(
         "Input",
         (
-            *subject.figure("section"),
             paragraph(text),
             Table(("field", "value", "meaning"), rows, "Given by the case.", "lll", (3.8, 2.7, 5.7)),
+            *subject.figure("section"),
         ),
     )
 
@@ -50,7 +50,7 @@ def defaults(subject: Subject) -> Section:
     return Section(
         "Appendix: defaults",
         (
-            paragraph("Fields that the case does not give, with the values that were used."),
+            paragraph(f"Fields that the case does not give, with the values that were used. {_unused(subject)}".strip()),
             Table(("field", "value", "meaning"), rows, "Left to defaults.", "lll", (3.8, 2.7, 5.7)),
         ),
     )
@@ -97,42 +97,35 @@ def _command(subject: Subject) -> str:
 
 
 def _rows(subject: Subject, *, given: bool) -> tuple[tuple[Inline, ...], ...]:
-    rows: list[tuple[Inline, ...]] = []
-    models = {run.response.model for run in subject.runs}
     written = subject.case.model_dump(mode="json")
-    heading = None
-    for block, path, value, is_given, meaning in fields(subject.case, written):
-        if is_given != given:
-            continue
-        if block != heading:
-            heading = block
-            unused = not models & set(_OWNERS.get(block, models))
-            rows.append((f"[{block}]{', not used by this model' if unused else ''}",) if block else ("case",))
-        rows.append((Code(path), value, meaning.replace("`", "")))
-    return tuple(rows)
+    return tuple(
+        (Code(path), value, meaning.replace("`", ""))
+        for path, value, is_given, meaning in fields(subject.case, written)
+        if is_given == given
+    )
 
 
-def fields(model: BaseModel, written: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, str, str, bool, str]]:
-    """Walk through all fields: block, path, value with its unit, whether it is given, meaning."""
-    kind = type(model)
-    own = []
-    for name, info in kind.model_fields.items():
-        value = getattr(model, name)
-        meaning = " ".join((info.description or "").split())
-        if isinstance(value, BaseModel):
-            continue
-        if isinstance(value, tuple) and value and isinstance(value[0], BaseModel):
-            for place, item in enumerate(value):
-                for each in fields(item, written[name][place], f"{prefix}{name}[{place}]."):
-                    own.append((prefix.partition(".")[0] or name, *each[1:]))
-            continue
-        block = re.split(r"[.\[]", prefix)[0]
-        own.append((block, prefix + name, shown(written[name]), name in model.model_fields_set, meaning))
-    yield from own
-    for name in kind.model_fields:
+def _unused(subject: Subject) -> str:
+    """Say which blocks the models of this report do not look at."""
+    models = {run.response.model for run in subject.runs}
+    blocks = [f"[{block}]" for block, owners in _OWNERS.items() if not models & set(owners)]
+    return f"Fields of {' and '.join(blocks)} play no part in this report." if blocks else ""
+
+
+def fields(model: BaseModel, written: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, str, bool, str]]:
+    """Walk through all fields: path, value with its unit, whether it is given, meaning; blocks of fields come last."""
+    blocks = []
+    for name, info in type(model).model_fields.items():
         value = getattr(model, name)
         if isinstance(value, BaseModel):
-            yield from fields(value, written[name], f"{prefix}{name}.")
+            blocks.append((value, written[name], f"{prefix}{name}."))
+        elif isinstance(value, tuple) and value and isinstance(value[0], BaseModel):
+            blocks += [(item, written[name][k], f"{prefix}{name}[{k}].") for k, item in enumerate(value)]
+        else:
+            meaning = " ".join((info.description or "").split())
+            yield prefix + name, shown(written[name]), name in model.model_fields_set, meaning
+    for block in blocks:
+        yield from fields(*block)
 
 
 def shown(value: Any) -> str:

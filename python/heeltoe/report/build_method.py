@@ -207,11 +207,13 @@ def _decoupled(writer: _Writer, subject: Subject) -> None:
 
 def _flexible(writer: _Writer, subject: Subject) -> None:
     options, concrete = subject.case.flexible, subject.case.concrete
-    below = "; a crack at the base stands on a rigid plane" if not subject.case.crack.elevation else ""
+    bodies = "parts above and below the crack are linear elastic bodies" if subject.case.crack.elevation else (
+        "dam is a linear elastic body, standing with its crack on a rigid plane,"
+    )
     writer.say(
-        f"The parts above and below the crack are linear elastic bodies in plane {options.plane}{below}. They are made of "
-        "eight-node quadrilaterals with consistent mass, and each is written in its modes, with $p$ the forces on the nodes "
-        "of the crack:"
+        f"The {bodies} in plane {options.plane}, made of eight-node quadrilaterals with consistent mass. Before the "
+        "earthquake the dam is in static equilibrium with its crack bonded; at time zero the crack is let go. In the modes "
+        "of each part, with $p$ the forces on the nodes of the crack:"
     )
     writer.show("modes")
     if options.damping == "modal":

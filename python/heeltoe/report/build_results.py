@@ -36,7 +36,6 @@ _STATIC: tuple[tuple[str, str, str | None], ...] = (
     ("Rocking upstream, about the heel, starts at", "critical_acceleration_g.rocking_upstream", "g"),
 )
 _FIGURES = ("comparison", "response", "slip-by-mode", "accelerations", "forces", "path", "crack", "pressure", "deformed")
-_OF_BOTH = ("comparison", "response", "slip-by-mode", "crack", "deformed")
 
 
 def results(subject: Subject) -> Section:
@@ -61,5 +60,4 @@ def results(subject: Subject) -> Section:
         blocks.append(Table(subject.head(), tuple(rows), "How it moves, per metre of dam; modes that do not happen are left out.", subject.align()))
     else:
         blocks.append(paragraph("The run never started, so that there are no results and no figures of it."))
-    names = _FIGURES if len(subject.runs) == 1 else _OF_BOTH
-    return Section("Results", (*blocks, *subject.figure(*names)))
+    return Section("Results", (*blocks, *subject.figure(*_FIGURES)))

@@ -22,19 +22,15 @@ def statics(subject: Subject) -> Section | None:
     if not checks:
         return None
     rows: list[tuple[Inline, ...]] = []
-    heading = None
     for check in checks:
-        if check.load_case != heading:
-            heading = check.load_case
-            rows.append((str(heading),))
-        rows.append((str(check.name), _plain(check.value), _plain(check.required), _met(check.met), str(check.source)))
+        rows.append((str(check.load_case), str(check.name), _plain(check.value), _plain(check.required), _met(check.met), str(check.source)))
     blocks: list[Block] = [
         Table(
-            ("check", "value", "required", "met", "source"),
+            ("load case", "check", "value", "required", "met", "source"),
             tuple(rows),
             "Static checks before, during and after the earthquake; factors have no unit.",
-            "lrrll",
-            (4.0, 1.5, 1.5, 1.0, 4.5),
+            "llrrll",
+            (2.4, 3.2, 1.4, 1.5, 1.0, 3.8),
         )
     ]
     blocks += [paragraph(str(check.sentence)) for check in checks if getattr(check, "sentence", "")]

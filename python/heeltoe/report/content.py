@@ -69,7 +69,7 @@ class Notes:
 
 @dataclass(frozen=True)
 class Table:
-    """Rows of cells below a head; a row of one cell is a heading of those that follow.
+    """Rows of cells below a head.
 
     Attributes
     ----------

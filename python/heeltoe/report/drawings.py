@@ -36,9 +36,7 @@ CAPTIONS = {
 _SHARES = {"section": 0.78, "spectrum": 0.85, "slip-by-mode": 0.85, "energy": 0.85, "mesh": 0.75}
 # Of both models only so many figures: those of one alone are in its own report.
 _OF_BOTH = {
-    "rigid": ("response", "slip-by-mode"),
-    "decoupled": ("response", "slip-by-mode"),
-    "flexible": ("response", "slip-by-mode", "energy", "spectrum", "crack", "deformed", "mesh", "modes"),
+    "flexible": ("response", "energy", "spectrum", "crack", "deformed", "modes"),
 }
 
 

@@ -123,7 +123,9 @@ class _Writer:
 
 def _plain(block: Block) -> str:
     if isinstance(block, Paragraph):
-        return f"#par({_inline(block.parts)})"
+        # What leads to an equation or a table stays with it.
+        leads = isinstance(block.parts[-1], str) and block.parts[-1].endswith(":")
+        return f"#block(sticky: {'true' if leads else 'false'}, {_inline(block.parts)})"
     if isinstance(block, Notes):
         items = "".join(f"{_inline(item)}, " for item in block.items)
         return f"#notes({_string(block.kind)}, {_words(block.title)}, ({items}))"
@@ -147,10 +149,7 @@ def _table(table: Table) -> str:
         "table.header(" + ", ".join(f"strong({_words(name)})" for name in table.head) + ", table.hline(stroke: 0.4pt))",
     ]
     for row in table.rows:
-        if len(row) == 1:
-            cells.append(f"table.cell(colspan: {count}, inset: (top: 7pt, x: 4pt, bottom: 3pt), strong({_inline(row)}))")
-        else:
-            cells += [_inline((cell,), _NARROW if table.widths else _WIDE) for cell in row]
+        cells += [_inline((cell,), _NARROW if table.widths else _WIDE) for cell in row]
     cells.append("table.hline(stroke: 0.8pt)")
     size = "8.5pt" if table.widths else "9.5pt"
     body = f"text({size}, table(columns: ({columns}), align: ({align},), {', '.join(cells)}))"
