@@ -4,50 +4,63 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
-from heeltoe.figures import COLOURS, STYLE
+from heeltoe.figures.style import COLOURS, WIDTH, heading, styled
+from heeltoe.figures.units import number, unit_system
+from heeltoe.figures.write import save
 from heeltoe.measures import fourier_amplitudes, velocity_displacement
 from heeltoe.motion import GroundMotion
 from heeltoe.spectrum import response_spectrum
 
 
-def write_motion_figure(motion: GroundMotion, gravity: float, path: Path) -> Path:
+def write_motion_figure(motion: GroundMotion, gravity: float, path: Path, units: str = "si") -> Path:
     """Write the figure of a motion to `path` (its ending says the format) and return the path."""
-    with mpl.rc_context(STYLE):
-        motion_figure(motion, gravity).savefig(path, dpi=150)
+    save(motion_figure(motion, gravity, units), path)
     return path
 
 
-def motion_figure(motion: GroundMotion, gravity: float) -> Figure:
+@styled
+def motion_figure(motion: GroundMotion, gravity: float, units: str = "si") -> Figure:
     """Draw acceleration, velocity and displacement over time, Fourier amplitudes and the 5 % response spectrum."""
-    figure = Figure(figsize=(7.5, 8.0), layout="constrained")
+    system = unit_system(units)
+    velocity_scale, length = system.scale("velocity"), system.scale("length")
+    figure = Figure(figsize=(WIDTH, 8.0), layout="constrained")
     grid = figure.add_gridspec(4, 2, height_ratios=[1.0, 0.8, 0.8, 1.7])
     about = ", ".join(part for part in (motion.event, motion.station, motion.component, motion.date) if part)
-    figure.suptitle(f"{motion.name}\n{about or 'no origin stated'}", fontsize=10, x=0.01, ha="left")
+    heading(figure, motion.name, about or "no origin stated")
     velocity, displacement = velocity_displacement(motion)
     top = figure.add_subplot(grid[0, :])
+    peaks = (motion.pga / gravity, velocity_scale(motion.pgv), length(motion.pgd))
+    said = [number(peak) for peak in peaks]
     panels = (
-        (top, motion.acceleration / gravity, f"acceleration [g]\nPGA {motion.pga / gravity:.3g}"),
-        (figure.add_subplot(grid[1, :], sharex=top), velocity, f"velocity [m/s]\nPGV {motion.pgv:.3g}"),
-        (figure.add_subplot(grid[2, :], sharex=top), displacement, f"displacement [m]\nPGD {motion.pgd:.3g}"),
+        (top, motion.acceleration / gravity, f"acceleration [g]\nPGA {said[0]} g"),
+        (
+            figure.add_subplot(grid[1, :], sharex=top),
+            velocity_scale(velocity),
+            f"velocity [{velocity_scale.unit}]\nPGV {said[1]} {velocity_scale.unit}",
+        ),
+        (
+            figure.add_subplot(grid[2, :], sharex=top),
+            length(displacement),
+            f"displacement [{length.unit}]\nPGD {said[2]} {length.unit}",
+        ),
     )
     for axes, values, label in panels:
         axes.plot(motion.time, values, color=COLOURS["ground"], linewidth=0.7)
-        axes.set_ylabel(label)
+        axes.set_ylabel(label, fontsize=8)
         axes.set_xlim(0.0, motion.duration)
     panels[-1][0].set_xlabel("time [s]")
 
     frequency, amplitude = fourier_amplitudes(motion)
     fourier = figure.add_subplot(grid[3, 0])
     shown = (frequency >= 0.05) & (amplitude > 0.0)
-    fourier.loglog(frequency[shown], amplitude[shown], color=COLOURS["slip"], linewidth=0.6)
+    fourier.loglog(frequency[shown], velocity_scale(amplitude[shown]), color=COLOURS["slip"], linewidth=0.6)
     fourier.set_xlabel("frequency [Hz]")
-    fourier.set_ylabel("Fourier amplitude [m/s]")
+    fourier.set_ylabel(f"Fourier amplitude [{velocity_scale.unit}]")
     if shown.any():
-        largest = amplitude[shown].max()
+        largest = velocity_scale(amplitude[shown].max())
         fourier.set_ylim(largest * 1e-4, largest * 2.0)
 
     spectrum = response_spectrum(motion)
@@ -55,7 +68,7 @@ def motion_figure(motion: GroundMotion, gravity: float) -> Figure:
     response.semilogx(spectrum.period, spectrum.pseudo_acceleration / gravity, color=COLOURS["rotation"])
     response.axhline(motion.pga / gravity, color=COLOURS["limit"], linestyle="--", linewidth=0.9)
     response.annotate(
-        "PGA",
+        f"PGA {said[0]} g",
         (spectrum.period[-1], motion.pga / gravity),
         xytext=(0, 3),
         textcoords="offset points",

@@ -36,8 +36,9 @@ def write_all(
 
     Of one model ``result.json``, ``histories``, ``events`` (rigid) or ``crack`` (flexible) and the figures go right
     into the directory. Of both, ``result.json`` with both and the figure ``comparison`` do, and each model's own into
-    the directories ``rigid`` and ``flexible``. With the case there is a figure of the section, too. All is written aside first, so that a failure leaves nothing half-done;
-    files of these names from an earlier run are replaced or removed.
+    the directories ``rigid`` and ``flexible``. With the case there is a figure of the section, too. All is
+    written aside first, so that a failure leaves nothing half-done; files of these names from an earlier run are
+    replaced or removed.
 
     Parameters
     ----------

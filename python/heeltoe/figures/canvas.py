@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import shapely
@@ -20,6 +21,8 @@ Floats = NDArray[np.float64]
 _TEXT = 8.0
 # Where a label may go, seen from what it explains: direction, in the order of preference.
 _AROUND = ((1, 1), (-1, 1), (1, -1), (-1, -1), (1, 0), (-1, 0), (0, 1), (0, -1))
+_SIDES = {1: "left", 0: "center", -1: "right"}
+_LEVELS = {1: "bottom", 0: "center", -1: "top"}
 _FAR = (4.0, 14.0, 28.0, 45.0)
 
 
@@ -65,7 +68,7 @@ class Canvas:
         found: Floats = self.length(np.atleast_2d(np.asarray(places, dtype=float)))
         return found
 
-    def fill(self, shape: shapely.Geometry | ArrayLike, **look: object) -> None:
+    def fill(self, shape: shapely.Geometry | ArrayLike, **look: Any) -> None:
         """Fill polygons, or the corners of one."""
         if not isinstance(shape, shapely.Geometry):
             self.axes.fill(*self.points(shape).T, **look)
@@ -74,16 +77,16 @@ class Canvas:
             if part.geom_type == "Polygon":
                 self.axes.fill(*self.points(shapely.get_coordinates(part.exterior)).T, **look)
 
-    def line(self, places: ArrayLike, *, keep_off: bool = False, **look: object) -> None:
+    def line(self, places: ArrayLike, *, keep_off: bool = False, **look: Any) -> None:
         """Draw a line from place to place; labels keep off it on request."""
         points = self.points(places)
-        self.axes.plot(*points.T, **look)  # type: ignore[arg-type]
+        self.axes.plot(*points.T, **look)
         if keep_off:
             self._take(points)
 
     def arrow(self, tail: ArrayLike, tip: ArrayLike, colour: str, *, width: float = 2.0) -> None:
         """Draw an arrow whose head does not outgrow it."""
-        points = self.points([tail, tip])
+        points = self.points(np.stack([tail, tip]))
         pixels = self.axes.transData.transform(points)
         figure = self.axes.figure
         long = 72.0 / figure.dpi * float(np.hypot(*(pixels[1] - pixels[0])))
@@ -100,11 +103,11 @@ class Canvas:
 
     def dimension(self, start: ArrayLike, end: ArrayLike, text: str, *, shift: ArrayLike = (0.0, 0.0)) -> None:
         """Draw a dimension line, `shift` [m] away from what it measures, with its text on it."""
-        ends = np.asarray([start, end], dtype=float)
+        ends = np.stack([np.asarray(start, dtype=float), np.asarray(end, dtype=float)])
         moved = ends + np.asarray(shift, dtype=float)
         for place, far in zip(ends, moved, strict=True):
             # Below the dam, whose outline it would cover.
-            self.line([place, far], color="#888888", linewidth=0.5, zorder=1.6)
+            self.line(np.stack([place, far]), color="#888888", linewidth=0.5, zorder=1.6)
         points = self.points(moved)
         style = {"arrowstyle": "<|-|>", "color": "#444444", "linewidth": 0.7, "mutation_scale": 7.0}
         self.axes.annotate("", points[1], points[0], arrowprops=style | {"shrinkA": 0.0, "shrinkB": 0.0})
@@ -147,24 +150,22 @@ class Canvas:
         )
         renderer, inside = self._renderer(), self.axes.get_window_extent(self._renderer())
         pixel = self.axes.transData.transform(point)
-        best, least = None, math.inf
+        best, least = (drawn.xyann, "left", "bottom", drawn.get_window_extent(renderer)), math.inf
         for far in _FAR:
             for right, up in (first, *_AROUND):
-                drawn.set_horizontalalignment({1: "left", 0: "center", -1: "right"}[right])
-                drawn.set_verticalalignment({1: "bottom", 0: "center", -1: "top"}[up])
+                aligned = _SIDES[right], _LEVELS[up]
+                drawn.set(ha=aligned[0], va=aligned[1])
                 drawn.xyann = (far * right, far * up)
                 box = drawn.get_window_extent(renderer)
                 crowd = sum(_overlap(box, other) for other in self.taken)
                 outside = box.width * box.height - _overlap(box, inside)
                 if crowd + 10.0 * outside < least - 1e-9:
-                    best, least = (drawn.get_ha(), drawn.get_va(), drawn.xyann, box), crowd + 10.0 * outside
+                    best, least = (drawn.xyann, *aligned, box), crowd + 10.0 * outside
             if least <= 1e-9:
                 break
-        assert best is not None
-        drawn.set_horizontalalignment(best[0])
-        drawn.set_verticalalignment(best[1])
-        drawn.xyann = best[2]
-        if math.hypot(*best[2]) > _FAR[1]:
+        drawn.set(ha=best[1], va=best[2])
+        drawn.xyann = best[0]
+        if math.hypot(*best[0]) > _FAR[1]:
             end = self.axes.transData.inverted().transform(
                 (np.clip(pixel[0], best[3].x0, best[3].x1), np.clip(pixel[1], best[3].y0, best[3].y1))
             )
@@ -175,9 +176,9 @@ class Canvas:
         """Keep labels off a line that is drawn already [m]."""
         self._take(self.points(places))
 
-    def _renderer(self) -> object:
-        figure = self.axes.figure
-        canvas = figure.canvas if isinstance(figure.canvas, FigureCanvasAgg) else FigureCanvasAgg(figure)
+    def _renderer(self) -> Any:
+        figure: Any = self.axes.figure
+        canvas: Any = figure.canvas if isinstance(figure.canvas, FigureCanvasAgg) else FigureCanvasAgg(figure)
         return canvas.get_renderer()
 
     def _take(self, points: Floats) -> None:
@@ -192,4 +193,4 @@ class Canvas:
 def _overlap(one: Bbox, other: Bbox) -> float:
     wide = min(one.x1, other.x1) - max(one.x0, other.x0)
     tall = min(one.y1, other.y1) - max(one.y0, other.y0)
-    return max(wide, 0.0) * max(tall, 0.0)
+    return float(max(wide, 0.0) * max(tall, 0.0))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from matplotlib.figure import Figure
 
 from heeltoe.comparison import Comparison
-from heeltoe.figures.panels import draw_ground, largest, panels
+from heeltoe.figures.panels import draw_ground, largest, panels, shown_rotation
 from heeltoe.figures.style import COLOURS, heading, styled, time_axis
 from heeltoe.figures.units import unit_system
 
@@ -28,7 +28,15 @@ def comparison_figure(both: Comparison, units: str = "si") -> Figure:
     heading(figure, both.title or "Untitled case", f"{flexible.motion.name}, peak {peak:.3g} g")
     draw_ground(ground, flexible)
     for axes, (key, quantity, label) in zip(rest, _PANELS, strict=True):
-        scale = system.scale(quantity, largest(*(response.histories[key] for response, *_ in models)))
+        most = largest(*(response.histories[key] for response, *_ in models))
+        # A rigid block that overturns leaves the axes; before that it is compared.
+        cut = shown_rotation(both.rigid)
+        if cut is not None and key != "slip_m":
+            limit = cut if quantity == "rotation" else cut * both.rigid.crack_width_m
+            most = max(limit, largest(both.flexible.histories[key]))
+        scale = system.scale(quantity, most)
+        if cut is not None and key != "slip_m":
+            axes.set_ylim(-1.1 * scale(most) if quantity == "rotation" else 0.0, 1.1 * scale(most))
         for response, colour, dash in models:
             axes.plot(
                 response.histories["time_s"],

@@ -33,24 +33,26 @@ def mesh_figure(dam: FlexibleDam, units: str = "si") -> Figure:
     """Draw the meshes of both parts, the nodes of the crack and the base that is held."""
     scale = unit_system(units).scale("length")
     bodies = [body.mesh for body in dam.bodies]
-    (left, bottom), (right, top) = extent(dam)
-    ratio = (top - bottom) / (right - left)
-    small = dam.section.crack_width < 0.4 * (right - left)
+    low, high = extent(dam)
+    wide, tall = high - low
+    small = dam.section.crack_width < 0.4 * wide
     figure = Figure(
-        figsize=(WIDTH, float(np.clip((4.0 if small else 4.8) * ratio + 1.2, 3.0, 7.5))), layout="constrained"
+        figsize=(WIDTH, float(np.clip((4.0 if small else 4.8) * tall / wide + 1.2, 3.0, 7.5))), layout="constrained"
     )
     elements, nodes = sum(len(mesh.elements) for mesh in bodies), sum(len(mesh.nodes) for mesh in bodies)
     heading(figure, f"{elements} elements of eight nodes, {nodes} nodes, {len(bodies[0].crack)} of them on the crack")
-    axes = np.atleast_1d(figure.subplots(1, 2 if small else 1, width_ratios=[1.4, 1.0] if small else None))
+    axes: list[Axes] = list(
+        figure.subplots(1, 2 if small else 1, width_ratios=[1.4, 1.0] if small else None, squeeze=False)[0]
+    )
     for panel in axes:
         for mesh, colour in zip(bodies, ("#333333", "#888888"), strict=False):
-            panel.add_collection(LineCollection(edges(mesh, scale(mesh.nodes)), colors=colour, linewidths=0.5))
+            panel.add_collection(LineCollection(list(edges(mesh, scale(mesh.nodes))), colors=colour, linewidths=0.5))
             points = scale(mesh.nodes[mesh.crack])
             panel.plot(*points.T, "o", color=COLOURS["crack"], markersize=2.5, zorder=3)
         held = bodies[-1].fixed if len(bodies) > 1 else bodies[0].crack
         _hold(panel, scale(bodies[-1].nodes[held]), rigid=len(bodies) == 1)
         dam_axes(panel, scale)
-    _frame(axes[0], scale, (left, bottom), (right, top))
+    _frame(axes[0], scale, low, high)
     if small:
         upper = bodies[0].nodes
         _frame(axes[1], scale, upper.min(axis=0), upper.max(axis=0))
@@ -72,26 +74,28 @@ def modes_figure(dam: FlexibleDam, units: str = "si") -> Figure:
     scale = unit_system(units).scale("length")
     periods, shapes = intact_shapes(dam, _SHAPES)
     bodies = [body.mesh for body in dam.bodies]
-    (left, bottom), (right, top) = extent(dam)
-    size = max(right - left, top - bottom)
-    wide = WIDTH / len(periods)
-    height = float(np.clip(0.85 * wide * (top - bottom + 0.2 * size) / (right - left + 0.2 * size) + 1.3, 2.6, 6.5))
+    low, high = extent(dam)
+    wide, tall = high - low
+    size = max(wide, tall)
+    height = float(np.clip(0.85 * WIDTH / len(periods) * (tall + 0.2 * size) / (wide + 0.2 * size) + 1.3, 2.6, 6.5))
     figure = Figure(figsize=(WIDTH, height), layout="constrained")
     heading(figure, "Shapes of vibration of the intact dam, water included; displacements exaggerated, scale free")
-    axes = np.atleast_1d(figure.subplots(1, len(periods), sharex=True, sharey=True))
+    axes: list[Axes] = list(figure.subplots(1, len(periods), sharex=True, sharey=True, squeeze=False)[0])
     for place, (panel, period, shape) in enumerate(zip(axes, periods, shapes, strict=True), start=1):
         largest = max(float(np.hypot(*part.T).max()) for part in shape)
         for mesh, part in zip(bodies, shape, strict=True):
             still = scale(mesh.nodes)
             outline = boundary_edges(mesh.elements)
-            panel.add_collection(LineCollection(still[outline], colors="#777777", linewidths=0.8, linestyles="--"))
+            panel.add_collection(
+                LineCollection(list(still[outline]), colors="#777777", linewidths=0.8, linestyles="--")
+            )
             moved = scale(mesh.nodes + part * (_DRAWN * size / largest))
-            panel.add_collection(LineCollection(edges(mesh, moved), colors=COLOURS["slip"], linewidths=0.4))
-            panel.add_collection(LineCollection(moved[outline], colors="#000000", linewidths=1.0))
+            panel.add_collection(LineCollection(list(edges(mesh, moved)), colors=COLOURS["slip"], linewidths=0.4))
+            panel.add_collection(LineCollection(list(moved[outline]), colors="#000000", linewidths=1.0))
         panel.set_title(f"T{place} = {number(period)} s\n({number(1.0 / period)} Hz)", fontsize=9)
         dam_axes(panel, scale)
         panel.label_outer()
-    _frame(axes[0], scale, (left, bottom), (right, top), room=0.13)
+    _frame(axes[0], scale, low, high, room=0.13)
     handles = [
         Line2D([], [], color="#777777", linestyle="--", linewidth=0.8, label="at rest"),
         Line2D([], [], color="#000000", linewidth=1.0, label="vibrating"),

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
-from matplotlib.tri import Triangulation
+from matplotlib.tri import Triangulation, TriContourSet
 from numpy.typing import NDArray
 
 from heeltoe.crack_history import CrackHistory
@@ -103,12 +103,11 @@ def _round(value: float) -> float:
 
 def _stress_map(
     axes: Axes, record: CrackHistory, places: list[Floats], values: tuple[Floats, ...], most: float, colours: str
-) -> object:
+) -> TriContourSet:
     """Fill contours of the positive part; what is not positive stays white."""
     # Round numbers up to the last one below the largest that is shown.
-    levels = MaxNLocator(_LEVELS, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, most)
-    levels = levels[levels <= most * (1.0 + 1e-9)]
-    image = None
+    ticks = MaxNLocator(_LEVELS, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, most)
+    levels = np.asarray(ticks)[np.asarray(ticks) <= most * (1.0 + 1e-9)]
     for body, place, each in zip(record.dam.bodies, places, values, strict=True):
         triangles = np.vstack([body.mesh.elements[:, corners] for corners in _TRIANGLES])
         net = Triangulation(place[:, 0], place[:, 1], triangles)
@@ -137,14 +136,14 @@ def _crosses(
         shown = value[elements].mean(axis=1) > least
         step = (np.column_stack([np.cos(turn), np.sin(turn)]) * size[:, None])[shown]
         lines = np.stack([centre[shown] - step, centre[shown] + step], axis=1)
-        axes.add_collection(LineCollection(lines, colors="#000000", linewidths=0.6), autolim=False)
+        axes.add_collection(LineCollection(list(lines), colors="#000000", linewidths=0.6), autolim=False)
 
 
 def _outlines(axes: Axes, record: CrackHistory, places: list[Floats], length: Scale) -> None:
     for body, place in zip(record.dam.bodies, places, strict=True):
         outline = boundary_edges(body.mesh.elements)
         still = length(body.mesh.nodes)[outline]
-        axes.add_collection(LineCollection(still, colors="#777777", linewidths=0.6, linestyles=":"))
-        axes.add_collection(LineCollection(place[outline], colors="#000000", linewidths=1.0))
+        axes.add_collection(LineCollection(list(still), colors="#777777", linewidths=0.6, linestyles=":"))
+        axes.add_collection(LineCollection(list(place[outline]), colors="#000000", linewidths=1.0))
     axes.margins(0.04)
     axes.autoscale_view()

@@ -78,7 +78,8 @@ def _rigid_curves(response: Response) -> list[tuple[_Entry, Floats]]:
     if "energy_lost_j" in response.event_log:
         log = response.event_log
         lost = np.concatenate([[0.0], np.cumsum(log["energy_lost_j"])])
-        curves.append((_IMPACT, lost[np.searchsorted(log["time_s"], response.histories["time_s"], side="right")]))
+        if lost[-1]:
+            curves.append((_IMPACT, lost[np.searchsorted(log["time_s"], response.histories["time_s"], side="right")]))
     return curves
 
 
@@ -128,12 +129,12 @@ def _waterfall(axes: Axes, bars: list[tuple[_Entry, float]], scale: Scale) -> No
             axes.plot([place - 1.35, place + 0.35], [left, left], color="#888888", linewidth=0.6)
             left -= drawn
         axes.annotate(
-            number(drawn, 3),
+            number(drawn, 3 if abs(drawn) > 0.1 * scale(bars[0][1]) else 2),
             (place, max(bottom, bottom + drawn)),
             xytext=(0, 2),
             textcoords="offset points",
             ha="center",
-            fontsize=8,
+            fontsize=7,
         )
         names.append(entry.label.removesuffix(" since the start"))
     axes.axhline(0.0, color="#000000", linewidth=0.6)

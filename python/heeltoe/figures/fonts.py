@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import textwrap
 import unicodedata
 from functools import lru_cache
 
@@ -50,26 +49,43 @@ def readable(text: str) -> tuple[str, list[str]]:
     return "".join(_MISSING if ord(c) in wanted else c for c in text), families
 
 
-def wrapped(text: str, width: int, most: int = 2) -> str:
-    """Break a text into at most so many lines of so many columns; East Asian letters take two. What is left is cut."""
-    lines: list[str] = []
-    for word in textwrap.wrap(text, width, break_long_words=False) or [""]:
-        while columns(word) > width:
-            fits = next(k for k in range(len(word), 0, -1) if columns(word[:k]) <= width)
-            lines.append(word[:fits])
-            word = word[fits:]
-        lines.append(word)
+def wrapped(text: str, width: float, most: int = 2) -> str:
+    """Break a text into at most so many lines as wide as `width` times the size of its letters; what is left is cut."""
+    lines = [""]
+    for word in text.split():
+        joined = f"{lines[-1]} {word}".strip()
+        if ems(joined) <= width:
+            lines[-1] = joined
+            continue
+        if lines[-1]:
+            lines.append("")
+        # A word of more than a line, as languages without blanks have it.
+        for letter in word:
+            if ems(lines[-1] + letter) > width:
+                lines.append("")
+            lines[-1] += letter
     if len(lines) > most:
         last = lines[most - 1]
-        while columns(last + _CUT) > width:
+        while ems(last + _CUT) > width:
             last = last[:-1]
         lines = [*lines[: most - 1], last.rstrip() + _CUT]
     return "\n".join(lines)
 
 
-def columns(text: str) -> int:
-    """Return how many columns a text takes."""
-    return sum(2 if unicodedata.east_asian_width(c) in "WF" else 1 for c in text)
+def ems(text: str) -> float:
+    """Return how wide a text is, in sizes of its letters; of those that the plain font lacks each takes a whole one."""
+    return sum(_width(letter) for letter in text)
+
+
+@lru_cache(maxsize=4096)
+def _width(letter: str) -> float:
+    path = font_manager.findfont(PLAIN)
+    if ord(letter) not in _letters(path):
+        return 1.0
+    font = font_manager.get_font(path)
+    font.set_size(100.0, 72.0)
+    # In units of 1/65536 of a pixel.
+    return float(font.load_char(ord(letter)).linearHoriAdvance) / 65536.0 / 100.0
 
 
 @lru_cache(maxsize=32)

@@ -18,6 +18,7 @@ from heeltoe.figures.panels import (
     mode_rows,
     panels,
 )
+from heeltoe.figures.path import draw_pieces, piece_handles
 from heeltoe.figures.style import (
     COLOURS,
     MODE_COLOURS,
@@ -35,6 +36,8 @@ Floats = NDArray[np.float64]
 
 # Openings of an elastic dam's crack below a hundredth of a millimetre are not worth a panel.
 _NO_OPENING = 1e-5
+#: Slip of one kind below this [m] has no place in a picture.
+NO_SLIP = 1e-6
 _SLIP_KINDS = {"slide": "sliding", "slide-rock": "slide_rocking", "drift": "drifting"}
 
 
@@ -123,22 +126,34 @@ def force_figure(response: Response, units: str = "si") -> Figure:
 
 @styled
 def slip_by_mode_figure(response: Response, units: str = "si") -> Figure:
-    """Draw how much of the slip has come from each kind of motion so far, and in the end."""
-    summed = slip_by_kind(response)
+    """Draw how much of the slip has come from each kind of motion: over time, and in the end.
+
+    Of an elastic dam only the sums at the end are known, and in which state each frame ends: its slip is one curve,
+    drawn as the states look.
+    """
+    exact = "time_s" in response.event_log
+    summed = slip_by_kind(response) if exact else {}
+    named = {kind: key for kind, key in _SLIP_KINDS.items() if abs(response.slip_by_mode_m[key]) > NO_SLIP}
     scale = unit_system(units).scale("displacement", largest(*summed.values(), response.histories["slip_m"]))
     figure = Figure(figsize=(WIDTH, 3.6), layout="constrained")
     curves, bars = figure.subplots(1, 2, sharey=True, width_ratios=[3.0, 1.2])
     describe(figure, response)
     time = response.histories["time_s"]
     total = scale(response.histories["slip_m"])
-    curves.plot(time, total, color="#999999", linewidth=2.4, label="all")
+    if exact:
+        curves.plot(time, total, color="#999999", linewidth=2.4, label="all")
+    else:
+        kinds = [kind_of(mode) for mode in response.mode]
+        draw_pieces(curves, time, total, kinds)
+        curves.update_datalim(np.column_stack([time, total]))
+        curves.autoscale_view()
     for kind, values in summed.items():
         curves.plot(
             time, scale(values), color=MODE_COLOURS[kind], linestyle=MODE_DASHES[kind], linewidth=1.3, label=kind
         )
     curves.set_ylabel(f"slip so far [{scale.unit}]\n(+ downstream)")
     time_axis(curves, time[-1])
-    ends = {kind: response.slip_by_mode_m[_SLIP_KINDS[kind]] for kind in summed}
+    ends = {kind: response.slip_by_mode_m[key] for kind, key in named.items()}
     for place, (kind, value) in enumerate({**ends, "all": response.residual_slip_m}.items()):
         colour, hatch = MODE_COLOURS.get(kind, "#999999"), MODE_HATCHES.get(kind, "")
         bars.bar(place, scale(value), width=0.7, facecolor=colour, hatch=hatch, edgecolor="white")
@@ -157,35 +172,28 @@ def slip_by_mode_figure(response: Response, units: str = "si") -> Figure:
     bars.grid(visible=False, axis="x")
     (low, high), room = curves.get_ylim(), 0.09
     curves.set_ylim(low - room * (high - low) * (min(ends.values()) < 0.0), high + room * (high - low))
-    figure.legend(*curves.get_legend_handles_labels(), loc="outside lower center", ncols=1 + len(summed))
+    handles = curves.get_legend_handles_labels()[0] if exact else piece_handles(kinds)
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     return figure
 
 
 def slip_by_kind(response: Response) -> dict[str, Floats]:
     """Return the slip (n,) that each kind of motion has brought up to each moment of the histories [m].
 
-    Events split the time between two moments exactly; of a response without them each frame has one state. Kinds that
-    bring nothing are left out.
+    Events split the time between two moments exactly. Kinds that bring nothing are left out.
     """
     h = response.histories
     time, slip = h["time_s"], h["slip_m"]
     log = response.event_log
-    if "time_s" in log:
-        at = np.concatenate([[0.0], log["time_s"]])
-        where = np.concatenate([slip[:1], log["slip_m"]])
-        kinds = np.array([kind_of(mode) for mode in ("rest", *log["mode_after"])])
-        # Of a moment, the event before it; the slip since then belongs to the mode that began there.
-        last = np.searchsorted(at, time, side="right") - 1
-        steps = np.diff(where, append=where[-1])
-        found = {}
-        for kind in _SLIP_KINDS:
-            mine = kinds == kind
-            before = np.concatenate([[0.0], np.cumsum(np.where(mine, steps, 0.0))])
-            found[kind] = before[last] + np.where(mine[last], slip - where[last], 0.0)
-    else:
-        kinds = np.array([kind_of(mode) for mode in response.mode])
-        steps = np.diff(slip, prepend=slip[:1])
-        # What slips within a frame that ends at rest has slid.
-        kinds = np.where(np.isin(kinds, list(_SLIP_KINDS)), kinds, "slide")
-        found = {kind: np.cumsum(np.where(kinds == kind, steps, 0.0)) for kind in _SLIP_KINDS}
-    return {kind: values for kind, values in found.items() if response.slip_by_mode_m[_SLIP_KINDS[kind]]}
+    at = np.concatenate([[0.0], log["time_s"]])
+    where = np.concatenate([slip[:1], log["slip_m"]])
+    kinds = np.array([kind_of(mode) for mode in ("rest", *log["mode_after"])])
+    # Of a moment, the event before it; the slip since then belongs to the mode that began there.
+    last = np.searchsorted(at, time, side="right") - 1
+    steps = np.diff(where, append=where[-1])
+    found = {}
+    for kind in _SLIP_KINDS:
+        mine = kinds == kind
+        before = np.concatenate([[0.0], np.cumsum(np.where(mine, steps, 0.0))])
+        found[kind] = before[last] + np.where(mine[last], slip - where[last], 0.0)
+    return {kind: values for kind, values in found.items() if abs(response.slip_by_mode_m[_SLIP_KINDS[kind]]) > NO_SLIP}

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from heeltoe.figures.style import COLOURS, MODE_COLOURS, WIDTH
 from heeltoe.figures.units import Units, number
@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 _KINDS = {"sliding": "slide", "rocking": "rock", "slide-rocking": "slide-rock", "drifting": "drift"}
 # Text on top of lines stays readable.
 BEHIND_TEXT = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.6}
-# An axis that is cut shows a block that overturns up to this rotation at least [rad].
+# Up to which rotation a block that overturns at once is shown [rad].
 _TILTED = 0.05
 
 
@@ -41,13 +41,15 @@ def draw_ground(axes: Axes, response: Response) -> None:
     """Draw the acceleration that shakes the crack, with those at which a rigid block starts to move where they are
     near; where the part below the crack amplifies it, the ground's own stands behind it."""
     h, g = response.histories, response.gravity
-    ground, crack = h["ground_acceleration_m_s2"] / g, h.get("crack_acceleration_m_s2")
+    # The motion itself, which may jump between two moments of the histories.
+    time, ground = ground_motion(response)
+    crack = h.get("crack_acceleration_m_s2")
     if crack is None:
-        axes.plot(h["time_s"], ground, color=COLOURS["ground"], linewidth=0.7)
+        axes.plot(time, ground / g, color=COLOURS["ground"], linewidth=0.7)
         axes.set_ylabel("ground\nacceleration [g]")
     else:
         axes.plot(h["time_s"], crack / g, color=COLOURS["slip"], linewidth=0.7, label="at the crack")
-        axes.plot(h["time_s"], ground, color="#999999", linewidth=0.7, linestyle="--", label="ground", zorder=1.8)
+        axes.plot(time, ground / g, color="#999999", linewidth=0.7, linestyle="--", label="ground", zorder=1.8)
         axes.set_ylabel("acceleration [g]")
         axes.legend(loc="upper left", ncols=2, fontsize=7, bbox_to_anchor=(0.0, 1.12))
     critical = response.static["critical_acceleration_g"]
@@ -75,11 +77,23 @@ def draw_ground(axes: Axes, response: Response) -> None:
         low, high = axes.get_ylim()
 
 
+def ground_motion(response: Response) -> tuple[Floats, Floats]:
+    """Return moments [s] and accelerations [m/s2] of the ground up to the end of the run; after a record it stands
+    still."""
+    motion, end = response.motion, float(response.histories["time_s"][-1])
+    time, ground = motion.time, motion.acceleration
+    if time[-1] < end:
+        return np.append(time, [time[-1], end]), np.append(ground, [0.0, 0.0])
+    before = time <= end
+    last = float(np.interp(end, time, ground))
+    return np.append(time[before], end), np.append(ground[before], ground[before][-1] if end in time else last)
+
+
 def draw_slip(axes: Axes, response: Response, units: Units) -> None:
     """Draw the slip, with what remains of it, and its spread where that was asked for."""
     h = response.histories
     spread = None if response.spread is None else response.spread["residual_slip_m"]
-    ends = () if spread is None else (spread["min"], spread["max"])
+    ends = np.array([] if spread is None else [spread["min"], spread["max"]])
     scale = units.scale("displacement", largest(h["slip_m"], ends))
     axes.plot(h["time_s"], scale(h["slip_m"]), color=COLOURS["slip"], linewidth=1.4)
     axes.set_ylabel(f"slip [{scale.unit}]\n(+ downstream)")
@@ -145,7 +159,8 @@ def shown_rotation(response: Response) -> float | None:
     rotation = response.histories["rotation_rad"]
     turns = np.flatnonzero(np.diff(np.sign(rotation)) != 0)
     before = np.abs(rotation[: turns[-1] + 1]) if turns.size else np.zeros(1)
-    return float(min(max(_TILTED, 3.0 * before.max()), math.pi / 2.0))
+    rocking = float(before.max())
+    return min(3.0 * rocking if rocking > 1e-5 else _TILTED, math.pi / 2.0)
 
 
 def note_overturned(axes: Axes, response: Response) -> None:
@@ -211,6 +226,6 @@ def kind_of(mode: str) -> str:
     return _KINDS.get(mode, mode.split(" ")[0])
 
 
-def largest(*values: object) -> float:
+def largest(*values: ArrayLike) -> float:
     """Return the largest magnitude among arrays and numbers."""
     return max((float(np.max(np.abs(each), initial=0.0)) for each in values), default=0.0)

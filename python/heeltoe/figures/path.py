@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
@@ -14,7 +16,13 @@ from heeltoe.figures.units import Scale, unit_system
 from heeltoe.response import Response
 
 # In black and white width and dashes tell what colours tell otherwise.
-_LINES = {"rest": (1.2, "-"), "slide": (2.4, "-"), "rock": (0.9, "-"), "slide-rock": (1.4, "--"), "drift": (1.2, ":")}
+_LINES: dict[str, tuple[float, Any]] = {
+    "rest": (1.2, "-"),
+    "slide": (2.4, "-"),
+    "rock": (0.9, "-"),
+    "slide-rock": (1.4, "--"),
+    "drift": (1.2, ":"),
+}
 
 
 @styled
@@ -36,7 +44,7 @@ def path_figure(response: Response, units: str = "si") -> Figure:
     for panel, values, name in zip(
         axes, (heel, (heel + toe) / 2.0, toe), ("heel (upstream)", "middle", "toe (downstream)"), strict=True
     ):
-        _draw(panel, across(h["slip_m"]), up(values), kinds)
+        draw_pieces(panel, across(h["slip_m"]), up(values), kinds)
         panel.plot(across(h["slip_m"][0]), up(values[0]), "o", color="#000000", markersize=5, fillstyle="none")
         if cut is None:
             panel.plot(across(h["slip_m"][-1]), up(values[-1]), "x", color="#000000", markersize=6)
@@ -44,22 +52,24 @@ def path_figure(response: Response, units: str = "si") -> Figure:
         panel.set_title(name, fontsize=9)
     _limits(axes[0], h["slip_m"], across, up(lift))
     axes[0].set_ylabel(f"lift-off [{up.unit}]")
-    figure.legend(handles=_handles(kinds, ends=cut is None), loc="outside lower center", ncols=7)
+    marks = {"start": "o"} if cut is not None else {"start": "o", "end": "x"}
+    handles = piece_handles(kinds) + [
+        Line2D([], [], color="#000000", marker=marker, fillstyle="none", linestyle="", label=name)
+        for name, marker in marks.items()
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(handles))
     return figure
 
 
-def _draw(axes: Axes, along: Floats, across: Floats, kinds: list[str]) -> None:
-    """Draw the pieces of a path, each as its mode; a piece belongs to the mode in which it ends."""
+def draw_pieces(axes: Axes, along: Floats, across: Floats, kinds: list[str]) -> None:
+    """Draw the pieces of a curve, each as its kind of motion looks; a piece belongs to the kind in which it ends."""
     points = np.column_stack([along, across])
     for kind, (width, dash) in _LINES.items():
-        lines: list[Floats] = []
-        for place in range(1, len(points)):
-            if kinds[place] != kind:
-                continue
-            if lines and place > 1 and kinds[place - 1] == kind:
-                lines[-1].append(points[place])  # type: ignore[attr-defined]
-            else:
-                lines.append([points[place - 1], points[place]])  # type: ignore[arg-type]
+        inside = np.concatenate([[False], [each == kind for each in kinds[1:]], [False]])
+        change = np.diff(inside.astype(int))
+        # From the point before the first of a run to its last.
+        runs = zip(np.flatnonzero(change == 1), np.flatnonzero(change == -1), strict=True)
+        lines = [points[start : end + 1] for start, end in runs]
         axes.add_collection(
             LineCollection(lines, colors=MODE_COLOURS[kind], linewidths=width, linestyles=dash), autolim=False
         )
@@ -72,13 +82,10 @@ def _limits(axes: Axes, slip: Floats, across: Scale, top: float) -> None:
     axes.set_ylim(-0.05 * top, 1.08 * top)
 
 
-def _handles(kinds: list[str], *, ends: bool) -> list[Line2D]:
-    lines = [
+def piece_handles(kinds: list[str]) -> list[Line2D]:
+    """Return what the legend of such a curve shows."""
+    return [
         Line2D([], [], color=MODE_COLOURS[kind], linewidth=width, linestyle=dash, label=kind)
         for kind, (width, dash) in _LINES.items()
         if kind in kinds
     ]
-    lines.append(Line2D([], [], color="#000000", marker="o", fillstyle="none", linestyle="", label="start"))
-    if ends:
-        lines.append(Line2D([], [], color="#000000", marker="x", linestyle="", label="end"))
-    return lines

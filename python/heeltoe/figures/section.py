@@ -84,7 +84,7 @@ def _corners(case: Case, whole: shapely.Polygon, size: float, *, below: float) -
     downstream = 0.46 if case.tailwater else 0.24
     return (
         np.array([left - upstream * size, base - below * size]),
-        np.array([right + downstream * size, crest + 0.13 * size]),
+        np.array([right + downstream * size, crest + 0.155 * size]),
     )
 
 

@@ -43,7 +43,8 @@ MODE_HATCHES = {"rest": "", "slide": "", "rock": "...", "slide-rock": "///", "dr
 
 WIDTH = 7.5
 """Of every figure [in]: the text of a page of A4 or Letter."""
-_COLUMNS = 92
+# A line of a heading, in sizes of its letters: 10 points.
+_LINE = 51.0
 
 STYLE: dict[Any, Any] = {
     "font.size": 9,
@@ -79,7 +80,7 @@ def heading(figure: Figure, *lines: str) -> None:
     """Write lines above a figure, from the left; they may say anything, at any length."""
     parts = [readable(line) for line in lines if line]
     families = list(dict.fromkeys(family for _, found in parts for family in found))
-    text = "\n".join(wrapped(line, _COLUMNS) for line, _ in parts)
+    text = "\n".join(wrapped(line, _LINE) for line, _ in parts)
     # A dollar in a title is a dollar, no formula.
     figure.suptitle(text, fontsize=10, x=0.01, ha="left", fontfamily=families, parse_math=False)
 

@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
+from heeltoe.figures.dense import filled_in
 from heeltoe.figures.energy import energy_figure
 from heeltoe.figures.histories import (
+    NO_SLIP,
     acceleration_figure,
     force_figure,
     lifts_off,
@@ -44,8 +46,8 @@ NAMES = (
     "mesh",
     "modes",
 )
-#: Slips and lift-offs below these [m] have no picture of their own.
-_NO_SLIP, _NO_LIFT = 1e-6, 1e-5
+#: Lift-offs below this [m] have no picture of their own.
+_NO_LIFT = 1e-5
 
 
 def all_figures(
@@ -96,8 +98,9 @@ def _drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]
     # The very first moment alone is no history.
     if not h or len(h["time_s"]) < 2:
         return {}
+    response = filled_in(response)
     found: dict[str, Callable[[], Figure]] = {"response": lambda: response_figure(response, units)}
-    if any(abs(slip) > _NO_SLIP for slip in response.slip_by_mode_m.values()):
+    if any(abs(slip) > NO_SLIP for slip in response.slip_by_mode_m.values()):
         found["slip-by-mode"] = lambda: slip_by_mode_figure(response, units)
     if is_elastic(response):
         found["forces"] = lambda: force_figure(response, units)
@@ -165,9 +168,9 @@ def save_all(figures: dict[str, Figure], directory: Path) -> list[Path]:
     return written
 
 
-def save(figure: Figure, path: Path) -> None:
+def save(figure: Figure, path: Path, dpi: float = 150.0) -> None:
     """Write one figure; the ending of the path says the format."""
     # Without its date the same figure makes the same file.
     metadata = {"Date": None} if path.suffix == ".svg" else None
     with mpl.rc_context(STYLE):
-        figure.savefig(path, dpi=150, metadata=metadata)
+        figure.savefig(path, dpi=dpi, metadata=metadata)
