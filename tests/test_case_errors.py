@@ -86,6 +86,14 @@ REFUSED = [
         "statics.vertical_seismic_coefficient: has no meaning without seismic_coefficient; give that, or remove this",
     ),
     (
+        dam(statics={"flood_rarity": "extreme"}),
+        "statics.flood_rarity: has no meaning without flood_depth; give that, or remove this",
+    ),
+    (
+        dam(statics={"site_information": "limited"}),
+        'statics.site_information: "limited" contradicts structure = "critical" under USACE; keep one of them',
+    ),
+    (
         dam(statics={"drain_diameter": "75 mm"}),
         'statics.drain_diameter: has no meaning without uplift.pattern = "drained"; give that, or remove this',
     ),

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from heeltoe.scenario import synthetic
     from heeltoe.spectrum import response_spectrum
     from heeltoe.spread import with_spread
+    from heeltoe.statics_model import Statics, statics
     from heeltoe.targets import asce_7, en_1998
     from heeltoe.verdicts import verdict
 
@@ -36,6 +37,7 @@ __all__ = [
     "HeeltoeError",
     "InputError",
     "Response",
+    "Statics",
     "asce_7",
     "build_block",
     "build_flexible_dam",
@@ -50,6 +52,7 @@ __all__ = [
     "response_spectrum",
     "rigid",
     "rigid_many",
+    "statics",
     "stochastic_motion",
     "synthetic",
     "verdict",
@@ -65,6 +68,7 @@ _HOME = {
     "HeeltoeError": "errors",
     "InputError": "errors",
     "Response": "response",
+    "Statics": "statics_model",
     "asce_7": "targets",
     "build_block": "block",
     "build_flexible_dam": "flexible_parts",
@@ -80,6 +84,7 @@ _HOME = {
     "response_spectrum": "spectrum",
     "rigid": "rigid_model",
     "rigid_many": "ensemble",
+    "statics": "statics_model",
     "stochastic_motion": "made_to_order",
     "synthetic": "scenario",
     "verdict": "verdicts",

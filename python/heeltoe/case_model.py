@@ -415,6 +415,10 @@ class Statics(Block):
 
     criteria: Literal["USACE", "USBR", "FERC", "CDA"] = "USACE"
     """Whose required factors the checks are judged by."""
+    structure: Literal["critical", "normal"] = "critical"
+    """Critical where a failure would cost lives (FERC: high or significant hazard, otherwise low)."""
+    site_information: Literal["well defined", "ordinary", "limited"] = "ordinary"
+    """How well strengths are known: well defined by tests, explored in the ordinary way, or hardly."""
     bonded: Fraction = 0.0
     """Part of the crack's width, from the toe, that is not cracked; only there cohesion and tension count."""
     cohesion: Annotated[Pressure, Field(ge=0.0, le=1e8)] = Field(default="0 MPa", validate_default=True)
@@ -427,6 +431,8 @@ class Statics(Block):
     """Reservoir in the flood; no such check without it."""
     flood_tailwater: Head | None = None
     """Tailwater in the flood; the usual one where it is not given."""
+    flood_rarity: Literal["unusual", "extreme"] = "unusual"
+    """Whether the flood is an unusual load or, as the probable maximum flood, an extreme one."""
     seismic_coefficient: Annotated[DimensionlessNumber, Field(gt=0.0, le=3.0)] | None = None
     """Horizontal acceleration of the pseudo-static check in g; no such check without it."""
     vertical_seismic_coefficient: Annotated[DimensionlessNumber, Field(ge=0.0, le=3.0)] = 0.0
@@ -448,6 +454,12 @@ class Statics(Block):
             raise InputError("needs-other", "flood_tailwater", other="flood_depth")
         if self.vertical_seismic_coefficient and self.seismic_coefficient is None:
             raise InputError("needs-other", "vertical_seismic_coefficient", other="seismic_coefficient")
+        if self.flood_rarity == "extreme" and self.flood_depth is None:
+            raise InputError("needs-other", "flood_rarity", other="flood_depth")
+        if self.criteria == "USACE" and self.site_information == "limited" and self.structure == "critical":
+            # USACE has no factors for these: the site must be explored.
+            other = 'structure = "critical" under USACE'
+            raise InputError("contradiction", "site_information", shown(self.site_information), other=other)
         return self
 
 

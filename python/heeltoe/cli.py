@@ -228,6 +228,46 @@ def periods(
 
 
 @app.command()
+def statics(
+    case: CasePath,
+    set_: Changes = None,
+    criteria: Annotated[
+        str | None, typer.Option(metavar="USACE|USBR|FERC|CDA", help="Whose required factors to judge by.")
+    ] = None,
+    slip: Annotated[
+        str | None,
+        typer.Option(metavar="0.15m", help="Residual slip of the post-seismic case; without it that of a rigid run."),
+    ] = None,
+    json_: JsonPath = None,
+) -> None:
+    """Judge the stability before, during (pseudo-static) and after the earthquake."""
+    from heeltoe.case import read_case
+    from heeltoe.quantities import parse
+    from heeltoe.statics_model import statics as judge
+    from heeltoe.statics_summary import print_statics
+
+    changes = [*(set_ or []), *([] if criteria is None else [f"statics.criteria={criteria}"])]
+    loaded = read_case(case, changes)
+    _check_json(json_)
+    with _status() as say:
+        if slip is not None:
+            found = judge(loaded, parse(slip, "length", "--slip"), slip_source="--slip")
+        elif loaded.motion is not None and loaded.statics.residual_slip is None:
+            from heeltoe.rigid_model import rigid
+
+            say("running the rigid model")
+            response = rigid(loaded)
+            if response.outcome == "ok":
+                source = f"rigid model, {response.motion.name}, PGA {response.motion.pga / response.gravity:.4g} g"
+                found = judge(loaded, response.residual_slip_m, slip_source=source)
+            else:
+                found = judge(loaded, 0.0, slip_source=f"the rigid model ends {response.outcome!r}, zero is taken")
+        else:
+            found = judge(loaded)
+    _finish(found.to_json(), json_, [], lambda console: print_statics(found, console))
+
+
+@app.command()
 def motion(
     file: Annotated[str | None, typer.Argument(metavar="FILE-or-NAME")] = None,
     unit: Annotated[str | None, typer.Option(help="Unit of a file that does not state it: g, cm/s^2, ...")] = None,

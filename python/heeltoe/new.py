@@ -115,12 +115,15 @@ pga = "0.4 g"                      # leave out to take the record as it is
 
 # [statics]                        # of `heeltoe statics`
 # criteria = "USACE"               # or USBR, FERC, CDA
+# structure = "critical"           # or normal
+# site_information = "ordinary"    # or "well defined" (by tests), limited
 # bonded = 0.5                     # part of the width, from the toe, that is not cracked
 # cohesion = "1 MPa"               # of that part, as is the next
 # tensile_strength = "1 MPa"
 # compressive_strength = "20 MPa"
 # flood_depth = "100 m"            # reservoir and tailwater in the flood
 # flood_tailwater = "10 m"
+# flood_rarity = "unusual"         # or extreme
 # seismic_coefficient = 0.1        # of the pseudo-static check, in g
 # vertical_seismic_coefficient = 0.05
 # residual_friction = 0.8          # after the earthquake

@@ -1,0 +1,299 @@
+"""What USACE, USBR, FERC and CDA require of a concrete gravity dam, as tables to choose from.
+
+Each row names its document and paragraph. What a row rests on beside the document is in its note: numbers that were
+not compared with the print say so.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+Loads = Literal["usual", "unusual", "extreme", "earthquake", "post-earthquake"]
+
+_MEMORY = "the number was not compared with the print"
+_INFERRED = "the document has no such case: that of its extreme loads is taken"
+
+
+@dataclass(frozen=True)
+class Criterion:
+    """One required value.
+
+    Attributes
+    ----------
+    loads
+        "usual", "unusual" (flood), "extreme" (flood), "earthquake" (pseudo-static) or "post-earthquake".
+    check
+        "sliding" and "flotation": factors, at least so much; "resultant": its distance from the middle of the base over
+        the width of the base, at most so much (1/6 the middle third, 1/4 the middle half, 1/2 the base);
+        "compression": stress over the compressive strength, at most so much.
+    required
+        The value.
+    document, paragraph
+        Where it stands.
+    note
+        What a reader must know about the row.
+    cohesion
+        True where it is for resistance with cohesion, False without, None for both.
+    structure, site_information
+        Which structures and explorations it is for; None for all.
+    """
+
+    loads: Loads
+    check: str
+    required: float
+    document: str
+    paragraph: str
+    note: str = ""
+    cohesion: bool | None = None
+    structure: str | None = None
+    site_information: str | None = None
+
+    @property
+    def source(self) -> str:
+        """Document and paragraph."""
+        return f"{self.document}, {self.paragraph}"
+
+    @property
+    def at_least(self) -> bool:
+        """Whether a value must be at least, not at most, the required one."""
+        return self.check in ("sliding", "flotation")
+
+
+def _rows(
+    check: str,
+    values: dict[Loads, float],
+    document: str,
+    paragraph: str,
+    note: str = "",
+    *,
+    inferred: tuple[Loads, ...] = (),
+    cohesion: bool | None = None,
+    structure: str | None = None,
+    site_information: str | None = None,
+) -> tuple[Criterion, ...]:
+    """Return one row for each case of loads; those inferred say so."""
+    return tuple(
+        Criterion(
+            loads,
+            check,
+            value,
+            document,
+            paragraph,
+            "; ".join(text for text in (note, _INFERRED if loads in inferred else "") if text),
+            cohesion,
+            structure,
+            site_information,
+        )
+        for loads, value in values.items()
+    )
+
+
+def _three(usual: float, unusual: float, extreme: float) -> dict[Loads, float]:
+    """Return values for usual, unusual and extreme loads, both earthquake cases among the last."""
+    return {
+        "usual": usual,
+        "unusual": unusual,
+        "extreme": extreme,
+        "earthquake": extreme,
+        "post-earthquake": extreme,
+    }
+
+
+_EM_2100 = "USACE EM 1110-2-2100 (2005)"
+_EM_2200 = "USACE EM 1110-2-2200 (1995)"
+_GRAVITY_DAMS = "USBR, Design of Gravity Dams (1976)"
+_FERC = "FERC Engineering Guidelines, chapter 3 (2002, revised 2016)"
+_CDA = "CDA, Dam Safety Guidelines (1999)"
+_POST: tuple[Loads, ...] = ("post-earthquake",)
+
+_USACE = (
+    *(
+        row
+        for structure, information, values, table in (
+            ("critical", "well defined", (1.7, 1.3, 1.1), "table 3-2"),
+            ("critical", "ordinary", (2.0, 1.7, 1.3), "table 3-2"),
+            ("normal", "well defined", (1.4, 1.2, 1.1), "table 3-3"),
+            ("normal", "ordinary", (1.5, 1.3, 1.1), "table 3-3"),
+            ("normal", "limited", (3.0, 2.6, 2.2), "table 3-3"),
+        )
+        for row in _rows(
+            "sliding",
+            _three(*values),
+            _EM_2100,
+            f"paragraph 3-7, {table}",
+            _MEMORY,
+            inferred=_POST,
+            structure=structure,
+            site_information=information,
+        )
+    ),
+    *_rows("flotation", _three(1.3, 1.2, 1.1), _EM_2100, "paragraph 3-8, table 3-4", _MEMORY, inferred=_POST),
+    *_rows(
+        "resultant",
+        _three(1.0 / 6.0, 1.0 / 4.0, 1.0 / 2.0),
+        _EM_2100,
+        "table 3-5",
+        f"{_MEMORY}; 75 % of the base in compression is taken for the middle half, which it is where the uplift stays",
+        inferred=_POST,
+    ),
+    *_rows("compression", _three(0.3, 0.5, 0.9), _EM_2200, "table 4-1", _MEMORY, inferred=_POST),
+)
+
+# The largest flood is an unusual load to USBR.
+_USBR_LOADS: dict[Loads, float] = {
+    "usual": 3.0,
+    "unusual": 2.0,
+    "extreme": 2.0,
+    "earthquake": 1.0,
+    "post-earthquake": 1.0,
+}
+_USBR = (
+    *_rows(
+        "sliding",
+        _USBR_LOADS,
+        _GRAVITY_DAMS,
+        "chapter III, safety factors, 3-21",
+        f"{_MEMORY}; within the concrete and at its contact with the rock, in the rock 4.0, 2.7 and 1.3",
+        inferred=_POST,
+    ),
+    *_rows(
+        "compression",
+        {loads: 1.0 / factor for loads, factor in _USBR_LOADS.items()},
+        _GRAVITY_DAMS,
+        "chapter III, safety factors, 3-20",
+        _MEMORY,
+        inferred=_POST,
+    ),
+)
+
+# FERC judges the dam after the earthquake, not by a pseudo-static force.
+_FERC_ROWS = (
+    *_rows(
+        "sliding",
+        {"usual": 3.0, "unusual": 2.0, "extreme": 2.0, "post-earthquake": 1.3},
+        _FERC,
+        "section 3-5.3, table 2",
+        f"{_MEMORY}; high or significant hazard",
+        cohesion=True,
+        structure="critical",
+    ),
+    *_rows(
+        "sliding",
+        {"usual": 2.0, "unusual": 1.25, "extreme": 1.25, "post-earthquake": 1.0},
+        _FERC,
+        "section 3-5.3, table 2",
+        f"{_MEMORY}; low hazard",
+        cohesion=True,
+        structure="normal",
+    ),
+    *_rows(
+        "sliding",
+        {"usual": 1.5, "unusual": 1.5, "extreme": 1.3, "post-earthquake": 1.3},
+        _FERC,
+        "section 3-5.3, table 2A",
+        f"{_MEMORY}; the extreme flood is the probable maximum one",
+        cohesion=False,
+    ),
+)
+
+# The order of the columns had to be inferred from the values: usual 1.5, flood 1.3, after an earthquake 1.1, in it 1.0.
+_FELL = "read in an extract, its columns in disorder, of Fell and others, Geotechnical Engineering of Dams"
+_BULLETIN = "the technical bulletin of 2007, Structural Considerations for Dam Safety, was not compared"
+_CDA_ROWS = (
+    *(
+        row
+        for information, values in (
+            ("well defined", (2.0, 1.5, 1.5, 1.1, 1.5)),
+            ("ordinary", (3.0, 2.0, 2.0, 1.3, 2.0)),
+            ("limited", (3.0, 2.0, 2.0, 1.3, 2.0)),
+        )
+        for row in _rows(
+            "sliding",
+            dict(zip(_three(0.0, 0.0, 0.0), values, strict=True)),
+            _CDA,
+            f"peak sliding factor, {'with' if information == 'well defined' else 'no'} tests",
+            f"{_FELL}, table 16.2, by which a residual sliding factor that is met will do instead; {_BULLETIN}",
+            cohesion=True,
+            site_information=information,
+        )
+    ),
+    *_rows(
+        "sliding",
+        {"usual": 1.5, "unusual": 1.3, "extreme": 1.3, "earthquake": 1.0, "post-earthquake": 1.1},
+        _CDA,
+        "residual sliding factor",
+        f"{_FELL}, table 16.2; {_BULLETIN}",
+        cohesion=False,
+    ),
+    *_rows(
+        "resultant",
+        {"usual": 1.0 / 6.0, "unusual": 0.5, "extreme": 0.5, "earthquake": 0.5, "post-earthquake": 0.5},
+        _CDA,
+        "position of the resultant",
+        f"{_FELL}, table 16.1, which leaves the middle third to all but usual loads; {_BULLETIN}",
+    ),
+    *_rows(
+        "compression",
+        {
+            "usual": 1.0 / 3.0,
+            "unusual": 1.0 / 2.0,
+            "extreme": 1.0 / 2.0,
+            "earthquake": 1.0 / 1.1,
+            "post-earthquake": 1.0 / 1.5,
+        },
+        _CDA,
+        "compressive strength factor",
+        f"{_FELL}, table 16.1; {_BULLETIN}",
+    ),
+)
+
+#: All rows, by the name of the criteria.
+CRITERIA: dict[str, tuple[Criterion, ...]] = {
+    "USACE": _USACE,
+    "USBR": _USBR,
+    "FERC": _FERC_ROWS,
+    "CDA": _CDA_ROWS,
+}
+
+#: What the criteria say of the uplift where the earthquake opens the crack: whether it vanishes, and where that stands.
+#: CDA leaves both open (as for regions of high seismicity, zero): unchanged is taken.
+UPLIFT_IN_EARTHQUAKE: dict[str, tuple[bool, str]] = {
+    "USACE": (False, f"{_EM_2200}: unchanged by the earthquake"),
+    "USBR": (True, "USBR, Design of Small Dams, 3rd edition (1987): zero where the earthquake opens the crack"),
+    "FERC": (False, f"{_FERC}: unchanged by the earthquake"),
+    "CDA": (False, "CDA, Dam Safety Guidelines (1997): unchanged, as where seismicity is low"),
+}
+
+
+def criteria(
+    name: str,
+    loads: Loads,
+    *,
+    cohesion: bool = False,
+    structure: str = "critical",
+    site_information: str = "ordinary",
+) -> tuple[Criterion, ...]:
+    """Return the rows that hold for a case of loads.
+
+    Parameters
+    ----------
+    name
+        "USACE", "USBR", "FERC" or "CDA".
+    loads
+        Case of loads.
+    cohesion
+        Whether the resistance counts cohesion; the documents with tables for friction alone have other factors there.
+    structure
+        "critical" (FERC: high or significant hazard) or "normal" (FERC: low hazard).
+    site_information
+        "well defined" (CDA: with tests), "ordinary" or "limited".
+    """
+    return tuple(
+        row
+        for row in CRITERIA[name]
+        if row.loads == loads
+        and row.cohesion in (None, cohesion)
+        and row.structure in (None, structure)
+        and row.site_information in (None, site_information)
+    )
