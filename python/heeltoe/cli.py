@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
@@ -108,14 +109,16 @@ def run(
     vtk: Annotated[
         bool, typer.Option("--vtk", help="With --out: VTK files of the flexible model for ParaView.")
     ] = False,
-    units: Annotated[str, typer.Option(metavar="si|us", help="Units of the figures.")] = "si",
+    units: Annotated[str, typer.Option(metavar="si|us", help="Units of figures and report.")] = "si",
     output_step: Annotated[
         str | None,
         typer.Option(
             metavar="0.001s", help="Spacing of the histories; without it the record's own, 0.01 s if flexible."
         ),
     ] = None,
-    report: Annotated[bool, typer.Option("--report", help="Not there yet.")] = False,
+    report: Annotated[
+        bool, typer.Option("--report", help="Write a report as PDF and HTML, into --out or a directory named by the case.")
+    ] = False,
 ) -> None:
     """Run a case and say what the dam does."""
     from heeltoe.case import read_case
@@ -126,7 +129,10 @@ def run(
     if units not in ("si", "us"):
         raise InputError("unknown-units", "--units", units)
     if report:
-        raise InputError("not-yet", "--report", "the report", remedy="leave it out; --out DIR writes figures and JSON")
+        from heeltoe.report import check_packages
+
+        check_packages()
+        out = out or Path(f"{Path(case).stem}-report")
     if vtk and out is None:
         raise InputError("vtk-without-out", "--vtk")
     if vtk and model == "rigid":
@@ -157,6 +163,11 @@ def run(
             say("writing")
             suffix = ".csv" if csv else ".parquet"
             written = write_all(result, out, loaded, units, suffix=suffix, vtk=vtk)
+            if report:
+                from heeltoe.report import write_report
+
+                say("writing the report")
+                written += write_report(loaded, result, out, units=units, command=_command())
     _finish(result.to_json(), json_, written, lambda console: _print(result, console))
     if not result.ok:
         raise typer.Exit(NO_RESULT)
@@ -360,6 +371,11 @@ def new(
         raise InputError("no-directory", str(path.parent))
     _replace(path, new_case_text(path.stem))
     print(f"wrote {path}; run it with: heeltoe run {path}")
+
+
+def _command() -> str:
+    """Return what was typed, for people who want to type it again."""
+    return shlex.join(["heeltoe", *sys.argv[1:]])
 
 
 def _as_given(motion: str) -> str:

@@ -238,7 +238,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     ),
     "figure-format": ("{value} has no ending of a figure", "end it in .png, .svg or .pdf"),
     "output-step": ("{value} is not a step within the run", "give one above 0 s and up to {duration}"),
-    "not-yet": ("{value} comes with a later release", "{remedy}"),
     "unknown-model": ("{value} is no model", "use rigid, flexible or both"),
     "unknown-units": ("{value} is no system of units", "use si or us"),
     "spread-runs": ("{value} is no number of runs", "give {fewest} to {most}, or none for {usual}"),

@@ -7,7 +7,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from shutil import rmtree
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from heeltoe.errors import InputError
 
@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from heeltoe.comparison import Comparison
     from heeltoe.report.content import Document
     from heeltoe.response import Response
+    from heeltoe.statics_model import Statics
 
 #: What each kind of report needs that heeltoe itself does not.
 KINDS = {"pdf": "typst", "html": "jinja2"}
@@ -37,16 +38,18 @@ def check_packages(kinds: Sequence[str] = ("pdf", "html"), field: str = "--repor
 
 
 def build_report(
-    case: Case, result: Response | Comparison, *, statics: Any | None = None, units: str = "si", command: str = ""
+    case: Case, result: Response | Comparison, *, statics: Statics | None = None, units: str = "si", command: str = ""
 ) -> Document:
     """Return what a report says, apart from how it looks; parameters as of :func:`write_report`."""
     from heeltoe.report.build import document
+    from heeltoe.report.build_statics import judged
     from heeltoe.report.drawings import drawings
     from heeltoe.report.numbers import Numbers
     from heeltoe.report.subject import Subject
 
-    numbers = Numbers(result.to_json(), units)
-    return document(Subject(case, result, numbers, drawings(case, result, units), statics, command))
+    found = judged(case, result) if statics is None else statics
+    numbers = Numbers({**result.to_json(), "statics": found.to_json()}, units)
+    return document(Subject(case, result, numbers, drawings(case, result, units), found, command))
 
 
 def write_report(
@@ -54,7 +57,7 @@ def write_report(
     result: Response | Comparison,
     directory: Path,
     *,
-    statics: Any | None = None,
+    statics: Statics | None = None,
     units: str = "si",
     kinds: Sequence[str] = ("pdf", "html"),
     command: str = "",
@@ -72,7 +75,7 @@ def write_report(
     directory
         Where; it is made if it is not there.
     statics
-        Result of :func:`heeltoe.statics`, whose checks become a section.
+        Result of :func:`heeltoe.statics`; computed with the residual slip of the result where it is not given.
     units
         ``"si"`` or ``"us"``. Input and sentences stay in SI.
     kinds

@@ -8,7 +8,8 @@ from heeltoe.report.build_method import method
 from heeltoe.report.build_motion import ground_motion
 from heeltoe.report.build_question import question
 from heeltoe.report.build_results import results
-from heeltoe.report.build_verdict import limits, statics
+from heeltoe.report.build_statics import static_checks
+from heeltoe.report.build_verdict import limits
 from heeltoe.report.content import Document, References, Section, without_gaps
 from heeltoe.report.subject import Subject
 from heeltoe.response import build_info
@@ -18,7 +19,6 @@ def document(subject: Subject) -> Document:
     """Return the whole report."""
     models = " and ".join(run.model for run in subject.runs)
     hashed = input_hash(subject.case, (subject.first.response.motion, subject.first.response.vertical))
-    references = dict.fromkeys(text for run in subject.runs for text in run.response.citation())
     sections = (
         question(subject),
         given_input(subject),
@@ -26,9 +26,9 @@ def document(subject: Subject) -> Document:
         method(subject),
         results(subject),
         evidence(subject),
-        statics(subject),
+        static_checks(subject),
         limits(subject),
-        Section("References", (References(tuple(references)),)),
+        Section("References", (References(subject.references),)),
         rerun(subject),
         defaults(subject),
     )

@@ -1,11 +1,8 @@
-"""Static checks, and everything beside what the user allows."""
+"""The verdict: results beside what the user allows, and static checks that are not met."""
 
 from __future__ import annotations
 
-from typing import Any
-
 from heeltoe.report.content import Block, Code, Inline, Section, Table, paragraph
-from heeltoe.report.numbers import NOTHING, digits
 from heeltoe.report.subject import Subject
 
 _LIMITS = {
@@ -14,27 +11,6 @@ _LIMITS = {
     "opening_upstream": "Opening at the upstream face",
     "opening_downstream": "Opening at the downstream face",
 }
-
-
-def statics(subject: Subject) -> Section | None:
-    """Return the static checks; None where there are none."""
-    checks = tuple(getattr(subject.statics, "checks", ()))
-    if not checks:
-        return None
-    rows: list[tuple[Inline, ...]] = []
-    for check in checks:
-        rows.append((str(check.load_case), str(check.name), _plain(check.value), _plain(check.required), _met(check.met), str(check.source)))
-    blocks: list[Block] = [
-        Table(
-            ("load case", "check", "value", "required", "met", "source"),
-            tuple(rows),
-            "Static checks before, during and after the earthquake; factors have no unit.",
-            "llrrll",
-            (2.4, 3.2, 1.4, 1.5, 1.0, 3.8),
-        )
-    ]
-    blocks += [paragraph(str(check.sentence)) for check in checks if getattr(check, "sentence", "")]
-    return Section("Static checks", tuple(blocks))
 
 
 def limits(subject: Subject) -> Section:
@@ -68,19 +44,8 @@ def limits(subject: Subject) -> Section:
         )
     else:
         blocks.append(paragraph("There is no result to compare with limits."))
-    failed = [check for check in getattr(subject.statics, "checks", ()) if check.met is False]
-    if failed:
-        blocks.append(paragraph(f"Static checks that are not met: {'; '.join(f'{c.name} ({c.load_case})' for c in failed)}."))
+    checks = () if subject.statics is None else subject.statics.checks
+    failed = "; ".join(f"{check.name} ({check.load_case})" for check in checks if not check.met)
+    if checks:
+        blocks.append(paragraph(f"Static checks not met: {failed}." if failed else "All static checks are met."))
     return Section("Verdict against limits", tuple(blocks))
-
-
-def _plain(value: Any) -> Inline:
-    if isinstance(value, int | float) and not isinstance(value, bool):
-        return digits(float(value), 3)
-    return NOTHING if value is None else str(value)
-
-
-def _met(met: bool | None) -> Inline:
-    return NOTHING if met is None else ("yes" if met else "NO")
-
-

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from heeltoe.report.content import FigureBlock
@@ -29,30 +28,26 @@ CAPTIONS = {
     "crack": "What each place of the crack does over time.",
     "pressure": "Contact pressure along the crack.",
     "deformed": "Deformed dam at moments that tell most; displacements are enlarged as it says.",
-    "mesh": "Mesh of the parts of the dam.",
     "modes": "Lowest vibration modes of the intact dam.",
 }
 # Simple figures need not be as wide as the page.
-_SHARES = {"section": 0.78, "spectrum": 0.85, "slip-by-mode": 0.85, "energy": 0.85, "mesh": 0.75}
-# Of both models only so many figures: those of one alone are in its own report.
+_SHARES = {"section": 0.78, "spectrum": 0.85, "slip-by-mode": 0.85, "energy": 0.85}
+# Of two models only so many figures: those of one alone are in its own report. The modes show the mesh, too.
 _OF_BOTH = {
     "flexible": ("response", "energy", "spectrum", "crack", "deformed", "modes"),
 }
 
 
 def drawings(case: Case, result: Response | Comparison, units: str) -> dict[str, FigureBlock]:
-    """Return the figures of a result by name, ``rigid/response`` where it is one of both models."""
+    """Return the figures of a result by name, ``flexible/response`` where it is one of two models."""
     from heeltoe.figures import all_figures
 
-    return {name: _block(name, figure) for name, figure in _wanted(all_figures(case, result, units)).items()}
+    return {name: _block(name, figure) for name, figure in all_figures(case, result, units, only=_wanted).items()}
 
 
-def _wanted(figures: Mapping[str, Figure]) -> dict[str, Figure]:
-    def wanted(name: str) -> bool:
-        model, slash, own = name.partition("/")
-        return not slash or own in _OF_BOTH.get(model, ())
-
-    return {name: figure for name, figure in figures.items() if wanted(name)}
+def _wanted(name: str) -> bool:
+    model, slash, own = name.partition("/")
+    return own in _OF_BOTH.get(model, ()) if slash else name != "mesh"
 
 
 def caption(name: str) -> str:

@@ -16,6 +16,7 @@ NOTHING = "–"
 # Endings of names, the longest first, and what they mean.
 _ENDINGS = {
     "_rad_s": "angular velocity",
+    "_pa": "pressure",
     "_m_s2": "acceleration",
     "_m_s": "velocity",
     "_1_s": "rate",

@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING
 
 from heeltoe.case import Case
 from heeltoe.comparison import Comparison
 from heeltoe.report.content import FigureBlock, Inline
 from heeltoe.report.numbers import Numbers
 from heeltoe.response import Response
+
+if TYPE_CHECKING:
+    from heeltoe.statics_model import Statics
 
 NAMES = {"rigid": "rigid block", "flexible": "flexible dam", "decoupled": "decoupled block"}
 MODELS = {
@@ -61,7 +64,7 @@ class Subject:
     result: Response | Comparison
     numbers: Numbers
     figures: Mapping[str, FigureBlock]
-    statics: Any | None = None
+    statics: Statics | None = None
     command: str = ""
 
     @cached_property
@@ -71,6 +74,12 @@ class Subject:
             return (Run(self.result, ""),)
         both = (self.result.rigid, self.result.flexible)
         return tuple(Run(each, f"{each.model}.") for each in both)
+
+    @cached_property
+    def references(self) -> tuple[str, ...]:
+        """Return the sources for exactly what was used, in the order of their numbers."""
+        cited = [text for run in self.runs for text in run.response.citation()]
+        return tuple(dict.fromkeys([*cited, *(() if self.statics is None else self.statics.references)]))
 
     @property
     def first(self) -> Run:
