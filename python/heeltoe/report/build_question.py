@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from heeltoe.comparison import Comparison
 from heeltoe.report.content import Block, Code, Inline, Notes, Section, Strong, Table, paragraph, without_gaps
 from heeltoe.report.numbers import NOTHING, digits
@@ -15,16 +17,21 @@ def question(subject: Subject) -> Section:
     for run in subject.runs:
         label = "Answer. " if len(subject.runs) == 1 else f"{run.name.capitalize()}. "
         if run.response.ok:
-            answers.append(paragraph(Strong(label), verdict(run.response)))
+            answers.append(paragraph(Strong(label), glued(verdict(run.response))))
     both = subject.result
     if isinstance(both, Comparison) and both.ok:
-        answers.append(paragraph(Strong("Difference. "), both.meaning()))
+        answers.append(paragraph(Strong("Difference. "), glued(both.meaning())))
     if not any(run.response.limits for run in subject.runs) and any(run.response.ok for run in subject.runs):
         answers.append(
             paragraph("Whether that is safe enough is not judged: the case sets no limits under ", Code("[limits]"), ".")
         )
     blocks = (_failures(subject), *answers, _warnings(subject), _numbers(subject))
     return Section("Question and answer", without_gaps(*blocks))
+
+
+def glued(text: str) -> str:
+    """Keep numbers and their units on one line."""
+    return re.sub(r"(?<=\d) (?=(?:%|[a-zA-Z/]{1,4}\b))", "\u00a0", text)
 
 
 def _question(subject: Subject) -> Block:
@@ -70,7 +77,7 @@ def warnings(subject: Subject) -> tuple[str, ...]:
 
 def _warnings(subject: Subject) -> Block | None:
     said = warnings(subject)
-    return Notes("warning", "Before using these numbers", tuple((text,) for text in said)) if said else None
+    return Notes("warning", "Before using these numbers", tuple((glued(text),) for text in said)) if said else None
 
 
 _ROWS = (

@@ -66,7 +66,7 @@ def static_checks(subject: Subject) -> Section | None:
     if found.warnings:
         own = [text for text in found.warnings if all(text not in run.response.warnings for run in subject.runs)]
         blocks += [Notes("warning", "About the static checks", tuple((text,) for text in own))] if own else []
-    blocks += [_cases(subject, found), _checks(subject, found), _words(subject, found), _levels(subject)]
+    blocks += [_cases(subject, found), _checks(subject, found), _missed(found), _remarks(subject, found), _levels(subject)]
     return Section("Static checks", tuple(blocks))
 
 
@@ -112,15 +112,24 @@ def _with(cell: Inline, unit: str, sign: str = "") -> Inline:
     return Value(cell.key, cell.number, f"{sign}{cell.text}{unit}") if isinstance(cell, Value) else cell
 
 
-def _words(subject: Subject, found: Statics) -> Notes:
+def _missed(found: Statics) -> Block:
+    """Say in words which checks are not met, and by how much."""
     items: list[tuple[Inline, ...]] = [(f"{check.sentence}.",) for check in found.checks if not check.met]
-    notes = dict.fromkeys((check.source, check.note) for check in found.checks if check.note)
-    items += [(f"{source_number(subject, source)} {note}.",) for source, note in notes]
-    assumptions = dict.fromkeys(f"{each.name}: {text}" for each in found.cases for text in each.assumptions)
-    items += [(f"{text}.",) for text in assumptions]
-    missed = sum(not check.met for check in found.checks)
-    title = "All static checks are met" if not missed else f"{missed} of {len(found.checks)} static checks not met"
-    return Notes("note" if not missed else "warning", title, tuple(items))
+    if not items:
+        return paragraph("All static checks are met.")
+    return Notes("warning", f"Not met: {len(items)} of {len(found.checks)} static checks", tuple(items))
+
+
+def _remarks(subject: Subject, found: Statics) -> Notes:
+    """Gather what the load cases take for granted, and what there is to say about the required values."""
+    notes: dict[str, list[str]] = {}
+    for check in found.checks:
+        number = source_number(subject, check.source)
+        if check.note and number not in notes.setdefault(check.note, []):
+            notes[check.note].append(number)
+    remarks = [f"{each.name}: {text}." for each in found.cases for text in each.assumptions]
+    remarks += [f"{', '.join(numbers)}: {note}." for note, numbers in notes.items()]
+    return Notes("note", "Taken for granted", tuple((text,) for text in dict.fromkeys(remarks)))
 
 
 def _levels(subject: Subject) -> Table:

@@ -32,6 +32,8 @@ CAPTIONS = {
 }
 # Simple figures need not be as wide as the page.
 _SHARES = {"section": 0.78, "spectrum": 0.85, "slip-by-mode": 0.85, "energy": 0.85}
+# Flatter ones have panels side by side, with no room to spare.
+_FLAT = 0.47
 # Of two models only so many figures: those of one alone are in its own report. The modes show the mesh, too.
 _OF_BOTH = {
     "flexible": ("response", "energy", "spectrum", "crack", "deformed", "modes"),
@@ -65,5 +67,5 @@ def _block(name: str, figure: Figure) -> FigureBlock:
         file = io.BytesIO()
         figure.savefig(file, format="svg", metadata={"Date": None})
     width, height = figure.get_size_inches()
-    share = _SHARES.get(name.rpartition("/")[2], 1.0)
+    share = _SHARES.get(name.rpartition("/")[2], 1.0) if height > _FLAT * width else 1.0
     return FigureBlock(name, caption(name), file.getvalue(), (float(width), float(height)), share)

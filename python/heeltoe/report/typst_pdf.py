@@ -39,6 +39,8 @@ _FONTS = (
 )
 # Words of more letters than this may be broken: in narrow cells and in the title, and elsewhere.
 _NARROW, _WIDE = 26, 70
+_SHORT = 34
+"""Rows of a table that is kept on one page; where its cells are of running text it may take many."""
 _WIDTH_MM, _HEIGHT_MM = 170.0, 225.0
 """Room for a figure on a page, its caption left out."""
 
@@ -153,7 +155,9 @@ def _table(table: Table) -> str:
     cells.append("table.hline(stroke: 0.8pt)")
     size = "8.5pt" if table.widths else "9.5pt"
     body = f"text({size}, table(columns: ({columns}), align: ({align},), {', '.join(cells)}))"
-    return f"#figure(kind: table, supplement: [Table], caption: {_words(table.caption)}, {body})"
+    figure = f"figure(kind: table, supplement: [Table], caption: {_words(table.caption)}, {body})"
+    # Short tables stay in one piece.
+    return f"#{{ show figure: set block(breakable: {'true' if table.widths or len(table.rows) > _SHORT else 'false'}); {figure} }}"
 
 
 def _inline(parts: tuple[Inline, ...], most: int = _WIDE) -> str:
