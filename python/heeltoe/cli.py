@@ -117,7 +117,8 @@ def run(
         ),
     ] = None,
     report: Annotated[
-        bool, typer.Option("--report", help="Write a report as PDF and HTML, into --out or a directory named by the case.")
+        bool,
+        typer.Option("--report", help="Write a report as PDF and HTML, into --out or a directory named by the case."),
     ] = False,
 ) -> None:
     """Run a case and say what the dam does."""

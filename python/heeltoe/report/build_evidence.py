@@ -123,7 +123,10 @@ def _convergence(subject: Subject, run: Run) -> list[Block]:
     for place in range(len(run.response.summary["periods_s"])):
         label = f"Period {place + 1} of the intact dam, with its water"
         shown.append((label, n(f"{run.prefix}periods_s.{place}", "time")))
-    for label, key in (("Rayleigh damping, mass term a₀", "rayleigh_mass_1_s"), ("Rayleigh damping, stiffness term a₁", "rayleigh_stiffness_s")):
+    for label, key in (
+        ("Rayleigh damping, mass term a₀", "rayleigh_mass_1_s"),
+        ("Rayleigh damping, stiffness term a₁", "rayleigh_stiffness_s"),
+    ):
         cell = n(run.prefix + key)
         if cell != NOTHING:
             shown.append((label, cell))

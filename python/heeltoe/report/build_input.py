@@ -50,7 +50,9 @@ def defaults(subject: Subject) -> Section:
     return Section(
         "Appendix: defaults",
         (
-            paragraph(f"Fields that the case does not give, with the values that were used. {_unused(subject)}".strip()),
+            paragraph(
+                f"Fields that the case does not give, with the values that were used. {_unused(subject)}".strip()
+            ),
             Table(("field", "value", "meaning"), rows, "Left to defaults.", "lll", (3.8, 2.7, 5.7)),
         ),
     )

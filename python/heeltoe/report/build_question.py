@@ -23,7 +23,9 @@ def question(subject: Subject) -> Section:
         answers.append(paragraph(Strong("Difference. "), glued(both.meaning())))
     if not any(run.response.limits for run in subject.runs) and any(run.response.ok for run in subject.runs):
         answers.append(
-            paragraph("Whether that is safe enough is not judged: the case sets no limits under ", Code("[limits]"), ".")
+            paragraph(
+                "Whether that is safe enough is not judged: the case sets no limits under ", Code("[limits]"), "."
+            )
         )
     blocks = (_failures(subject), *answers, _warnings(subject), _numbers(subject))
     return Section("Question and answer", without_gaps(*blocks))
@@ -54,8 +56,11 @@ def _failures(subject: Subject) -> Block | None:
     failed = [run.response for run in subject.runs if not run.response.ok]
     if not failed:
         return None
-    items = [
-        (Strong(f"{run.model[0].upper()}{run.model[1:]}, outcome “{run.response.outcome}”. "), f"{run.response.advice}.")
+    items: list[tuple[Inline, ...]] = [
+        (
+            Strong(f"{run.model[0].upper()}{run.model[1:]}, outcome “{run.response.outcome}”. "),
+            f"{run.response.advice}.",
+        )
         for run in subject.runs
         if not run.response.ok
     ]
@@ -80,7 +85,8 @@ def _warnings(subject: Subject) -> Block | None:
     return Notes("warning", "Before using these numbers", tuple((glued(text),) for text in said)) if said else None
 
 
-_ROWS = (
+#: Labels of the key numbers, their names in the JSON, and whether they are shown the other way round.
+ROWS = (
     ("Residual slip, positive downstream", "residual_slip_m", 1.0),
     ("Largest slip downstream on the way", "peak_slip_downstream_m", 1.0),
     ("Largest slip upstream on the way", "peak_slip_upstream_m", -1.0),
@@ -95,7 +101,7 @@ def _numbers(subject: Subject) -> Block:
     both = isinstance(subject.result, Comparison)
     rows: list[tuple[Inline, ...]] = []
     if any(run.response.summary for run in subject.runs):
-        for label, key, sign in _ROWS:
+        for label, key, sign in ROWS:
             rows.append(subject.row(label, key, sign=sign) + ((_ratio(subject, key),) if both else ()))
         rows.append(("At the end of the run", *map(_end, subject.runs), *([""] if both else [])))
     static = subject.row("Sliding safety factor under static loads", "static.sliding_safety_factor")

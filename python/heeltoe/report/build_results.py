@@ -35,7 +35,17 @@ _STATIC: tuple[tuple[str, str, str | None], ...] = (
     ("Rocking downstream, about the toe, starts at", "critical_acceleration_g.rocking_downstream", "g"),
     ("Rocking upstream, about the heel, starts at", "critical_acceleration_g.rocking_upstream", "g"),
 )
-_FIGURES = ("comparison", "response", "slip-by-mode", "accelerations", "forces", "path", "crack", "pressure", "deformed")
+_FIGURES = (
+    "comparison",
+    "response",
+    "slip-by-mode",
+    "accelerations",
+    "forces",
+    "path",
+    "crack",
+    "pressure",
+    "deformed",
+)
 
 
 def results(subject: Subject) -> Section:
@@ -57,7 +67,14 @@ def results(subject: Subject) -> Section:
             row = subject.row(label, key, quantity)
             if key in _ALWAYS or any(isinstance(cell, Value) and cell.number for cell in row[1:]):
                 rows.append(row)
-        blocks.append(Table(subject.head(), tuple(rows), "How it moves, per metre of dam; modes that do not happen are left out.", subject.align()))
+        blocks.append(
+            Table(
+                subject.head(),
+                tuple(rows),
+                "How it moves, per metre of dam; modes that do not happen are left out.",
+                subject.align(),
+            )
+        )
     else:
         blocks.append(paragraph("The run never started, so that there are no results and no figures of it."))
     return Section("Results", (*blocks, *subject.figure(*_FIGURES)))

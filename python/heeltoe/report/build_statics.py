@@ -60,13 +60,23 @@ def static_checks(subject: Subject) -> Section | None:
     blocks: list[Block] = [
         paragraph(
             f"Judged by {found.criteria}: {found.structure} structure, {found.site_information} site information.",
-            *((" Slip of the post-seismic case: ", _slip(subject), f" ({found.slip_source}).") if found.slip_source else ()),
+            *(
+                (" Slip of the post-seismic case: ", _slip(subject), f" ({found.slip_source}).")
+                if found.slip_source
+                else ()
+            ),
         )
     ]
     if found.warnings:
         own = [text for text in found.warnings if all(text not in run.response.warnings for run in subject.runs)]
         blocks += [Notes("warning", "About the static checks", tuple((text,) for text in own))] if own else []
-    blocks += [_cases(subject, found), _checks(subject, found), _missed(found), _remarks(subject, found), _levels(subject)]
+    blocks += [
+        _cases(subject, found),
+        _checks(subject, found),
+        _missed(found),
+        _remarks(subject, found),
+        _levels(subject),
+    ]
     return Section("Static checks", tuple(blocks))
 
 
@@ -102,7 +112,14 @@ def _checks(subject: Subject, found: Statics) -> Table:
         sign = "≥ " if check.at_least else "≤ "
         bound = _with(required, "", sign)
         rows.append(
-            (check.load_case, check.name, value, bound, "yes" if check.met else "NO", source_number(subject, check.source))
+            (
+                check.load_case,
+                check.name,
+                value,
+                bound,
+                "yes" if check.met else "NO",
+                source_number(subject, check.source),
+            )
         )
     head = ("load case", "check", "value", "required", "met", "source")
     return Table(head, tuple(rows), "Static checks; factors have no unit.", "llrrlr")

@@ -56,7 +56,11 @@ def caption(name: str) -> str:
     """Return what a figure shows; unknown ones are called by their name."""
     model, slash, own = name.rpartition("/")
     text = CAPTIONS.get(own, f"{own.replace('-', ' ').replace('_', ' ').capitalize()}.")
-    return f"{NAMES.get(model, model).capitalize()}. {text}" if slash and own not in ("spectrum", "mesh", "modes") else text
+    return (
+        f"{NAMES.get(model, model).capitalize()}. {text}"
+        if slash and own not in ("spectrum", "mesh", "modes")
+        else text
+    )
 
 
 def _block(name: str, figure: Figure) -> FigureBlock:

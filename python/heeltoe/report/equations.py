@@ -24,7 +24,8 @@ EQUATIONS: dict[str, tuple[str, str]] = {
     ),
     "inclined": (
         r"M dot.double(q) = f(t) + G^top (T, N_h, N_t), quad q = (y, z, theta)",
-        "<i>M</i> q̈ = <i>f</i>(<i>t</i>) + <i>G</i><sup>⊤</sup> (<i>T</i>, <i>N<sub>h</sub></i>, <i>N<sub>t</sub></i>), "
+        "<i>M</i> q̈ = <i>f</i>(<i>t</i>) + <i>G</i><sup>⊤</sup> (<i>T</i>, <i>N<sub>h</sub></i>, "
+        "<i>N<sub>t</sub></i>), "
         "&emsp;<i>q</i> = (<i>y</i>, <i>z</i>, <i>θ</i>)",
     ),
     "finite": (
@@ -53,7 +54,8 @@ EQUATIONS: dict[str, tuple[str, str]] = {
     "impact": (
         r"M (v_2 - v_1) = n_i p_i + n_j p_j + t p_T, quad n_i dot v_2 = -e n_i dot v_1",
         "<i>M</i> (<i>v</i><sub>2</sub> − <i>v</i><sub>1</sub>) = <i>n<sub>i</sub> p<sub>i</sub></i> + "
-        "<i>n<sub>j</sub> p<sub>j</sub></i> + <i>t p<sub>T</sub></i>, &emsp;<i>n<sub>i</sub></i>·<i>v</i><sub>2</sub> = "
+        "<i>n<sub>j</sub> p<sub>j</sub></i> + <i>t p<sub>T</sub></i>, "
+        "&emsp;<i>n<sub>i</sub></i>·<i>v</i><sub>2</sub> = "
         "−<i>e n<sub>i</sub></i>·<i>v</i><sub>1</sub>",
     ),
     "rigid energy": (
@@ -63,7 +65,8 @@ EQUATIONS: dict[str, tuple[str, str]] = {
     ),
     "virtual mass": (
         r"m_w = 7 / 12 rho_w sqrt(D) h^(3 slash 2), quad #text[acting ] 0.4 h #text[ above the crack]",
-        "<i>m<sub>w</sub></i> = (7/12) <i>ρ<sub>w</sub></i> √<i>D</i> <i>h</i><sup>3/2</sup>, &emsp;acting 0.4 <i>h</i> "
+        "<i>m<sub>w</sub></i> = (7/12) <i>ρ<sub>w</sub></i> √<i>D</i> <i>h</i><sup>3/2</sup>, &emsp;acting "
+        "0.4 <i>h</i> "
         "above the crack",
     ),
     "virtual mass along face": (
@@ -119,9 +122,11 @@ EQUATIONS: dict[str, tuple[str, str]] = {
         "<i>p</i>(<i>x</i>, <i>g</i>) = <i>p</i>(<i>x</i>) <i>w</i>/(<i>w</i> + <i>g</i>)",
     ),
     "crack motion": (
-        r"a_c (t) = a(t) + sum_k phi_k dot.double(q)_k (t), quad dot.double(q)_k + 2 xi_k omega_k dot(q)_k + omega_k^2 q_k "
+        r"a_c (t) = a(t) + sum_k phi_k dot.double(q)_k (t), quad dot.double(q)_k + 2 xi_k omega_k dot(q)_k + "
+        r"omega_k^2 q_k "
         r"= -gamma_k a(t)",
-        "<i>a<sub>c</sub></i>(<i>t</i>) = <i>a</i>(<i>t</i>) + Σ<sub><i>k</i></sub> <i>φ<sub>k</sub></i> q̈<sub><i>k</i></sub>"
+        "<i>a<sub>c</sub></i>(<i>t</i>) = <i>a</i>(<i>t</i>) + Σ<sub><i>k</i></sub> <i>φ<sub>k</sub></i> "
+        "q̈<sub><i>k</i></sub>"
         "(<i>t</i>), &emsp;q̈<sub><i>k</i></sub> + 2 <i>ξ<sub>k</sub> ω<sub>k</sub></i> q̇<sub><i>k</i></sub> + "
         "<i>ω<sub>k</sub></i>² <i>q<sub>k</sub></i> = −<i>γ<sub>k</sub> a</i>(<i>t</i>)",
     ),

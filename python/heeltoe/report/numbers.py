@@ -73,6 +73,7 @@ class Numbers:
         if number is None or isinstance(number, bool) or not math.isfinite(number):
             return NOTHING
         shown = number if sign > 0.0 else 0.0 - number
+        number = number if isinstance(number, int) else float(number)
         return Value(key, number, self.text(shown, quantity or kind(key)))
 
     def text(self, number: float, quantity: str) -> str:

@@ -39,8 +39,14 @@ _FONTS = (
 )
 # Words of more letters than this may be broken: in narrow cells and in the title, and elsewhere.
 _NARROW, _WIDE = 26, 70
-_SHORT = 34
-"""Rows of a table that is kept on one page; where its cells are of running text it may take many."""
+_SQUARE = "\N{WHITE SQUARE}"
+_NO_FONT = Notes(
+    "note",
+    "Letters without a font",
+    (("For some letters no font was found here; they may show as boxes. In the HTML report a browser shows them.",),),
+)
+_SHORT, _LONG = 20, 34
+"""Rows of a table that is kept on one page: with cells of running text, and of numbers."""
 _WIDTH_MM, _HEIGHT_MM = 170.0, 225.0
 """Room for a figure on a page, its caption left out."""
 
@@ -84,10 +90,20 @@ def source(document: Document) -> str:
     head = f"#let footer-text = {_string(document.footer)}\n#let fonts = ({fonts})\n"
     title = (
         f"#set document(title: {_string(document.title)})\n"
-        f"#block(below: 0.7em, text(19pt, weight: \"bold\", {_words(document.title, _NARROW)}))\n"
+        f'#block(below: 0.7em, text(19pt, weight: "bold", {_words(document.title, _NARROW)}))\n'
         f"#block(below: 1.4em, text(11pt, fill: luma(70), {_words(document.subtitle)}))\n"
     )
-    return head + look + title + "\n".join(_Writer().write(document.blocks))
+    body = "\n".join(_Writer().write(document.blocks))
+    if _unreadable(title + body):
+        title += _plain(_NO_FONT) + "\n"
+    return head + look + title + body
+
+
+def _unreadable(text: str) -> bool:
+    """Whether there are letters for which this machine has no font, as far as matplotlib knows; typst draws boxes."""
+    from heeltoe.figures.fonts import readable
+
+    return not text.isascii() and readable(text)[0].count(_SQUARE) > text.count(_SQUARE)
 
 
 def _figures(blocks: tuple[Block, ...]) -> Iterator[FigureBlock]:
@@ -137,7 +153,7 @@ def _plain(block: Block) -> str:
         return f"#numbered({block.number}, $ {block.typst} $)"
     if isinstance(block, References):
         items = "".join(f"{_words(item)}, " for item in block.items)
-        return f"#enum(numbering: \"[1]\", {items})" if items else ""
+        return f'#enum(numbering: "[1]", {items})' if items else ""
     assert isinstance(block, Listing)
     return f"#listing({_string(_breakable(block.text, _WIDE))})"
 
@@ -157,7 +173,8 @@ def _table(table: Table) -> str:
     body = f"text({size}, table(columns: ({columns}), align: ({align},), {', '.join(cells)}))"
     figure = f"figure(kind: table, supplement: [Table], caption: {_words(table.caption)}, {body})"
     # Short tables stay in one piece.
-    return f"#{{ show figure: set block(breakable: {'true' if table.widths or len(table.rows) > _SHORT else 'false'}); {figure} }}"
+    broken = len(table.rows) > (_SHORT if table.widths else _LONG)
+    return f"#{{ show figure: set block(breakable: {str(broken).lower()}); {figure} }}"
 
 
 def _inline(parts: tuple[Inline, ...], most: int = _WIDE) -> str:
