@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from importlib.resources import files
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any, Literal
 
 from heeltoe.report.content import (
     Block,
@@ -62,7 +63,7 @@ def pages(document: Document, ppi: float = 100.0) -> list[bytes]:
     return compiled(document, "png", ppi)
 
 
-def compiled(document: Document, kind: str, ppi: float | None = None) -> list[bytes]:
+def compiled(document: Document, kind: Literal["pdf", "png"], ppi: float | None = None) -> list[bytes]:
     """Compile a document to ``"pdf"``, one file, or ``"png"``, one for each page."""
     import typst
     from matplotlib import get_data_path
@@ -72,7 +73,8 @@ def compiled(document: Document, kind: str, ppi: float | None = None) -> list[by
         for number, figure in enumerate(_figures(document.blocks)):
             (directory / f"{number}.svg").write_bytes(figure.svg)
         (directory / "report.typ").write_text(source(document), encoding="utf-8")
-        made = typst.compile(
+        # Its types know one page only.
+        made: Any = typst.compile(
             str(directory / "report.typ"),
             root=name,
             format=kind,
@@ -80,7 +82,7 @@ def compiled(document: Document, kind: str, ppi: float | None = None) -> list[by
             timestamp=0,
             font_paths=[str(Path(get_data_path()) / "fonts" / "ttf")],
         )
-    return [bytes(made)] if isinstance(made, bytes) else [bytes(page) for page in made or ()]
+    return [made] if isinstance(made, bytes) else list(made)
 
 
 def source(document: Document) -> str:
