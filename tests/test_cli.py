@@ -39,6 +39,16 @@ def test_run_says_what_the_dam_does():
         assert words in result.stdout
 
 
+def test_figures_in_us_units(tmp_path):
+    run = ("run", EXAMPLES / "block.toml", "--out", tmp_path)
+    assert heeltoe(*run, "--units", "us").returncode == 0
+    assert "slip [in]" in (tmp_path / "response.svg").read_text(encoding="utf-8")
+    assert "kip/ft" in (tmp_path / "section.svg").read_text(encoding="utf-8")
+    refused = heeltoe(*run, "--units", "imperial")
+    assert refused.returncode == 2
+    assert "--units" in refused.stderr
+
+
 def test_json_on_standard_output_is_only_json():
     result = heeltoe("run", EXAMPLES / "block.toml", "--json", "-")
     assert result.returncode == 0

@@ -173,6 +173,35 @@ def test_a_run_without_any_motion_has_figures():
         check(figure, name)
 
 
+def test_numbers_beyond_all_bounds_are_not_drawn(both):
+    h = {name: np.array(values) for name, values in both.flexible.histories.items()}
+    h["slip_m"][-3:] = np.inf
+    blown = replace(both.flexible, outcome="blown up", histories=h)
+    assert all_figures(None, blown) == {}
+    assert not any(
+        name.startswith(("flexible", "comparison")) for name in all_figures(None, replace(both, flexible=blown))
+    )
+
+
+@pytest.mark.parametrize(
+    ("model", "name", "changes"),
+    [
+        (rigid, "typical-base", [*ROCKING, "analysis.event_limit=20"]),
+        (rigid, "typical-base", ["motion.pga=0.01g", "motion.duration=5s"]),
+        (rigid, "typical-base", ["motion.duration=0.001s"]),
+        (rigid, "block", ['section.polygon=[["0 m","0 m"],["0.2 m","0 m"],["0.2 m","3 m"],["0 m","3 m"]]']),
+        (flexible, "typical-base", [*FAST, "crack.friction=0.4"]),
+        (flexible, "typical-base", [*FAST, "motion.pga=0.001g", "reservoir.depth=0m"]),
+        (flexible, "typical-base", [*FAST, "motion.duration=0.02s"]),
+    ],
+    ids=["stopped", "still", "one sample", "slender", "slides away", "hardly shaken", "three frames"],
+)
+def test_runs_that_end_early_or_hardly_move(model, name, changes):
+    case = example(name, *changes)
+    for label, figure in all_figures(case, model(case), headings=True).items():
+        check(figure, label)
+
+
 def test_figures_of_the_flexible_model(both, tmp_path):
     paths = write_figures(both.flexible, tmp_path)
     assert {"response", "forces", "energy", "crack", "pressure", "deformed", "mesh", "modes"} <= {p.stem for p in paths}

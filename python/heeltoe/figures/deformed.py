@@ -68,12 +68,12 @@ def deformed_figure(response: Response, time: float | None = None, units: str = 
     panels = figure.subplots(1, 2, sharex=True, sharey=True)
     turned = tuple(each + math.pi / 2.0 for each in angle)
     both = (
-        (major, angle, "Oranges", "tension", 1.0),
-        (tuple(-each for each in minor), turned, "Blues", "compression", -1.0),
+        (major, angle, "Oranges", "tension"),
+        (tuple(-each for each in minor), turned, "Blues", "compression"),
     )
-    for axes, (values, direction, colours, name, _) in zip(panels, both, strict=True):
-        most = max(float(np.percentile(np.concatenate(values), _SHOWN)), 1e-9)
-        stress = system.scale("pressure", most)
+    tops = [max(float(np.percentile(np.concatenate(values), _SHOWN)), 1e-9) for values, *_ in both]
+    stress = system.scale("pressure", max(tops))
+    for axes, most, (values, direction, colours, name) in zip(panels, tops, both, strict=True):
         image = _stress_map(axes, record, places, tuple(stress(each) for each in values), stress(most), colours)
         _crosses(axes, record, places, values, direction, 0.1 * most)
         _outlines(axes, record, places, length)
@@ -82,7 +82,8 @@ def deformed_figure(response: Response, time: float | None = None, units: str = 
         dam_axes(axes, length)
     panels[1].set_ylabel("")
     moment = f"t = {record.time[frame]:.2f} s{why}; displacements exaggerated {exaggeration:g} times"
-    figure.supxlabel(moment, fontsize=9)
+    key = "short lines: direction of the stress; dashed line: where it is zero; dotted outline: undeformed"
+    figure.supxlabel(f"{moment}\n{key}", fontsize=9)
     return figure
 
 
@@ -112,7 +113,6 @@ def _stress_map(
         triangles = np.vstack([body.mesh.elements[:, corners] for corners in _TRIANGLES])
         net = Triangulation(place[:, 0], place[:, 1], triangles)
         image = axes.tricontourf(net, np.maximum(each, -1e-12), levels=levels, cmap=colours, extend="max")
-        # The lowest colour is for the lowest stress; none of it is white paper.
         axes.tricontour(net, each, levels=[0.0], colors="#555555", linewidths=0.7, linestyles="--")
     return image
 
@@ -145,5 +145,7 @@ def _outlines(axes: Axes, record: CrackHistory, places: list[Floats], length: Sc
         still = length(body.mesh.nodes)[outline]
         axes.add_collection(LineCollection(list(still), colors="#777777", linewidths=0.6, linestyles=":"))
         axes.add_collection(LineCollection(list(place[outline]), colors="#000000", linewidths=1.0))
-    axes.margins(0.04)
-    axes.autoscale_view()
+    corners = np.vstack([*places, *(length(body.mesh.nodes) for body in record.dam.bodies)])
+    room = 0.03 * np.ptp(corners, axis=0).max()
+    axes.set_xlim(corners[:, 0].min() - room, corners[:, 0].max() + room)
+    axes.set_ylim(corners[:, 1].min() - room, corners[:, 1].max() + room)

@@ -106,7 +106,7 @@ def draw_slip(axes: Axes, response: Response, units: Units) -> None:
         low, high = -1.0, 1.0
     below = residual > low + 0.4 * (high - low)
     level = residual if spread is None else (min if below else max)(residual, scale(ends[0]), scale(ends[1]))
-    text = length(response.residual_slip_m) if units.name == "si" else f"{residual:.2f} {scale.unit}"
+    text = length(response.residual_slip_m) if scale.unit == "mm" else f"{residual:.2f} {scale.unit}"
     axes.annotate(
         text,
         (1.0, level),

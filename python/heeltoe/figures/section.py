@@ -49,7 +49,7 @@ def section_figure(case: Case, units: str = "si") -> Figure:
     if not one:
         near = max(section.crack_width, section.height)
         bottom, top = section.polygon.min(axis=0), section.polygon.max(axis=0)
-        views.append((bottom - np.array([0.95, 0.55]) * near, top + np.array([0.6, 0.12]) * near))
+        views.append((bottom - np.array([1.2, 0.55]) * near, top + np.array([0.5, 0.12]) * near))
         widths = [3.1, WIDTH - 3.1 - 2.0 * _LEFT - _EDGE]
     asked = max(w * (top[1] - low[1]) / (top[0] - low[0]) for w, (low, top) in zip(widths, views, strict=True))
     tall = float(np.clip(asked, 2.5, _TALLEST))
@@ -146,6 +146,8 @@ def _draw_surface(canvas: Canvas, whole: shapely.Polygon, level: float, side: st
         linewidth=0.9,
         zorder=4,
     )
+    canvas.keep_off([[at - size, level - size], [at + size, level + 1.7 * size]])
+    canvas.keep_off([[at - size, level + 1.7 * size], [at + size, level - size]])
     for step, part in ((0.6, 0.9), (1.2, 0.5)):
         z = level - step * size
         canvas.line([[at - part * size, z], [at + part * size, z]], color="#0072B2", linewidth=0.8, zorder=4)
@@ -208,7 +210,9 @@ def _draw_dimensions(
         )
     foot = corners[corners[:, 1] == base]
     if np.ptp(foot[:, 0]) > 0.0:
-        drop = -(0.1 * size + (below if section.crack_elevation == base else 0.0))
+        # Below the uplift diagram, as far as that comes out of the dam.
+        lowest = min(section.heel[1], section.toe[1]) - base
+        drop = -(0.1 * size + max(0.0, below - lowest))
         canvas.dimension(
             [foot[:, 0].min(), base], [foot[:, 0].max(), base], said(float(np.ptp(foot[:, 0]))), shift=[0.0, drop]
         )

@@ -80,13 +80,14 @@ def draw_forces(canvas: Canvas, case: Case, section: CutSection, units: Units) -
     ]
     for force, _, tail, tip in shown:
         canvas.arrow(tail, tip, FORCE_COLOURS[force.name])
-    for force, size, tail, tip in shown:
+    _draw_scale(canvas, per_force, most, scale.factor, scale.unit)
+    # Those on the faces first: beside them is less room.
+    for force, size, tail, tip in sorted(shown, key=lambda each: abs(each[0].horizontal) < abs(each[0].vertical)):
         # Next to the end that stands free.
         place, towards = (tip, tip - tail) if force.name == "weight" else (tail, tail - tip)
         across = 1 if abs(towards[0]) < 0.5 * abs(towards[1]) else 0
         first = (across, int(np.sign(towards[1])) if across else 1)
         canvas.label(f"{force.name} {scale.text(size)}", place, FORCE_COLOURS[force.name], first=first)
-    _draw_scale(canvas, per_force, most, scale.factor, scale.unit)
 
 
 def _ends(force: Resultant, section: CutSection, per_force: float) -> tuple[Floats, Floats]:

@@ -69,8 +69,10 @@ def spectrum_figure(response: Response, units: str = "si", periods_s: Sequence[f
             color=COLOURS["rotation"],
             bbox=BEHIND_TEXT,
         )
-    axes.set_ylim(0.0, 1.22 * max(top, limit if limit < 4.0 * top else 0.0))
     periods = response.summary.get("periods_s", ()) if periods_s is None else periods_s
+    # The names of the periods stand above the curve.
+    room = 1.4 if len(periods) else 1.1
+    axes.set_ylim(0.0, room * max(top, limit if limit < 4.0 * top else 0.0))
     _mark(axes, periods)
     axes.set_xlim(ground.period[0], ground.period[-1])
     axes.set_xlabel("period [s]")
@@ -98,6 +100,7 @@ def _mark(axes: Axes, periods: Sequence[float]) -> None:
             va="top",
             fontsize=7,
             color="#006B4E",
+            bbox=BEHIND_TEXT,
         )
     if marked:
         axes.plot([], [], color=COLOURS["toe"], linestyle=(0, (4, 2)), linewidth=1.0, label="periods of the intact dam")

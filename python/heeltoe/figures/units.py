@@ -32,8 +32,8 @@ _US: dict[str, tuple[tuple[float, str], ...]] = {
 _BOTH: dict[str, tuple[tuple[float, str], ...]] = {
     "rotation": ((1.0, "rad"), (1e-3, "mrad")),
 }
-# How many of a unit the largest value must come to, for that unit to be taken.
-_ENOUGH = {"displacement": 10.0, "rotation": 0.2, "pressure": 0.1, "force": 0.5, "energy": 0.1}
+# How many of a unit the largest value must come to, for that unit to be taken; 1 where nothing is said.
+_ENOUGH = {"ft": 10.0, "rad": 0.2, "MPa": 0.1, "MN/m": 0.5, "MJ/m": 0.1, "kJ/m": 0.1}
 _SYSTEMS = {"si": _SI | _BOTH, "us": _US | _BOTH}
 
 
@@ -65,8 +65,8 @@ class Units:
         if largest is None:
             value, unit = choices[0]
         else:
-            enough = _ENOUGH.get(quantity, 1.0)
-            value, unit = next((each for each in choices if largest >= enough * each[0]), choices[-1])
+            reached = (each for each in choices if largest >= _ENOUGH.get(each[1], 1.0) * each[0])
+            value, unit = next(reached, choices[-1])
         return Scale(1.0 / value, unit)
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import matplotlib as mpl
+import numpy as np
 from matplotlib.figure import Figure
 
 from heeltoe.figures.dense import filled_in
@@ -87,7 +88,7 @@ def all_figures(
     if isinstance(result, Response):
         drawings |= _drawings(result, units)
     else:
-        if result.rigid.histories and result.flexible.histories:
+        if has_pictures(result.rigid) and has_pictures(result.flexible):
             from heeltoe.figures.comparison import comparison_figure
 
             drawings["comparison"] = lambda: comparison_figure(result, units)
@@ -99,11 +100,15 @@ def all_figures(
     return figures
 
 
+def has_pictures(response: Response) -> bool:
+    """Whether there are histories to draw: more than their first moment, and no number that has left all bounds."""
+    h = response.histories
+    return bool(h) and len(h["time_s"]) > 1 and all(np.isfinite(values).all() for values in h.values())
+
+
 def _drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]:
     """Return what draws each figure of one response."""
-    h = response.histories
-    # The very first moment alone is no history.
-    if not h or len(h["time_s"]) < 2:
+    if not has_pictures(response):
         return {}
     response = filled_in(response)
     found: dict[str, Callable[[], Figure]] = {"response": lambda: response_figure(response, units)}
@@ -157,7 +162,7 @@ def write_comparison_figure(
         from heeltoe.figures.section import section_figure
 
         figures["section"] = section_figure(case, units)
-    if both.rigid.histories and both.flexible.histories:
+    if has_pictures(both.rigid) and has_pictures(both.flexible):
         from heeltoe.figures.comparison import comparison_figure
 
         figures["comparison"] = comparison_figure(both, units)
