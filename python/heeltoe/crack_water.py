@@ -73,9 +73,11 @@ def still_water(case: Case, section: CutSection, start: float, end: float) -> Cr
     own = case.uplift.pattern == "profile"
 
     def outside(water: Water | None, low: float, high: float) -> list[tuple[float, float]]:
-        """Return the points of free water under the block."""
-        if high <= low or dry:
-            return [(low, 0.0), (high, 0.0)] if high > low else []
+        """Return the points of free water under the block; none gets in where it does not reach the crack's end."""
+        if high <= low:
+            return []
+        if dry or not section.water_above_crack(water, toe=water is case.tailwater):
+            return [(low, 0.0), (high, 0.0)]
         # Where an inclined crack rises out of the water the pressure ends.
         surface = _surface(section, water)
         places = [low, surface, high] if low < surface < high else [low, high]

@@ -12,7 +12,7 @@ from typing import Literal
 Loads = Literal["usual", "unusual", "extreme", "earthquake", "post-earthquake"]
 
 _MEMORY = "the number was not compared with the print"
-_INFERRED = "the document has no such case: that of its extreme loads is taken"
+_INFERRED = "the document has no post-earthquake case: that of its extreme loads is taken"
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from heeltoe.case_model import Statics as Choice
 from heeltoe.criteria import Criterion, criteria
-from heeltoe.static_cases import LoadCase
+from heeltoe.load_case import LoadCase
 
 # A value that meets its limit to rounding meets it.
 _ROUNDING = 1e-9

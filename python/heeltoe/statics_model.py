@@ -11,10 +11,11 @@ from scipy.optimize import brentq
 from heeltoe.block import build_block
 from heeltoe.case import Case, case_warnings
 from heeltoe.criteria import criteria
+from heeltoe.load_case import LoadCase
 from heeltoe.response import build_info
 from heeltoe.rigid_model import REFERENCES, static_state
 from heeltoe.section import CutSection, cut
-from heeltoe.static_cases import LoadCase, at_depth, flood, post_seismic, pseudo_static, usual
+from heeltoe.static_cases import at_depth, flood, post_seismic, pseudo_static, usual
 from heeltoe.static_checks import Check, check_case, slid_off
 
 # Depths that the search for a critical water level looks at: a sign that changes twice between two of them is no level
@@ -136,6 +137,11 @@ def statics(case: Case, slip_m: float | None = None, *, slip_source: str = "give
             checks += check_case(after.load_case, choice)
         if source == _UNKNOWN:
             warnings.append(f"post-seismic: {_UNKNOWN}; statics.residual_slip, or a run of the motion, says how much")
+    if before.load_case.cracked_length_m:
+        warnings.append(
+            f"the usual loads open the crack by {before.load_case.cracked_length_m:.2f} m, and water follows; the "
+            "critical accelerations keep the case's uplift, as the time histories do at the start"
+        )
     if any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors):
         warnings.append("anchors: the static checks count their prestress, not what opening and slip would add")
     references = dict.fromkeys(check.source for check in checks if check.required is not None)

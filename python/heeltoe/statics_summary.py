@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from heeltoe.static_cases import LoadCase
+from heeltoe.load_case import LoadCase
 from heeltoe.static_checks import Check
 from heeltoe.statics_model import Statics
 
@@ -19,16 +19,19 @@ _ROWS: tuple[tuple[str, Callable[[LoadCase], str]], ...] = (
     ("normal force, MN/m", lambda found: f"{found.normal_force_n / 1e6:.3f}"),
     ("shear force, MN/m", lambda found: f"{found.shear_force_n / 1e6:.3f}"),
     ("friction", lambda found: f"{found.friction:g}"),
-    ("cohesive force, MN/m", lambda found: f"{found.cohesive_force_n / 1e6:.3f}"),
+    ("cohesion, MN/m", lambda found: f"{found.cohesive_force_n / 1e6:.3f}"),
     ("sliding factor", lambda found: _number(found.sliding_factor)),
-    ("overturning factor", lambda found: f"{_number(found.overturning_factor)} ({found.overturning_about})"),
+    ("overturning factor", lambda found: _number(found.overturning_factor)),
+    ("  about the", lambda found: found.overturning_about),
     ("flotation factor", lambda found: _number(found.flotation_factor)),
-    ("resultant from heel, m", lambda found: _number(found.resultant_from_heel_m)),
-    ("resultant in", lambda found: found.resultant_zone),
+    ("resultant at, m", lambda found: _number(found.resultant_from_heel_m)),
+    ("  within", lambda found: found.resultant_zone.replace("middle", "mid")),
     ("stress at heel, MPa", lambda found: _number(found.heel_stress_pa, 1e6, 3)),
     ("stress at toe, MPa", lambda found: _number(found.toe_stress_pa, 1e6, 3)),
-    ("crack open, m", lambda found: _open(found)),
-    ("compressed, m", lambda found: f"{found.compressed_length_m:.2f} of {found.contact_width_m:.2f}"),
+    ("contact B, m", lambda found: _number(found.contact_width_m)),
+    ("  compressed, m", lambda found: _number(found.compressed_length_m)),
+    ("  open, m", lambda found: _number(found.cracked_length_m or None)),
+    ("  open from the", lambda found: found.cracked_from if found.cracked_length_m else "-"),
 )
 
 
@@ -44,9 +47,14 @@ def print_statics(found: Statics, console: Console) -> None:
     console.print(_cases(found))
     console.print()
     console.print(_checks(found.checks))
+    console.print()
+    console.print("[dim]resultant: at, from the heel; checked, from the middle; f: compressive strength[/dim]")
     said = _grid()
-    for (source, note), number in _sources(found.checks).items():
-        said.add_row(str(number), escape(f"{source}; {note}" if note else source))
+    numbers = _sources(found.checks)
+    for source, number in numbers.items():
+        said.add_row(str(number), escape(source))
+    for note, of in _notes(found.checks, numbers).items():
+        said.add_row(", ".join(map(str, of)), escape(note))
     console.print()
     console.print(said)
     said = _grid()
@@ -102,10 +110,10 @@ def _assumptions(cases: tuple[LoadCase, ...]) -> list[tuple[str, str]]:
 
 def _cases(found: Statics) -> Table:
     table = _table()
-    table.add_column("")
+    table.add_column("", no_wrap=True)
     for each in found.cases:
-        # The two pseudo-static cases have long names.
-        table.add_column(each.name.replace(" ", "\n"), justify="right")
+        # Five cases with long names are to fit beside each other.
+        table.add_column(each.name.replace(" ", "\n").replace("-", "-\n"), justify="right", no_wrap=True)
     for label, text in _ROWS:
         table.add_row(label, *(text(each) for each in found.cases))
     return table
@@ -130,28 +138,31 @@ def _checks(checks: tuple[Check, ...]) -> Table:
             _value(check, check.value),
             bound,
             "met" if check.met else "[bold red]fails[/]",
-            str(numbers.get((check.source, check.note), "")),
+            str(numbers.get(check.source, "")),
         )
     return table
 
 
-def _sources(checks: tuple[Check, ...]) -> dict[tuple[str, str], int]:
-    """Return the sources of the required values with their notes, numbered."""
-    found = dict.fromkeys((check.source, check.note) for check in checks if check.required is not None)
+def _sources(checks: tuple[Check, ...]) -> dict[str, int]:
+    """Return the sources of the required values, numbered."""
+    found = dict.fromkeys(check.source for check in checks if check.required is not None)
     return {source: number for number, source in enumerate(found, start=1)}
+
+
+def _notes(checks: tuple[Check, ...], numbers: dict[str, int]) -> dict[str, list[int]]:
+    """Return each part of the notes once, with the numbers of the sources it is about."""
+    notes: dict[str, set[int]] = {}
+    for check in checks:
+        for text in filter(None, check.note.split("; ")):
+            notes.setdefault(text, set()).add(numbers[check.source])
+    return {text: sorted(of) for text, of in notes.items()}
 
 
 def _value(check: Check, value: float | None) -> str:
     if value is None:
         return "-"
-    of = {"resultant": " of width", "compression": " of strength"}.get(check.name, "")
+    of = {"resultant": " B", "compression": " f"}.get(check.name, "")
     return f"{value:.3f}{of}" if of else f"{value:.2f}"
-
-
-def _open(found: LoadCase) -> str:
-    if not found.cracked_length_m:
-        return "-"
-    return f"{found.cracked_length_m:.2f} ({found.cracked_from})"
 
 
 def _number(value: float | None, unit: float = 1.0, digits: int = 2) -> str:
