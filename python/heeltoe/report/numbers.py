@@ -28,6 +28,8 @@ _ENDINGS = {
     "_j": "energy",
     "_n": "force",
 }
+# Less than this [Pa] is what rounding leaves of no stress.
+_NO_PRESSURE = 1e-3
 # Masses per length in the United States: pounds (0.45359237 kg, exact) per foot of dam.
 _POUND, _FOOT = 0.45359237, 0.3048
 
@@ -100,6 +102,8 @@ class Numbers:
     def _scaled(self, number: float, quantity: str) -> str:
         if self.units.name == "si" and quantity == "displacement":
             return length(number)
+        if quantity == "pressure" and abs(number) < _NO_PRESSURE:
+            number = 0.0
         scale = self.units.scale(quantity, abs(number))
         return f"{digits(scale(number), 3 if quantity == 'velocity' else 4)} {scale.unit}"
 

@@ -46,8 +46,8 @@ _NO_FONT = Notes(
     "Letters without a font",
     (("For some letters no font was found here; they may show as boxes. In the HTML report a browser shows them.",),),
 )
-_SHORT, _LONG = 20, 34
-"""Rows of a table that is kept on one page: with cells of running text, and of numbers."""
+_SHORT = 11
+"""Rows of a table that is kept on one page; longer ones are broken, so that no page stays half empty."""
 _WIDTH_MM, _HEIGHT_MM = 170.0, 225.0
 """Room for a figure on a page, its caption left out."""
 
@@ -175,7 +175,7 @@ def _table(table: Table) -> str:
     body = f"text({size}, table(columns: ({columns}), align: ({align},), {', '.join(cells)}))"
     figure = f"figure(kind: table, supplement: [Table], caption: {_words(table.caption)}, {body})"
     # Short tables stay in one piece.
-    broken = len(table.rows) > (_SHORT if table.widths else _LONG)
+    broken = len(table.rows) > _SHORT
     return f"#{{ show figure: set block(breakable: {str(broken).lower()}); {figure} }}"
 
 
