@@ -43,7 +43,6 @@ _FIGURES = (
     "forces",
     "path",
     "crack",
-    "pressure",
     "deformed",
 )
 

@@ -26,15 +26,16 @@ CAPTIONS = {
     "path": "Path of the part above the crack.",
     "spectrum": "Response spectrum of the ground motion, 5 % of critical damping.",
     "crack": "What each place of the crack does over time.",
-    "pressure": "Contact pressure along the crack.",
     "deformed": "Deformed dam at moments that tell most; displacements are enlarged as it says.",
     "modes": "Lowest vibration modes of the intact dam.",
 }
 # Simple figures need not be as wide as the page.
 _SHARES = {"section": 0.78, "spectrum": 0.85, "slip-by-mode": 0.85, "energy": 0.85}
+# The modes show the mesh, and the state of the crack where it presses; --out writes these two.
+_LEFT_OUT = ("mesh", "pressure")
 # Flatter ones have panels side by side, with no room to spare.
 _FLAT = 0.47
-# Of two models only so many figures: those of one alone are in its own report. The modes show the mesh, too.
+# Of two models only so many figures: those of one alone are in its own report.
 _OF_BOTH = {
     "flexible": ("response", "energy", "spectrum", "crack", "deformed", "modes"),
 }
@@ -49,7 +50,7 @@ def drawings(case: Case, result: Response | Comparison, units: str) -> dict[str,
 
 def _wanted(name: str) -> bool:
     model, slash, own = name.partition("/")
-    return own in _OF_BOTH.get(model, ()) if slash else name != "mesh"
+    return own in _OF_BOTH.get(model, ()) if slash else name not in _LEFT_OUT
 
 
 def caption(name: str) -> str:
