@@ -15,7 +15,7 @@ ELAPSED = echo "$@: done in $$(( $$(date +%s) - $$(cat $(VENV)/.started) )) s"
 .DEFAULT_GOAL := help
 
 help:
-	@echo "make demo       run the typical dam through El Centro 1940; figures and results in out/demo"
+	@echo "make demo       run the typical dam through El Centro 1940; report, figures and results in out/demo"
 	@echo "make test       all tests but the long ones"
 	@echo "make test-slow  the long ones"
 	@echo "make lint       formatting, lints and types"
@@ -43,7 +43,7 @@ $(VENV)/.built: $(VENV)/.packages $(SOURCES) | check
 	@touch $@
 
 demo: check $(VENV)/.built
-	@$(BIN)/heeltoe run examples/typical-base.toml --out out/demo
+	@$(BIN)/heeltoe run examples/typical-base.toml --report --out out/demo
 	@$(ELAPSED)
 
 test: check $(VENV)/.built

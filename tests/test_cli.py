@@ -142,13 +142,6 @@ def test_a_dam_that_cannot_stand_is_not_shaken():
     assert "residual_slip_m" not in data or data["residual_slip_m"] is None
 
 
-def test_what_is_not_there_yet_says_so(tmp_path):
-    result = heeltoe("run", EXAMPLES / "block.toml", "--report", "--out", tmp_path / "out")
-    assert result.returncode == 2
-    assert "later release" in result.stderr
-    assert not (tmp_path / "out").exists()
-
-
 def test_flexible_says_what_its_result_rests_on(tmp_path):
     short = ("--model", "flexible", *COARSE, "--duration", "4s")
     result = heeltoe("run", EXAMPLES / "typical-base.toml", *short, "--out", tmp_path)

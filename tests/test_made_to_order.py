@@ -59,7 +59,7 @@ def test_a_motion_starts_and_ends_at_rest(seed):
     velocity, displacement = velocity_displacement(motion)
     assert abs(velocity[-1]) < 1e-12 * motion.pgv
     assert abs(displacement[-1]) < 1e-11 * motion.pgd
-    # What the polynomial took was a trifle: of 1500 seeds the median is 0.0015, the largest 0.0095 of the peak velocity.
+    # What the polynomial took was a trifle: of 1500 seeds the median is 0.0015, the largest 0.0095 of the peak.
     taken = float(motion.processing[-1].split("was ")[1].split(" m/s")[0])
     assert abs(taken) < 0.02 * motion.pgv
     # The polynomial that ends the displacement at zero starts with a small step, as large as that displacement was.

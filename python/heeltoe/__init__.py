@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from heeltoe.motion import GroundMotion
     from heeltoe.periods import DamPeriods, dam_periods
     from heeltoe.records import read_channels, read_record
+    from heeltoe.report import write_report
     from heeltoe.response import Response
     from heeltoe.rigid_model import rigid
     from heeltoe.scenario import synthetic
@@ -62,6 +63,7 @@ __all__ = [
     "synthetic",
     "verdict",
     "with_spread",
+    "write_report",
 ]
 
 _HOME = {
@@ -97,6 +99,7 @@ _HOME = {
     "synthetic": "scenario",
     "verdict": "verdicts",
     "with_spread": "spread",
+    "write_report": "report",
 }
 
 

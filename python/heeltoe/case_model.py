@@ -537,6 +537,11 @@ class Case(Block):
         """Where relative paths of motions start: the directory of the case file, or the current one."""
         return self._base_directory
 
+    def _repr_html_(self) -> str:
+        from heeltoe.report.notebook import case_html
+
+        return case_html(self)
+
     def based_in(self, directory: Path) -> Case:
         """Return the same case with another base directory."""
         copy = self.model_copy()

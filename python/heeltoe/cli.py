@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
@@ -113,7 +114,7 @@ def run(
     vtk: Annotated[
         bool, typer.Option("--vtk", help="With --out: VTK files of the flexible model for ParaView.")
     ] = False,
-    units: Annotated[str, typer.Option(metavar="si|us", help="Units of the figures.")] = "si",
+    units: Annotated[str, typer.Option(metavar="si|us", help="Units of figures and report.")] = "si",
     output_step: Annotated[
         str | None,
         typer.Option(
@@ -124,7 +125,10 @@ def run(
         list[str] | None,
         typer.Option(metavar="PATH=V1,V2,...", help="A table of runs: every combination of the values of some fields."),
     ] = None,
-    report: Annotated[bool, typer.Option("--report", help="Not there yet.")] = False,
+    report: Annotated[
+        bool,
+        typer.Option("--report", help="Write a report as PDF and HTML, into --out or a directory named by the case."),
+    ] = False,
 ) -> None:
     """Run a case and say what the dam does."""
     from heeltoe.case import read_case
@@ -135,13 +139,17 @@ def run(
     if units not in ("si", "us"):
         raise InputError("unknown-units", "--units", units)
     if report:
-        raise InputError("not-yet", "--report", "the report", remedy="leave it out; --out DIR writes figures and JSON")
+        from heeltoe.report import check_packages
+
+        check_packages()
+        out = out or Path(f"{Path(case).stem}-report")
     if vtk and out is None:
         raise InputError("vtk-without-out", "--vtk")
     if vtk and model in ("rigid", "decoupled"):
         raise InputError("vtk-rigid", "--vtk")
-    if vary and (spread is not None or vtk):
-        raise InputError("vary-option", "--vtk" if vtk else "--spread")
+    for option, given in (("--vtk", vtk), ("--spread", spread is not None), ("--report", report)):
+        if vary and given:
+            raise InputError("vary-option", option)
     if vary and model not in _MODELS[:3]:
         raise InputError("vary-option", "--model", model)
     runs = None
@@ -174,6 +182,11 @@ def run(
             say("writing")
             suffix = ".csv" if csv else ".parquet"
             written = write_all(result, out, loaded, units, suffix=suffix, vtk=vtk)
+            if report:
+                from heeltoe.report import write_report
+
+                say("writing the report")
+                written += write_report(loaded, result, out, units=units, command=_command())
     _finish(result.to_json(), json_, written, lambda console: _print(result, console))
     if not result.ok:
         raise typer.Exit(NO_RESULT)
@@ -506,6 +519,11 @@ def new(
         raise InputError("no-directory", str(path.parent))
     _replace(path, new_case_text(path.stem))
     print(f"wrote {path}; run it with: heeltoe run {path}")
+
+
+def _command() -> str:
+    """Return what was typed, for people who want to type it again."""
+    return shlex.join(["heeltoe", *sys.argv[1:]])
 
 
 def _as_given(motion: str) -> str:

@@ -160,6 +160,11 @@ class GroundMotion:
             pgd = max(pgd, float(np.abs(at).max(initial=0.0)))
         return float(pgv), pgd, float(v[-1])
 
+    def _repr_html_(self) -> str:
+        from heeltoe.report.notebook import motion_html
+
+        return motion_html(self)
+
     def scaled(self, factor: float, note: str = "") -> GroundMotion:
         """Return the motion times `factor`."""
         said = note or f"scaled by {factor:.6g}"

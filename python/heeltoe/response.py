@@ -173,6 +173,11 @@ class Response:
         """Whether the run ended with a result to trust."""
         return self.outcome in ("ok", "overturned")
 
+    def _repr_html_(self) -> str:
+        from heeltoe.report.notebook import response_html
+
+        return response_html(self)
+
     def citation(self) -> tuple[str, ...]:
         """Return the references for exactly the methods and options this result used."""
         return self.references

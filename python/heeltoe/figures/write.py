@@ -55,7 +55,12 @@ _NO_LIFT = 1e-5
 
 
 def all_figures(
-    case: Case | None, result: Response | Comparison, units: str = "si", *, headings: bool = False
+    case: Case | None,
+    result: Response | Comparison,
+    units: str = "si",
+    *,
+    headings: bool = False,
+    only: Callable[[str], bool] = lambda name: True,
 ) -> dict[str, Figure]:
     """Return the figures that make sense for a result, by name, in the order in which they are shown.
 
@@ -70,6 +75,8 @@ def all_figures(
         ``"si"`` or ``"us"``.
     headings
         Whether each figure says above itself which case, motion and model it shows; a page with captions does that.
+    only
+        Told a name, whether to draw that figure; all of them without it.
 
     Raises
     ------
@@ -90,7 +97,7 @@ def all_figures(
             drawings["comparison"] = lambda: comparison_figure(result, units)
         for each in (result.rigid, result.flexible):
             drawings |= {f"{each.model}/{name}": draw for name, draw in _drawings(each, units).items()}
-    figures = {name: draw() for name, draw in drawings.items()}
+    figures = {name: draw() for name, draw in drawings.items() if only(name)}
     if not headings:
         figures = {name: without_heading(figure) for name, figure in figures.items()}
     return figures

@@ -1,0 +1,40 @@
+"""A report from a subject: the sections in their order."""
+
+from __future__ import annotations
+
+from heeltoe.report.build_evidence import evidence
+from heeltoe.report.build_input import defaults, given_input, input_hash, rerun
+from heeltoe.report.build_method import method
+from heeltoe.report.build_motion import ground_motion
+from heeltoe.report.build_question import question
+from heeltoe.report.build_results import results
+from heeltoe.report.build_statics import static_checks
+from heeltoe.report.build_verdict import limits
+from heeltoe.report.content import Document, References, Section, without_gaps
+from heeltoe.report.subject import Subject
+from heeltoe.response import build_info
+
+
+def document(subject: Subject) -> Document:
+    """Return the whole report."""
+    models = " and ".join(run.model for run in subject.runs)
+    hashed = input_hash(subject.case, (subject.first.response.motion, subject.first.response.vertical))
+    sections = (
+        question(subject),
+        given_input(subject),
+        ground_motion(subject),
+        method(subject),
+        results(subject),
+        evidence(subject),
+        static_checks(subject),
+        limits(subject),
+        Section("References", (References(subject.references),)),
+        rerun(subject),
+        defaults(subject),
+    )
+    return Document(
+        title=subject.title,
+        subtitle=f"What the dam does in the earthquake, by {models}",
+        footer=f"heeltoe {build_info()['heeltoe']} · input {hashed[:12]}",
+        blocks=without_gaps(*sections),
+    )

@@ -1,0 +1,79 @@
+"""The results in full: how it slides, how long, how it strikes, and all figures of it."""
+
+from __future__ import annotations
+
+from heeltoe.report.content import Block, Inline, Section, Table, Value, paragraph
+from heeltoe.report.subject import Subject
+
+_ROWS: tuple[tuple[str, str, str | None], ...] = (
+    ("Slip while sliding", "slip_by_mode_m.sliding", "displacement"),
+    ("Slip while slide-rocking", "slip_by_mode_m.slide_rocking", "displacement"),
+    ("Slip while drifting", "slip_by_mode_m.drifting", "displacement"),
+    ("Time at rest", "time_by_mode_s.rest", "time"),
+    ("Time sliding", "time_by_mode_s.sliding", "time"),
+    ("Time rocking", "time_by_mode_s.rocking", "time"),
+    ("Time slide-rocking", "time_by_mode_s.slide_rocking", "time"),
+    ("Time drifting, in touch with nothing", "time_by_mode_s.drifting", "time"),
+    ("Strikes (of corners; of nodes of the crack)", "impacts", None),
+    ("Fastest strike", "largest_impact_velocity_m_s", None),
+    ("Events of the walk", "events", None),
+    ("Largest normal force on the crack", "peak_normal_force_n", None),
+    ("Slip velocity at the end", "final_slip_velocity_m_s", None),
+    ("End of the run", "end_time_s", None),
+    ("Width of the crack", "crack_width_m", "length"),
+)
+_ALWAYS = ("impacts", "final_slip_velocity_m_s", "end_time_s")
+_STATIC: tuple[tuple[str, str, str | None], ...] = (
+    ("Sliding safety factor", "static.sliding_safety_factor", None),
+    ("Normal force on the crack", "static.normal_force_n", None),
+    ("Force along the crack, + downstream", "static.horizontal_force_n", None),
+    ("Resultant from the heel", "static.resultant_from_heel_m", "length"),
+    ("Mass of the concrete above the crack", "static.concrete_mass_kg", None),
+    ("Virtual mass of the water", "static.virtual_mass_kg", None),
+    ("Sliding downstream starts at", "critical_acceleration_g.sliding_downstream", "g"),
+    ("Sliding upstream starts at", "critical_acceleration_g.sliding_upstream", "g"),
+    ("Rocking downstream, about the toe, starts at", "critical_acceleration_g.rocking_downstream", "g"),
+    ("Rocking upstream, about the heel, starts at", "critical_acceleration_g.rocking_upstream", "g"),
+)
+_FIGURES = (
+    "comparison",
+    "response",
+    "slip-by-mode",
+    "accelerations",
+    "forces",
+    "path",
+    "crack",
+    "deformed",
+)
+
+
+def results(subject: Subject) -> Section:
+    """Return the section with all numbers and figures of what happens."""
+    n, prefix = subject.numbers, subject.first.prefix
+    static = tuple((label, n(prefix + key, quantity)) for label, key, quantity in _STATIC)
+    blocks: list[Block] = [
+        Table(
+            ("", "value"),
+            static,
+            "Before the earthquake, per metre of dam; accelerations at which a rigid part above the crack starts to "
+            "move.",
+            "lr",
+        )
+    ]
+    if any(run.response.summary for run in subject.runs):
+        rows: list[tuple[Inline, ...]] = []
+        for label, key, quantity in _ROWS:
+            row = subject.row(label, key, quantity)
+            if key in _ALWAYS or any(isinstance(cell, Value) and cell.number for cell in row[1:]):
+                rows.append(row)
+        blocks.append(
+            Table(
+                subject.head(),
+                tuple(rows),
+                "How it moves, per metre of dam; modes that do not happen are left out.",
+                subject.align(),
+            )
+        )
+    else:
+        blocks.append(paragraph("The run never started, so that there are no results and no figures of it."))
+    return Section("Results", (*blocks, *subject.figure(*_FIGURES)))

@@ -1,0 +1,167 @@
+"""What a report says, apart from how it looks: one tree of frozen blocks that both renderers walk."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True)
+class Value:
+    """A number of the result, as people read it, that remembers where it stands in the JSON.
+
+    Attributes
+    ----------
+    key
+        Path in the JSON of the result, ``energy.input_j`` or ``flexible.residual_slip_m``.
+    number
+        What stands there.
+    text
+        The same with its unit.
+    """
+
+    key: str
+    number: float | int
+    text: str
+
+
+@dataclass(frozen=True)
+class Code:
+    """Words of the program: a field, a command, a hash. They may be broken anywhere."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Strong:
+    """Words that carry weight."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Symbol:
+    """A letter of the equations in running text, with its index."""
+
+    letter: str
+    index: str = ""
+
+
+Inline = str | Value | Code | Strong | Symbol
+"""A piece of running text; plain strings are people's words and may hold anything."""
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    """Running text."""
+
+    parts: tuple[Inline, ...]
+
+
+@dataclass(frozen=True)
+class Notes:
+    """A boxed list that nobody shall miss."""
+
+    kind: Literal["failure", "warning", "note"]
+    title: str
+    items: tuple[tuple[Inline, ...], ...]
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of cells below a head.
+
+    Attributes
+    ----------
+    head
+        Names of the columns.
+    rows
+        Cells of each row.
+    caption
+        What the table shows; empty for none.
+    align
+        A letter for each column: ``l`` or ``r``.
+    widths
+        Shares of the width that the columns take; none for as wide as they need.
+    """
+
+    head: tuple[str, ...]
+    rows: tuple[tuple[Inline, ...], ...]
+    caption: str = ""
+    align: str = ""
+    widths: tuple[float, ...] = ()
+
+
+@dataclass(frozen=True)
+class Equation:
+    """A numbered equation, in typst's mathematics and in HTML; both are written by us, not by users."""
+
+    number: int
+    typst: str
+    html: str
+
+
+@dataclass(frozen=True)
+class FigureBlock:
+    """A figure as SVG, with its caption, its width and height [in], and the share of the page's width that it takes."""
+
+    name: str
+    caption: str
+    svg: bytes
+    size: tuple[float, float]
+    share: float = 1.0
+
+
+@dataclass(frozen=True)
+class References:
+    """Numbered sources."""
+
+    items: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Listing:
+    """Lines to be copied."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Section:
+    """A part of the report with its heading."""
+
+    title: str
+    blocks: tuple[Block, ...]
+
+
+Block = Paragraph | Notes | Table | Equation | FigureBlock | References | Listing | Section
+
+
+@dataclass(frozen=True)
+class Document:
+    """A whole report.
+
+    Attributes
+    ----------
+    title, subtitle
+        What the case is called, and what was done with it.
+    footer
+        What stands on every page, beside its number.
+    blocks
+        Everything else.
+    """
+
+    title: str
+    subtitle: str
+    footer: str
+    blocks: tuple[Block, ...]
+
+
+def paragraph(*parts: Inline) -> Paragraph:
+    """Return running text of these parts."""
+    return Paragraph(parts)
+
+
+def without_gaps(*blocks: Block | None) -> tuple[Block, ...]:
+    """Return the blocks that are there."""
+    return tuple(block for block in blocks if block is not None)

@@ -1,0 +1,76 @@
+"""Figures of a report: as SVG, with the captions that say what is in them."""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING
+
+from heeltoe.report.content import FigureBlock
+from heeltoe.report.subject import NAMES
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from heeltoe.case import Case
+    from heeltoe.comparison import Comparison
+    from heeltoe.response import Response
+
+CAPTIONS = {
+    "section": "Section of the dam with its crack, water levels and the pressure in the crack.",
+    "comparison": "Both models side by side, shaken by the same ground motion.",
+    "response": "Ground acceleration, slip (positive downstream), rotation and openings, and the mode of motion.",
+    "slip-by-mode": "Slip gathered in each mode of motion.",
+    "accelerations": "Acceleration of the ground, acceleration of the slip, and the forces at heel and toe.",
+    "forces": "Forces across the crack.",
+    "energy": "Where the energy put in by the earthquake goes.",
+    "path": "Path of the part above the crack.",
+    "spectrum": "Response spectrum of the ground motion, 5 % of critical damping.",
+    "crack": "What each place of the crack does over time.",
+    "deformed": "Deformed dam at moments that tell most; displacements are enlarged as it says.",
+    "modes": "Lowest vibration modes of the intact dam.",
+}
+# Simple figures need not be as wide as the page.
+_SHARES = {"section": 0.78, "spectrum": 0.85, "slip-by-mode": 0.85, "energy": 0.85}
+# The modes show the mesh, and the state of the crack where it presses; --out writes these two.
+_LEFT_OUT = ("mesh", "pressure")
+# Flatter ones have panels side by side, with no room to spare.
+_FLAT = 0.47
+# Of two models only so many figures: those of one alone are in its own report.
+_OF_BOTH = {
+    "flexible": ("response", "energy", "spectrum", "crack", "deformed", "modes"),
+}
+
+
+def drawings(case: Case, result: Response | Comparison, units: str) -> dict[str, FigureBlock]:
+    """Return the figures of a result by name, ``flexible/response`` where it is one of two models."""
+    from heeltoe.figures import all_figures
+
+    return {name: _block(name, figure) for name, figure in all_figures(case, result, units, only=_wanted).items()}
+
+
+def _wanted(name: str) -> bool:
+    model, slash, own = name.partition("/")
+    return own in _OF_BOTH.get(model, ()) if slash else name not in _LEFT_OUT
+
+
+def caption(name: str) -> str:
+    """Return what a figure shows; unknown ones are called by their name."""
+    model, slash, own = name.rpartition("/")
+    text = CAPTIONS.get(own, f"{own.replace('-', ' ').replace('_', ' ').capitalize()}.")
+    return (
+        f"{NAMES.get(model, model).capitalize()}. {text}"
+        if slash and own not in ("spectrum", "mesh", "modes")
+        else text
+    )
+
+
+def _block(name: str, figure: Figure) -> FigureBlock:
+    import matplotlib as mpl
+
+    # Letters as outlines look the same wherever the report is read.
+    with mpl.rc_context({"svg.fonttype": "path", "svg.hashsalt": "heeltoe"}):
+        file = io.BytesIO()
+        figure.savefig(file, format="svg", metadata={"Date": None})
+    width, height = figure.get_size_inches()
+    share = _SHARES.get(name.rpartition("/")[2], 1.0) if height > _FLAT * width else 1.0
+    return FigureBlock(name, caption(name), file.getvalue(), (float(width), float(height)), share)
