@@ -47,9 +47,8 @@ def crack_level_figure(response: Response) -> Figure:
     transfer.set_ylabel("amplification, crack over ground [-]")
     for axes in (spectra, transfer):
         _mark_periods(axes, level["periods_s"])
-        # Above the highest peak there is room for the legend.
-        axes.set_ylim(0.0, 1.2 * axes.get_ylim()[1])
-        axes.legend(loc="upper right", fontsize=8, ncols=2, columnspacing=1.0, handlelength=1.6)
+        axes.set_ylim(0.0, None)
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.17), fontsize=8, ncols=2, handlelength=1.8)
     return figure
 
 

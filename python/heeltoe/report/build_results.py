@@ -35,9 +35,22 @@ _STATIC: tuple[tuple[str, str, str | None], ...] = (
     ("Rocking downstream, about the toe, starts at", "critical_acceleration_g.rocking_downstream", "g"),
     ("Rocking upstream, about the heel, starts at", "critical_acceleration_g.rocking_upstream", "g"),
 )
+_CRACK_LEVEL: tuple[tuple[str, str, str | None], ...] = (
+    ("Peak of the ground", "ground_peak_g", "g"),
+    ("Peak at the crack, horizontal", "peak_horizontal_g", "g"),
+    ("Peak at the crack, over that of the ground", "amplification", None),
+    ("Peak at the crack, upward", "peak_vertical_g", "g"),
+    ("Peak rotational acceleration of the crack", "peak_rotation_rad_s2", None),
+    ("First period of the part below with the part above attached", "periods_s.0", "time"),
+    ("First period of the dam without a crack, all of it elastic", "bonded.periods_s.0", "time"),
+    ("Peak in that dam at the place of the crack", "bonded.peak_horizontal_g", "g"),
+    ("Spacing of the motion of the crack", "convergence.step_s", "time"),
+    ("Residual slip with twice that", "convergence.coarser_residual_slip_m", "displacement"),
+)
 _FIGURES = (
     "comparison",
     "response",
+    "crack-level",
     "slip-by-mode",
     "accelerations",
     "forces",
@@ -74,6 +87,43 @@ def results(subject: Subject) -> Section:
                 subject.align(),
             )
         )
+        blocks += [*_at_the_crack(subject), *_anchors(subject)]
     else:
         blocks.append(paragraph("The run never started, so that there are no results and no figures of it."))
     return Section("Results", (*blocks, *subject.figure(*_FIGURES)))
+
+
+def _at_the_crack(subject: Subject) -> list[Block]:
+    """Return how the crack moves that shakes a decoupled block."""
+    return [
+        Table(
+            ("", "value"),
+            tuple(
+                (label, subject.numbers(f"{run.prefix}crack_level.{key}", quantity))
+                for label, key, quantity in _CRACK_LEVEL
+            ),
+            "The motion of the crack, which shakes the block.",
+            "lr",
+        )
+        for run in subject.runs
+        if "crack_level" in run.response.summary
+    ]
+
+
+def _anchors(subject: Subject) -> list[Block]:
+    """Return how the anchors are pulled."""
+    if not subject.case.anchors:
+        return []
+    runs = [run for run in subject.runs if run.response.summary.get("anchors")]
+    head = ("anchor", "from the heel", *(f"largest tension, {run.name}" for run in runs), "capacity")
+    rows = tuple(
+        (
+            f"{place + 1}",
+            subject.numbers(f"{runs[0].prefix}anchors.{place}.distance_m", "length"),
+            *(subject.numbers(f"{run.prefix}anchors.{place}.peak_tension_n") for run in runs),
+            subject.numbers(f"{runs[0].prefix}anchors.{place}.capacity_n"),
+        )
+        for place in range(len(subject.case.anchors))
+        if runs
+    )
+    return [Table(head, rows, "Tension of the anchors, per metre of dam.", "l" + "r" * (2 + len(runs)))] if rows else []

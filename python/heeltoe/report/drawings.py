@@ -25,6 +25,7 @@ CAPTIONS = {
     "energy": "Where the energy put in by the earthquake goes.",
     "path": "Path of the part above the crack.",
     "spectrum": "Response spectrum of the ground motion, 5 % of critical damping.",
+    "crack-level": "Acceleration of ground and crack, their response spectra, and the amplification; dotted: periods.",
     "crack": "What each place of the crack does over time.",
     "deformed": "Deformed dam at moments that tell most; displacements are enlarged as it says.",
     "modes": "Lowest vibration modes of the intact dam.",
@@ -38,6 +39,7 @@ _FLAT = 0.47
 # Of two models only so many figures: those of one alone are in its own report.
 _OF_BOTH = {
     "flexible": ("response", "energy", "spectrum", "crack", "deformed", "modes"),
+    "decoupled": ("crack-level",),
 }
 
 

@@ -15,6 +15,7 @@ NOTHING = "–"
 
 # Endings of names, the longest first, and what they mean.
 _ENDINGS = {
+    "_rad_s2": "angular acceleration",
     "_rad_s": "angular velocity",
     "_pa": "pressure",
     "_m_s2": "acceleration",
@@ -89,6 +90,7 @@ class Numbers:
         unit = {
             "rotation": "",
             "angular velocity": " rad/s",
+            "angular acceleration": " rad/s²",
             "acceleration": " m/s²",
             "rate": " 1/s",
             "time": " s",
