@@ -48,7 +48,7 @@ demo: check $(VENV)/.built
 
 test: check $(VENV)/.built
 	cargo test --release --locked --quiet
-	$(BIN)/pytest -q -m "not slow"
+	$(BIN)/pytest -q -m "not slow" -n 2
 	@$(ELAPSED)
 
 test-slow: check $(VENV)/.built
