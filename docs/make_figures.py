@@ -4,6 +4,8 @@ from pathlib import Path
 
 from heeltoe import decoupled, read_case, rigid
 from heeltoe.figures import crack_level_figure, response_figure, save, slips_figure
+from heeltoe.figures.overturning import overturning_figure
+from heeltoe.overturning import overturning_map
 from heeltoe.variations import parse_variations, run_grid
 
 HERE = Path(__file__).parent
@@ -16,3 +18,5 @@ if __name__ == "__main__":
     save(response_figure(rigid(case)), HERE / "koyna-top.png", dpi=110)
     save(crack_level_figure(grid.responses[0]), HERE / "koyna-crack-level.png", dpi=110)
     save(slips_figure(grid), HERE / "koyna-slips.png", dpi=110)
+    pulses = overturning_map(read_case(EXAMPLES / "slender.toml"), count=100)
+    save(overturning_figure(pulses), HERE / "overturning.png", dpi=110)

@@ -12,7 +12,7 @@ from heeltoe.errors import InputError
 from heeltoe.quantities import Acceleration
 from test_case_errors import DAM, PULSE, dam, write
 
-NAMES = ["anchored", "block", "koyna", "koyna-top", "triangular", "typical-base", "typical-height"]
+NAMES = ["anchored", "block", "koyna", "koyna-top", "slender", "triangular", "typical-base", "typical-height"]
 EXAMPLES = [Path(__file__).parent.parent / "examples" / f"{name}.toml" for name in NAMES]
 
 

@@ -479,7 +479,8 @@ def test_notebooks_show_case_motion_and_response(block):
 
 
 EXAMPLES = [("typical-base", rigid), ("typical-base", flexible), ("typical-height", flexible), ("triangular", flexible)]
-EXAMPLES += [("koyna-top", rigid), ("koyna", decoupled), ("anchored", rigid), ("typical-base", compare)]
+EXAMPLES += [("koyna-top", rigid), ("koyna", decoupled), ("anchored", rigid), ("slender", rigid)]
+EXAMPLES += [("typical-base", compare)]
 
 
 @pytest.mark.slow

@@ -124,6 +124,10 @@ def case_warnings(case: Case) -> tuple[str, ...]:
     if not 1800.0 <= case.concrete.density <= 3200.0:
         warnings.append(f"concrete.density: {case.concrete.density:g} kg/m^3 is unusual for concrete")
     upstream = case.reservoir.depth if case.reservoir else 0.0
+    if case.ice and upstream - case.ice.depth < case.crack.elevation:
+        warnings.append("ice: it acts below the crack, so that nothing of it is on the part above")
+    if case.silt and case.silt.depth <= case.crack.elevation:
+        warnings.append("silt: it ends below the crack, so that nothing of it is on the part above")
     if case.tailwater and case.tailwater.depth > upstream:
         warnings.append("tailwater.depth: the water is deeper downstream than upstream")
     return tuple(warnings)
