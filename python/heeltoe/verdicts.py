@@ -69,8 +69,9 @@ def length(metres: float) -> str:
 
 
 def angle(radians: float) -> str:
-    """Write a rotation in mrad: that times the width of the crack in metres is the opening in millimetres."""
-    return f"{1e3 * radians:.3g} mrad"
+    """Write a rotation in mrad: that times the width of the crack in metres is the opening in millimetres; in rad from
+    one radian."""
+    return f"{radians:.3g} rad" if abs(radians) >= 1.0 else f"{1e3 * radians:.3g} mrad"
 
 
 def last_change(response: Response) -> tuple[float, float]:
