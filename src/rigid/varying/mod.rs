@@ -4,7 +4,9 @@
 //! Modes, reactions, impact and the choice of the next mode are those of the exact walk; between events the equations of
 //! motion are integrated to a tolerance far below anything that is shown, and events are found on the integrated motion.
 
+mod advance;
 pub mod block;
+mod keep;
 pub mod loads;
 pub mod step;
 pub mod walk;

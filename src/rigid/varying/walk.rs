@@ -4,10 +4,9 @@
 //! integrated motion itself.
 
 use super::super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
-use super::super::event;
 use super::super::impact::{impact, jam, Impact};
 use super::super::mode::{
-    accelerations, corner_index, reaction_to, select, Corner, Mode, Piece, Reactions, Slip, VIOLATION,
+    accelerations, corner_index, reaction_to, select, Corner, Mode, Piece, Reactions, Slip,
 };
 use super::super::result::{Event, EventKind, Histories, Outcome, Summary};
 use super::super::simulate::{describe, Cause, Options, CRAWL};
@@ -39,36 +38,36 @@ impl TurningGround<'_> {
 
 /// Ground acceleration from here to the end of the piece.
 #[derive(Clone, Copy)]
-struct Stretch {
-    ground: Ground,
-    rate: Ground,
-    left: f64,
+pub(super) struct Stretch {
+    pub(super) ground: Ground,
+    pub(super) rate: Ground,
+    pub(super) left: f64,
 }
 
 impl Stretch {
-    fn after(&self, since: f64) -> Ground {
+    pub(super) fn after(&self, since: f64) -> Ground {
         [0, 1, 2].map(|i| self.ground[i] + self.rate[i] * since)
     }
 }
 
-struct Walk<'a, 'h> {
-    block: &'a Block,
-    turning: &'a TurningBlock,
-    options: Options,
-    settle: f64,
-    scale: State,
-    mode: Mode,
-    corner: Corner,
-    state: State,
+pub(super) struct Walk<'a, 'h> {
+    pub(super) block: &'a Block,
+    pub(super) turning: &'a TurningBlock,
+    pub(super) options: Options,
+    pub(super) settle: f64,
+    pub(super) scale: State,
+    pub(super) mode: Mode,
+    pub(super) corner: Corner,
+    pub(super) state: State,
     /// Length that the next step may have.
-    suggested: f64,
+    pub(super) suggested: f64,
     /// Accelerations of the contact coordinates right after an event, freed from rounding where a motion starts.
-    starting: Option<Vector>,
-    summary: Summary,
-    peak_tension: Vec<f64>,
-    log: &'a mut Vec<Event>,
-    histories: Option<&'a mut Histories<'h>>,
-    standing: u32,
+    pub(super) starting: Option<Vector>,
+    pub(super) summary: Summary,
+    pub(super) peak_tension: Vec<f64>,
+    pub(super) log: &'a mut Vec<Event>,
+    pub(super) histories: Option<&'a mut Histories<'h>>,
+    pub(super) standing: u32,
 }
 
 /// Run one block through one motion; the arguments are those of [`super::super::simulate::simulate`]. Returns the
@@ -374,7 +373,7 @@ impl Walk<'_, '_> {
     }
 
     /// Write the state as slip, gaps and velocities into the summary.
-    fn see(&mut self) {
+    pub(super) fn see(&mut self) {
         let [heel, toe] = self.turning.gaps(self.corner, &self.state);
         self.summary.position = [self.state[0], heel.max(0.0), toe.max(0.0)];
         self.summary.velocity = self.turning.contact_velocity(self.corner, &self.state);
@@ -442,7 +441,7 @@ impl Walk<'_, '_> {
     }
 
     /// Reactions in the present mode; where friction makes them infinite, none, and the choice of the next mode says so.
-    fn reactions(&self, instant: &Instant) -> Vector {
+    pub(super) fn reactions(&self, instant: &Instant) -> Vector {
         let friction = self.block.friction_kinetic;
         reaction_to(
             &instant.compliance,
@@ -453,7 +452,7 @@ impl Walk<'_, '_> {
         .unwrap_or([0.0; 3])
     }
 
-    fn rates(&self, state: &State, ground: &Ground) -> State {
+    pub(super) fn rates(&self, state: &State, ground: &Ground) -> State {
         let instant = self.turning.at(self.corner, state, ground);
         let reactions = self.reactions(&instant);
         let mut acceleration = instant.acceleration(&reactions);
@@ -482,7 +481,7 @@ impl Walk<'_, '_> {
     }
 
     /// The state after `since` from `start`, by one step.
-    fn moved(&self, start: &State, rate: &State, stretch: &Stretch, since: f64) -> State {
+    pub(super) fn moved(&self, start: &State, rate: &State, stretch: &Stretch, since: f64) -> State {
         if since == 0.0 || self.mode == Mode::Rest {
             return *start;
         }
@@ -491,7 +490,7 @@ impl Walk<'_, '_> {
     }
 
     /// Normal forces and what is left of the friction cone, both ways, at a state; sizes to judge them by.
-    fn limits(&self, state: &State, ground: &Ground) -> [(f64, f64); 4] {
+    pub(super) fn limits(&self, state: &State, ground: &Ground) -> [(f64, f64); 4] {
         let instant = self.turning.at(self.corner, state, ground);
         let [friction, heel, toe] = self.reactions(&instant);
         let scale = self.block.force_scale;
@@ -507,304 +506,9 @@ impl Walk<'_, '_> {
     }
 
     /// Which of the limits of [`Self::limits`] end the present mode.
-    fn watched(&self) -> [Option<Cause>; 4] {
+    pub(super) fn watched(&self) -> [Option<Cause>; 4] {
         let [heel, toe] = self.mode.contacts().map(|on| on.then_some(Cause::Normal));
         let cone = self.mode.sticks().then_some(Cause::Cone);
         [heel, toe, cone, cone]
-    }
-
-    /// Move to the next event, or by one step; returns the time that took and what ended it.
-    fn advance(&mut self, stretch: &Stretch, time: f64) -> (f64, Option<Cause>) {
-        let start = self.state;
-        let rate = self.rates(&start, &stretch.ground);
-        let fresh = self.starting.take();
-        let mut length = if self.mode == Mode::Rest {
-            stretch.left
-        } else {
-            stretch.left.min(self.suggested)
-        };
-        loop {
-            let end = if self.mode == Mode::Rest {
-                start
-            } else {
-                let mut rates = |t: f64, y: &State| self.rates(y, &stretch.after(t));
-                let taken = step(&start, &rate, length, &self.scale, &mut rates);
-                if taken.error > 1.0 && length > 1e-9 {
-                    length *= (0.9 * taken.error.powf(-1.0 / 8.0)).clamp(0.1, 0.9);
-                    continue;
-                }
-                self.suggested = length * (0.9 * taken.error.max(1e-12).powf(-1.0 / 8.0)).clamp(0.2, 5.0);
-                taken.end
-            };
-            let Some((at, why, state)) = self.first_event(&start, &rate, &end, length, stretch, fresh) else {
-                self.move_on(&start, &rate, &end, stretch, length, time);
-                return (length, None);
-            };
-            if at.is_nan() {
-                // The polynomials saw an event that the motion does not have: they are better on a shorter step.
-                length *= 0.5;
-                continue;
-            }
-            self.move_on(&start, &rate, &state, stretch, at, time);
-            if why == Cause::Stop {
-                self.state[3] = 0.0;
-            }
-            if matches!(why, Cause::Normal | Cause::Cone | Cause::Stop) || at < 1e-3 * length {
-                self.suggested = self.suggested.max(length);
-            }
-            return (at, Some(why));
-        }
-    }
-
-    /// The first event of a step with its time and state; a time that is not a number asks for a shorter step.
-    fn first_event(
-        &self,
-        start: &State,
-        rate: &State,
-        end: &State,
-        length: f64,
-        stretch: &Stretch,
-        fresh: Option<Vector>,
-    ) -> Option<(f64, Cause, State)> {
-        let mut first: Option<(f64, Cause, usize)> = None;
-        let mut earlier = |t: f64, why: Cause, which: usize| {
-            // Of two at once a gap goes first: what has struck is no longer what it was.
-            let gap = matches!(why, Cause::Gap(_));
-            if first.is_none_or(|(before, ..)| t < before || t == before && gap) {
-                first = Some((t, why, which));
-            }
-        };
-        let watched = self.watched();
-        if watched.iter().any(Option::is_some) {
-            let middle = self.moved(start, rate, stretch, 0.5 * length);
-            let values = [
-                self.limits(start, &stretch.ground),
-                self.limits(&middle, &stretch.after(0.5 * length)),
-                self.limits(end, &stretch.after(length)),
-            ];
-            for (which, why) in watched.into_iter().enumerate() {
-                let Some(why) = why else { continue };
-                let [(v0, size), (vm, _), (v1, _)] = values.map(|row| row[which]);
-                let fallen = -VIOLATION * size;
-                if vm < fallen && vm < v0 {
-                    earlier(
-                        event::linear(v0, 2.0 * (vm - v0) / length, 0.5 * length),
-                        why,
-                        which,
-                    );
-                } else if v1 < fallen && v1 < v0 {
-                    let (c1, c2) = (4.0 * vm - 3.0 * v0 - v1, 2.0 * (v0 - 2.0 * vm + v1));
-                    let share = if v0 <= 0.0 {
-                        Some(0.0)
-                    } else {
-                        event::quadratic(v0, c1, c2, 1.0)
-                    };
-                    earlier(share.unwrap_or(1.0) * length, why, which);
-                }
-            }
-        }
-        let instant = self.turning.at(self.corner, start, &stretch.ground);
-        let now = fresh.unwrap_or_else(|| instant.contact_acceleration(&self.reactions(&instant)));
-        let speeds = [start, end].map(|y| self.turning.contact_velocity(self.corner, y));
-        if let Some(way) = self.mode.slip() {
-            let s = way.sign();
-            let (v0, v1, a0) = (s * speeds[0][SLIP], s * speeds[1][SLIP], s * now[SLIP]);
-            let bend = (v1 - v0 - a0 * length) / (length * length);
-            if let Some(t) = event::quadratic(v0, a0, bend, length) {
-                earlier(t, Cause::Stop, SLIP);
-            }
-        }
-        let gaps = [start, end].map(|y| self.turning.gaps(self.corner, y));
-        for (corner, gap) in [HEEL, TOE].into_iter().enumerate() {
-            if self.mode.contacts()[corner] {
-                continue;
-            }
-            let (p0, p1, v0, a0) = (gaps[0][corner], gaps[1][corner], speeds[0][gap], now[gap]);
-            let bend = (p1 - p0 - length * (v0 + 0.5 * length * a0)) / length.powi(3);
-            if let Some(t) = event::cubic(p0, v0, 0.5 * a0, bend, length) {
-                earlier(t, Cause::Gap(gap), gap);
-            }
-        }
-        let over = std::f64::consts::FRAC_PI_2;
-        if self.turning.rotation != Rotation::Small && end[2].abs() > over && first.is_none() {
-            let value = |y: &State, _: f64| over - y[2].abs();
-            let near = length * (over - start[2].abs()) / (end[2].abs() - start[2].abs());
-            let (t, state) = self.located(start, rate, stretch, [near, length], value)?;
-            return Some((t, Cause::Normal, state)).filter(|_| t.is_finite());
-        }
-        let (near, why, which) = first?;
-        let found = match why {
-            Cause::Normal | Cause::Cone => self.located(start, rate, stretch, [near, length], |y, t| {
-                self.limits(y, &stretch.after(t))[which].0
-            }),
-            Cause::Stop => {
-                let s = self.mode.slip().map_or(1.0, Slip::sign);
-                self.located(start, rate, stretch, [near, length], |y, _| s * y[3])
-            }
-            Cause::Gap(gap) => self.located(start, rate, stretch, [near, length], |y, _| {
-                self.turning.gaps(self.corner, y)[gap - HEEL]
-            }),
-        };
-        Some(found.map_or((f64::NAN, why, *start), |(t, state)| (t, why, state)))
-    }
-
-    /// Root of a function on the integrated motion, near a first guess: secants, kept within the step. None where the
-    /// function has none there.
-    fn located(
-        &self,
-        start: &State,
-        rate: &State,
-        stretch: &Stretch,
-        [guess, length]: [f64; 2],
-        value: impl Fn(&State, f64) -> f64,
-    ) -> Option<(f64, State)> {
-        if guess <= 0.0 {
-            return Some((0.0, *start));
-        }
-        let at = |t: f64| {
-            let state = self.moved(start, rate, stretch, t);
-            (value(&state, t), state)
-        };
-        let mut t = guess.min(length);
-        let (mut v, mut state) = at(t);
-        let mut before = if t < length {
-            (t + 1e-3 * (length - t)).min(length)
-        } else {
-            0.999 * t
-        };
-        let mut v_before = at(before).0;
-        for _ in 0..40 {
-            if v == 0.0 || v == v_before {
-                break;
-            }
-            let next = (t - v * (t - before) / (v - v_before)).clamp(0.0, length);
-            (before, v_before) = (t, v);
-            if (next - t).abs() <= 4.0 * f64::EPSILON * t {
-                break;
-            }
-            t = next;
-            (v, state) = at(t);
-        }
-        // Its slope tells a fall through zero from a value that only comes near.
-        let slope = ((v - v_before) / (t - before)).abs();
-        let reach = slope * 1e-9 * length;
-        let settled = v == 0.0 || (v - v_before).abs() == 0.0 || v.abs() <= reach;
-        (settled && v.is_finite()).then_some((t, state))
-    }
-
-    /// Take over the end of a step.
-    fn move_on(
-        &mut self,
-        start: &State,
-        rate: &State,
-        end: &State,
-        stretch: &Stretch,
-        taken: f64,
-        time: f64,
-    ) {
-        self.record(start, stretch, time + taken, time);
-        let kind = self.mode.kind();
-        self.summary.time_by_mode[kind] += taken;
-        if self.mode == Mode::Rest || taken == 0.0 {
-            return;
-        }
-        self.turning_points(start, rate, end, stretch, taken);
-        self.state = *end;
-        let (work, rubbed) = (end[6], end[7]);
-        self.state[6] = 0.0;
-        self.state[7] = 0.0;
-        let ledger = &mut self.summary.ledger;
-        ledger.input += work;
-        ledger.friction -= rubbed;
-        ledger.turnover += work.abs() + rubbed.abs();
-        let contacts = self.mode.contacts();
-        if contacts[corner_index(self.corner) - HEEL] {
-            self.state[1] = 0.0;
-            self.state[4] = 0.0;
-        }
-        self.summary.slip_by_mode[kind] += self.state[0] - start[0];
-        self.see();
-        let at = self.summary.position;
-        self.widen(&at, self.state[2]);
-        self.strain();
-    }
-
-    fn widen(&mut self, at: &Vector, theta: f64) {
-        let s = &mut self.summary;
-        s.slip_range = [s.slip_range[0].min(at[SLIP]), s.slip_range[1].max(at[SLIP])];
-        s.rotation_range = [s.rotation_range[0].min(theta), s.rotation_range[1].max(theta)];
-        s.largest_gap = [s.largest_gap[0].max(at[HEEL]), s.largest_gap[1].max(at[TOE])];
-    }
-
-    fn strain(&mut self) {
-        for (peak, anchor) in self.peak_tension.iter_mut().zip(&self.turning.anchors) {
-            let (tension, _) = anchor.pull(self.turning.anchor_moves(self.corner, &self.state, anchor));
-            *peak = peak.max(tension);
-        }
-    }
-
-    /// Extremes inside a step, where a velocity changes sign.
-    fn turning_points(&mut self, start: &State, rate: &State, end: &State, stretch: &Stretch, taken: f64) {
-        let velocities = |y: &State| {
-            let [slip, heel, toe] = self.turning.contact_velocity(self.corner, y);
-            [slip, heel, toe, y[5]]
-        };
-        let (speeds, last) = (velocities(start), velocities(end));
-        let instant = self.turning.at(self.corner, start, &stretch.ground);
-        let [slip, heel, toe] = instant.contact_acceleration(&self.reactions(&instant));
-        for (i, a0) in [slip, heel, toe, rate[5]].into_iter().enumerate() {
-            let (v0, v1) = (speeds[i], last[i]);
-            if v0 * v1 >= 0.0 {
-                continue;
-            }
-            let bend = (v1 - v0 - a0 * taken) / (taken * taken);
-            for t in event::sign_changes(v0, a0, bend, taken).into_iter().flatten() {
-                let at = self.moved(start, rate, stretch, t);
-                let [heel, toe] = self.turning.gaps(self.corner, &at);
-                self.widen(&[at[0], heel, toe], at[2]);
-            }
-        }
-    }
-
-    /// Write the state at every wanted moment before `until`; `since` is when the present step began.
-    fn record(&mut self, start: &State, stretch: &Stretch, until: f64, since: f64) {
-        let Some(h) = self.histories.take() else {
-            return;
-        };
-        let rate = self.rates(start, &stretch.ground);
-        while h.rows.len() < h.times.len() && h.times[h.rows.len()] < until {
-            let t = if stretch.left > 0.0 {
-                (h.times[h.rows.len()] - since).max(0.0)
-            } else {
-                0.0
-            };
-            let state = self.moved(start, &rate, stretch, t);
-            let ground = stretch.after(t);
-            let instant = self.turning.at(self.corner, &state, &ground);
-            let reactions = self.reactions(&instant);
-            let mut acceleration = instant.contact_acceleration(&reactions);
-            let contacts = self.mode.contacts();
-            for (held, i) in [
-                (self.mode.sticks(), SLIP),
-                (contacts[0], HEEL),
-                (contacts[1], TOE),
-            ] {
-                if held {
-                    acceleration[i] = 0.0;
-                }
-            }
-            let gaps = self.turning.gaps(self.corner, &state);
-            let velocity = self.turning.contact_velocity(self.corner, &state);
-            let mut row = [0.0; 12];
-            row[SLIP] = state[0];
-            row[HEEL] = gaps[0].max(0.0);
-            row[TOE] = gaps[1].max(0.0);
-            row[3..6].copy_from_slice(&velocity);
-            row[6..9].copy_from_slice(&acceleration);
-            row[9..12].copy_from_slice(&reactions);
-            h.rows.push(row);
-            h.modes.push(self.mode.index() as u8);
-        }
-        self.histories = Some(h);
     }
 }
