@@ -16,8 +16,9 @@ use rigid::mode::Mode;
 use rigid::result::{Event, EventKind, Histories, Outcome};
 use rigid::simulate::{simulate, Motion, Options};
 use rigid::varying::block::{Rotation, TurningBlock, VARYING_COUNT, VARYING_FIELDS};
+use rigid::varying::ground::TurningGround;
 use rigid::varying::loads::{Anchor, Rule, Water};
-use rigid::varying::walk::{self, TurningGround};
+use rigid::varying::walk;
 
 type Numbers<'py> = PyReadonlyArray1<'py, f64>;
 type RunResult<'py> = (

@@ -385,7 +385,7 @@ def test_override_that_is_wrong(override, message):
 
 def test_every_error_of_the_case_is_tested():
     package = Path(heeltoe.case.__file__).parent
-    sources = ["case.py", "case_errors.py", "case_model.py", "quantities.py", "section.py"]
+    sources = ["case.py", "case_errors.py", "case_model.py", "case_options.py", "quantities.py", "section.py"]
     text = "".join((package / name).read_text() for name in sources)
     raised = set(re.findall(r'InputError\(\s*"([a-z-]+)"', text)) | {"crack-no-width", "crack-pieces"}
     assert raised <= CATALOGUE.keys()

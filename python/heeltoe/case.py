@@ -18,24 +18,8 @@ from pydantic import ValidationError
 
 from heeltoe import section
 from heeltoe.case_errors import first_error, shown
-from heeltoe.case_model import (
-    Analysis,
-    Anchor,
-    Case,
-    Concrete,
-    Crack,
-    Decoupled,
-    Flexible,
-    Ice,
-    Limits,
-    Motion,
-    Section,
-    Shaking,
-    Silt,
-    Statics,
-    Uplift,
-    Water,
-)
+from heeltoe.case_model import Anchor, Case, Concrete, Crack, Ice, Motion, Section, Shaking, Silt, Uplift, Water
+from heeltoe.case_options import Analysis, Decoupled, Flexible, Limits, Statics
 from heeltoe.errors import InputError
 
 __all__ = [

@@ -21,7 +21,7 @@ from heeltoe.measures import measures
 from heeltoe.motion import GroundMotion
 
 if TYPE_CHECKING:
-    from heeltoe.case_model import Limits
+    from heeltoe.case_options import Limits
     from heeltoe.crack_history import CrackHistory
 
 Floats = NDArray[np.float64]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from heeltoe.case_model import Statics as Choice
+from heeltoe.case_options import Statics as Choice
 from heeltoe.criteria import Criterion, criteria
 from heeltoe.load_case import LoadCase
 

@@ -8,8 +8,9 @@ use super::super::event;
 use super::super::mode::{Mode, Slip, VIOLATION};
 use super::super::simulate::Cause;
 use super::block::Rotation;
+use super::ground::Stretch;
 use super::step::{step, State};
-use super::walk::{Stretch, Walk};
+use super::walk::Walk;
 
 impl Walk<'_, '_> {
     /// Move to the next event, or by one step; returns the time that took and what ended it.

@@ -3,8 +3,9 @@
 use super::super::block::{Vector, HEEL, SLIP, TOE};
 use super::super::event;
 use super::super::mode::{corner_index, Mode};
+use super::ground::Stretch;
 use super::step::State;
-use super::walk::{Stretch, Walk};
+use super::walk::Walk;
 
 impl Walk<'_, '_> {
     /// Take over the end of a step.

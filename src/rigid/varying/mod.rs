@@ -6,6 +6,7 @@
 
 mod advance;
 pub mod block;
+pub mod ground;
 mod keep;
 pub mod loads;
 pub mod step;

@@ -1,7 +1,5 @@
-//! The walk from event to event by integration: between two events the mode is fixed, and the motion is stepped by
-//! [`super::step`]; an event is where a normal force, what is left of the friction cone, the slip velocity or a gap falls
-//! through zero. It is found on polynomials through the ends of the step and then, by Newton's iteration, on the
-//! integrated motion itself.
+//! The walk from event to event by integration: between two events the mode is fixed and [`super::advance`] steps the
+//! motion to the next event; here the event is dealt with and the next mode is chosen.
 
 use super::super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
 use super::super::impact::{impact, jam, Impact};
@@ -11,6 +9,7 @@ use super::super::mode::{
 use super::super::result::{Event, EventKind, Histories, Outcome, Summary};
 use super::super::simulate::{describe, Cause, Options, CRAWL};
 use super::block::{Ground, Instant, Rotation, TurningBlock};
+use super::ground::{Stretch, TurningGround};
 use super::step::{step, State};
 
 /// Relative error allowed in a step, of lengths of the crack's width and of velocities of sqrt(g B).
@@ -20,35 +19,6 @@ const TOLERANCE: f64 = 1e-12;
 const UNIT: f64 = 1e-9;
 /// A moving block's accelerations change with its motion, too: their rate is taken over at most so many seconds.
 const AHEAD: f64 = 1e-4;
-
-/// Ground motion, linear between samples; a repeated time is a jump.
-pub struct TurningGround<'a> {
-    pub time: &'a [f64],
-    pub horizontal: &'a [f64],
-    pub vertical: Option<&'a [f64]>,
-    pub rotation: Option<&'a [f64]>,
-}
-
-impl TurningGround<'_> {
-    fn at(&self, k: usize) -> Ground {
-        let or_none = |series: Option<&[f64]>| series.map_or(0.0, |s| s[k]);
-        [self.horizontal[k], or_none(self.vertical), or_none(self.rotation)]
-    }
-}
-
-/// Ground acceleration from here to the end of the piece.
-#[derive(Clone, Copy)]
-pub(super) struct Stretch {
-    pub(super) ground: Ground,
-    pub(super) rate: Ground,
-    pub(super) left: f64,
-}
-
-impl Stretch {
-    pub(super) fn after(&self, since: f64) -> Ground {
-        [0, 1, 2].map(|i| self.ground[i] + self.rate[i] * since)
-    }
-}
 
 pub(super) struct Walk<'a, 'h> {
     pub(super) block: &'a Block,
