@@ -346,7 +346,7 @@ def test_variations_that_are_none(texts, code):
 
 
 def test_the_option_of_one_run_is_refused_in_process():
-    from heeltoe.cli import run
+    from heeltoe.run_command import run
 
     with pytest.raises(InputError) as refused:
         run(str(KOYNA), vary=["crack.friction=1,2"], model="both")
