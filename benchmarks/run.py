@@ -8,6 +8,7 @@ import crack_dam
 import crack_peers
 import rigid_ensemble
 import rigid_peers
+import rocking_peers
 import spectra_peers
 
 TITLE = "# Measured results\n\nWritten by `python benchmarks/run.py`; what the numbers mean is in the README beside it."
@@ -19,6 +20,7 @@ def main() -> None:
         TITLE,
         rigid_ensemble.report(),
         rigid_peers.report(),
+        rocking_peers.report(),
         spectra_peers.report(),
         crack_dam.report(),
         crack_peers.report(),

@@ -1,0 +1,203 @@
+"""Rotations of any size: the walk by integration beside SciPy's integrator, both of order 8 and with located impacts.
+
+The block is Housner's, 1 m wide and 4 m high, which does not slide and whose impacts take what Housner says:
+
+    I θ" = -sign(θ) W R sin(α - |θ|) - W R cos(α - |θ|) a / g,    θ' after = (1 - 3/2 sin² α) θ' before
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from measure import heading, repeat, require, table, timed
+from numpy.typing import NDArray
+from scipy.integrate import quad, solve_ivp
+
+from heeltoe import Case, _kernel, read_case, read_record
+from heeltoe.block import build_block
+from heeltoe.records.catalog import find
+from heeltoe.rigid_model import SETTLE, GroundSeries, run_block
+from heeltoe.varying import varying
+
+Floats = NDArray[np.float64]
+Solve = Callable[[], tuple[float, ...]]
+
+GRAVITY = 9.81
+WIDTH, HEIGHT = 1.0, 4.0
+SLENDERNESS = math.atan2(WIDTH, HEIGHT)
+RATE_SQUARED = 0.75 * GRAVITY / (0.5 * math.hypot(WIDTH, HEIGHT))
+KEPT = 1.0 - 1.5 * math.sin(SLENDERNESS) ** 2
+FREE_END, RECORD_END = 4.4, 30.0
+# It stands this one with many impacts in between.
+PEAK = 0.6 * GRAVITY
+TOLERANCES = (1e-4, 1e-6, 1e-8, 1e-10, 1e-12)
+
+
+def block_case() -> Case:
+    """Return the block as a case."""
+    corners = [[0.0, 0.0], [WIDTH, 0.0], [WIDTH, HEIGHT], [0.0, HEIGHT]]
+    return read_case(
+        {
+            "gravity": f"{GRAVITY} m/s^2",
+            "section": {"polygon": [[f"{x} m", f"{z} m"] for x, z in corners]},
+            "crack": {"friction": 10.0, "restitution": 0.0},
+            "analysis": {"rotation": "finite"},
+        }
+    )
+
+
+def exact_impacts() -> tuple[float, ...]:
+    """Return the moments of the first impacts after the block is let go at half its slenderness, from its energy.
+
+    With cos(α - θ) - cos(α - θ0) = 2 sin(α - (θ + θ0) / 2) sin((θ - θ0) / -2) the quarter of a swing from θ0 is an
+    integral whose end, where the block is at rest, goes away with θ = θ0 - s².
+    """
+
+    def quarter(start: float) -> float:
+        def slowness(s: float) -> float:
+            fallen = s * s
+            sine = math.sin(fallen / 2.0) / fallen if fallen else 0.5
+            return 1.0 / math.sqrt(RATE_SQUARED * math.sin(SLENDERNESS - start + fallen / 2.0) * sine)
+
+        return float(quad(slowness, 0.0, math.sqrt(start), epsabs=1e-14, epsrel=1e-13)[0])
+
+    moments, amplitude, now = [], 0.5 * SLENDERNESS, 0.0
+    while True:
+        now += quarter(amplitude)
+        if now > FREE_END:
+            return tuple(moments)
+        moments.append(now)
+        left = KEPT**2 * (math.cos(SLENDERNESS - amplitude) - math.cos(SLENDERNESS))
+        amplitude = SLENDERNESS - math.acos(math.cos(SLENDERNESS) + left)
+        now += quarter(amplitude)
+
+
+def scipy_impacts(tolerance: float) -> tuple[float, ...]:
+    """Return the moments of impact by SciPy."""
+    now, state, moments = 0.0, np.array([0.5 * SLENDERNESS, 0.0]), []
+    while True:
+        found = _swing((0.0, 0.0, 0.0), now, FREE_END, state, tolerance)
+        if found.status != 1:
+            return tuple(moments)
+        now, state = _struck(found)
+        moments.append(now)
+
+
+def scipy_peak(time: Floats, ground: Floats, tolerance: float) -> tuple[float, ...]:
+    """Return the largest rotation [rad] by SciPy, sample by sample, as the motion has a corner at each of them."""
+    state, largest = np.zeros(2), 0.0
+    for start, end, first, last in zip(time[:-1], time[1:], ground[:-1], ground[1:], strict=True):
+        slope = (last - first) / (end - start)
+        now = float(start)
+        while now < end:
+            value = first + slope * (now - start)
+            if not state.any():
+                if max(abs(value), abs(last)) <= GRAVITY * math.tan(SLENDERNESS):
+                    break
+                # At rest until the ground pushes enough.
+                need = math.copysign(GRAVITY * math.tan(SLENDERNESS), last if abs(last) > abs(value) else value)
+                now = max(now, float(start + (need - first) / slope)) if abs(value) <= abs(need) else now
+                state = np.array([-math.copysign(1e-14, need), 0.0])
+            found = _swing((float(first), float(slope), float(start)), now, float(end), state, tolerance)
+            largest = max([largest, *(abs(float(y[0])) for y in found.y_events[1])])
+            if found.status != 1:
+                state = found.y[:, -1]
+                break
+            now, state = _struck(found)
+            if abs(state[1]) < 1e-9:
+                state = np.zeros(2)
+    return (largest,)
+
+
+def _swing(ground: tuple[float, float, float], start: float, end: float, state: Floats, tolerance: float) -> Any:
+    """Integrate until the block strikes; `ground` is the acceleration at a moment, how it grows, and that moment."""
+    side = math.copysign(1.0, state[0] if state[0] else state[1])
+    radius_share = RATE_SQUARED / GRAVITY
+
+    def rates(t: float, y: Floats) -> tuple[float, float]:
+        lever = SLENDERNESS - side * y[0]
+        pull = side * GRAVITY * math.sin(lever) + (ground[0] + ground[1] * (t - ground[2])) * math.cos(lever)
+        return y[1], -radius_share * pull
+
+    def closed(t: float, y: Floats) -> float:
+        return float(side * y[0])
+
+    def turns(t: float, y: Floats) -> float:
+        return float(y[1])
+
+    closed.terminal, closed.direction = True, -1.0  # type: ignore[attr-defined]
+    near = 1e-2 * tolerance * SLENDERNESS
+    return solve_ivp(rates, (start, end), state, "DOP853", events=(closed, turns), rtol=tolerance, atol=near)
+
+
+def _struck(found: Any) -> tuple[float, Floats]:
+    speed = KEPT * float(found.y_events[0][0][1])
+    return float(found.t_events[0][0]), np.array([math.copysign(1e-300, speed), speed])
+
+
+def ours_impacts(case: Case) -> tuple[float, ...]:
+    """Return the moments of impact by the kernel."""
+    block = build_block(case)
+    what = varying(case, block)
+    lifted = [[0.0, 0.0, WIDTH * math.sin(0.5 * SLENDERNESS)], [0.0, 0.0, 0.0]]
+    events = _kernel.run_rigid_varying(
+        block.parameters(), what.numbers, what.rotation, what.rule, what.pressure, what.anchors,
+        np.array([0.0, FREE_END]), np.zeros(2), None, None, np.empty(0), lifted, SETTLE, 1_000_000, False,
+    )[3]  # fmt: skip
+    strikes = [_kernel.EVENT_KINDS.index(kind) for kind in ("heel strikes", "toe strikes")]
+    return tuple(float(row[0]) for row in events if int(row[1]) in strikes)
+
+
+def ours_peak(case: Case, time: Floats, ground: Floats) -> tuple[float, ...]:
+    """Return the largest rotation [rad] by the kernel."""
+    row = run_block(case, build_block(case), GroundSeries(time, ground, None, None), np.empty(0))[0]
+    found = dict(zip(_kernel.SUMMARY_FIELDS, row, strict=True))
+    require(_kernel.OUTCOMES[int(found["outcome"])] == "ok", "the block did not stand")
+    require(found["impacts"] > 10, "the block hardly rocked")
+    return (math.asin(max(found["largest_gap_heel"], found["largest_gap_toe"]) / WIDTH),)
+
+
+def rows(reference: tuple[float, ...], ours: Solve, theirs: Callable[[float], tuple[float, ...]]) -> list[list[str]]:
+    """Measure one problem: ours once, SciPy at every tolerance."""
+
+    def error(found: tuple[float, ...]) -> float:
+        require(len(found) == len(reference), "another number of impacts")
+        return max(abs(a / b - 1.0) for a, b in zip(found, reference, strict=True))
+
+    mine = repeat(ours)
+    lines = [["heeltoe", "1e-12", f"{error(ours()):.1e}", timed(mine), ""]]
+    for tolerance in TOLERANCES:
+        time = repeat(lambda tolerance=tolerance: theirs(tolerance), 3)  # type: ignore[misc]
+        ratio = f"{time.median / mine.median:,.0f}"
+        lines.append(["SciPy DOP853", f"{tolerance:.0e}", f"{error(theirs(tolerance)):.1e}", timed(time), ratio])
+    return lines
+
+
+def report() -> str:
+    """Measure and return Markdown."""
+    require(_kernel.PROFILE == "release", "the kernel is a debug build")
+    case = block_case()
+    record = read_record(find("elcentro-1940-180-nga", Path.cwd())).cut(RECORD_END)
+    time, ground = record.time, record.acceleration * (PEAK / np.abs(record.acceleration).max())
+    columns = ["program", "tolerance", "largest relative error", "time per run", "times ours"]
+    finest = scipy_peak(time, ground, 1e-13)
+    parts = [
+        heading("Rotations of any size", ["heeltoe", "scipy", "numpy"]),
+        f"Block of {WIDTH:g} m by {HEIGHT:g} m let go at half its slenderness, {FREE_END:g} s. Errors are those of the "
+        "moments of impact, against an integral of its energy.",
+        table(columns, rows(exact_impacts(), lambda: ours_impacts(case), scipy_impacts)),
+        f"The same block through {RECORD_END:g} s of El Centro 1940 at {PEAK / GRAVITY:g} g. Errors are those of the "
+        "largest rotation, against SciPy with a tolerance of 1e-13.",
+        table(
+            columns, rows(finest, lambda: ours_peak(case, time, ground), lambda rough: scipy_peak(time, ground, rough))
+        ),
+    ]
+    return "\n\n".join(parts)
+
+
+if __name__ == "__main__":
+    print(report())
