@@ -9,8 +9,11 @@ use super::super::mode::{Mode, Slip, VIOLATION};
 use super::super::simulate::Cause;
 use super::block::Rotation;
 use super::ground::Stretch;
-use super::step::{step, State};
+use super::step::{middle, step, State};
 use super::walk::Walk;
+
+/// A step that is short enough for its polynomials to say that a motion ends as it begins [s].
+const SHORT: f64 = 1e-7;
 
 impl Walk<'_, '_> {
     /// Move to the next event, or by one step; returns the time that took and what ended it.
@@ -24,8 +27,8 @@ impl Walk<'_, '_> {
             stretch.left.min(self.suggested)
         };
         loop {
-            let end = if self.mode == Mode::Rest {
-                start
+            let (end, rate_at_end) = if self.mode == Mode::Rest {
+                (start, rate)
             } else {
                 let mut rates = |t: f64, y: &State| self.rates(y, &stretch.after(t));
                 let taken = step(&start, &rate, length, &self.scale, &mut rates);
@@ -34,9 +37,11 @@ impl Walk<'_, '_> {
                     continue;
                 }
                 self.suggested = length * (0.9 * taken.error.max(1e-12).powf(-1.0 / 8.0)).clamp(0.2, 5.0);
-                taken.end
+                (taken.end, taken.rate)
             };
-            let Some((at, why, state)) = self.first_event(&start, &rate, &end, length, stretch, fresh) else {
+            let Some((at, why, state)) =
+                self.first_event([&start, &end], [&rate, &rate_at_end], length, stretch, fresh)
+            else {
                 self.move_on(&start, &rate, &end, stretch, length, time);
                 return (length, None);
             };
@@ -59,9 +64,8 @@ impl Walk<'_, '_> {
     /// The first event of a step with its time and state; a time that is not a number asks for a shorter step.
     fn first_event(
         &self,
-        start: &State,
-        rate: &State,
-        end: &State,
+        [start, end]: [&State; 2],
+        [rate, rate_at_end]: [&State; 2],
         length: f64,
         stretch: &Stretch,
         fresh: Option<Vector>,
@@ -74,12 +78,18 @@ impl Walk<'_, '_> {
                 first = Some((t, why, which));
             }
         };
+        let instant = self.turning.at(self.corner, start, &stretch.ground);
+        let reactions = self.reactions(&instant);
         let watched = self.watched();
         if watched.iter().any(Option::is_some) {
-            let middle = self.moved(start, rate, stretch, 0.5 * length);
+            let between = if self.mode == Mode::Rest {
+                *start
+            } else {
+                middle([start, end], [rate, rate_at_end], length)
+            };
             let values = [
-                self.limits(start, &stretch.ground),
-                self.limits(&middle, &stretch.after(0.5 * length)),
+                self.limits_under(&reactions),
+                self.limits(&between, &stretch.after(0.5 * length)),
                 self.limits(end, &stretch.after(length)),
             ];
             for (which, why) in watched.into_iter().enumerate() {
@@ -103,8 +113,7 @@ impl Walk<'_, '_> {
                 }
             }
         }
-        let instant = self.turning.at(self.corner, start, &stretch.ground);
-        let now = fresh.unwrap_or_else(|| instant.contact_acceleration(&self.reactions(&instant)));
+        let now = fresh.unwrap_or_else(|| instant.contact_acceleration(&reactions));
         let speeds = [start, end].map(|y| self.turning.contact_velocity(self.corner, y));
         if let Some(way) = self.mode.slip() {
             let s = way.sign();
@@ -133,6 +142,10 @@ impl Walk<'_, '_> {
             return Some((t, Cause::Normal, state)).filter(|_| t.is_finite());
         }
         let (near, why, which) = first?;
+        if near <= 0.0 && fresh.is_some() && length > SHORT {
+            // What has just been chosen ends at once: on a shorter step one sees whether it does.
+            return Some((f64::NAN, why, *start));
+        }
         let found = match why {
             Cause::Normal | Cause::Cone => self.located(start, rate, stretch, [near, length], |y, t| {
                 self.limits(y, &stretch.after(t))[which].0
@@ -189,6 +202,8 @@ impl Walk<'_, '_> {
         let slope = ((v - v_before) / (t - before)).abs();
         let reach = slope * 1e-9 * length;
         let settled = v == 0.0 || (v - v_before).abs() == 0.0 || v.abs() <= reach;
-        (settled && v.is_finite()).then_some((t, state))
+        // A gap that has just begun to open is zero at the start of the step, too.
+        let back = t < 1e-6 * guess;
+        (settled && !back && v.is_finite()).then_some((t, state))
     }
 }

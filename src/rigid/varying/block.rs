@@ -232,7 +232,7 @@ impl TurningBlock {
                 centrifugal[i] = -square * (m * own + mw * r[i] * kw);
             }
         }
-        let load = self.load(corner, state, ground, [b, d], &p, &r);
+        let load = self.load(corner, state, ground, [sine, cosine], &p, &r);
         let ahead = match corner {
             Corner::Heel => self.width,
             Corner::Toe => -self.width,
@@ -274,13 +274,12 @@ impl TurningBlock {
         corner: Corner,
         state: &State,
         ground: &Ground,
-        [b, d]: [f64; 2],
+        [sine, cosine]: [f64; 2],
         p: &[f64; 2],
         r: &Vector,
     ) -> Vector {
         let from = self.place(corner);
         let theta = state[2];
-        let [sine, cosine] = self.turned(theta);
         let [e1, e2] = self.horizontal;
         // Weight and the ground's inertia force act on the centroid; the water is moved sideways only.
         let [horizontal, up, spin] = *ground;
@@ -300,6 +299,7 @@ impl TurningBlock {
             load[i] -= self.water_mass * r[i] * driven;
         }
         if self.rotation == Rotation::PDelta {
+            let (b, d) = (self.centroid[0] - from, self.centroid[1]);
             load[2] -= theta * self.mass * down * (b * e2 - d * e1);
         }
         for (dead, factor) in [(&self.dead, 1.0), (&self.per_vertical, up)] {
@@ -312,7 +312,10 @@ impl TurningBlock {
             load[1] += factor * dead[1];
             load[2] += factor * (cosine * about - sine * virial);
         }
-        let slope = self.lift(1.0, theta);
+        let slope = match self.rotation {
+            Rotation::Finite => sine,
+            _ => theta,
+        };
         let heel_gap = state[1] - from * slope;
         let [lifting, about_heel] = self.water.force(heel_gap, slope);
         load[1] += lifting;

@@ -66,6 +66,9 @@ impl Walk<'_, '_> {
             [slip, heel, toe, y[5]]
         };
         let (speeds, last) = (velocities(start), velocities(end));
+        if (0..4).all(|i| speeds[i] * last[i] >= 0.0) {
+            return;
+        }
         let instant = self.turning.at(self.corner, start, &stretch.ground);
         let [slip, heel, toe] = instant.contact_acceleration(&self.reactions(&instant));
         for (i, a0) in [slip, heel, toe, rate[5]].into_iter().enumerate() {

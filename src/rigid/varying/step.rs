@@ -7,9 +7,11 @@ pub type State = [f64; SIZE];
 
 const STAGES: usize = 12;
 
-/// Result of a step: the state at its end and the error estimate, relative to the tolerance: at most 1 is good.
+/// Result of a step: the state at its end, its rate of change there, and the error estimate, relative to the tolerance:
+/// at most 1 is good.
 pub struct Step {
     pub end: State,
+    pub rate: State,
     pub error: f64,
 }
 
@@ -48,7 +50,25 @@ pub fn step(
     } else {
         length * fifth / (together * SIZE as f64).sqrt()
     };
-    Step { end, error }
+    Step {
+        end,
+        rate: last,
+        error,
+    }
+}
+
+/// Displacements, rotation and velocities in the middle of a step, on the polynomial of degree 5 through both ends with
+/// their velocities and accelerations; the works are left at zero.
+pub fn middle(ends: [&State; 2], rates: [&State; 2], length: f64) -> State {
+    let mut at = [0.0; SIZE];
+    for j in 0..3 {
+        let [y0, y1] = ends.map(|y| y[j]);
+        let [v0, v1] = ends.map(|y| y[j + 3]);
+        let [a0, a1] = rates.map(|y| y[j + 3]);
+        at[j] = 0.5 * (y0 + y1) + length * (5.0 / 32.0 * (v0 - v1) + length / 64.0 * (a0 + a1));
+        at[j + 3] = 1.875 * (y1 - y0) / length - 0.4375 * (v0 + v1) + length / 32.0 * (a1 - a0);
+    }
+    at
 }
 
 fn along(start: &State, length: f64, weights: &[f64], k: &[State; STAGES]) -> State {
@@ -281,6 +301,21 @@ mod tests {
         };
         let ratio = error(1.6) / error(0.8);
         assert!((300.0..1500.0).contains(&ratio), "{ratio}");
+    }
+
+    #[test]
+    fn the_middle_of_a_quintic_is_exact() {
+        let (y, v, a) = (
+            |t: f64| t.powi(5),
+            |t: f64| 5.0 * t.powi(4),
+            |t: f64| 20.0 * t.powi(3),
+        );
+        let state = |t: f64| [y(t), 0.0, -y(t), v(t), 0.0, -v(t), 1.0, 1.0];
+        let rate = |t: f64| [v(t), 0.0, -v(t), a(t), 0.0, -a(t), 0.0, 0.0];
+        let found = middle([&state(1.0), &state(3.0)], [&rate(1.0), &rate(3.0)], 2.0);
+        assert!((found[0] - 32.0).abs() < 1e-12 && (found[3] - 80.0).abs() < 1e-12);
+        assert!((found[2] + 32.0).abs() < 1e-12 && (found[5] + 80.0).abs() < 1e-12);
+        assert_eq!([found[1], found[4], found[6], found[7]], [0.0; 4]);
     }
 
     #[test]

@@ -19,6 +19,8 @@ const TOLERANCE: f64 = 1e-12;
 const UNIT: f64 = 1e-9;
 /// A moving block's accelerations change with its motion, too: their rate is taken over at most so many seconds.
 const AHEAD: f64 = 1e-4;
+/// A limit is far off by more than this part of the forces at hand: well beyond what rounding could make of it.
+const CLEAR: f64 = 1e-9;
 
 pub(super) struct Walk<'a, 'h> {
     pub(super) block: &'a Block,
@@ -38,6 +40,8 @@ pub(super) struct Walk<'a, 'h> {
     pub(super) log: &'a mut Vec<Event>,
     pub(super) histories: Option<&'a mut Histories<'h>>,
     pub(super) standing: u32,
+    /// Of a block at rest, see `reserve_at_rest`; none until it is asked for.
+    reserve: Option<[[f64; 4]; 4]>,
 }
 
 /// Run one block through one motion; the arguments are those of [`super::super::simulate::simulate`]. Returns the
@@ -87,6 +91,7 @@ pub fn simulate<'h>(
         log,
         histories,
         standing: 0,
+        reserve: None,
     };
     walk.place(&position, &velocity);
     walk.strain();
@@ -136,6 +141,7 @@ impl Walk<'_, '_> {
             self.summary.outcome = Outcome::Unstable;
             return;
         }
+        let mut held = false;
         for k in 0..motion.time.len() - 1 {
             let (t0, t1) = (motion.time[k], motion.time[k + 1]);
             let length = t1 - t0;
@@ -144,9 +150,21 @@ impl Walk<'_, '_> {
             }
             let (a0, a1) = (motion.at(k), motion.at(k + 1));
             let rate = [0, 1, 2].map(|i| (a1[i] - a0[i]) / length);
+            if held && self.mode == Mode::Rest && self.rests([&a0, &a1]) {
+                let state = self.state;
+                let stretch = Stretch {
+                    ground: a0,
+                    rate,
+                    left: length,
+                };
+                self.move_on(&state, &[0.0; 8], &state, &stretch, length, t0);
+                continue;
+            }
             let mut local = 0.0;
             let mut cause = None;
-            let mut chosen = false;
+            // What ends a motion is watched all the time: it goes on where the ground does.
+            let mut chosen = held && self.mode != Mode::Rest && t0 > motion.time[k - 1];
+            held = true;
             while local < length {
                 let stretch = Stretch {
                     ground: [0, 1, 2].map(|i| a0[i] + rate[i] * local),
@@ -188,6 +206,7 @@ impl Walk<'_, '_> {
                 }
             }
             if let Some(left) = cause {
+                held = false;
                 // The event fell on the very end of the piece: it belongs to the next.
                 let after = Stretch {
                     ground: a1,
@@ -208,6 +227,28 @@ impl Walk<'_, '_> {
         };
         let state = self.state;
         self.record(&state, &last, f64::INFINITY, self.summary.end_time);
+    }
+
+    /// Whether a block at rest stays so, clear of every limit, while the ground's acceleration goes straight from one of
+    /// `ends` to the other.
+    fn rests(&mut self, ends: [&Ground; 2]) -> bool {
+        let [still, across, up, turning] = self.reserve.unwrap_or_else(|| self.reserve_at_rest());
+        self.reserve = Some([still, across, up, turning]);
+        let clear = CLEAR * self.block.force_scale;
+        ends.iter()
+            .all(|[a, b, c]| (0..4).all(|i| still[i] + a * across[i] + b * up[i] + c * turning[i] > clear))
+    }
+
+    /// The limits of [`Self::limits`] in a still ground, and what each unit of the ground's acceleration adds to them: a
+    /// block at rest is under loads that are linear in it.
+    fn reserve_at_rest(&self) -> [[f64; 4]; 4] {
+        let of = |ground: Ground| self.limits(&self.state, &ground).map(|(value, _)| value);
+        let still = of([0.0; 3]);
+        let per = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|unit| {
+            let with = of(unit);
+            [0, 1, 2, 3].map(|i| with[i] - still[i])
+        });
+        [still, per[0], per[1], per[2]]
     }
 
     fn closed(&self) -> [bool; 2] {
@@ -299,6 +340,7 @@ impl Walk<'_, '_> {
         };
         self.mode = after;
         self.summary.mode = after;
+        self.reserve = None;
         self.starting = Some(first);
         let stays = match after {
             Mode::Rock(corner) | Mode::SlideRock(corner, _) => corner,
@@ -462,7 +504,11 @@ impl Walk<'_, '_> {
     /// Normal forces and what is left of the friction cone, both ways, at a state; sizes to judge them by.
     pub(super) fn limits(&self, state: &State, ground: &Ground) -> [(f64, f64); 4] {
         let instant = self.turning.at(self.corner, state, ground);
-        let [friction, heel, toe] = self.reactions(&instant);
+        self.limits_under(&self.reactions(&instant))
+    }
+
+    pub(super) fn limits_under(&self, reactions: &Vector) -> [(f64, f64); 4] {
+        let [friction, heel, toe] = *reactions;
         let scale = self.block.force_scale;
         let mu = self.block.friction_static;
         let size = |force: f64| scale.max(force.abs());
