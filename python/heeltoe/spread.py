@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import Any
 
@@ -146,10 +147,16 @@ def _varying(
 ) -> tuple[dict[str, Floats], NDArray[np.bool_]]:
     shaking = GroundSeries.of(*motions, end)
     rows = []
-    for done, scale in enumerate(scales):
-        if told is not None:
-            told(done, scales.size)
-        rows.append(run_block(case, block, shaking.scaled(float(scale)), np.empty(0))[0])
+
+    def run(scale: float) -> Floats:
+        return run_block(case, block, shaking.scaled(scale), np.empty(0))[0]
+
+    # The kernel lets go of the interpreter.
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        for done, row in enumerate(pool.map(run, scales.tolist())):
+            if told is not None:
+                told(done, scales.size)
+            rows.append(row)
     table = np.array(rows)
     return _with_openings({name: table[:, k] for k, name in enumerate(_kernel.SUMMARY_FIELDS)}, block)
 
