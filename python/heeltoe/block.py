@@ -109,15 +109,22 @@ class Block:
         return self.heel_distance + self.toe_distance
 
     @property
+    def concrete_mass(self) -> float:
+        """Mass of the concrete alone [kg/m]; `mass_vertical` has water in it where the crack is inclined."""
+        weight = next(force for force in self.forces if force.name == "weight")
+        return -weight.vertical / self.gravity
+
+    @property
     def normal_force(self) -> float:
         """Effective weight on the crack, water pressure taken off [N/m]."""
         return -self.static.vertical
 
     @property
     def sliding_safety_factor(self) -> float | None:
-        """Friction there is over friction needed under the static loads; None where none is needed."""
+        """Friction there is over friction needed under the static loads; None where none is needed, zero where the
+        water lifts the block."""
         needed = abs(self.static.horizontal)
-        return self.friction_static * self.normal_force / needed if needed > 0.0 else None
+        return self.friction_static * max(0.0, self.normal_force) / needed if needed > 0.0 else None
 
     @property
     def resultant_position(self) -> float | None:
