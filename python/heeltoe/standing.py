@@ -61,6 +61,6 @@ def _opened(case: Case, block: Block, solved: Solved) -> tuple[str, ...]:
             remedy += " and intensity = 1"
     return (
         f"the usual loads open {found.cracked_length_m:.2f} m of the crack from its {found.cracked_from}, "
-        f"{share:.2g} % of its width; the water that follows lifts with {change / 1e3:.4g} kN/m more than the uplift of "
-        f"the case, which this run keeps: {remedy}",
+        f"{share:.2g} % of its width; the water that follows lifts with {change / 1e3:.4g} kN/m more than the uplift "
+        f"of the case, which this run keeps: {remedy}",
     )
