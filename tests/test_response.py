@@ -195,3 +195,11 @@ def test_a_block_that_leaves_its_place_is_a_warning(friction, words):
     assert (words is None and not said) or words in said[0]
     # To 10 % of the width nothing is said.
     assert (response.peak_slip_downstream_m <= 0.1) == (words is None)
+
+
+def test_slip_in_the_air_is_a_warning():
+    # The dam of the thesis that hops: none of its slip is there where impacts do not rebound.
+    bouncing, still = (rigid(read_case(KOYNA, [f"crack.restitution={e}", "crack.friction=1.5"])) for e in (0.5, 0.0))
+    assert any("happens in the air" in text for text in bouncing.warnings)
+    assert not any("happens in the air" in text for text in still.warnings)
+    assert abs(still.residual_slip_m) < 0.1 * abs(bouncing.residual_slip_m)

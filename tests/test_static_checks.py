@@ -250,6 +250,25 @@ def test_the_command_says_when_the_rigid_model_has_no_slip():
     assert "unstable" in json.loads(shown.stdout)["slip_source"]
 
 
+def test_an_overturned_block_does_not_stand_after_the_earthquake():
+    pulse = 'motion.points=[["0 s", "-1 g"], ["1 s", "-1 g"], ["1 s", "0 g"], ["6 s", "0 g"]]'
+    shown = command("statics", ROOT / "examples" / "slender.toml", "--set", pulse, "--json", "-")
+    assert shown.returncode == 0, shown.stderr
+    data = json.loads(shown.stdout)
+    assert "post-seismic" not in [each["name"] for each in data["cases"]]
+    assert data["checks"][-1]["sentence"] == (
+        "post-seismic: the earthquake overturns the block about its toe: nothing stands after it"
+    )
+    assert not data["ok"]
+    assert "nothing stands after it" in shown.stderr
+
+
+def test_a_slip_that_has_not_ended_is_said_to_go_on():
+    block = ROOT / "examples" / "block.toml"
+    shown = command("statics", block, "--set", "motion.duration=0.15s", "--json", "-")
+    assert json.loads(shown.stdout)["slip_source"].endswith(", still moving when the run ends")
+
+
 def test_the_command_refuses_what_it_does_not_know():
     shown = command("statics", ROOT / "examples" / "block.toml", "--criteria", "ICOLD")
     assert shown.returncode == 2
