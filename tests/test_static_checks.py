@@ -97,6 +97,34 @@ def test_a_crack_that_the_usual_loads_open_is_warned_about():
     assert heeltoe.statics(dam()).warnings == ()
 
 
+def test_water_as_deep_on_both_sides_pushes_nothing():
+    # Faces of several edges, whose pressures sum up to the same but for rounding.
+    corners = [(0.0, 0.0), (15.3, 0.0), (9.18, 8.35), (6.12, 16.7), (2.7, 16.7), (1.1, 5.9)]
+    water = {"depth": "14.83 m"}
+    for scale in (1.0, 1.1, 1.3, 1.7):
+        case = heeltoe.read_case(
+            {
+                "section": {"polygon": [[f"{scale * x!r} m", f"{scale * z!r} m"] for x, z in corners]},
+                "crack": {"friction": 0.8},
+                "reservoir": water,
+                "tailwater": water,
+            }
+        )
+        assert heeltoe.build_block(case).sliding_safety_factor is None
+        assert only(heeltoe.statics(case), "usual").sliding_factor is None
+
+
+@pytest.mark.parametrize(
+    ("choice", "words"),
+    [
+        ({"flood_depth": "30 m"}, "the flood is lower than the"),
+        ({"residual_friction": 1.7}, "more than the friction of the crack before"),
+    ],
+)
+def test_choices_that_hardly_can_be_meant(choice, words):
+    assert any(words in text for text in heeltoe.statics(dam(statics=choice), 0.0).warnings)
+
+
 def test_anchors_that_gain_by_slip_are_warned_about():
     anchor = {"distance": "10 m", "prestress": "1 MN/m", "shear_stiffness": "10 MN/m/m"}
     result = heeltoe.statics(dam(anchors=[anchor]), 0.1)

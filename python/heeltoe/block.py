@@ -19,6 +19,9 @@ from heeltoe.case_model import Case
 from heeltoe.loads import Resultant, VirtualMass, concrete_mass, face_at, static_forces, total, virtual_mass
 from heeltoe.section import CutSection, cut
 
+#: A sum of forces that is a smaller part of them is none.
+ROUNDING_OF_FORCES = 1e-13
+
 
 @dataclass(frozen=True)
 class CriticalAccelerations:
@@ -124,7 +127,9 @@ class Block:
         """Friction there is over friction needed under the static loads; None where none is needed, zero where the
         water lifts the block."""
         needed = abs(self.static.horizontal)
-        return self.friction_static * max(0.0, self.normal_force) / needed if needed > 0.0 else None
+        # Equal water on both sides leaves the rounding of its forces.
+        rounding = ROUNDING_OF_FORCES * sum(abs(force.horizontal) + abs(force.vertical) for force in self.forces)
+        return self.friction_static * max(0.0, self.normal_force) / needed if needed > rounding else None
 
     @property
     def resultant_position(self) -> float | None:

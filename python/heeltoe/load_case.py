@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from heeltoe.block import ROUNDING_OF_FORCES
 from heeltoe.crack_water import CrackWater, Floats, force_and_moment
 from heeltoe.criteria import Loads
 from heeltoe.loads import Resultant, total
@@ -151,6 +152,8 @@ def solve_case(
     forces = (*forces, _uplift(settled.profile, section))
     across = [_across(force, section) for force in forces]
     shear = math.fsum(force.horizontal for force in across)
+    if abs(shear) <= ROUNDING_OF_FORCES * math.fsum(abs(force.horizontal) + abs(force.vertical) for force in across):
+        shear = 0.0
     friction, cohesion = strength
     closed = (contact.start + settled.heel_crack, contact.end - settled.toe_crack)
     pressed = _in_compression(closed, settled)

@@ -154,6 +154,11 @@ def statics(
             f"the usual loads open the crack by {before.load_case.cracked_length_m:.2f} m, and water follows; the "
             "critical accelerations keep the case's uplift, as the time histories do at the start"
         )
+    usual_depth = case.reservoir.depth if case.reservoir else 0.0
+    if choice.flood_depth is not None and choice.flood_depth < usual_depth:
+        warnings.append(f"statics.flood_depth: the flood is lower than the {usual_depth:g} m of the usual loads")
+    if choice.residual_friction is not None and choice.residual_friction > case.crack.mu_static:
+        warnings.append("statics.residual_friction: more than the friction of the crack before it has slid")
     if any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors):
         warnings.append("anchors: the static checks count their prestress, not what opening and slip would add")
     references = dict.fromkeys(check.source for check in checks if check.required is not None)
