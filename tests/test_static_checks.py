@@ -114,6 +114,24 @@ def test_water_as_deep_on_both_sides_pushes_nothing():
         assert only(heeltoe.statics(case), "usual").sliding_factor is None
 
 
+def test_the_earthquake_finds_no_bond_where_the_usual_loads_have_opened_the_toe():
+    # Water downstream alone lifts the toe; the earthquake that closes it again does not bond it.
+    case = heeltoe.read_case(
+        {
+            "section": {"polygon": [["0 m", "0 m"], ["10 m", "0 m"], ["8 m", "20 m"], ["1 m", "20 m"]]},
+            "crack": {"friction": 0.8},
+            "tailwater": {"depth": "15 m"},
+            "statics": {"bonded": 0.4, "cohesion": "1 MPa", "seismic_coefficient": 0.2},
+        }
+    )
+    result = heeltoe.statics(case)
+    opened = only(result, "usual")
+    assert (opened.cracked_from, opened.cracked_length_m > 1.0) == ("toe", True)
+    closed = only(result, "pseudo-static downstream")
+    assert closed.cracked_length_m == 0.0
+    assert closed.cohesive_force_n == pytest.approx(1e6 * (4.0 - opened.cracked_length_m), rel=1e-9)
+
+
 @pytest.mark.parametrize(
     ("choice", "words"),
     [

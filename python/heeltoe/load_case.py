@@ -157,7 +157,8 @@ def solve_case(
     friction, cohesion = strength
     closed = (contact.start + settled.heel_crack, contact.end - settled.toe_crack)
     pressed = _in_compression(closed, settled)
-    cohesive = cohesion * max(0.0, pressed[1] - max(pressed[0], contact.bonded_from))
+    bonded = max(pressed[0], contact.bonded_from), min(pressed[1], contact.bonded_to)
+    cohesive = cohesion * max(0.0, bonded[1] - bonded[0])
     about = "heel" if shear < 0.0 else "toe"
     down = -math.fsum(min(0.0, force.vertical) for force in across)
     up = math.fsum(max(0.0, force.vertical) for force in across)
