@@ -3,6 +3,7 @@
 import pytest
 
 from heeltoe import build_block, read_case
+from heeltoe.rigid_model import static_state
 from heeltoe.validation.plain import rectangle
 
 TYPICAL = {
@@ -100,3 +101,16 @@ def test_resultant_of_a_free_standing_rectangle_is_in_the_middle():
     assert critical.sliding == pytest.approx(0.7 * g)
     assert critical.rocking == pytest.approx(6.0 / 9.0 * g)
     assert block.parameters() == pytest.approx(rectangle(6.0, 9.0, 0.7, gravity=g, restitution=0.5))
+
+
+def test_concrete_above_an_inclined_crack_has_no_water_in_its_mass():
+    case = read_case({**TYPICAL, "crack": {"friction": 1.0, "elevation": "20 m", "inclination": "12 deg"}})
+    block = build_block(case)
+    assert static_state(block)["concrete_mass_kg"] == pytest.approx(2650.0 * block.section.area, rel=1e-12)
+    assert block.mass_vertical > 2650.0 * block.section.area
+
+
+def test_a_dam_that_floats_has_no_friction():
+    block = build_block(read_case({**TYPICAL, "uplift": {"pattern": "uniform", "intensity": 3.0}}))
+    assert block.normal_force < 0.0
+    assert block.sliding_safety_factor == 0.0

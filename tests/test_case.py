@@ -148,6 +148,11 @@ def test_case_cannot_be_changed():
         ({"uplift": {"intensity": 1.5}}, "uplift.intensity: 1.5"),
         ({"concrete": {"density": "150 kg/m^3"}}, "150 kg/m^3 is unusual"),
         ({"tailwater": {"depth": "96 m"}}, "deeper downstream"),
+        ({"crack": {"friction": 1.0, "elevation": "96 m"}}, "reservoir: it ends below the crack"),
+        ({"silt": {"depth": "96 m"}}, "silt is higher than the water"),
+        # 85 and 120 lb/ft^3, the fluids of USBR for silt and water together.
+        ({"silt": {"depth": "20 m", "horizontal_density": "85 lb/ft^3"}}, "as if the water were in them"),
+        ({"silt": {"depth": "20 m", "vertical_density": "120 lb/ft^3"}}, "as if the water were in them"),
     ],
 )
 def test_warnings(changes, words):

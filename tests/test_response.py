@@ -179,3 +179,27 @@ def test_a_floating_and_an_overturning_dam_are_told_apart():
     text = advice(crack={"friction": 2.0}, reservoir={"depth": "55 m"})
     assert "overturns about its toe" in text
     assert "sliding safety factor 0." in advice(crack={"friction": 0.2}, reservoir={"depth": "40 m"})
+
+
+@pytest.mark.parametrize(
+    ("friction", "words"), [(0.9, None), (0.4, "% of the width of its crack"), (0.1, "has left what it stood on")]
+)
+def test_a_block_that_leaves_its_place_is_a_warning(friction, words):
+    pushed = 'motion.points=[["0 s", "-1 g"], ["0.3 s", "-1 g"], ["0.3 s", "0 g"], ["4 s", "0 g"]]'
+    case = read_case(
+        ROOT / "examples" / "block.toml",
+        [f"crack.friction={friction}", pushed, "motion.duration=4s", "crack.restitution=0"],
+    )
+    response = rigid(case)
+    said = [text for text in response.warnings if text.startswith("the block slides")]
+    assert (words is None and not said) or words in said[0]
+    # To 10 % of the width nothing is said.
+    assert (response.peak_slip_downstream_m <= 0.1) == (words is None)
+
+
+def test_slip_in_the_air_is_a_warning():
+    # The dam of the thesis that hops: none of its slip is there where impacts do not rebound.
+    bouncing, still = (rigid(read_case(KOYNA, [f"crack.restitution={e}", "crack.friction=1.5"])) for e in (0.5, 0.0))
+    assert any("happens in the air" in text for text in bouncing.warnings)
+    assert not any("happens in the air" in text for text in still.warnings)
+    assert abs(still.residual_slip_m) < 0.1 * abs(bouncing.residual_slip_m)

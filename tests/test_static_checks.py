@@ -97,6 +97,52 @@ def test_a_crack_that_the_usual_loads_open_is_warned_about():
     assert heeltoe.statics(dam()).warnings == ()
 
 
+def test_water_as_deep_on_both_sides_pushes_nothing():
+    # Faces of several edges, whose pressures sum up to the same but for rounding.
+    corners = [(0.0, 0.0), (15.3, 0.0), (9.18, 8.35), (6.12, 16.7), (2.7, 16.7), (1.1, 5.9)]
+    water = {"depth": "14.83 m"}
+    for scale in (1.0, 1.1, 1.3, 1.7):
+        case = heeltoe.read_case(
+            {
+                "section": {"polygon": [[f"{scale * x!r} m", f"{scale * z!r} m"] for x, z in corners]},
+                "crack": {"friction": 0.8},
+                "reservoir": water,
+                "tailwater": water,
+            }
+        )
+        assert heeltoe.build_block(case).sliding_safety_factor is None
+        assert only(heeltoe.statics(case), "usual").sliding_factor is None
+
+
+def test_the_earthquake_finds_no_bond_where_the_usual_loads_have_opened_the_toe():
+    # Water downstream alone lifts the toe; the earthquake that closes it again does not bond it.
+    case = heeltoe.read_case(
+        {
+            "section": {"polygon": [["0 m", "0 m"], ["10 m", "0 m"], ["8 m", "20 m"], ["1 m", "20 m"]]},
+            "crack": {"friction": 0.8},
+            "tailwater": {"depth": "15 m"},
+            "statics": {"bonded": 0.4, "cohesion": "1 MPa", "seismic_coefficient": 0.2},
+        }
+    )
+    result = heeltoe.statics(case)
+    opened = only(result, "usual")
+    assert (opened.cracked_from, opened.cracked_length_m > 1.0) == ("toe", True)
+    closed = only(result, "pseudo-static downstream")
+    assert closed.cracked_length_m == 0.0
+    assert closed.cohesive_force_n == pytest.approx(1e6 * (4.0 - opened.cracked_length_m), rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("choice", "words"),
+    [
+        ({"flood_depth": "30 m"}, "the flood is lower than the"),
+        ({"residual_friction": 1.7}, "more than the friction of the crack before"),
+    ],
+)
+def test_choices_that_hardly_can_be_meant(choice, words):
+    assert any(words in text for text in heeltoe.statics(dam(statics=choice), 0.0).warnings)
+
+
 def test_anchors_that_gain_by_slip_are_warned_about():
     anchor = {"distance": "10 m", "prestress": "1 MN/m", "shear_stiffness": "10 MN/m/m"}
     result = heeltoe.statics(dam(anchors=[anchor]), 0.1)
@@ -248,6 +294,25 @@ def test_the_command_says_when_the_rigid_model_has_no_slip():
     shown = command("statics", ROOT / "examples" / "block.toml", "--set", "reservoir.depth=1m", "--json", "-")
     assert shown.returncode == 0, shown.stderr
     assert "unstable" in json.loads(shown.stdout)["slip_source"]
+
+
+def test_an_overturned_block_does_not_stand_after_the_earthquake():
+    pulse = 'motion.points=[["0 s", "-1 g"], ["1 s", "-1 g"], ["1 s", "0 g"], ["6 s", "0 g"]]'
+    shown = command("statics", ROOT / "examples" / "slender.toml", "--set", pulse, "--json", "-")
+    assert shown.returncode == 0, shown.stderr
+    data = json.loads(shown.stdout)
+    assert "post-seismic" not in [each["name"] for each in data["cases"]]
+    assert data["checks"][-1]["sentence"] == (
+        "post-seismic: the earthquake overturns the block about its toe: nothing stands after it"
+    )
+    assert not data["ok"]
+    assert "nothing stands after it" in shown.stderr
+
+
+def test_a_slip_that_has_not_ended_is_said_to_go_on():
+    block = ROOT / "examples" / "block.toml"
+    shown = command("statics", block, "--set", "motion.duration=0.15s", "--json", "-")
+    assert json.loads(shown.stdout)["slip_source"].endswith(", still moving when the run ends")
 
 
 def test_the_command_refuses_what_it_does_not_know():

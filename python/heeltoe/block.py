@@ -19,6 +19,9 @@ from heeltoe.case_model import Case
 from heeltoe.loads import Resultant, VirtualMass, concrete_mass, face_at, static_forces, total, virtual_mass
 from heeltoe.section import CutSection, cut
 
+#: A sum of forces that is a smaller part of them is none.
+ROUNDING_OF_FORCES = 1e-13
+
 
 @dataclass(frozen=True)
 class CriticalAccelerations:
@@ -109,15 +112,24 @@ class Block:
         return self.heel_distance + self.toe_distance
 
     @property
+    def concrete_mass(self) -> float:
+        """Mass of the concrete alone [kg/m]; `mass_vertical` has water in it where the crack is inclined."""
+        weight = next(force for force in self.forces if force.name == "weight")
+        return -weight.vertical / self.gravity
+
+    @property
     def normal_force(self) -> float:
         """Effective weight on the crack, water pressure taken off [N/m]."""
         return -self.static.vertical
 
     @property
     def sliding_safety_factor(self) -> float | None:
-        """Friction there is over friction needed under the static loads; None where none is needed."""
+        """Friction there is over friction needed under the static loads; None where none is needed, zero where the
+        water lifts the block."""
         needed = abs(self.static.horizontal)
-        return self.friction_static * self.normal_force / needed if needed > 0.0 else None
+        # Equal water on both sides leaves the rounding of its forces.
+        rounding = ROUNDING_OF_FORCES * sum(abs(force.horizontal) + abs(force.vertical) for force in self.forces)
+        return self.friction_static * max(0.0, self.normal_force) / needed if needed > rounding else None
 
     @property
     def resultant_position(self) -> float | None:

@@ -101,7 +101,11 @@ def statics(
             response = rigid(loaded)
             if response.outcome == "ok":
                 source = f"rigid model, {response.motion.name}, PGA {response.motion.pga / response.gravity:.4g} g"
+                if response.final_mode != "rest":
+                    source += ", still moving when the run ends"
                 found = judge(loaded, response.residual_slip_m, slip_source=source)
+            elif response.outcome == "overturned":
+                found = judge(loaded, overturned_about=response.overturned_about)
             else:
                 found = judge(loaded, 0.0, slip_source=f"the rigid model ends {response.outcome!r}, zero is taken")
         else:

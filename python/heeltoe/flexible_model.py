@@ -31,8 +31,9 @@ _STEPS_PER_PERIOD = 100.0
 _SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
 #: What acts in the crack may ask for a shorter one, down to this.
 _SHORTEST_OF_ALL = 1e-5
-#: A given step must follow that vibration at least so closely.
-_FEWEST_STEPS = 8.0
+#: So closely the program's own step follows it, as from a sixteenth on the contact problem is next to singular; and so
+#: closely at least a given one must.
+_ENOUGH_STEPS, _FEWEST_STEPS = 30.0, 8.0
 #: Frames kept: enough for an animation, few enough for memory.
 _FRAME_STEP = 0.01
 _SHORTEST_FRAME_STEP = 1e-3
@@ -131,12 +132,12 @@ def flexible(
     shaken = Shaken(case, dam, motion, vertical, end)
     raw, frames, convergence = _converged(shaken, output_step or min(_FRAME_STEP, end))
     outcome = _kernel.CRACK_OUTCOMES[int(raw["outcome"])]
-    safety = build_block(case).sliding_safety_factor
+    block = build_block(case)
+    safety = block.sliding_safety_factor
     # Anchors with stiffness hold what friction does not.
     if outcome == "ok" and safety is not None and safety < 1.0 and not dam.anchors:
         outcome = "unstable"
     record = _history(frames, dam, case.flexible.contactors)
-    block = build_block(case)
     advice = ADVICE.get(outcome)
     summary = _summary(raw, dam, shaken, convergence)
     if case.anchors:
@@ -150,7 +151,7 @@ def flexible(
         warnings=(
             *case_warnings(case),
             *motion.warnings,
-            *_warnings(case, dam, raw, record, convergence, block.sliding_safety_factor, _last_change(frames[0])),
+            *_warnings(case, dam, raw, record, convergence, safety, _last_change(frames[0])),
         ),
         summary=summary,
         energy=_energy(raw),
@@ -191,7 +192,8 @@ class Shaken:
         """
         period = float(part_periods(self.dam.modes[0], 1)[0])
         given = self.case.flexible.time_step
-        wanted = given or float(np.clip(period / _STEPS_PER_PERIOD, _SHORTEST_STEP, _LONGEST_STEP))
+        shortest = max(_SHORTEST_OF_ALL, min(_SHORTEST_STEP, period / _ENOUGH_STEPS))
+        wanted = given or float(np.clip(period / _STEPS_PER_PERIOD, shortest, _LONGEST_STEP))
         dam = self.dam
         step, field = longest_step(dam.parts, dam.water, dam.anchors, self.case.flexible.theta, wanted)
         if step < (wanted if given else _SHORTEST_OF_ALL):
@@ -467,7 +469,7 @@ def _warnings(
         )
     if raw["contact_residual"] > 1e-6:
         said.append(
-            f"the contact conditions hold only to {raw['contact_residual']:.1e} of the impulse in the worst step"
+            f"contact holds only to {raw['contact_residual']:.1e} of the impulse: give a shorter flexible.time_step"
         )
     if raw["energy_residual"] > 1e-9:
         said.append(f"the energy ledger does not close: residual {raw['energy_residual']:.1e} of the turnover")

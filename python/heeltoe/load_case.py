@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from heeltoe.block import ROUNDING_OF_FORCES
 from heeltoe.crack_water import CrackWater, Floats, force_and_moment
 from heeltoe.criteria import Loads
 from heeltoe.loads import Resultant, total
@@ -151,10 +152,13 @@ def solve_case(
     forces = (*forces, _uplift(settled.profile, section))
     across = [_across(force, section) for force in forces]
     shear = math.fsum(force.horizontal for force in across)
+    if abs(shear) <= ROUNDING_OF_FORCES * math.fsum(abs(force.horizontal) + abs(force.vertical) for force in across):
+        shear = 0.0
     friction, cohesion = strength
     closed = (contact.start + settled.heel_crack, contact.end - settled.toe_crack)
     pressed = _in_compression(closed, settled)
-    cohesive = cohesion * max(0.0, pressed[1] - max(pressed[0], contact.bonded_from))
+    bonded = max(pressed[0], contact.bonded_from), min(pressed[1], contact.bonded_to)
+    cohesive = cohesion * max(0.0, bonded[1] - bonded[0])
     about = "heel" if shear < 0.0 else "toe"
     down = -math.fsum(min(0.0, force.vertical) for force in across)
     up = math.fsum(max(0.0, force.vertical) for force in across)

@@ -71,6 +71,10 @@ REFERENCES = {
 
 # A block that rotates by more than this part of what would overturn it is pulled back noticeably less by its weight.
 _SHARE_OF_SLENDERNESS = 0.1
+# Less slip [m] changes no decision.
+_SLIP_TO_TALK_ABOUT = 1e-3
+# A slip of this part of the crack's width takes as much off what the block stands on.
+_SHARE_OF_WIDTH = 0.1
 
 
 def rigid(
@@ -333,7 +337,7 @@ def static_state(block: Block) -> dict[str, Any]:
         "resultant_from_heel_m": block.resultant_position,
         "normal_force_n": block.normal_force,
         "horizontal_force_n": block.static.horizontal,
-        "concrete_mass_kg": block.mass_vertical,
+        "concrete_mass_kg": block.concrete_mass,
         "virtual_mass_kg": block.water.mass,
     }
 
@@ -384,6 +388,23 @@ def _warnings(case: Case, raw: dict[str, float], outcome: str, block: Block, ten
     if raw["jams"]:
         said.append(
             f"{int(raw['jams'])} Painlevé paradox(es) were resolved by a tangential impact, as analysis.paradox asks"
+        )
+    largest = max(raw["slip_max"], -raw["slip_min"])
+    in_the_air, sliding = abs(raw["slip_drifting"]), abs(raw["slip_sliding"]) + abs(raw["slip_slide_rocking"])
+    if case.crack.restitution > 0.0 and in_the_air > max(sliding, _SLIP_TO_TALK_ABOUT):
+        said.append(
+            f"most of the slip, {1e3 * in_the_air:.4g} mm, happens in the air after blows that rebound by "
+            f"crack.restitution = {case.crack.restitution:g}: compare with 0, which may leave a small part of it"
+        )
+    if outcome == "ok" and largest > block.width:
+        said.append(
+            f"the block slides {largest:.3g} m, farther than its crack of {block.width:.3g} m is wide: it has left "
+            "what it stood on, and the slip means failure, not a length"
+        )
+    elif outcome == "ok" and largest > _SHARE_OF_WIDTH * block.width:
+        said.append(
+            f"the block slides {100.0 * largest / block.width:.2g} % of the width of its crack: loads, contact and "
+            "uplift are those of the place where it began; heeltoe statics --slip judges where it ends"
         )
     # Integration is exact to a part of the crack's width, of which tiny motions are a tiny part.
     if raw["energy_residual"] > (1e-6 if varies(case) else 1e-9):

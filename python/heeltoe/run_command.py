@@ -181,6 +181,8 @@ def _analysis(
     case: Case, model: str, step: float | None, runs: int | None, say: Callable[[str], None]
 ) -> Response | Comparison:
     """Run what is asked for; `say` is told what goes on."""
+    from heeltoe.standing import with_standing
+
     result: Response | Comparison
     if model in _MODELS[:3]:
         say(f"running the {model} model")
@@ -189,7 +191,8 @@ def _analysis(
         from heeltoe.comparison import compare
 
         say("running both models")
-        result = compare(case, output_step=step, block="decoupled" if model.startswith("decoupled") else "rigid")
+        both = compare(case, output_step=step, block="decoupled" if model.startswith("decoupled") else "rigid")
+        result = both.with_responses(lambda response: with_standing(response, case))
     if runs is None:
         return result
 
@@ -207,17 +210,22 @@ def _analysis(
 
 def _run_model(case: Case, model: str, step: float | None) -> Response:
     """Run one of the models; what another one needs is not loaded."""
+    from heeltoe.standing import with_standing
+
+    found: Response
     if model == "rigid":
         from heeltoe.rigid_model import rigid
 
-        return rigid(case, output_step=step)
-    if model == "decoupled":
+        found = rigid(case, output_step=step)
+    elif model == "decoupled":
         from heeltoe.decoupled_model import decoupled
 
-        return decoupled(case, output_step=step)
-    from heeltoe.flexible_model import flexible
+        found = decoupled(case, output_step=step)
+    else:
+        from heeltoe.flexible_model import flexible
 
-    return flexible(case, output_step=step)
+        found = flexible(case, output_step=step)
+    return with_standing(found, case)
 
 
 def _print(result: Response | Comparison, console: Console) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from heeltoe.case_model import Case, Water
 from heeltoe.crack_water import still_water, water_in_earthquake
@@ -49,7 +50,11 @@ def pseudo_static(case: Case, section: CutSection, before: Solved) -> tuple[Solv
     vanishes, source = UPLIFT_IN_EARTHQUAKE[case.statics.criteria]
     still = _contact(case, section)
     opened = before.settled.heel_crack
-    contact = Contact(still.start, still.end, max(still.bonded_from, still.start + opened), still.tensile_strength)
+    contact = replace(
+        still,
+        bonded_from=max(still.bonded_from, still.start + opened),
+        bonded_to=still.end - before.settled.toe_crack,
+    )
     water = water_in_earthquake(before.settled.profile, still.start, still.end, opened, vanishes=vanishes)
     vertical = case.statics.vertical_seismic_coefficient
     found = []

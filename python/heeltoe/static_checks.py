@@ -73,9 +73,9 @@ def check_case(found: LoadCase, choice: Choice) -> tuple[Check, ...]:
     return tuple(checks)
 
 
-def slid_off(slip: float, width: float) -> Check:
-    """Return the check of a block that a slip has moved off its crack."""
-    text = f"post-seismic: a slip of {abs(slip):.2f} m leaves nothing of the {width:.2f} m that the block stood on"
+def fallen(words: str) -> Check:
+    """Return the check of a block that the earthquake leaves nowhere to stand, as the words say."""
+    text = f"post-seismic: {words}"
     return Check("post-seismic", "equilibrium", None, None, True, False, "equilibrium", "", text)
 
 

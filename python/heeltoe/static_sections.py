@@ -26,15 +26,18 @@ class Contact:
     start, end
         Distances from the heel of the block along the crack [m].
     bonded_from
-        From here to the end of the base the crack is bonded [m]; at or beyond `end` nowhere.
+        From here to `bonded_to` the crack is bonded [m]; at or beyond `end` nowhere.
     tensile_strength
         Of the bonded part [Pa]; the rest has none.
+    bonded_to
+        Where the bond ends [m]; the end of the base where nothing has opened it from the toe.
     """
 
     start: float
     end: float
     bonded_from: float
     tensile_strength: float = 0.0
+    bonded_to: float = math.inf
 
     @property
     def width(self) -> float:
@@ -131,9 +134,9 @@ class _State:
         """Return the tension that what lies just beyond the tip can bear [Pa]."""
         contact = self.contact
         bonded = (
-            contact.bonded_from <= contact.start + length < contact.end
+            contact.bonded_from <= contact.start + length < min(contact.end, contact.bonded_to)
             if side == "heel"
-            else contact.end - length > contact.bonded_from
+            else contact.bonded_from < contact.end - length <= contact.bonded_to
         )
         return contact.tensile_strength if bonded else 0.0
 
@@ -171,7 +174,7 @@ class _State:
     def _stretches(self, side: str) -> Iterator[tuple[float, float]]:
         """Return the lengths from 0 to the whole contact in stretches on which the margin rises or falls throughout."""
         contact, width = self.contact, self.contact.width
-        places = [*self.water.places, contact.bonded_from]
+        places = [*self.water.places, contact.bonded_from, contact.bonded_to]
         lengths = [x - contact.start if side == "heel" else contact.end - x for x in places]
         bends = sorted({0.0, width, *(length for length in lengths if 0.0 < length < width)})
         share = np.array([0.125, 0.375, 0.625, 0.875])

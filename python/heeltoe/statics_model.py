@@ -16,7 +16,7 @@ from heeltoe.response import build_info
 from heeltoe.rigid_model import REFERENCES, static_state
 from heeltoe.section import CutSection, cut
 from heeltoe.static_cases import at_depth, flood, post_seismic, pseudo_static, usual
-from heeltoe.static_checks import Check, check_case, slid_off
+from heeltoe.static_checks import Check, check_case, fallen
 
 # Depths that the search for a critical water level looks at: a sign that changes twice between two of them is no level
 # that anyone could keep to.
@@ -91,7 +91,9 @@ class Statics:
         }
 
 
-def statics(case: Case, slip_m: float | None = None, *, slip_source: str = "given") -> Statics:
+def statics(
+    case: Case, slip_m: float | None = None, *, slip_source: str = "given", overturned_about: str | None = None
+) -> Statics:
     """Judge the stability of the block above the crack.
 
     Load cases: usual; flood where ``statics.flood_depth`` is given; pseudo-static both ways where
@@ -107,6 +109,8 @@ def statics(case: Case, slip_m: float | None = None, *, slip_source: str = "give
         not given. Without either it is zero, and a warning says so: this function runs no earthquake.
     slip_source
         Where `slip_m` comes from, for the result.
+    overturned_about
+        "toe" or "heel" where the earthquake has overturned the block: the check after it fails then.
 
     Returns
     -------
@@ -128,10 +132,18 @@ def statics(case: Case, slip_m: float | None = None, *, slip_source: str = "give
     cases = [each.load_case for each in solved]
     checks = [check for each in cases for check in check_case(each, choice)]
     slip, source = _slip(case, slip_m, slip_source)
+    if overturned_about is not None:
+        slip, source = None, None
+        checks.append(
+            fallen(f"the earthquake overturns the block about its {overturned_about}: nothing stands after it")
+        )
     if slip is not None and source is not None:
         after = post_seismic(case, section, slip, source)
         if after is None:
-            checks.append(slid_off(slip, section.crack_width))
+            lost = (
+                f"a slip of {abs(slip):.2f} m leaves nothing of the {section.crack_width:.2f} m that the block stood on"
+            )
+            checks.append(fallen(lost))
         else:
             cases.append(after.load_case)
             checks += check_case(after.load_case, choice)
@@ -142,6 +154,11 @@ def statics(case: Case, slip_m: float | None = None, *, slip_source: str = "give
             f"the usual loads open the crack by {before.load_case.cracked_length_m:.2f} m, and water follows; the "
             "critical accelerations keep the case's uplift, as the time histories do at the start"
         )
+    usual_depth = case.reservoir.depth if case.reservoir else 0.0
+    if choice.flood_depth is not None and choice.flood_depth < usual_depth:
+        warnings.append(f"statics.flood_depth: the flood is lower than the {usual_depth:g} m of the usual loads")
+    if choice.residual_friction is not None and choice.residual_friction > case.crack.mu_static:
+        warnings.append("statics.residual_friction: more than the friction of the crack before it has slid")
     if any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors):
         warnings.append("anchors: the static checks count their prestress, not what opening and slip would add")
     references = dict.fromkeys(check.source for check in checks if check.required is not None)

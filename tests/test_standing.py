@@ -1,0 +1,94 @@
+"""The warning of a run whose usual loads open the crack, water following."""
+
+import json
+import tomllib
+
+import pytest
+from typer.testing import CliRunner
+
+from heeltoe import read_case, statics
+from heeltoe.cli import app
+from heeltoe.standing import standing_warnings
+
+MASONRY = {
+    "section": {
+        "polygon": [
+            ["-3 m", "0 m"],
+            ["20 m", "0 m"],
+            ["5 m", "26 m"],
+            ["5 m", "30 m"],
+            ["1 m", "30 m"],
+            ["0 m", "22 m"],
+        ]
+    },
+    "concrete": {"density": "2300 kg/m^3", "modulus": "20 GPa"},
+    "crack": {"friction": 1.5},
+    "reservoir": {"depth": "28 m"},
+    "motion": {
+        "points": [["0 s", "0 g"], ["0.1 s", "-0.1 g"], ["0.3 s", "0.05 g"], ["0.4 s", "0 g"]],
+        "duration": "0.4 s",
+    },
+    "flexible": {"elements_across": 2, "convergence_check": False},
+}
+
+
+def masonry(**changes):
+    return read_case({**MASONRY, **changes})
+
+
+def test_nothing_is_said_where_the_crack_stays_closed():
+    assert standing_warnings(masonry(reservoir={"depth": "20 m"})) == ()
+    # Nothing follows where no water is.
+    assert standing_warnings(masonry(uplift={"pattern": "none"})) == ()
+
+
+def test_part_of_the_crack_is_open_before_the_earthquake():
+    (warning,) = standing_warnings(masonry())
+    assert "open 0.42 m of the crack from its heel, 1.8 % of its width" in warning
+    # 28 m of head, where the triangle falls by 28 * 0.418 / 23 m: half of it on what is open, half on the rest.
+    lifts = 9.80665 * 28.0 * 0.41803 / 2.0
+    assert f"{lifts:.4g} kN/m more" in warning
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"reservoir": {"depth": "28.6 m"}},
+        {"concrete": {"density": "2100 kg/m^3"}, "uplift": {"pattern": "cut-off", "extent": 0.7, "intensity": 0.9}},
+        {
+            "concrete": {"density": "2100 kg/m^3"},
+            "reservoir": {"depth": "29 m"},
+            "uplift": {"pattern": "drained", "drain_position": 0.1, "drain_efficiency": 0.5},
+        },
+    ],
+)
+def test_the_profile_it_gives_has_the_water_of_the_static_check(changes):
+    case = masonry(**changes)
+    (warning,) = standing_warnings(case)
+    points = tomllib.loads("points = " + warning.split("points = ")[1].removesuffix(" and intensity = 1"))["points"]
+    followed = masonry(**{**changes, "uplift": {"pattern": "profile", "points": points}})
+    assert statics(followed).cases[0].normal_force_n == pytest.approx(statics(case).cases[0].normal_force_n, rel=1e-3)
+    assert standing_warnings(followed) == ()
+
+
+THROUGH = {"concrete": {"density": "2000 kg/m^3", "modulus": "20 GPa"}, "reservoir": {"depth": "29.5 m"}}
+
+
+@pytest.mark.parametrize("model", ["rigid", "flexible", "both"])
+def test_a_run_says_that_the_crack_opens_through(model, tmp_path):
+    path = tmp_path / "dam.json"
+    path.write_text(json.dumps({**MASONRY, **THROUGH}))
+    assert statics(read_case(path)).cases[0].outcome == "cracks through"
+    result = CliRunner().invoke(app, ["run", str(path), "--model", model, "--json", "-"])
+    data = json.loads(result.stdout)
+    for each in (data["rigid"], data["flexible"]) if model == "both" else (data,):
+        (said,) = [text for text in each["warnings"] if "opens right through" in text]
+        assert "heeltoe statics" in said
+
+
+def test_a_table_of_runs_says_it_of_the_runs_it_belongs_to(tmp_path):
+    path = tmp_path / "dam.json"
+    path.write_text(json.dumps(MASONRY))
+    arguments = ["run", str(path), "--vary", "reservoir.depth=20 m,28 m", "--json", "-"]
+    runs = json.loads(CliRunner().invoke(app, arguments).stdout)["runs"]
+    assert [any("water that follows" in text for text in run["warnings"]) for run in runs] == [False, True]
