@@ -498,3 +498,57 @@ def test_reports_of_the_examples(name, run, tmp_path):
     case = read_case(ROOT / "examples" / f"{name}.toml", FAST)
     for path in write_report(case, run(case), tmp_path):
         assert path.stat().st_size > 100_000
+
+
+def pages_of(document):
+    """The room for text and figures of every page of a PDF, as shades of grey."""
+    import numpy as np
+    from PIL import Image
+
+    for data in pages(document, 30.0):
+        page = np.asarray(Image.open(io.BytesIO(data)).convert("L")).astype(int)
+        one = len(page) / 297.0
+        yield page[int(20 * one) : int(275 * one) - 2]
+
+
+def test_pages_are_full(both):
+    import numpy as np
+
+    blank = []
+    for page in pages_of(build_report(*both)):
+        inked = np.flatnonzero((page < 250).any(axis=1))
+        blank.append(1.0 - (inked[-1] + 1) / len(page))
+    # The last page ends where the report does; a figure or a table that is kept whole may need the next page.
+    assert np.mean(blank[:-1]) < 0.08
+    assert max(blank[:-1]) < 0.3
+
+
+@pytest.mark.parametrize(
+    ("arguments", "spreads"),
+    [
+        (["--report"], {"": True}),
+        (["--report", "--spread", "none"], {"": False}),
+        (["--report", "--spread", "3"], {"": True}),
+        (["--report", "--model", "both"], {"rigid.": True, "flexible.": False}),
+        ([], {"": False}),
+    ],
+)
+@pytest.mark.usefixtures("no_figures")
+def test_a_report_has_the_spread_where_it_is_cheap(arguments, spreads, tmp_path, monkeypatch):
+    from heeltoe.cli import main
+
+    monkeypatch.setattr("heeltoe.outputs.write_figures", lambda *_, **__: None)
+    monkeypatch.setattr("heeltoe.outputs.write_comparison_figure", lambda *_, **__: None)
+    changes = [argument for change in FAST for argument in ("--set", change)]
+    monkeypatch.setattr(sys, "argv", ["heeltoe", "run", str(BASE), *changes, *arguments, "--out", str(tmp_path)])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert not ended.value.code
+    data = json.loads((tmp_path / "result.json").read_text())
+    for prefix, there in spreads.items():
+        found = lookup(data, f"{prefix}spread")
+        assert (found is not None) == there
+        assert not there or found["runs"] == (3 if "3" in arguments else 11)
+        if arguments:
+            text = " ".join(Reader((tmp_path / "report.html").read_text()).text.split())
+            assert ("was not asked" in text) == (not all(spreads.values()))

@@ -79,11 +79,10 @@ def _spread(subject: Subject, run: Run) -> list[Block]:
     if not run.response.summary:
         return []
     if run.response.spread is None:
-        if run is not subject.runs[0]:
-            return []
+        whose = "" if len(subject.runs) == 1 else f" of the {run.name}"
         return [
             paragraph(
-                "How much hangs on the exact strength of the shaking was not asked; ",
+                f"How much the result{whose} hangs on the exact strength of the shaking was not asked; ",
                 Code("--spread"),
                 " runs it 11 more times, scaled by 0.99 to 1.01. The slip of a dam that strikes means little without.",
             )

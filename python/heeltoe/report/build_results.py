@@ -56,6 +56,7 @@ _FIGURES = (
     "forces",
     "path",
     "crack",
+    "pressure",
     "deformed",
 )
 
