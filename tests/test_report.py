@@ -23,6 +23,7 @@ from heeltoe.report.drawings import caption
 from heeltoe.report.html import html
 from heeltoe.report.numbers import Numbers, digits, kind
 from heeltoe.report.typst_pdf import pages, pdf, source
+from heeltoe.report.wording import us_words
 from heeltoe.response import json_text
 
 FAST = ["flexible.elements_across=2", "flexible.convergence_check=false", "motion.duration=3s"]
@@ -116,6 +117,8 @@ UNITS = {
     "kPa": 1e3,
 }
 UNITS |= {"%": 0.01}
+UNITS |= {"ft": 0.3048, "in": 0.0254, "ft/s": 0.3048, "ft/s²": 0.3048, "psi": 6894.757, "ksi": 6894757.0}
+UNITS |= {"kip/ft": 14593.903, "ft-kip/ft": 4448.2216}
 
 
 def read_back(text):
@@ -374,11 +377,51 @@ def test_the_hash_tells_inputs_apart(block):
     assert own != input_hash(other, (response.motion, None))
 
 
+#: A number with a unit of SI that people of the United States do not use.
+SI = r"\d\s?(mm|cm|m|km|m/s|m/s²|m/s\^2|k?N/m|MN/m|[kMG]?Pa|k?J/m|MJ/m|kg/m\^3|kg/m³|t/m)(?![\w/²³^])"
+
+
 @pytest.mark.usefixtures("no_figures")
-def test_units_of_the_united_states(block):
-    text = Reader(html(build_report(*block, units="us"))).text
-    for unit in (" in", "kip/ft", "ft-kip/ft", "ft/s"):
-        assert unit in text
+@pytest.mark.parametrize("which", ["block", "both", "never"])
+def test_units_of_the_united_states_all_through(which, request):
+    if which == "never":
+        case = read_case(BASE, ["crack.friction=0.2"])
+        subject = (case, rigid(case))
+    else:
+        subject = request.getfixturevalue(which)
+        subject = (subject[0].model_copy(update={"title": "Dam of 100 m"}), subject[1])
+    document = build_report(*subject, units="us")
+    reader = Reader(html(document))
+    for unit in (" in", "kip/ft", "ft", "psi", "per foot of dam"):
+        assert unit in reader.text
+    for text in (reader.text, pdf_text(pdf(document))):
+        # A title, and how a scenario is written.
+        text = re.sub(r"Dam of\s100\sm|M6\.\s?5,\s?20\s?km", "", text)
+        found = re.search(f".{{30}}{SI}", text)
+        assert not found, found
+    data = {**json.loads(json_text(subject[1].to_json()))}
+    for key, (number, text) in reader.numbers.items():
+        if not key.startswith("statics."):
+            assert number == lookup(data, key), key
+        if not text.startswith("under"):
+            shown_number, half = read_back(text)
+            assert abs(shown_number) == pytest.approx(abs(number), abs=half * 1.0001, rel=1e-3), (key, text)
+
+
+def test_sentences_in_units_of_the_united_states():
+    for text, words in (
+        ("it is 0.16 to 57.2 mm when", "it is 0.0063 to 2.25 in when"),
+        (
+            "a dam of 20, 200, 2000 and 20000 GPa slides 218\u00a0mm",
+            "a dam of 2901, 29008, 290075 and 2901000 ksi slides 8.58\u00a0in",
+        ),
+        ("ends at 0.268 m/s, 66 %", "ends at 0.879 ft/s, 66 %"),
+        ("0.50 m downstream", "1.6 ft downstream"),
+        ("compression 1.20 MPa", "compression 174 psi"),
+        ("in 5 minutes, 3 modes, 0.4 g, M6.5m", "in 5 minutes, 3 modes, 0.4 g, M6.5m"),
+        ("per metre of dam", "per foot of dam"),
+    ):
+        assert us_words(text) == words
 
 
 @pytest.mark.parametrize(
@@ -529,7 +572,7 @@ def test_pages_are_full(both):
         (["--report"], {"": True}),
         (["--report", "--spread", "none"], {"": False}),
         (["--report", "--spread", "3"], {"": True}),
-        (["--report", "--model", "both"], {"rigid.": True, "flexible.": False}),
+        (["--report", "--model", "both"], {"rigid": True, "flexible": False}),
         ([], {"": False}),
     ],
 )
@@ -546,7 +589,7 @@ def test_a_report_has_the_spread_where_it_is_cheap(arguments, spreads, tmp_path,
     assert not ended.value.code
     data = json.loads((tmp_path / "result.json").read_text())
     for prefix, there in spreads.items():
-        found = lookup(data, f"{prefix}spread")
+        found = (lookup(data, prefix) if prefix else data).get("spread")
         assert (found is not None) == there
         assert not there or found["runs"] == (3 if "3" in arguments else 11)
         if arguments:
