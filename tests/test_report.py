@@ -18,6 +18,7 @@ from conftest import ROOT
 from heeltoe import InputError, compare, decoupled, flexible, read_case, rigid, with_spread
 from heeltoe.report import build_report, check_packages, write_report
 from heeltoe.report.build_input import fields, input_hash, shown
+from heeltoe.report.build_question import glued
 from heeltoe.report.content import Document, FigureBlock, Section, Value, paragraph
 from heeltoe.report.drawings import caption
 from heeltoe.report.html import html
@@ -60,11 +61,13 @@ class Reader(HTMLParser):
 def pdf_text(data):
     """All text of a PDF with single blanks."""
     reader = PdfReader(io.BytesIO(data))
-    return " ".join(" ".join(page.extract_text() for page in reader.pages).replace("\u200b", "").split())
+    return " ".join(
+        " ".join(page.extract_text() for page in reader.pages).replace("\u200b", "").replace("\u2060", "").split()
+    )
 
 
 def squeezed(text):
-    return re.sub(r"\s|\u200b", "", text)
+    return re.sub(r"\s|[\u200b\u2060]", "", text)
 
 
 def lookup(data, key):
@@ -118,7 +121,7 @@ UNITS = {
 }
 UNITS |= {"%": 0.01}
 UNITS |= {"ft": 0.3048, "in": 0.0254, "ft/s": 0.3048, "ft/s²": 0.3048, "psi": 6894.757, "ksi": 6894757.0}
-UNITS |= {"kip/ft": 14593.903, "ft-kip/ft": 4448.2216}
+UNITS |= {"kip/ft": 14593.903, "ft-kip/ft": 4448.2216, "ton/ft": 2976.3279}
 
 
 def read_back(text):
@@ -422,12 +425,14 @@ def test_sentences_in_units_of_the_united_states():
         ("per metre of dam", "per foot of dam"),
     ):
         assert us_words(text) == words
+        assert us_words(glued(text)).replace("\u00a0", " ") == words.replace("\u00a0", " ")
 
 
 @pytest.mark.parametrize(
     ("value", "text"),
     [
         ("100.0 m", "100 m"),
+        ("0.01 m", "10 mm"),
         ("20000000000.0 Pa", "20 GPa"),
         ("0.08726646259971647 rad", "5°"),
         ("0.4 g", "0.4 g"),
@@ -443,6 +448,24 @@ def test_sentences_in_units_of_the_united_states():
 )
 def test_input_is_shown_with_units(value, text):
     assert shown(value) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        ("91.44 m", "300 ft"),
+        ("0.0254 m", "1 in"),
+        ("0.0 m", "0 ft"),
+        ("20000000000.0 Pa", "2900.75 ksi"),
+        ("2400.0 kg/m^3", "149.827 lb/ft³"),
+        ("9.80665 m/s^2", "32.174 ft/s²"),
+        ("150000.0 N/m", "10.2783 kip/ft"),
+        ("0.4 g", "0.4 g"),
+        ([["0.0 m", "30.48 m"]], "(0 ft, 100 ft)"),
+    ],
+)
+def test_input_is_shown_in_units_of_the_united_states(value, text):
+    assert shown(value, "us") == text
 
 
 def test_numbers_are_written_as_people_read_them():

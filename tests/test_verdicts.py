@@ -122,7 +122,7 @@ def test_lengths(metres, words):
         (0.001, "0.0394 in"),
         (1e-5, "0.0004 in"),
         (1e-7, "under 0.0004 in"),
-        (0.0, "0.0000 in"),
+        (0.0, "0 in"),
     ],
 )
 def test_lengths_in_units_of_the_united_states(metres, words):

@@ -83,7 +83,9 @@ def _us_length(metres: float) -> str:
         return f"{inches:.2f} in"
     if abs(inches) >= 0.04:
         return f"{inches:.3f} in"
-    return f"{inches:.4f} in" if abs(inches) >= 2e-4 or not inches else "under 0.0004 in"
+    if not inches:
+        return "0 in"
+    return f"{inches:.4f} in" if abs(inches) >= 2e-4 else "under 0.0004 in"
 
 
 def speed(metres_per_second: float, units: str = "si") -> str:

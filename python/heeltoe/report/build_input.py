@@ -21,6 +21,8 @@ from heeltoe.response import build_info
 # SI units as people write them, and larger ones for what would have many zeros.
 _UNITS = {"kg/m^3": "kg/m³", "m/s^2": "m/s²", "N/m^2": "N/m²"}
 _LARGER = {"Pa": ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa")), "N/m": ((1e6, "MN/m"), (1e3, "kN/m"))}
+# Lengths below are written in millimetres [m].
+_LEAST_METRES = 0.5
 _QUANTITY = re.compile(r"(-?\d+(?:\.\d*)?(?:e[+-]?\d+)?) ([A-Za-z/^\d]+)")
 # Longer lists, as the points of a drawn motion, are not read by anyone; their hash is in the report.
 _MOST_ITEMS = 12
@@ -168,7 +170,9 @@ def _quantity(number: float, unit: str, units: str) -> str:
     if units == "us" and unit in UNITS:
         factor, quantity = UNITS[unit]
         to = scale(quantity, number * factor)
-        return f"{_plain(number * factor * to.factor)} {to.unit}"
+        return f"{number * factor * to.factor:.6g} {to.unit}"
+    if unit == "m" and 0.0 < abs(number) < _LEAST_METRES:
+        return f"{_plain(1e3 * number)} mm"
     for least, larger in _LARGER.get(unit, ()):
         if abs(number) >= least:
             return f"{_plain(number / least)} {larger}"

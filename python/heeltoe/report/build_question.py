@@ -33,7 +33,7 @@ def question(subject: Subject) -> Section:
 
 def glued(text: str) -> str:
     """Keep numbers and their units on one line."""
-    return re.sub(r"(?<=\d) (?=(?:%|[a-zA-Z/]{1,4}\b))", "\u00a0", text)
+    return re.sub(r"(?<=\d) (?=(?:%|(?!and|to|or|of|at|in the|on)[a-zA-Z/]{1,4}\b))", "\u00a0", text)
 
 
 def _question(subject: Subject) -> Block:

@@ -50,8 +50,8 @@ _CRACK_LEVEL: tuple[tuple[str, str, str | None], ...] = (
 _FIGURES = (
     "comparison",
     "response",
-    "crack-level",
     "slip-by-mode",
+    "crack-level",
     "accelerations",
     "forces",
     "path",

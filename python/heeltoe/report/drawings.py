@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 CAPTIONS = {
     "section": "Section of the dam with its crack, water levels and the pressure in the crack.",
     "comparison": "Both models side by side, shaken by the same ground motion.",
-    "response": "Ground acceleration, slip (positive downstream), rotation and openings, and the mode of motion.",
+    "response": "Ground acceleration, slip (positive downstream), rotation and openings where there are any, and the mode.",
     "slip-by-mode": "Slip gathered in each mode of motion.",
     "accelerations": "Acceleration of the ground, acceleration of the slip, and the forces at heel and toe.",
     "forces": "Forces across the crack.",
@@ -27,16 +27,16 @@ CAPTIONS = {
     "spectrum": "Response spectrum of the ground motion, 5 % of critical damping.",
     "crack-level": "Acceleration of ground and crack, their response spectra, and the amplification; dotted: periods.",
     "crack": "What each place of the crack does over time.",
-    "deformed": "Deformed dam at moments that tell most; displacements are enlarged as it says.",
+    "deformed": "Deformed dam with its principal stresses, tension on the left, compression on the right.",
     "pressure": "Contact pressure along the crack over time.",
     "mesh": "The mesh, and the nodes of the crack.",
     "modes": "Lowest vibration modes of the intact dam.",
 }
 # Simple figures need not be as wide as the page.
-_SHARES = {"section": 0.7, "spectrum": 0.8, "slip-by-mode": 0.85, "energy": 0.8, "mesh": 0.6}
+_SHARES = {"section": 0.7, "spectrum": 0.8, "slip-by-mode": 0.8, "energy": 0.8, "mesh": 0.6}
 # Histories are drawn lower than on a page of their own, so that two of them share one, or one and a table; letters stay
 # as large as they are.
-_LOWER = {"comparison": 0.75, "response": 0.75, "accelerations": 0.8, "forces": 0.75, "crack-level": 0.85}
+_LOWER = {"comparison": 0.75, "response": 0.75, "accelerations": 0.75, "forces": 0.75, "crack-level": 0.8}
 _LOWER |= {"crack": 0.8, "pressure": 0.7}
 _LEAST_HEIGHT = 4.5
 # Flatter ones have panels side by side, with no room to spare.

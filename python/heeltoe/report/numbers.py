@@ -83,7 +83,7 @@ class Numbers:
             return self._scaled(number, quantity)
         if quantity == "mass":
             if self.units.name == "us":
-                return f"{digits(number * FOOT / POUND / 1e3, 4)} kip/ft"
+                return f"{digits(number * FOOT / POUND / 2e3, 4)} ton/ft"
             return f"{digits(number / 1e3, 4)} t/m"
         if quantity == "acceleration" and self.units.name == "us":
             return f"{digits(number / FOOT, 4)} ft/s²"

@@ -47,7 +47,7 @@ _NO_FONT = Notes(
     "Letters without a font",
     (("For some letters no font was found here; they may show as boxes. In the HTML report a browser shows them.",),),
 )
-_SHORT = 8
+_SHORT = 12
 """Rows of a table that is kept on one page; longer ones are broken, so that no page stays half empty."""
 _HELD = 3
 """Rows at the head and the foot of a longer table that stay together."""
@@ -226,10 +226,12 @@ def _breakable(text: str, most: int) -> str:
         parts = re.findall(rf".{{1,{most // 2}}}[._/,=-]|.{{1,{most // 2}}}", match[0])
         return "\u200b".join(parts)
 
+    # Nor is a unit broken at its stroke.
+    text = re.sub(r"(\d[ \u00a0][A-Za-z-]{1,7}/)(?=[a-z])", "\\1\u2060", text)
     return re.sub(rf"\S{{{most + 1},}}", broken, text)
 
 
 def _string(text: str) -> str:
     """Return a string of typst's: nothing in it is markup."""
-    plain = "".join(c if c.isprintable() or c in "\u200b" else " " for c in text)
+    plain = "".join(c if c.isprintable() or c in "\u200b\u2060" else " " for c in text)
     return '"' + plain.replace("\\", "\\\\").replace('"', '\\"') + '"'

@@ -40,7 +40,7 @@ UNITS: dict[str, tuple[float, str]] = {
     "t/m": (1e3, "mass"),
 }
 _QUANTITIES = re.compile(
-    rf"(?<![\w.])((?:{_NUMBER}(?:, | and | to | or ))*{_NUMBER})([ \u00a0])"
+    rf"(?<![\w.])((?:{_NUMBER}(?:,|[ \u00a0](?:and|to|or))[ \u00a0])*{_NUMBER})([ \u00a0])"
     rf"({'|'.join(sorted(map(re.escape, UNITS), key=len, reverse=True))})(?![\w/²³^])"
 )
 
@@ -52,7 +52,7 @@ def scale(quantity: str, largest: float) -> Scale:
     if quantity == "density":
         return Scale(FOOT**3 / POUND, "lb/ft³")
     if quantity == "mass":
-        return Scale(FOOT / POUND / 1e3, "kip/ft")
+        return Scale(FOOT / POUND / 2e3, "ton/ft")
     if quantity == "stiffness":
         return Scale(FOOT**2 / KIP, "kip/ft²")
     if quantity == "pressure" and abs(largest) >= _KSI_FROM:
