@@ -72,7 +72,9 @@ def run(
     vtk: Annotated[
         bool, typer.Option("--vtk", help="With --out: VTK files of the flexible model for ParaView.")
     ] = False,
-    units: Annotated[str, typer.Option(metavar="si|us", help="Units of figures and report.")] = "si",
+    units: Annotated[
+        str, typer.Option(metavar="si|us", help="Units of what is shown, figures and report; files of numbers stay SI.")
+    ] = "si",
     output_step: Annotated[
         str | None,
         typer.Option(
@@ -91,6 +93,7 @@ def run(
     """Run a case and say what the dam does."""
     from heeltoe.case import read_case
     from heeltoe.quantities import parse
+    from heeltoe.terminal import in_units
 
     if model not in _MODELS:
         raise InputError("unknown-model", "--model", model)
@@ -128,7 +131,7 @@ def run(
         check_directory(out)
     check_json(json_)
     if vary:
-        _vary(case, changes, vary, model, step, json_, out)
+        _vary(case, changes, vary, model, step, json_, out, units)
         return
     with status() as say:
         result = _analysis(loaded, model, step, runs, say)
@@ -147,15 +150,23 @@ def run(
 
                 say("writing the report")
                 written += write_report(loaded, result, out, units=units, command=command_line())
-    finish(result.to_json(), json_, written, lambda console: _print(result, console))
+    finish(result.to_json(), json_, written, lambda console: _print(result, in_units(console, units, result.title)))
     if not result.ok:
         raise typer.Exit(NO_RESULT)
 
 
 def _vary(
-    case: str, changes: list[str], vary: list[str], model: str, step: float | None, json_: str | None, out: Path | None
+    case: str,
+    changes: list[str],
+    vary: list[str],
+    model: str,
+    step: float | None,
+    json_: str | None,
+    out: Path | None,
+    units: str,
 ) -> None:
     """Run a table of runs, show and write it."""
+    from heeltoe.terminal import in_units
     from heeltoe.variation_summary import print_grid
     from heeltoe.variations import parse_variations, run_grid
 
@@ -174,8 +185,8 @@ def _vary(
             from heeltoe.outputs import write_all
 
             say("writing")
-            written = write_all(grid, out)
-    finish(grid.to_json(), json_, written, lambda console: print_grid(grid, console))
+            written = write_all(grid, out, units=units)
+    finish(grid.to_json(), json_, written, lambda console: print_grid(grid, in_units(console, units, grid.title)))
     if not grid.ok:
         raise typer.Exit(NO_RESULT)
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 CAPTIONS = {
     "section": "Section of the dam with its crack, water levels and the pressure in the crack.",
     "comparison": "Both models side by side, shaken by the same ground motion.",
-    "response": "Ground acceleration, slip (positive downstream), rotation and openings where there are any, and the mode.",
+    "response": "Ground acceleration, slip (positive downstream), rotation and openings if there are any, the mode.",
     "slip-by-mode": "Slip gathered in each mode of motion.",
     "accelerations": "Acceleration of the ground, acceleration of the slip, and the forces at heel and toe.",
     "forces": "Forces across the crack.",

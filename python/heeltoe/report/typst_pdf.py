@@ -126,10 +126,11 @@ class _Writer:
         self.figures = 0
 
     def write(self, blocks: tuple[Block, ...], level: int = 1) -> Iterator[str]:
-        for block in blocks:
+        last = max((place for place, block in enumerate(blocks) if any(_figures((block,)))), default=-1)
+        for place, block in enumerate(blocks):
             if isinstance(block, Section):
-                # Figures that wait for a page with room for them come before the first section that has none itself.
-                if level == 1 and not any(_figures((block,))):
+                # Figures that wait for a page with room for them come before what follows the last of their sections.
+                if level == 1 and place == last + 1:
                     yield "#place.flush()"
                 yield f"#heading(level: {level}, {_words(block.title)})"
                 yield from self.write(block.blocks, level + 1)
