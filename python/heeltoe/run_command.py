@@ -166,7 +166,6 @@ def _vary(
     units: str,
 ) -> None:
     """Run a table of runs, show and write it."""
-    from heeltoe.terminal import in_units
     from heeltoe.variation_summary import print_grid
     from heeltoe.variations import parse_variations, run_grid
 
@@ -186,7 +185,7 @@ def _vary(
 
             say("writing")
             written = write_all(grid, out, units=units)
-    finish(grid.to_json(), json_, written, lambda console: print_grid(grid, in_units(console, units, grid.title)))
+    finish(grid.to_json(), json_, written, lambda console: print_grid(grid, console))
     if not grid.ok:
         raise typer.Exit(NO_RESULT)
 

@@ -20,9 +20,6 @@ class _InUnits:
         self._console = console
         self._own = own
 
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self._console, name)
-
     def print(self, *things: Any, **options: Any) -> None:
         self._console.print(*map(self._changed, things), **options)
 
