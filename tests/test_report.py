@@ -618,3 +618,19 @@ def test_a_report_has_the_spread_where_it_is_cheap(arguments, spreads, tmp_path,
         if arguments:
             text = " ".join(Reader((tmp_path / "report.html").read_text()).text.split())
             assert ("was not asked" in text) == (not all(spreads.values()))
+
+
+@pytest.mark.usefixtures("no_figures")
+def test_a_dam_that_cannot_stand_has_no_spread(tmp_path, monkeypatch):
+    from heeltoe.cli import main
+
+    monkeypatch.setattr("heeltoe.outputs.write_figures", lambda *_, **__: None)
+    given = ["heeltoe", "run", str(BASE), "--set", "crack.friction=0.2", "--report", "--out", str(tmp_path)]
+    monkeypatch.setattr(sys, "argv", given)
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert ended.value.code == 3
+    assert "spread" not in json.loads((tmp_path / "result.json").read_text())
+    text = Reader((tmp_path / "report.html").read_text()).text
+    assert "without a result" not in text
+    assert "was not asked" not in text

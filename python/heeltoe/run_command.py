@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -207,10 +207,11 @@ def _analysis(
 
 
 def _with_cheap_spread(result: Response | Comparison, case: Case, say: Callable[[str], None]) -> Response | Comparison:
-    """Give a result the spread that costs milliseconds: that of a rigid block, shaken by the ground or by its crack."""
+    """Give a result the spread that costs milliseconds: that of a rigid block, shaken by the ground or by its crack, if it
+    stands."""
     from heeltoe.spread import RUNS
 
-    return _with_spread(result, case, RUNS, say, only=("rigid", "decoupled"))
+    return _with_spread(result, case, RUNS, say, lambda each: each.ok and each.model in ("rigid", "decoupled"))
 
 
 def _with_spread(
@@ -218,14 +219,14 @@ def _with_spread(
     case: Case,
     runs: int,
     say: Callable[[str], None],
-    only: Collection[str] = _MODELS,
+    wanted: Callable[[Response], bool] = lambda response: True,
 ) -> Response | Comparison:
-    """Vary the shaking of the models that are named, of all of them without."""
+    """Vary the shaking of the responses that are wanted."""
     from heeltoe.comparison import Comparison
     from heeltoe.spread import with_spread
 
     def vary(response: Response) -> Response:
-        if response.model not in only:
+        if not wanted(response):
             return response
 
         def told(done: int, of: int) -> None:

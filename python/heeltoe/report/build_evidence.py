@@ -77,6 +77,8 @@ def _seen(rows: tuple[tuple[Inline, ...], ...]) -> tuple[tuple[Inline, ...], ...
 def _spread(subject: Subject, run: Run) -> list[Block]:
     if not run.response.summary:
         return []
+    if run.response.spread is None and not run.response.ok:
+        return []
     if run.response.spread is None:
         whose = "" if len(subject.runs) == 1 else f" of the {run.name}"
         return [
