@@ -207,8 +207,7 @@ def _analysis(
 
 
 def _with_cheap_spread(result: Response | Comparison, case: Case, say: Callable[[str], None]) -> Response | Comparison:
-    """Give a result the spread that costs milliseconds: that of a rigid block, shaken by the ground or by its crack, if it
-    stands."""
+    """Give a result the spread that costs milliseconds: that of a rigid block which stands, whatever shakes it."""
     from heeltoe.spread import RUNS
 
     return _with_spread(result, case, RUNS, say, lambda each: each.ok and each.model in ("rigid", "decoupled"))

@@ -60,7 +60,7 @@ def _failures(subject: Subject) -> Block | None:
         return None
     items: list[tuple[Inline, ...]] = [
         (
-            Strong(f"{run.model[0].upper()}{run.model[1:]}, outcome “{run.response.outcome}”. "),
+            Strong(f"{run.model[0].upper()}{run.model[1:]}, outcome “{run.response.outcome}”: "),
             f"{run.response.advice}.",
         )
         for run in subject.runs
