@@ -583,9 +583,12 @@ def test_pages_are_full(both):
     blank = []
     for page in pages_of(build_report(*both)):
         inked = np.flatnonzero((page < 250).any(axis=1))
-        blank.append(1.0 - (inked[-1] + 1) / len(page))
+        # Bands of less than 10 mm part what belongs apart.
+        bands = np.diff(inked) - 1
+        inner = bands[bands > 10.0 * len(page) / 255.0].sum()
+        blank.append(1.0 - (inked[-1] + 1 - inner) / len(page))
     # The last page ends where the report does; a figure or a table that is kept whole may need the next page.
-    assert np.mean(blank[:-1]) < 0.08
+    assert np.mean(blank[:-1]) < 0.12
     assert max(blank[:-1]) < 0.3
 
 
