@@ -66,3 +66,9 @@ def records() -> Path:
     if not os.environ.get("HEELTOE_RECORDS"):
         pytest.skip("no strong-motion records here; set HEELTOE_RECORDS")
     return Path(os.environ["HEELTOE_RECORDS"])
+
+
+@pytest.fixture
+def no_figures(monkeypatch):
+    """Leave out figures, which take most of the time, where words alone are looked at."""
+    monkeypatch.setattr("heeltoe.report.drawings.drawings", lambda case, result, units: {})

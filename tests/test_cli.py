@@ -6,6 +6,7 @@ import contextlib
 import json
 import os
 import pty
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -44,6 +45,12 @@ def test_figures_in_us_units(tmp_path):
     assert heeltoe(*run, "--units", "us").returncode == 0
     assert "slip [in]" in (tmp_path / "response.svg").read_text(encoding="utf-8")
     assert "kip/ft" in (tmp_path / "section.svg").read_text(encoding="utf-8")
+    said = heeltoe(
+        "run", EXAMPLES / "typical-base.toml", "--units", "us", "--set", "title=Dam of 100 m", "--duration", "5s"
+    )
+    for words in ("Dam of 100 m", "ft/s", "residual slip", " in "):
+        assert words in said.stdout
+    assert not re.search(r"\d\s(mm|m/s|m)\b", said.stdout.replace("Dam of 100 m", ""))
     refused = heeltoe(*run, "--units", "imperial")
     assert refused.returncode == 2
     assert "--units" in refused.stderr

@@ -5,9 +5,7 @@ from __future__ import annotations
 import io
 import json
 import re
-import sys
 from dataclasses import replace
-from html.parser import HTMLParser
 
 import pytest
 from hypothesis import HealthCheck, example, given, settings
@@ -17,59 +15,13 @@ from pypdf import PdfReader
 from conftest import ROOT
 from heeltoe import InputError, compare, decoupled, flexible, read_case, rigid, with_spread
 from heeltoe.report import build_report, check_packages, write_report
-from heeltoe.report.build_input import fields, input_hash, shown
+from heeltoe.report.build_input import fields, input_hash
 from heeltoe.report.content import Document, FigureBlock, Section, Value, paragraph
 from heeltoe.report.drawings import caption
 from heeltoe.report.html import html
-from heeltoe.report.numbers import Numbers, digits, kind
 from heeltoe.report.typst_pdf import pages, pdf, source
 from heeltoe.response import json_text
-
-FAST = ["flexible.elements_across=2", "flexible.convergence_check=false", "motion.duration=3s"]
-BASE = ROOT / "examples" / "typical-base.toml"
-
-
-class Reader(HTMLParser):
-    """Gathers the numbers with their keys, the tags, and all text."""
-
-    def __init__(self, text: str) -> None:
-        super().__init__()
-        self.numbers: dict[str, tuple[float, str]] = {}
-        self.tags: set[str] = set()
-        self.links: list[str] = []
-        self.text = ""
-        self._key: str | None = None
-        self._value = 0.0
-        self.feed(text)
-
-    def handle_starttag(self, tag, attrs):
-        self.tags.add(tag)
-        found = dict(attrs)
-        self.links += [found[name] for name in ("src", "href") if name in found]
-        if "data-key" in found:
-            self._key, self._value = found["data-key"], float(found["value"])
-
-    def handle_data(self, data):
-        self.text += data
-        if self._key is not None:
-            self.numbers[self._key] = (self._value, data)
-            self._key = None
-
-
-def pdf_text(data):
-    """All text of a PDF with single blanks."""
-    reader = PdfReader(io.BytesIO(data))
-    return " ".join(" ".join(page.extract_text() for page in reader.pages).replace("\u200b", "").split())
-
-
-def squeezed(text):
-    return re.sub(r"\s|\u200b", "", text)
-
-
-def lookup(data, key):
-    for name in key.split("."):
-        data = data[int(name)] if isinstance(data, list) else data[name]
-    return data
+from report_reader import BASE, FAST, Reader, lookup, pdf_text, squeezed
 
 
 @pytest.fixture(scope="module")
@@ -84,12 +36,6 @@ def block():
 def both():
     case = read_case(BASE, FAST)
     return case, compare(case)
-
-
-@pytest.fixture
-def no_figures(monkeypatch):
-    """Leave out figures, which take most of the time, where words alone are looked at."""
-    monkeypatch.setattr("heeltoe.report.drawings.drawings", lambda case, result, units: {})
 
 
 def values(blocks):
@@ -116,6 +62,8 @@ UNITS = {
     "kPa": 1e3,
 }
 UNITS |= {"%": 0.01}
+UNITS |= {"ft": 0.3048, "in": 0.0254, "ft/s": 0.3048, "ft/s²": 0.3048, "psi": 6894.757, "ksi": 6894757.0}
+UNITS |= {"kip/ft": 14593.903, "ft-kip/ft": 4448.2216, "ton/ft": 2976.3279}
 
 
 def read_back(text):
@@ -219,40 +167,6 @@ def test_figures_of_a_report_are_there_and_not_empty(both):
     assert caption("flexible/some-new_one") == "Flexible dam. Some new one."
 
 
-METHOD = [
-    ([], ["cubic in time", "small"]),
-    (["crack.inclination=5deg"], ["inclined plane"]),
-    (["uplift.pattern=none"], ["no water pressure in the crack"]),
-    (["uplift.intensity=0.5"], ["all of it times 0.5"]),
-]
-
-
-@pytest.mark.usefixtures("no_figures")
-@pytest.mark.parametrize(("changes", "words"), METHOD)
-def test_the_method_is_that_of_the_options(changes, words):
-    case = read_case(BASE, ["motion.duration=2s", *changes])
-    text = " ".join(Reader(html(build_report(case, rigid(case)))).text.split())
-    for each in words:
-        assert each in text
-    assert "quadrilaterals" not in text
-
-
-@pytest.mark.parametrize(
-    ("changes", "words"),
-    [
-        (["flexible.damping=modal"], "same damping ratio"),
-        (["flexible.damping=deformation"], "deformation alone"),
-        (["flexible.contact=idce"], "Contact is by penalties"),
-    ],
-)
-@pytest.mark.usefixtures("no_figures")
-def test_the_method_of_the_flexible_model_is_that_of_the_options(changes, words):
-    case = read_case(BASE, [*FAST, "motion.duration=1s", *changes])
-    text = " ".join(Reader(html(build_report(case, flexible(case)))).text.split())
-    assert words in text
-    assert "cubic in time" not in text
-
-
 @pytest.mark.usefixtures("no_figures")
 def test_equations_are_numbered_in_order(both):
     def equations(blocks):
@@ -287,6 +201,14 @@ def test_a_run_that_was_stopped_says_what_failed():
     first = PdfReader(io.BytesIO(pdf(build_report(case, response)))).pages[0].extract_text()
     for words in ("No result to trust", "event limit", "they are no result", "stopped at"):
         assert words in first
+
+
+@pytest.mark.usefixtures("no_figures")
+def test_what_has_overturned_does_not_stand_after_the_earthquake():
+    case = read_case(ROOT / "examples" / "slender.toml")
+    text = Reader(html(build_report(case, rigid(case)))).text
+    assert "post-seismic: the earthquake overturns the block about its toe: nothing stands after it" in text
+    assert "Static checks not met: equilibrium (post-seismic)" in text
 
 
 @pytest.mark.usefixtures("no_figures")
@@ -374,43 +296,37 @@ def test_the_hash_tells_inputs_apart(block):
     assert own != input_hash(other, (response.motion, None))
 
 
+#: A number with a unit of SI that people of the United States do not use.
+
+
+SI = r"\d\s?(mm|cm|m|km|m/s|m/s²|m/s\^2|k?N/m|MN/m|[kMG]?Pa|k?J/m|MJ/m|kg/m\^3|kg/m³|t/m)(?![\w/²³^])"
+
+
 @pytest.mark.usefixtures("no_figures")
-def test_units_of_the_united_states(block):
-    text = Reader(html(build_report(*block, units="us"))).text
-    for unit in (" in", "kip/ft", "ft-kip/ft", "ft/s"):
-        assert unit in text
-
-
-@pytest.mark.parametrize(
-    ("value", "text"),
-    [
-        ("100.0 m", "100 m"),
-        ("20000000000.0 Pa", "20 GPa"),
-        ("0.08726646259971647 rad", "5°"),
-        ("0.4 g", "0.4 g"),
-        ("2650.0 kg/m^3", "2650 kg/m³"),
-        ("150000.0 N/m", "150 kN/m"),
-        (None, "none"),
-        (True, "yes"),
-        (0.143, "0.143"),
-        ([["0.0 m", "0.0 m"], ["80.0 m", "0.0 m"]], "(0 m, 0 m), (80 m, 0 m)"),
-        ({"step": "band-pass", "low": "0.1 Hz", "high": None}, "step band-pass, low 0.1 Hz"),
-        (list(range(20)), "0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 and 8 more"),
-    ],
-)
-def test_input_is_shown_with_units(value, text):
-    assert shown(value) == text
-
-
-def test_numbers_are_written_as_people_read_them():
-    assert [digits(x, 4) for x in (0.0, 1.5, 0.10314805, 12345.6, 5.55e-16, 3e8, 883)] == [
-        "0", "1.5", "0.1031", "12350", "5.55·10⁻¹⁶", "3.00·10⁸", "883"
-    ]  # fmt: skip
-    assert kind("energy.input_j") == "energy"
-    assert kind("spread.residual_slip_m.mean") == "displacement"
-    numbers = Numbers({"a_m": float("nan"), "b": {"c_m": -0.0}})
-    assert numbers("a_m") == numbers("x.y_m") == "–"
-    assert numbers("b.c_m", sign=-1.0).text == "0.00 mm"
+@pytest.mark.parametrize("which", ["block", "both", "never"])
+def test_units_of_the_united_states_all_through(which, request):
+    if which == "never":
+        case = read_case(BASE, ["crack.friction=0.2"])
+        subject = (case, rigid(case))
+    else:
+        subject = request.getfixturevalue(which)
+        subject = (subject[0].model_copy(update={"title": "Dam of 100 m"}), subject[1])
+    document = build_report(*subject, units="us")
+    reader = Reader(html(document))
+    for unit in (" in", "kip/ft", "ft", "psi", "per foot of dam"):
+        assert unit in reader.text
+    for text in (reader.text, pdf_text(pdf(document))):
+        # A title, and how a scenario is written.
+        text = re.sub(r"Dam of\s100\sm|M6\.\s?5,\s?20\s?km", "", text)
+        found = re.search(f".{{30}}{SI}", text)
+        assert not found, found
+    data = {**json.loads(json_text(subject[1].to_json()))}
+    for key, (number, text) in reader.numbers.items():
+        if not key.startswith("statics."):
+            assert number == lookup(data, key), key
+        if not text.startswith("under"):
+            shown_number, half = read_back(text)
+            assert abs(shown_number) == pytest.approx(abs(number), abs=half * 1.0001, rel=1e-3), (key, text)
 
 
 def test_packages_that_are_missing_are_named(monkeypatch, tmp_path, block):
@@ -438,23 +354,6 @@ def test_nothing_is_left_half_written(tmp_path, block):
     with pytest.raises(InputError) as found:
         write_report(*block, tmp_path / "file" / "below", kinds=("html",))
     assert found.value.code == "cannot-write"
-
-
-def test_the_command_line_writes_a_report(tmp_path, monkeypatch, capsys):
-    from heeltoe.cli import main
-
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(sys, "argv", ["heeltoe", "run", str(BASE), "--duration", "3s", "--report"])
-    with pytest.raises(SystemExit) as ended:
-        main()
-    assert not ended.value.code
-    place = tmp_path / "typical-base-report"
-    assert {"report.pdf", "report.html", "result.json"} <= {path.name for path in place.iterdir()}
-    assert "typical-base-report" in capsys.readouterr().out
-    reader = Reader((place / "report.html").read_text())
-    data = json.loads((place / "result.json").read_text())
-    assert reader.numbers["residual_slip_m"][0] == data["residual_slip_m"]
-    assert "--duration 3s --report" in reader.text
 
 
 def test_notebooks_show_case_motion_and_response(block):
@@ -498,3 +397,29 @@ def test_reports_of_the_examples(name, run, tmp_path):
     case = read_case(ROOT / "examples" / f"{name}.toml", FAST)
     for path in write_report(case, run(case), tmp_path):
         assert path.stat().st_size > 100_000
+
+
+def pages_of(document):
+    """The room for text and figures of every page of a PDF, as shades of grey."""
+    import numpy as np
+    from PIL import Image
+
+    for data in pages(document, 30.0):
+        page = np.asarray(Image.open(io.BytesIO(data)).convert("L")).astype(int)
+        one = len(page) / 297.0
+        yield page[int(20 * one) : int(275 * one) - 2]
+
+
+def test_pages_are_full(both):
+    import numpy as np
+
+    blank = []
+    for page in pages_of(build_report(*both)):
+        inked = np.flatnonzero((page < 250).any(axis=1))
+        # Bands of less than 10 mm part what belongs apart.
+        bands = np.diff(inked) - 1
+        inner = bands[bands > 10.0 * len(page) / 255.0].sum()
+        blank.append(1.0 - (inked[-1] + 1 - inner) / len(page))
+    # The last page ends where the report does; a figure or a table that is kept whole may need the next page.
+    assert np.mean(blank[:-1]) < 0.12
+    assert max(blank[:-1]) < 0.3

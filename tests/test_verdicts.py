@@ -113,6 +113,30 @@ def test_lengths(metres, words):
     assert length(metres) == words
 
 
+@pytest.mark.parametrize(
+    ("metres", "words"),
+    [
+        (12.345, "40.50 ft"),
+        (1.0, "39.37 in"),
+        (-0.5782, "-22.76 in"),
+        (0.001, "0.0394 in"),
+        (1e-5, "0.0004 in"),
+        (1e-7, "under 0.0004 in"),
+        (0.0, "0 in"),
+    ],
+)
+def test_lengths_in_units_of_the_united_states(metres, words):
+    assert length(metres, "us") == words
+
+
+def test_verdicts_in_units_of_the_united_states(response):
+    text = verdict(response, "us")
+    assert f"slides {length(response.residual_slip_m, 'us')} downstream" in text
+    assert "ft/s" in text
+    assert " mm" not in text
+    assert " m/s" not in text
+
+
 def test_angles():
     assert angle(2.467e-4) == "0.247 mrad"
     assert angle(5.95e-3) == "5.95 mrad"

@@ -78,7 +78,7 @@ def write_all(
                 for each in (result.rigid, result.flexible):
                     _write_one(each, fresh / each.model, None, units, suffix, vtk)
             elif isinstance(result, Grid):
-                _write_grid(result, fresh)
+                _write_grid(result, fresh, units)
             else:
                 _write_one(result, fresh, case, units, suffix, vtk)
             return _move(fresh, directory)
@@ -108,13 +108,13 @@ def _write_one(response: Response, directory: Path, case: Case | None, units: st
         write_vtk_series(response.crack, directory / _VTK)
 
 
-def _write_grid(grid: Grid, directory: Path) -> None:
+def _write_grid(grid: Grid, directory: Path, units: str) -> None:
     from heeltoe.figures import write_grid_figures
 
     (directory / "result.json").write_text(json_text(grid.to_json()) + "\n", encoding="utf-8")
     for suffix in (".csv", ".parquet"):
         write_table(grid.to_table(), directory / f"table{suffix}")
-    write_grid_figures(grid, directory)
+    write_grid_figures(grid, directory, units)
 
 
 def _move(fresh: Path, directory: Path) -> list[Path]:

@@ -7,6 +7,8 @@ import numpy as np
 from heeltoe import _kernel
 from heeltoe.response import Response
 
+# Exact by definition (NIST Special Publication 811, appendix B.8) [m], [kg].
+FOOT, POUND = 0.3048, 0.45359237
 # Below these nobody measures anything on a dam: a hundredth of a millimetre, a thousandth of a milliradian.
 _SLIP_M = 1e-5
 _ROTATION_RAD = 1e-6
@@ -21,8 +23,8 @@ _LETS_GO_S = 0.02
 _LAST_S = 1.0
 
 
-def verdict(response: Response) -> str:
-    """Say what the part above the crack does, and whether it is at rest in the end."""
+def verdict(response: Response, units: str = "si") -> str:
+    """Say what the part above the crack does, and whether it is at rest in the end, in units ``"si"`` or ``"us"``."""
     if not response.ok:
         return f"No result to trust ({response.outcome}): {response.advice}."
     if response.outcome == "overturned":
@@ -30,18 +32,19 @@ def verdict(response: Response) -> str:
         way = "downstream" if about == "toe" else "upstream"
         sentences = [f"The dam overturns {way}, about its {about}: it lies on its side at {response.end_time_s:.2f} s."]
     elif response.model == "flexible":
-        sentences = [_elastic_slip(response), _openings(response), _elastic_end(response)]
+        sentences = [_elastic_slip(response, units), _openings(response, units), _elastic_end(response, units)]
     else:
-        sentences = [_slip(response), _rocking(response), _end(response)]
-    return " ".join(sentence for sentence in [*sentences, _limits(response)] if sentence)
+        sentences = [_slip(response, units), _rocking(response, units), _end(response)]
+    return " ".join(sentence for sentence in [*sentences, _limits(response, units)] if sentence)
 
 
-def _limits(response: Response) -> str:
+def _limits(response: Response, units: str) -> str:
     """Say which of the limits that the user has set are met."""
     if not response.limits:
         return ""
     broken = [
-        f"{_LIMITS[check.name]} of {length(check.value_m)} is more than the {length(check.allowed_m)} allowed"
+        f"{_LIMITS[check.name]} of {length(check.value_m, units)} is more than the "
+        f"{length(check.allowed_m, units)} allowed"
         for check in response.limits
         if not check.met
     ]
@@ -58,14 +61,36 @@ _LIMITS = {
 }
 
 
-def length(metres: float) -> str:
-    """Write a length as people say it: in m from one metre, else in mm, to no less than a hundredth."""
+def length(metres: float, units: str = "si") -> str:
+    """Write a length as people say it: in m from one metre, else in mm, to no less than a hundredth; in ft from ten
+    feet, else in inches."""
     size = abs(metres)
+    if units == "us":
+        return _us_length(metres)
     if size >= 1.0:
         return f"{metres:.2f} m"
     if size >= 0.9995e-3:
         return f"{1e3 * metres:.1f} mm"
     return f"{1e3 * metres:.2f} mm" if size >= 0.5e-5 or not size else "under 0.01 mm"
+
+
+def _us_length(metres: float) -> str:
+    size = abs(metres) / FOOT
+    if size >= 10.0:
+        return f"{metres / FOOT:.2f} ft"
+    inches = 12.0 * metres / FOOT
+    if abs(inches) >= 0.9995:
+        return f"{inches:.2f} in"
+    if abs(inches) >= 0.04:
+        return f"{inches:.3f} in"
+    if not inches:
+        return "0 in"
+    return f"{inches:.4f} in" if abs(inches) >= 2e-4 else "under 0.0004 in"
+
+
+def speed(metres_per_second: float, units: str = "si") -> str:
+    """Write a velocity to two digits."""
+    return f"{metres_per_second / FOOT:.2g} ft/s" if units == "us" else f"{metres_per_second:.2g} m/s"
 
 
 def angle(radians: float) -> str:
@@ -104,42 +129,42 @@ def lets_go(response: Response) -> bool:
     return float(np.diff(response.crack.time, prepend=0.0)[loose].sum()) >= _LETS_GO_S
 
 
-def _spread(response: Response, key: str = "residual_slip_m") -> str:
+def _spread(response: Response, units: str) -> str:
     """Return the range of the residual slip with slightly different shaking, in brackets."""
-    found = None if response.spread is None else response.spread[key]
+    found = None if response.spread is None else response.spread["residual_slip_m"]
     if found is None:
         return ""
     low, high = sorted((abs(found["min"]), abs(found["max"])))
     if found["min"] * found["max"] < 0.0:
-        return f" (with the shaking varied by 1 %, {length(found['min'])} to {length(found['max'])})"
-    return f" ({length(low)} to {length(high)} with the shaking varied by 1 %)"
+        return f" (with the shaking varied by 1 %, {length(found['min'], units)} to {length(found['max'], units)})"
+    return f" ({length(low, units)} to {length(high, units)} with the shaking varied by 1 %)"
 
 
-def _slip(response: Response) -> str:
+def _slip(response: Response, units: str) -> str:
     slip: float = response.residual_slip_m
     down, up = response.peak_slip_downstream_m, -response.peak_slip_upstream_m
     if max(down, up) == 0.0:
         return "The dam does not slide."
     if abs(slip) < _SLIP_M:
-        return f"The dam slides to and fro by up to {length(max(down, up))} and ends where it began."
-    text = f"The dam slides {length(abs(slip))} {_way(slip)}{_spread(response)}"
-    return text + _on_the_way(slip, down, up, _SLIP_M) + "."
+        return f"The dam slides to and fro by up to {length(max(down, up), units)} and ends where it began."
+    text = f"The dam slides {length(abs(slip), units)} {_way(slip)}{_spread(response, units)}"
+    return text + _on_the_way(slip, down, up, _SLIP_M, units) + "."
 
 
-def _elastic_slip(response: Response) -> str:
+def _elastic_slip(response: Response, units: str) -> str:
     slip: float = response.residual_slip_m
     down, up = response.peak_slip_downstream_m, -response.peak_slip_upstream_m
     largest = max(down, up)
     if largest < _ELASTIC_M:
         return "The dam does not slide."
     if abs(slip) < _ELASTIC_M:
-        return f"The dam does not slide: its crack shifts by up to {length(largest)} and comes back."
+        return f"The dam does not slide: its crack shifts by up to {length(largest, units)} and comes back."
     if lets_go(response):
-        text = f"The dam slides {length(abs(slip))} {_way(slip)}{_spread(response)}"
-        return text + _on_the_way(slip, down, up, _ELASTIC_M) + "."
+        text = f"The dam slides {length(abs(slip), units)} {_way(slip)}{_spread(response, units)}"
+        return text + _on_the_way(slip, down, up, _ELASTIC_M, units) + "."
     return (
-        f"The dam creeps {length(abs(slip))} {_way(slip)}{_spread(response)}: parts of the crack slip in turn, while "
-        "the rest holds."
+        f"The dam creeps {length(abs(slip), units)} {_way(slip)}{_spread(response, units)}: parts of the crack slip in "
+        "turn, while the rest holds."
     )
 
 
@@ -147,15 +172,15 @@ def _way(slip: float) -> str:
     return "downstream" if slip > 0.0 else "upstream"
 
 
-def _on_the_way(slip: float, down: float, up: float, least: float) -> str:
+def _on_the_way(slip: float, down: float, up: float, least: float, units: str) -> str:
     back = max(down if slip > 0.0 else up, 0.0) - abs(slip)
-    return f", after up to {length(abs(slip) + back)} on the way" if back > max(least, 0.05 * abs(slip)) else ""
+    return f", after up to {length(abs(slip) + back, units)} on the way" if back > max(least, 0.05 * abs(slip)) else ""
 
 
-def _openings(response: Response) -> str:
+def _openings(response: Response, units: str) -> str:
     """Say how far an elastic dam's crack opens, and how it closes."""
     faces = {"upstream": response.opening_upstream_m, "downstream": response.opening_downstream_m}
-    open_ = [f"{length(gap)} at the {face} face" for face, gap in faces.items() if gap >= _ELASTIC_M]
+    open_ = [f"{length(gap, units)} at the {face} face" for face, gap in faces.items() if gap >= _ELASTIC_M]
     if not open_:
         return (
             "The crack stays closed at both faces."
@@ -169,7 +194,7 @@ def _openings(response: Response) -> str:
     if strikes:
         fastest = "" if strikes == 1 else ", the fastest"
         count = "once" if strikes == 1 else f"{strikes} times"
-        text += f"; nodes of the crack strike {count}{fastest} at {response.largest_impact_velocity_m_s:.2g} m/s"
+        text += f"; nodes of the crack strike {count}{fastest} at {speed(response.largest_impact_velocity_m_s, units)}"
     text += "."
     in_the_air = response.time_by_mode_s["drifting"]
     if in_the_air >= _IN_THE_AIR_S:
@@ -177,19 +202,18 @@ def _openings(response: Response) -> str:
     return text
 
 
-def _elastic_end(response: Response) -> str:
+def _elastic_end(response: Response, units: str) -> str:
     if comes_to_rest(response):
         return "It has come to rest in the end."
     factor = response.static["sliding_safety_factor"]
     if factor is not None and factor < 1.0:
         return "It slides away: its static loads alone move it, and nothing stops it."
     seconds, change = last_change(response)
-    return (
-        f"It has not come to rest when the run ends: in the last {seconds:.2g} s its slip changes by {length(change)}."
-    )
+    moved = length(change, units)
+    return f"It has not come to rest when the run ends: in the last {seconds:.2g} s its slip changes by {moved}."
 
 
-def _rocking(response: Response) -> str:
+def _rocking(response: Response, units: str) -> str:
     down, up = response.rocking_downstream_rad, response.rocking_upstream_rad
     if max(response.largest_gap_heel_m, response.largest_gap_toe_m) == 0.0:
         return "It does not rock."
@@ -198,17 +222,18 @@ def _rocking(response: Response) -> str:
     parts = []
     if down >= _ROTATION_RAD:
         parts.append(
-            f"downstream by {angle(down)}, opening the crack {length(response.opening_upstream_m)} at the upstream face"
+            f"downstream by {angle(down)}, opening the crack {length(response.opening_upstream_m, units)} at the "
+            "upstream face"
         )
     if up >= _ROTATION_RAD:
         parts.append(
-            f"upstream by {angle(up)}, opening it {length(response.opening_downstream_m)} at the downstream face"
+            f"upstream by {angle(up)}, opening it {length(response.opening_downstream_m, units)} at the downstream face"
         )
     text = "It rocks " + " and ".join(parts) if parts else "It lifts off"
     strikes = response.impacts
     if strikes:
-        speed = response.largest_impact_velocity_m_s
-        text += f"; {strikes} impact{'s' if strikes > 1 else ''}, bounces included, at up to {speed:.2g} m/s"
+        fastest = speed(response.largest_impact_velocity_m_s, units)
+        text += f"; {strikes} impact{'s' if strikes > 1 else ''}, bounces included, at up to {fastest}"
     return text + "."
 
 

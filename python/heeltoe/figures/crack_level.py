@@ -44,7 +44,7 @@ def crack_level_figure(response: Response) -> Figure:
     transfer.plot(periods, spectrum["transfer"], color=_CRACK, linewidth=1.4, linestyle="--", label="rigid part above")
     bonded = spectrum["bonded_transfer"]
     transfer.plot(periods, bonded, color=COLOURS["slip"], linewidth=1.2, label="all elastic, no crack")
-    transfer.set_ylabel("amplification, crack over ground [-]")
+    transfer.set_ylabel("crack over ground [-]")
     for axes in (spectra, transfer):
         _mark_periods(axes, level["periods_s"])
         axes.set_ylim(0.0, None)

@@ -90,7 +90,7 @@ def acceleration_figure(response: Response, units: str = "si") -> Figure:
     forces.plot(time, friction, color="#000000", linewidth=0.7, linestyle=":", label="friction, + downstream")
     forces.set_ylabel(f"force on the part\nabove [{scale.unit}]")
     time_axis(forces, time[-1])
-    figure.legend(loc="outside lower center", ncols=3)
+    figure.legend(*forces.get_legend_handles_labels(), loc="outside lower center", ncols=3)
     figure.align_ylabels([ground, base, forces])
     return figure
 

@@ -51,7 +51,7 @@ def draw_ground(axes: Axes, response: Response) -> None:
         axes.plot(h["time_s"], crack / g, color=COLOURS["slip"], linewidth=0.7, label="at the crack")
         axes.plot(time, ground / g, color="#999999", linewidth=0.7, linestyle="--", label="ground", zorder=1.8)
         axes.set_ylabel("acceleration [g]")
-        axes.legend(loc="upper left", ncols=2, fontsize=7, bbox_to_anchor=(0.0, 1.12))
+        axes.legend(loc="lower left", ncols=2, fontsize=7, bbox_to_anchor=(0.0, 1.0), borderaxespad=0.0)
     critical = response.static["critical_acceleration_g"]
     low, high = axes.get_ylim()
     of = "rigid block: " if is_elastic(response) else ""

@@ -10,7 +10,9 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from heeltoe.figures.crack_level import crack_level_figure
+from heeltoe.figures.panels import largest
 from heeltoe.figures.style import heading, styled
+from heeltoe.figures.units import unit_system
 from heeltoe.figures.write import save_all
 from heeltoe.verdicts import length
 
@@ -30,11 +32,11 @@ _LINES = (
 )
 
 
-def write_grid_figures(grid: Grid, directory: Path) -> list[Path]:
+def write_grid_figures(grid: Grid, directory: Path, units: str = "si") -> list[Path]:
     """Write the figure ``slips`` of a table of runs, and ``crack-level`` of its first run that has one."""
     figures = {}
     if any(each.histories for each in grid.responses):
-        figures["slips"] = slips_figure(grid)
+        figures["slips"] = slips_figure(grid, units)
     for response in grid.responses:
         if response.model == "decoupled" and response.summary:
             figures["crack-level"] = crack_level_figure(response)
@@ -43,10 +45,12 @@ def write_grid_figures(grid: Grid, directory: Path) -> list[Path]:
 
 
 @styled
-def slips_figure(grid: Grid) -> Figure:
+def slips_figure(grid: Grid, units: str = "si") -> Figure:
     """Draw the slip of every run over time: a line for each value of the first varied field, a panel for each
     combination of the others."""
     first, *others = grid.variations
+    slips = [each.histories["slip_m"] for each in grid.responses if each.histories]
+    scale = unit_system(units).scale("displacement", largest(*slips))
     panels = list(dict.fromkeys(cell[1:] for cell in grid.cells))
     columns = min(2, len(panels))
     rows = math.ceil(len(panels) / columns)
@@ -62,13 +66,13 @@ def slips_figure(grid: Grid) -> Figure:
             if cell[1:] != values:
                 continue
             colour, dash = _line(first.values.index(cell[0]))
-            label = f"{cell[0]}: {length(response.residual_slip_m) if response.ok else response.outcome}"
+            label = f"{cell[0]}: {length(response.residual_slip_m, units) if response.ok else response.outcome}"
             h = response.histories
-            time, slip = (h["time_s"], 1e3 * h["slip_m"]) if h else ([], [])
+            time, slip = (h["time_s"], scale(h["slip_m"])) if h else ([], [])
             panel.plot(time, slip, color=colour, linestyle=dash, linewidth=1.2, label=label)
         panel.legend(title=first.path, fontsize=8, title_fontsize=8, loc="best")
         if place % columns == 0:
-            panel.set_ylabel("slip [mm]\n(+ downstream)")
+            panel.set_ylabel(f"slip [{scale.unit}]\n(+ downstream)")
         if place + columns >= len(panels):
             panel.set_xlabel("time [s]")
     for unused in axes[len(panels) :]:

@@ -43,6 +43,8 @@ MODE_HATCHES = {"rest": "", "slide": "", "rock": "...", "slide-rock": "///", "dr
 
 WIDTH = 7.5
 """Of every figure [in]: the text of a page of A4 or Letter."""
+# A run that ends this near to a round number of seconds is drawn to that.
+_NEARLY = 1.005
 # A line of a heading, in sizes of its letters: 10 points.
 _LINE = 51.0
 
@@ -102,7 +104,9 @@ def without_heading(figure: Figure) -> Figure:
 def time_axis(axes: Axes, end: float) -> None:
     """Label the axis of time, from zero to the end of the run [s]."""
     axes.set_xlabel("time [s]")
-    axes.set_xlim(0.0, end)
+    # The last frame of 30 s may stand at 29.99 s.
+    round_end = float(f"{end:.2g}")
+    axes.set_xlim(0.0, round_end if end < round_end < end * _NEARLY else end)
 
 
 def legend_below(axes: Axes, columns: int, offset: float) -> None:

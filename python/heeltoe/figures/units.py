@@ -9,7 +9,8 @@ from heeltoe.errors import InputError
 
 # Exact by definition (NIST Special Publication 811, appendix B.8): metres, newtons.
 _FOOT, _INCH, _POUND_FORCE = 0.3048, 0.0254, 4.4482216152605
-_KIP = 1e3 * _POUND_FORCE
+KIP = 1e3 * _POUND_FORCE
+"""A thousand pounds of force [N]."""
 
 # A quantity has one or more scales (SI value of one unit, its name), from the largest; one is taken whose unit the
 # largest value reaches, else the last.
@@ -25,9 +26,9 @@ _US: dict[str, tuple[tuple[float, str], ...]] = {
     "length": ((_FOOT, "ft"),),
     "displacement": ((_FOOT, "ft"), (_INCH, "in")),
     "velocity": ((_FOOT, "ft/s"),),
-    "force": ((_KIP / _FOOT, "kip/ft"),),
+    "force": ((KIP / _FOOT, "kip/ft"),),
     "pressure": ((_POUND_FORCE / _INCH**2, "psi"),),
-    "energy": ((_KIP, "ft-kip/ft"),),
+    "energy": ((KIP, "ft-kip/ft"),),
 }
 _BOTH: dict[str, tuple[tuple[float, str], ...]] = {
     "rotation": ((1.0, "rad"), (1e-3, "mrad")),

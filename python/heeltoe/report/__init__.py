@@ -77,7 +77,7 @@ def write_report(
     statics
         Result of :func:`heeltoe.statics`; computed with the residual slip of the result where it is not given.
     units
-        ``"si"`` or ``"us"``. Input and sentences stay in SI.
+        ``"si"`` or ``"us"``: of input, numbers, sentences and figures. The JSON stays SI.
     kinds
         Which of ``"pdf"`` and ``"html"``.
     command

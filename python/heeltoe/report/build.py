@@ -12,6 +12,7 @@ from heeltoe.report.build_statics import static_checks
 from heeltoe.report.build_verdict import limits
 from heeltoe.report.content import Document, References, Section, without_gaps
 from heeltoe.report.subject import Subject
+from heeltoe.report.wording import reworded
 from heeltoe.response import build_info
 
 
@@ -32,9 +33,10 @@ def document(subject: Subject) -> Document:
         rerun(subject),
         defaults(subject),
     )
+    blocks = without_gaps(*sections)
     return Document(
         title=subject.title,
         subtitle=f"What the dam does in the earthquake, by {models}",
         footer=f"heeltoe {build_info()['heeltoe']} · input {hashed[:12]}",
-        blocks=without_gaps(*sections),
+        blocks=reworded(blocks) if subject.units == "us" else blocks,
     )

@@ -36,7 +36,6 @@ _FLEXIBLE = (
     ("Difference that is allowed", "convergence.allowed", "share"),
     ("Tries per step until contact is found", "contact_iterations_per_step", None),
     ("Worst violation of the contact conditions, over the impulse", "contact_residual", None),
-    ("Error left by modes that are not kept", "mesh.basis_error", "share"),
 )
 
 _WALK = {
@@ -78,12 +77,13 @@ def _seen(rows: tuple[tuple[Inline, ...], ...]) -> tuple[tuple[Inline, ...], ...
 def _spread(subject: Subject, run: Run) -> list[Block]:
     if not run.response.summary:
         return []
+    if run.response.spread is None and not run.response.ok:
+        return []
     if run.response.spread is None:
-        if run is not subject.runs[0]:
-            return []
+        whose = "" if len(subject.runs) == 1 else f" of the {run.name}"
         return [
             paragraph(
-                "How much hangs on the exact strength of the shaking was not asked; ",
+                f"How much the result{whose} hangs on the exact strength of the shaking was not asked; ",
                 Code("--spread"),
                 " runs it 11 more times, scaled by 0.99 to 1.01. The slip of a dam that strikes means little without.",
             )
@@ -113,6 +113,8 @@ def _convergence(subject: Subject, run: Run) -> list[Block]:
     n = subject.numbers
     rows = [(label, n(run.prefix + key, quantity)) for label, key, quantity in _FLEXIBLE]
     shown: list[tuple[Inline, ...]] = [row for row in rows if row[1] != NOTHING]
+    tables = [Table(("", "value"), tuple(shown), "Time step and contact of the flexible model.", "lr")]
+    shown = []
     mesh = run.response.summary["mesh"]
     parts = ["above", "below"]
     for place in range(len(mesh["elements"])):
@@ -120,6 +122,7 @@ def _convergence(subject: Subject, run: Run) -> list[Block]:
         for label, name in (("Elements", "elements"), ("Nodes", "nodes"), ("Modes kept", "modes")):
             shown.append((f"{label} {where}", n(f"{run.prefix}mesh.{name}.{place}")))
     shown.append(("Nodes along the crack", n(f"{run.prefix}mesh.crack_nodes")))
+    shown.append(("Error left by modes that are not kept", n(f"{run.prefix}mesh.basis_error", "share")))
     for place in range(len(run.response.summary["periods_s"])):
         label = f"Period {place + 1} of the intact dam, with its water"
         shown.append((label, n(f"{run.prefix}periods_s.{place}", "time")))
@@ -135,4 +138,5 @@ def _convergence(subject: Subject, run: Run) -> list[Block]:
         blocks.append(
             paragraph("Whether the time step is short enough was not asked (", Code("flexible.convergence_check"), ").")
         )
-    return [*blocks, Table(("", "value"), tuple(shown), "What the flexible result rests on.", "lr")]
+    tables.append(Table(("", "value"), tuple(shown), "Mesh, modes and damping of the flexible model.", "lr"))
+    return [*blocks, *tables]

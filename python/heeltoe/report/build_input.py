@@ -13,16 +13,22 @@ from pydantic import BaseModel
 
 from heeltoe.case import Case
 from heeltoe.motion import GroundMotion
-from heeltoe.report.content import Block, Code, Inline, Listing, Section, Strong, Table, paragraph
+from heeltoe.report.content import Block, Code, Inline, Listing, Own, Section, Strong, Table, paragraph
 from heeltoe.report.subject import Subject
+from heeltoe.report.wording import UNITS, scale
 from heeltoe.response import build_info
 
 # SI units as people write them, and larger ones for what would have many zeros.
 _UNITS = {"kg/m^3": "kg/m³", "m/s^2": "m/s²", "N/m^2": "N/m²"}
 _LARGER = {"Pa": ((1e9, "GPa"), (1e6, "MPa"), (1e3, "kPa")), "N/m": ((1e6, "MN/m"), (1e3, "kN/m"))}
+# Lengths below are written in millimetres [m].
+_LEAST_METRES = 0.5
 _QUANTITY = re.compile(r"(-?\d+(?:\.\d*)?(?:e[+-]?\d+)?) ([A-Za-z/^\d]+)")
 # Longer lists, as the points of a drawn motion, are not read by anyone; their hash is in the report.
 _MOST_ITEMS = 12
+_SYSTEMS = {"si": "SI", "us": "US"}
+# Fields that hold people's own words, names and paths.
+_OWN_WORDS = ("title", "file", "unit", "mesh_above", "mesh_below")
 # Blocks that only one model looks at.
 _OWNERS = {"flexible": ("flexible",), "decoupled": ("decoupled",), "analysis": ("rigid", "decoupled")}
 
@@ -31,8 +37,8 @@ def given_input(subject: Subject) -> Section:
     """Return the section with the drawing of the dam and all fields that the case gives."""
     rows = _rows(subject, given=True)
     text = (
-        "All that the case says, in SI units per metre of dam; x points downstream, z up. What it leaves to the "
-        "program’s defaults is in the appendix."
+        f"All that the case says, in {_SYSTEMS[subject.units]} units per metre of dam; x points downstream, z up. "
+        "What it leaves to the program’s defaults is in the appendix."
     )
     return Section(
         "Input",
@@ -101,8 +107,8 @@ def _command(subject: Subject) -> str:
 def _rows(subject: Subject, *, given: bool) -> tuple[tuple[Inline, ...], ...]:
     written = subject.case.model_dump(mode="json")
     return tuple(
-        (Code(path), value, meaning.replace("`", ""))
-        for path, value, is_given, meaning in fields(subject.case, written)
+        (Code(path), Own(value) if path.rpartition(".")[2] in _OWN_WORDS else value, meaning.replace("`", ""))
+        for path, value, is_given, meaning in fields(subject.case, written, units=subject.units)
         if is_given == given
     )
 
@@ -114,7 +120,9 @@ def _unused(subject: Subject) -> str:
     return f"Fields of {' and '.join(blocks)} play no part in this report." if blocks else ""
 
 
-def fields(model: BaseModel, written: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, str, bool, str]]:
+def fields(
+    model: BaseModel, written: Mapping[str, Any], prefix: str = "", *, units: str = "si"
+) -> Iterator[tuple[str, str, bool, str]]:
     """Walk through all fields: path, value with its unit, whether it is given, meaning; blocks of fields come last."""
     blocks = []
     for name, info in type(model).model_fields.items():
@@ -125,36 +133,46 @@ def fields(model: BaseModel, written: Mapping[str, Any], prefix: str = "") -> It
             blocks += [(item, written[name][k], f"{prefix}{name}[{k}].") for k, item in enumerate(value)]
         else:
             meaning = " ".join((info.description or "").split())
-            yield prefix + name, shown(written[name]), name in model.model_fields_set, meaning
+            text = written[name] if name in _OWN_WORDS and written[name] else shown(written[name], units)
+            yield prefix + name, text, name in model.model_fields_set, meaning
     for block in blocks:
-        yield from fields(*block)
+        yield from fields(*block, units=units)
 
 
-def shown(value: Any) -> str:
+def shown(value: Any, units: str = "si") -> str:
     """Write a value of a case's JSON with its unit as people read it."""
     if value is None or value == []:
         return "none"
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, list):
-        items = [f"({shown_list(item)})" if isinstance(item, list) else shown(item) for item in value[:_MOST_ITEMS]]
+        items = [
+            f"({shown_list(item, units)})" if isinstance(item, list) else shown(item, units)
+            for item in value[:_MOST_ITEMS]
+        ]
         more = f" and {len(value) - _MOST_ITEMS} more" if len(value) > _MOST_ITEMS else ""
         return ", ".join(items) + more
     if isinstance(value, dict):
-        return ", ".join(f"{name} {shown(each)}" for name, each in value.items() if each is not None)
+        return ", ".join(f"{name} {shown(each, units)}" for name, each in value.items() if each is not None)
     if isinstance(value, float):
         return _plain(value)
     text = str(value)
     match = _QUANTITY.fullmatch(text)
-    return text if match is None else _quantity(float(match[1]), match[2])
+    return text if match is None else _quantity(float(match[1]), match[2], units)
 
 
-def shown_list(values: list[Any]) -> str:
+def shown_list(values: list[Any], units: str) -> str:
     """Write the parts of a point."""
-    return ", ".join(map(shown, values))
+    return ", ".join(shown(value, units) for value in values)
 
 
-def _quantity(number: float, unit: str) -> str:
+def _quantity(number: float, unit: str, units: str) -> str:
+    if units == "us" and unit in UNITS:
+        factor, quantity = UNITS[unit]
+        to = scale(quantity, number * factor)
+        return f"{number * factor * to.factor:.6g} {to.unit}"
+    if unit == "m" and 0.0 < abs(number) < _LEAST_METRES:
+        return f"{_plain(1e3 * number)} mm"
     for least, larger in _LARGER.get(unit, ()):
         if abs(number) >= least:
             return f"{_plain(number / least)} {larger}"

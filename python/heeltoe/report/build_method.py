@@ -97,7 +97,7 @@ def method(subject: Subject) -> Section:
     if subject.ran("flexible"):
         _flexible(writer, subject)
         parts.append(writer.section("Flexible dam", 0))
-    return Section("Method", (*parts, *subject.figure("modes")))
+    return Section("Method", (*parts, *subject.figure("mesh", "modes")))
 
 
 def _loads(writer: _Writer, subject: Subject) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from heeltoe.motion import GroundMotion
-from heeltoe.report.content import Block, Code, Inline, Notes, Section, Table, paragraph, without_gaps
+from heeltoe.report.content import Block, Code, Inline, Notes, Own, Section, Table, paragraph, without_gaps
 from heeltoe.report.numbers import NOTHING
 from heeltoe.report.subject import Subject
 
@@ -42,7 +42,7 @@ def ground_motion(subject: Subject) -> Section:
     for label, name in _WORDS:
         words = [getattr(motion, name) for motion, _ in motions.values()]
         if any(words):
-            rows.append((label, *(word or NOTHING for word in words)))
+            rows.append((label, *(Own(word) if word else NOTHING for word in words)))
     rows.append(("Processing", *("; ".join(motion.processing) or "none" for motion, _ in motions.values())))
     for label, name in _NUMBERS:
         cells = [n(f"{prefix}{key}.{name}") for _, key in motions.values()]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 
 from heeltoe.comparison import Comparison
-from heeltoe.report.content import Block, Code, Inline, Notes, Section, Strong, Table, paragraph, without_gaps
+from heeltoe.report.content import Block, Code, Inline, Notes, Own, Section, Strong, Table, paragraph, without_gaps
 from heeltoe.report.numbers import NOTHING, digits
 from heeltoe.report.subject import Run, Subject
 from heeltoe.verdicts import comes_to_rest, verdict
@@ -17,7 +17,7 @@ def question(subject: Subject) -> Section:
     for run in subject.runs:
         label = "Answer. " if len(subject.runs) == 1 else f"{run.name.capitalize()}. "
         if run.response.ok:
-            answers.append(paragraph(Strong(label), glued(verdict(run.response))))
+            answers.append(paragraph(Strong(label), glued(verdict(run.response, subject.units))))
     both = subject.result
     if isinstance(both, Comparison) and both.ok:
         answers.append(paragraph(Strong("Difference. "), glued(both.meaning())))
@@ -33,7 +33,7 @@ def question(subject: Subject) -> Section:
 
 def glued(text: str) -> str:
     """Keep numbers and their units on one line."""
-    return re.sub(r"(?<=\d) (?=(?:%|[a-zA-Z/]{1,4}\b))", "\u00a0", text)
+    return re.sub(r"(?<=\d) (?=(?:%|(?!and|to|or|of|at|in the|on)[a-zA-Z/]{1,4}\b))", "\u00a0", text)
 
 
 def _question(subject: Subject) -> Block:
@@ -41,7 +41,9 @@ def _question(subject: Subject) -> Block:
     n = subject.numbers
     return paragraph(
         Strong("Question. "),
-        f"What does the part of “{subject.title}” above its crack do in the ground motion ",
+        "What does the part of “",
+        Own(subject.title),
+        "” above its crack do in the ground motion ",
         Code(subject.first.response.motion.name),
         ", ",
         n(motion + "pga_g"),
@@ -58,7 +60,7 @@ def _failures(subject: Subject) -> Block | None:
         return None
     items: list[tuple[Inline, ...]] = [
         (
-            Strong(f"{run.model[0].upper()}{run.model[1:]}, outcome “{run.response.outcome}”. "),
+            Strong(f"{run.model[0].upper()}{run.model[1:]}, outcome “{run.response.outcome}”: "),
             f"{run.response.advice}.",
         )
         for run in subject.runs

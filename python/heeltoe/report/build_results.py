@@ -50,12 +50,13 @@ _CRACK_LEVEL: tuple[tuple[str, str, str | None], ...] = (
 _FIGURES = (
     "comparison",
     "response",
-    "crack-level",
     "slip-by-mode",
+    "crack-level",
     "accelerations",
     "forces",
     "path",
     "crack",
+    "pressure",
     "deformed",
 )
 

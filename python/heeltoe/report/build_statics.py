@@ -45,6 +45,9 @@ def judged(case: Case, result: Response | Comparison) -> Statics:
 
     runs = (result,) if isinstance(result, Response) else (result.flexible, result.rigid)
     trusted = next((run for run in runs if run.outcome == "ok"), None)
+    overturned = next((run for run in runs if run.outcome == "overturned"), None)
+    if trusted is None and overturned is not None:
+        return statics(case, overturned_about=overturned.overturned_about)
     if trusted is None or case.statics.residual_slip is not None:
         return statics(case)
     peak = trusted.motion.pga / trusted.gravity
@@ -142,10 +145,11 @@ def _remarks(subject: Subject, found: Statics) -> Notes:
     notes: dict[str, list[str]] = {}
     for check in found.checks:
         number = source_number(subject, check.source)
-        if check.note and number not in notes.setdefault(check.note, []):
-            notes[check.note].append(number)
+        for text in filter(None, check.note.split("; ")):
+            if number not in notes.setdefault(text, []):
+                notes[text].append(number)
     remarks = [f"{each.name}: {text}." for each in found.cases for text in each.assumptions]
-    remarks += [f"{', '.join(numbers)}: {note}." for note, numbers in notes.items()]
+    remarks += [f"{', '.join(sorted(numbers))}: {note}." for note, numbers in notes.items()]
     return Notes("note", "Taken for granted", tuple((text,) for text in dict.fromkeys(remarks)))
 
 

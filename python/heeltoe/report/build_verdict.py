@@ -13,6 +13,9 @@ _LIMITS = {
 }
 
 
+_EXAMPLE = {"si": "100 mm", "us": "4 in"}
+
+
 def limits(subject: Subject) -> Section:
     """Return the verdict against the limits that the user has set."""
     n = subject.numbers
@@ -36,7 +39,7 @@ def limits(subject: Subject) -> Section:
         blocks.append(
             paragraph(
                 "The case sets no limits. To have the results judged, add for example ",
-                Code('residual_slip = "100 mm"'),
+                Code(f'residual_slip = "{_EXAMPLE[subject.units]}"'),
                 " under ",
                 Code("[limits]"),
                 ".",

@@ -40,6 +40,13 @@ class Strong:
 
 
 @dataclass(frozen=True)
+class Own:
+    """People's own words, a title or a station: whatever units stand in them, they stay as they are."""
+
+    text: str
+
+
+@dataclass(frozen=True)
 class Symbol:
     """A letter of the equations in running text, with its index."""
 
@@ -47,8 +54,8 @@ class Symbol:
     index: str = ""
 
 
-Inline = str | Value | Code | Strong | Symbol
-"""A piece of running text; plain strings are people's words and may hold anything."""
+Inline = str | Value | Code | Strong | Own | Symbol
+"""A piece of running text; plain strings are sentences, in which anything may stand."""
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ _WIDTH, _HEIGHT = 420, 90
 # A column of pixels shows no more than the least and the most in it.
 _COLUMNS = 420
 _TABLE = '<table style="border-collapse:collapse;text-align:left">'
-_CELL = '<td style="text-align:left;padding:1px 14px 1px 0">{}</td>'
+_CELL = '<td style="text-align:left;vertical-align:top;padding:1px 14px 1px 0{}">{}</td>'
 
 
 def case_html(case: Case) -> str:
@@ -66,7 +66,7 @@ def response_html(response: Response) -> str:
     drawing = ""
     if response.histories:
         time = response.histories["time_s"]
-        drawing = line(time, response.histories["slip_m"], f"slip, + downstream, over {digits(float(time[-1]), 4)} s")
+        drawing = line(time, response.histories["slip_m"], f"slip, + downstream, over {digits(float(time[-1]), 2)} s")
     return _page(response.title or "Untitled case", rows, drawing)
 
 
@@ -113,7 +113,8 @@ def _section(case: Case) -> str:
         water = f'<rect x="0" y="{165 - deep:.1f}" width="60" height="{deep:.1f}" fill="#CFE6F5"/>'
     crack = place(np.array([section.heel, section.toe]))
     return (
-        f'<svg width="240" height="172" viewBox="0 0 240 172" role="img" aria-label="section of the dam">{water}'
+        f'<svg style="display:block" width="240" height="172" viewBox="0 0 240 172" role="img" '
+        f'aria-label="section of the dam">{water}'
         f'<polygon points="{place(corners)}" fill="#D0D0D0" stroke="#000"/>'
         f'<polyline points="{crack}" fill="none" stroke="#B22222" stroke-width="2"/></svg>'
     )
@@ -122,5 +123,8 @@ def _section(case: Case) -> str:
 def _page(title: str, rows: list[tuple[str, str]], drawing: str) -> str:
     from html import escape
 
-    cells = "".join(f"<tr>{_CELL.format(escape(name))}{_CELL.format(escape(value))}</tr>" for name, value in rows)
+    cells = "".join(
+        f"<tr>{_CELL.format(';white-space:nowrap', escape(name))}{_CELL.format('', escape(value))}</tr>"
+        for name, value in rows
+    )
     return f"<div><strong>{escape(title)}</strong>{drawing}{_TABLE}{cells}</table></div>"

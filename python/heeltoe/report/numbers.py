@@ -8,7 +8,7 @@ from typing import Any
 
 from heeltoe.figures.units import unit_system
 from heeltoe.report.content import Inline, Value
-from heeltoe.verdicts import angle, length
+from heeltoe.verdicts import FOOT, POUND, angle, length
 
 NOTHING = "–"
 """Stands where there is no number to show."""
@@ -31,8 +31,6 @@ _ENDINGS = {
 }
 # Less than this [Pa] is what rounding leaves of no stress.
 _NO_PRESSURE = 1e-3
-# Masses per length in the United States: pounds (0.45359237 kg, exact) per foot of dam.
-_POUND, _FOOT = 0.45359237, 0.3048
 
 
 class Numbers:
@@ -85,8 +83,10 @@ class Numbers:
             return self._scaled(number, quantity)
         if quantity == "mass":
             if self.units.name == "us":
-                return f"{digits(number * _FOOT / _POUND / 1e3, 4)} kip/ft"
+                return f"{digits(number * FOOT / POUND / 2e3, 4)} ton/ft"
             return f"{digits(number / 1e3, 4)} t/m"
+        if quantity == "acceleration" and self.units.name == "us":
+            return f"{digits(number / FOOT, 4)} ft/s²"
         unit = {
             "rotation": "",
             "angular velocity": " rad/s",
@@ -102,8 +102,8 @@ class Numbers:
         return digits(100.0 * number if quantity == "share" else number, 3 if quantity == "share" else 4) + unit
 
     def _scaled(self, number: float, quantity: str) -> str:
-        if self.units.name == "si" and quantity == "displacement":
-            return length(number)
+        if quantity == "displacement":
+            return length(number, self.units.name)
         if quantity == "pressure" and abs(number) < _NO_PRESSURE:
             number = 0.0
         scale = self.units.scale(quantity, abs(number))

@@ -87,6 +87,11 @@ class Subject:
         return self.runs[0]
 
     @property
+    def units(self) -> str:
+        """The name of the units, ``"si"`` or ``"us"``."""
+        return self.numbers.units.name
+
+    @property
     def title(self) -> str:
         """What the case is called."""
         return self.case.title.strip() or "Untitled case"

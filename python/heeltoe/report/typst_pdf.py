@@ -18,6 +18,7 @@ from heeltoe.report.content import (
     Inline,
     Listing,
     Notes,
+    Own,
     Paragraph,
     References,
     Section,
@@ -46,8 +47,10 @@ _NO_FONT = Notes(
     "Letters without a font",
     (("For some letters no font was found here; they may show as boxes. In the HTML report a browser shows them.",),),
 )
-_SHORT = 11
+_SHORT = 12
 """Rows of a table that is kept on one page; longer ones are broken, so that no page stays half empty."""
+_HELD = 3
+"""Rows at the head and the foot of a longer table that stay together."""
 _WIDTH_MM, _HEIGHT_MM = 170.0, 225.0
 """Room for a figure on a page, its caption left out."""
 
@@ -123,8 +126,12 @@ class _Writer:
         self.figures = 0
 
     def write(self, blocks: tuple[Block, ...], level: int = 1) -> Iterator[str]:
-        for block in blocks:
+        last = max((place for place, block in enumerate(blocks) if any(_figures((block,)))), default=-1)
+        for place, block in enumerate(blocks):
             if isinstance(block, Section):
+                # Figures that wait for a page with room for them come before what follows the last of their sections.
+                if level == 1 and place == last + 1:
+                    yield "#place.flush()"
                 yield f"#heading(level: {level}, {_words(block.title)})"
                 yield from self.write(block.blocks, level + 1)
             elif isinstance(block, FigureBlock):
@@ -138,7 +145,9 @@ class _Writer:
         name = f'"{self.figures}.svg"'
         self.figures += 1
         caption = _words(block.caption)
-        return f"#figure(image({name}, width: {shown:.1f}mm, alt: {_string(block.caption)}), caption: {caption})"
+        picture = f"image({name}, width: {shown:.1f}mm, alt: {_string(block.caption)})"
+        # Text flows on until there is a page with room for it.
+        return f"#figure(placement: auto, {picture}, caption: {caption})"
 
 
 def _plain(block: Block) -> str:
@@ -162,20 +171,30 @@ def _plain(block: Block) -> str:
 
 def _table(table: Table) -> str:
     count = len(table.head)
-    columns = ", ".join(f"{share:g}fr" for share in table.widths) or ", ".join(["auto"] * count)
-    align = ", ".join("right" if letter == "r" else "left" for letter in table.align.ljust(count, "l"))
+    widths = [f"{share:g}fr" for share in table.widths] or ["auto"] * count
+    letters = table.align.ljust(count, "l")
+    if len(table.rows) > _SHORT:
+        widths, letters = ["0pt", *widths], "l" + letters
+    columns = ", ".join(widths)
+    align = ", ".join("right" if letter == "r" else "left" for letter in letters)
+    # Short tables stay in one piece; long ones keep their first and their last rows together by cells without width.
+    broken = len(table.rows) > _SHORT
+    held = f"table.cell(rowspan: {_HELD}, breakable: false, inset: 0pt, [])"
     cells = [
         "table.hline(stroke: 0.8pt)",
-        "table.header(" + ", ".join(f"strong({_words(name)})" for name in table.head) + ", table.hline(stroke: 0.4pt))",
+        f"table.header({'[], ' * broken}{', '.join(f'strong({_words(name)})' for name in table.head)}, "
+        "table.hline(stroke: 0.4pt))",
     ]
-    for row in table.rows:
+    for place, row in enumerate(table.rows):
+        if broken and place in (0, len(table.rows) - _HELD):
+            cells.append(held)
+        elif broken and _HELD <= place < len(table.rows) - _HELD:
+            cells.append("[]")
         cells += [_inline((cell,), _NARROW if table.widths else _WIDE) for cell in row]
     cells.append("table.hline(stroke: 0.8pt)")
     size = "8.5pt" if table.widths else "9.5pt"
     body = f"text({size}, table(columns: ({columns}), align: ({align},), {', '.join(cells)}))"
     figure = f"figure(kind: table, supplement: [Table], caption: {_words(table.caption)}, {body})"
-    # Short tables stay in one piece.
-    broken = len(table.rows) > _SHORT
     return f"#{{ show figure: set block(breakable: {str(broken).lower()}); {figure} }}"
 
 
@@ -193,7 +212,7 @@ def _part(part: Inline, most: int) -> str:
     if isinstance(part, Symbol):
         index = f"#sub({_words(part.index)})" if part.index else ""
         return f"[#emph({_words(part.letter)}){index}]"
-    return _words(part, most)
+    return _words(part.text if isinstance(part, Own) else part, most)
 
 
 def _words(text: str, most: int = _WIDE) -> str:
@@ -208,10 +227,12 @@ def _breakable(text: str, most: int) -> str:
         parts = re.findall(rf".{{1,{most // 2}}}[._/,=-]|.{{1,{most // 2}}}", match[0])
         return "\u200b".join(parts)
 
+    # Nor is a unit broken at its stroke.
+    text = re.sub(r"(\d[ \u00a0][A-Za-z-]{1,7}/)(?=[a-z])", "\\1\u2060", text)
     return re.sub(rf"\S{{{most + 1},}}", broken, text)
 
 
 def _string(text: str) -> str:
     """Return a string of typst's: nothing in it is markup."""
-    plain = "".join(c if c.isprintable() or c in "\u200b" else " " for c in text)
+    plain = "".join(c if c.isprintable() or c in "\u200b\u2060" else " " for c in text)
     return '"' + plain.replace("\\", "\\\\").replace('"', '\\"') + '"'

@@ -1,0 +1,78 @@
+"""Numbers, input and sentences of the report, in SI and in US customary units."""
+
+from __future__ import annotations
+
+import pytest
+
+from heeltoe.report.build_input import shown
+from heeltoe.report.build_question import glued
+from heeltoe.report.numbers import Numbers, digits, kind
+from heeltoe.report.wording import us_words
+
+
+def test_sentences_in_units_of_the_united_states():
+    for text, words in (
+        ("it is 0.16 to 57.2 mm when", "it is 0.0063 to 2.25 in when"),
+        (
+            "a dam of 20, 200, 2000 and 20000 GPa slides 218\u00a0mm",
+            "a dam of 2901, 29008, 290075 and 2901000 ksi slides 8.58\u00a0in",
+        ),
+        ("ends at 0.268 m/s, 66 %", "ends at 0.879 ft/s, 66 %"),
+        ("0.50 m downstream", "1.6 ft downstream"),
+        ("compression 1.20 MPa", "compression 174 psi"),
+        ("in 5 minutes, 3 modes, 0.4 g, M6.5m", "in 5 minutes, 3 modes, 0.4 g, M6.5m"),
+        ("per metre of dam", "per foot of dam"),
+    ):
+        assert us_words(text) == words
+        assert us_words(glued(text)).replace("\u00a0", " ") == words.replace("\u00a0", " ")
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        ("100.0 m", "100 m"),
+        ("0.01 m", "10 mm"),
+        ("20000000000.0 Pa", "20 GPa"),
+        ("0.08726646259971647 rad", "5°"),
+        ("0.4 g", "0.4 g"),
+        ("2650.0 kg/m^3", "2650 kg/m³"),
+        ("150000.0 N/m", "150 kN/m"),
+        (None, "none"),
+        (True, "yes"),
+        (0.143, "0.143"),
+        ([["0.0 m", "0.0 m"], ["80.0 m", "0.0 m"]], "(0 m, 0 m), (80 m, 0 m)"),
+        ({"step": "band-pass", "low": "0.1 Hz", "high": None}, "step band-pass, low 0.1 Hz"),
+        (list(range(20)), "0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11 and 8 more"),
+    ],
+)
+def test_input_is_shown_with_units(value, text):
+    assert shown(value) == text
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        ("91.44 m", "300 ft"),
+        ("0.0254 m", "1 in"),
+        ("0.0 m", "0 ft"),
+        ("20000000000.0 Pa", "2900.75 ksi"),
+        ("2400.0 kg/m^3", "149.827 lb/ft³"),
+        ("9.80665 m/s^2", "32.174 ft/s²"),
+        ("150000.0 N/m", "10.2783 kip/ft"),
+        ("0.4 g", "0.4 g"),
+        ([["0.0 m", "30.48 m"]], "(0 ft, 100 ft)"),
+    ],
+)
+def test_input_is_shown_in_units_of_the_united_states(value, text):
+    assert shown(value, "us") == text
+
+
+def test_numbers_are_written_as_people_read_them():
+    assert [digits(x, 4) for x in (0.0, 1.5, 0.10314805, 12345.6, 5.55e-16, 3e8, 883)] == [
+        "0", "1.5", "0.1031", "12350", "5.55·10⁻¹⁶", "3.00·10⁸", "883"
+    ]  # fmt: skip
+    assert kind("energy.input_j") == "energy"
+    assert kind("spread.residual_slip_m.mean") == "displacement"
+    numbers = Numbers({"a_m": float("nan"), "b": {"c_m": -0.0}})
+    assert numbers("a_m") == numbers("x.y_m") == "–"
+    assert numbers("b.c_m", sign=-1.0).text == "0.00 mm"
