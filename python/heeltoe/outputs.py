@@ -32,6 +32,7 @@ def write_all(
     *,
     suffix: str = ".parquet",
     vtk: bool = False,
+    figures: bool = True,
 ) -> list[Path]:
     """Write a result with its histories and figures.
 
@@ -56,6 +57,8 @@ def write_all(
         Of the tables, ``.parquet`` or ``.csv``.
     vtk
         Write the flexible model's parts as VTK files into ``vtk``, too; those of an earlier run there go.
+    figures
+        Whether a result of one model or both has figures; a report holds them all itself.
 
     Returns
     -------
@@ -74,13 +77,18 @@ def write_all(
             fresh = Path(name)
             if isinstance(result, Comparison):
                 (fresh / "result.json").write_text(json_text(result.to_json()) + "\n", encoding="utf-8")
-                write_comparison_figure(result, fresh, case=case, units=units)
+                if figures:
+                    write_comparison_figure(result, fresh, case=case, units=units)
                 for each in (result.rigid, result.flexible):
-                    _write_one(each, fresh / each.model, None, units, suffix, vtk)
+                    _write_one(each, fresh / each.model, suffix, vtk)
+                    if figures:
+                        write_figures(each, fresh / each.model, units=units)
             elif isinstance(result, Grid):
                 _write_grid(result, fresh, units)
             else:
-                _write_one(result, fresh, case, units, suffix, vtk)
+                _write_one(result, fresh, suffix, vtk)
+                if figures:
+                    write_figures(result, fresh, case=case, units=units)
             return _move(fresh, directory)
     except (OSError, InputError) as error:
         if made is not None:
@@ -90,10 +98,9 @@ def write_all(
         raise InputError("cannot-write", "--out", directory, reason=error.strerror or error) from None
 
 
-def _write_one(response: Response, directory: Path, case: Case | None, units: str, suffix: str, vtk: bool) -> None:
+def _write_one(response: Response, directory: Path, suffix: str, vtk: bool) -> None:
     directory.mkdir(exist_ok=True)
     (directory / "result.json").write_text(json_text(response.to_json()) + "\n", encoding="utf-8")
-    write_figures(response, directory, case=case, units=units)
     if not response.histories:
         return
     response.write_histories(directory / f"histories{suffix}")

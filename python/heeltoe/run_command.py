@@ -87,7 +87,11 @@ def run(
     ] = None,
     report: Annotated[
         bool,
-        typer.Option("--report", help="Write a report as PDF and HTML, into --out or a directory named by the case."),
+        typer.Option(
+            "--report",
+            help="Write a report as PDF and HTML, into --out or a directory named by the case, with figures in "
+            "the report.",
+        ),
     ] = False,
 ) -> None:
     """Run a case and say what the dam does."""
@@ -103,7 +107,10 @@ def run(
         from heeltoe.report import check_packages
 
         check_packages()
-        out = out or Path(f"{Path(case).stem}-report")
+    # What asks for a report alone gets its figures in it.
+    figures = out is not None
+    if report and out is None:
+        out = Path(f"{Path(case).stem}-report")
     if vtk and out is None:
         raise InputError("vtk-without-out", "--vtk")
     if vtk and model in ("rigid", "decoupled"):
@@ -144,7 +151,7 @@ def run(
 
             say("writing")
             suffix = ".csv" if csv else ".parquet"
-            written = write_all(result, out, loaded, units, suffix=suffix, vtk=vtk)
+            written = write_all(result, out, loaded, units, suffix=suffix, vtk=vtk, figures=figures)
             if report:
                 from heeltoe.report import write_report
 

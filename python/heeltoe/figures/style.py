@@ -101,6 +101,16 @@ def without_heading(figure: Figure) -> Figure:
     return figure
 
 
+def laid_out(figure: Figure) -> Figure:
+    """Lay a figure out once and for all; it would be done, with a drawing for nothing, for every file otherwise."""
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        with mpl.rc_context(STYLE | {"figure.constrained_layout.use": False, "figure.autolayout": False}):
+            engine.execute(figure)
+            figure.set_layout_engine(None)
+    return figure
+
+
 def time_axis(axes: Axes, end: float) -> None:
     """Label the axis of time, from zero to the end of the run [s]."""
     axes.set_xlabel("time [s]")

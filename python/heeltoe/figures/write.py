@@ -24,7 +24,7 @@ from heeltoe.figures.histories import (
 from heeltoe.figures.panels import is_elastic
 from heeltoe.figures.path import path_figure
 from heeltoe.figures.spectrum import spectrum_figure
-from heeltoe.figures.style import STYLE, without_heading
+from heeltoe.figures.style import STYLE, laid_out, without_heading
 from heeltoe.response import Response
 
 if TYPE_CHECKING:
@@ -178,6 +178,7 @@ def save_all(figures: dict[str, Figure], directory: Path) -> list[Path]:
     """Write figures by their names as PNG and SVG and return the paths."""
     written = []
     for name, figure in figures.items():
+        laid_out(figure)
         for suffix in (".png", ".svg"):
             path = directory / f"{name}{suffix}"
             save(figure, path)

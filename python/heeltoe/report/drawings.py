@@ -74,11 +74,14 @@ def caption(name: str) -> str:
 def _block(name: str, figure: Figure) -> FigureBlock:
     import matplotlib as mpl
 
+    from heeltoe.figures.style import laid_out
+
     own = name.rpartition("/")[2]
     width, height = figure.get_size_inches()
     if own in _LOWER and height > _LEAST_HEIGHT:
         height = max(_LEAST_HEIGHT, _LOWER[own] * height)
         figure.set_size_inches(width, height)
+    laid_out(figure)
     # Letters as outlines look the same wherever the report is read.
     with mpl.rc_context({"svg.fonttype": "path", "svg.hashsalt": "heeltoe"}):
         file = io.BytesIO()
