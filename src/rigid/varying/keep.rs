@@ -45,6 +45,13 @@ impl Walk<'_, '_> {
         self.strain();
     }
 
+    /// Write the state as slip, gaps and velocities into the summary.
+    pub(super) fn see(&mut self) {
+        let [heel, toe] = self.turning.gaps(self.corner, &self.state);
+        self.summary.position = [self.state[0], heel.max(0.0), toe.max(0.0)];
+        self.summary.velocity = self.turning.contact_velocity(self.corner, &self.state);
+    }
+
     fn widen(&mut self, at: &Vector, theta: f64) {
         let s = &mut self.summary;
         s.slip_range = [s.slip_range[0].min(at[SLIP]), s.slip_range[1].max(at[SLIP])];

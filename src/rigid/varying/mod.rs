@@ -9,5 +9,6 @@ pub mod block;
 pub mod ground;
 mod keep;
 pub mod loads;
+mod rest;
 pub mod step;
 pub mod walk;

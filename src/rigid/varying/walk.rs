@@ -19,8 +19,6 @@ const TOLERANCE: f64 = 1e-12;
 const UNIT: f64 = 1e-9;
 /// A moving block's accelerations change with its motion, too: their rate is taken over at most so many seconds.
 const AHEAD: f64 = 1e-4;
-/// A limit is far off by more than this part of the forces at hand: well beyond what rounding could make of it.
-const CLEAR: f64 = 1e-9;
 
 pub(super) struct Walk<'a, 'h> {
     pub(super) block: &'a Block,
@@ -40,8 +38,8 @@ pub(super) struct Walk<'a, 'h> {
     pub(super) log: &'a mut Vec<Event>,
     pub(super) histories: Option<&'a mut Histories<'h>>,
     pub(super) standing: u32,
-    /// Of a block at rest, see `reserve_at_rest`; none until it is asked for.
-    reserve: Option<[[f64; 4]; 4]>,
+    /// Of a block at rest, see [`super::rest`]; none until it is asked for.
+    pub(super) reserve: Option<[[f64; 4]; 4]>,
 }
 
 /// Run one block through one motion; the arguments are those of [`super::super::simulate::simulate`]. Returns the
@@ -149,15 +147,12 @@ impl Walk<'_, '_> {
                 continue;
             }
             let (a0, a1) = (motion.at(k), motion.at(k + 1));
-            let rate = [0, 1, 2].map(|i| (a1[i] - a0[i]) / length);
-            if held && self.mode == Mode::Rest && self.rests([&a0, &a1]) {
-                let state = self.state;
-                let stretch = Stretch {
-                    ground: a0,
-                    rate,
-                    left: length,
-                };
-                self.move_on(&state, &[0.0; 8], &state, &stretch, length, t0);
+            let whole = Stretch {
+                ground: a0,
+                rate: [0, 1, 2].map(|i| (a1[i] - a0[i]) / length),
+                left: length,
+            };
+            if held && self.mode == Mode::Rest && self.rests_through(&whole, t0) {
                 continue;
             }
             let mut local = 0.0;
@@ -167,9 +162,9 @@ impl Walk<'_, '_> {
             held = true;
             while local < length {
                 let stretch = Stretch {
-                    ground: [0, 1, 2].map(|i| a0[i] + rate[i] * local),
-                    rate,
+                    ground: whole.after(local),
                     left: length - local,
+                    ..whole
                 };
                 self.summary.end_time = t0 + local;
                 if (cause.is_some() || !chosen) && !self.choose(&stretch, cause) {
@@ -227,28 +222,6 @@ impl Walk<'_, '_> {
         };
         let state = self.state;
         self.record(&state, &last, f64::INFINITY, self.summary.end_time);
-    }
-
-    /// Whether a block at rest stays so, clear of every limit, while the ground's acceleration goes straight from one of
-    /// `ends` to the other.
-    fn rests(&mut self, ends: [&Ground; 2]) -> bool {
-        let [still, across, up, turning] = self.reserve.unwrap_or_else(|| self.reserve_at_rest());
-        self.reserve = Some([still, across, up, turning]);
-        let clear = CLEAR * self.block.force_scale;
-        ends.iter()
-            .all(|[a, b, c]| (0..4).all(|i| still[i] + a * across[i] + b * up[i] + c * turning[i] > clear))
-    }
-
-    /// The limits of [`Self::limits`] in a still ground, and what each unit of the ground's acceleration adds to them: a
-    /// block at rest is under loads that are linear in it.
-    fn reserve_at_rest(&self) -> [[f64; 4]; 4] {
-        let of = |ground: Ground| self.limits(&self.state, &ground).map(|(value, _)| value);
-        let still = of([0.0; 3]);
-        let per = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|unit| {
-            let with = of(unit);
-            [0, 1, 2, 3].map(|i| with[i] - still[i])
-        });
-        [still, per[0], per[1], per[2]]
     }
 
     fn closed(&self) -> [bool; 2] {
@@ -382,13 +355,6 @@ impl Walk<'_, '_> {
         if self.state[1].abs() <= near {
             self.state[1] = 0.0;
         }
-    }
-
-    /// Write the state as slip, gaps and velocities into the summary.
-    pub(super) fn see(&mut self) {
-        let [heel, toe] = self.turning.gaps(self.corner, &self.state);
-        self.summary.position = [self.state[0], heel.max(0.0), toe.max(0.0)];
-        self.summary.velocity = self.turning.contact_velocity(self.corner, &self.state);
     }
 
     fn apply(&mut self, blow: &Impact) {
