@@ -223,7 +223,7 @@ def test_a_comparison_of_which_one_failed_says_so(both):
 
 def test_parts_that_are_missing_are_left_out(tmp_path):
     case = read_case(ROOT / "examples" / "block.toml", ['title=""'])
-    paths = write_report(case, rigid(case), tmp_path / "new" / "place")
+    paths = write_report(case, rigid(case), str(tmp_path / "new" / "place"))
     assert [path.name for path in paths] == ["report.pdf", "report.html"]
     assert "Untitled case" in paths[1].read_text()
     assert "Untitled case" in pdf_text(paths[0].read_bytes())

@@ -14,6 +14,7 @@ METHOD = [
     (["crack.inclination=5deg"], ["inclined plane"]),
     (["uplift.pattern=none"], ["no water pressure in the crack"]),
     (["uplift.intensity=0.5"], ["all of it times 0.5"]),
+    (["decoupled.rotation=true"], ["cubic in time", "exactly from event to event"]),
 ]
 
 

@@ -55,7 +55,7 @@ def build_report(
 def write_report(
     case: Case,
     result: Response | Comparison,
-    directory: Path,
+    directory: Path | str,
     *,
     statics: Statics | None = None,
     units: str = "si",
@@ -94,6 +94,7 @@ def write_report(
         Where the directory cannot be written, or a package is not installed (``pip install heeltoe[report]``).
     """
     check_packages(kinds, "kinds")
+    directory = Path(directory)
     document = build_report(case, result, statics=statics, units=units, command=command)
     made = next((place for place in (*reversed(directory.parents), directory) if not place.exists()), None)
     try:

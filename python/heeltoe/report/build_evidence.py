@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from heeltoe.report.build_method import varies
 from heeltoe.report.content import Block, Code, Inline, Section, Table, paragraph
 from heeltoe.report.numbers import NOTHING
 from heeltoe.report.subject import Run, Subject
+from heeltoe.varying import varies
 
 _SPREAD = (
     ("Residual slip", "residual_slip_m", 1.0),

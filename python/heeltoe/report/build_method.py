@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from heeltoe.case import Case
 from heeltoe.report.content import Block, Equation, Section, Symbol, paragraph
 from heeltoe.report.equations import EQUATIONS
 from heeltoe.report.subject import Subject
+from heeltoe.varying import varies
 
 _PATTERNS = {
     "none": "There is no water pressure in the crack.",
@@ -75,11 +75,9 @@ class _Writer:
         return Section(title, found)
 
 
-def varies(case: Case) -> bool:
-    """Whether loads or geometry change as the block moves, so that it is integrated between events."""
-    elastic = any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors)
-    changes = case.uplift.during_shaking != "constant" or case.decoupled.rotation
-    return case.analysis.rotation != "small" or changes or elastic
+def integrated(subject: Subject) -> bool:
+    """Whether a block of this report is integrated between events; rotations of the ground reach it through a crack."""
+    return varies(subject.case) or (subject.ran("decoupled") and subject.case.decoupled.rotation)
 
 
 def method(subject: Subject) -> Section:
@@ -202,7 +200,7 @@ def _rigid(writer: _Writer, subject: Subject) -> None:
         "Between events the motion is integrated with a method of order 8, to a relative error of 10⁻¹² a step, "
         "and the "
         "next event is found on it."
-        if varies(case)
+        if integrated(subject)
         else "The ground acceleration is linear between samples, so that every motion is a cubic in time and "
         "the response "
         "is computed exactly from event to event, without a time step.",
