@@ -12,9 +12,10 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np
 from measure import heading, repeat, require, seconds, table, timed
 
-from heeltoe import Case, GroundMotion, InputError, _kernel, flexible_parts, read_case, read_record
-from heeltoe.flexible_model import Shaken
-from heeltoe.records.catalog import find
+from heeltoe import Case, GroundMotion, InputError, _kernel, read_case, read_record
+from heeltoe.models.flexible import reduced as flexible_parts
+from heeltoe.models.flexible.model import Shaken
+from heeltoe.motion.records.catalog import find
 
 DURATION = 20.0
 # The step of the base crack is the one at which it was found converged; a dam that strikes needs half of it.

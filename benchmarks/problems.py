@@ -10,7 +10,7 @@ from measure import require
 from numpy.typing import NDArray
 
 from heeltoe import Case, GroundMotion, InputError, _kernel, build_block, read_case, read_record, rigid_many
-from heeltoe.records.catalog import find
+from heeltoe.motion.records.catalog import find
 
 Floats = NDArray[np.float64]
 Motions = GroundMotion | tuple[GroundMotion, GroundMotion]

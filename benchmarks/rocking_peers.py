@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 from scipy.integrate import quad, solve_ivp
 
 from heeltoe import Case, _kernel, read_case, read_record
-from heeltoe.block import Block, build_block
-from heeltoe.records.catalog import find
-from heeltoe.rigid_model import SETTLE, GroundSeries, run_block
-from heeltoe.shaking import resolve
-from heeltoe.varying import Varying, varying
+from heeltoe.case.shaking import resolve
+from heeltoe.mechanics.block import Block, build_block
+from heeltoe.models.rigid.model import SETTLE, GroundSeries, run_block
+from heeltoe.models.rigid.varying import Varying, varying
+from heeltoe.motion.records.catalog import find
 
 Floats = NDArray[np.float64]
 Solve = Callable[[], tuple[float, ...]]

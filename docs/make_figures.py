@@ -3,10 +3,10 @@
 from pathlib import Path
 
 from heeltoe import decoupled, read_case, rigid
-from heeltoe.figures import crack_level_figure, response_figure, save, slips_figure
-from heeltoe.figures.overturning import overturning_figure
-from heeltoe.overturning import overturning_map
-from heeltoe.variations import parse_variations, run_grid
+from heeltoe.study.grid import parse_variations, run_grid
+from heeltoe.study.overturning import overturning_map
+from heeltoe.views.figures import crack_level_figure, response_figure, save, slips_figure
+from heeltoe.views.figures.overturning import overturning_figure
 
 HERE = Path(__file__).parent
 EXAMPLES = HERE.parent / "examples"

@@ -71,4 +71,4 @@ def records() -> Path:
 @pytest.fixture
 def no_figures(monkeypatch):
     """Leave out figures, which take most of the time, where words alone are looked at."""
-    monkeypatch.setattr("heeltoe.report.drawings.drawings", lambda case, result, units: {})
+    monkeypatch.setattr("heeltoe.views.report.drawings.drawings", lambda case, result, units: {})

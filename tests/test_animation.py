@@ -19,14 +19,14 @@ from PIL import Image
 import heeltoe
 from conftest import ROOT
 from heeltoe import GroundMotion, InputError, animate, read_case
-from heeltoe.animation import look
-from heeltoe.animation.bodies import ACCURACY, Moments
-from heeltoe.animation.frames import STATUSES, automatic, build_scene, round_below
-from heeltoe.animation.picture import arrow_outlines
-from heeltoe.animation.video import gif_delay
-from heeltoe.section import cut, section_polygon
+from heeltoe.geometry.section import cut, section_polygon
+from heeltoe.views.animation import look
+from heeltoe.views.animation.bodies import ACCURACY, Moments
+from heeltoe.views.animation.frames import STATUSES, automatic, build_scene, round_below
+from heeltoe.views.animation.picture import arrow_outlines
+from heeltoe.views.animation.video import gif_delay
 
-PACKAGE = Path(heeltoe.__file__).parent / "animation"
+PACKAGE = Path(heeltoe.__file__).parent / "views" / "animation"
 EXAMPLES = {name: ROOT / "examples" / f"{name}.toml" for name in ("typical-base", "typical-height", "koyna-top")}
 SMALL = ["flexible.elements_across=2", "flexible.convergence_check=false", "motion.duration=1s"]
 TITLE = '堰堤 </script><b>$x^2$ & "é" %%SCENE%%'
@@ -412,7 +412,7 @@ def test_a_failure_keeps_the_file_that_was_there(block, tmp_path, monkeypatch):
     def failing(*arguments):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("heeltoe.animation.page.write_page", failing)
+    monkeypatch.setattr("heeltoe.views.animation.page.write_page", failing)
     with pytest.raises(InputError, match="No space left"):
         animate(case, response, old)
     assert old.read_text(encoding="utf-8") == "old"
@@ -424,7 +424,7 @@ def test_a_failure_keeps_the_file_that_was_there(block, tmp_path, monkeypatch):
 
 def run(*arguments, cwd):
     return subprocess.run(
-        [sys.executable, "-c", "from heeltoe.cli import main; main()", *map(str, arguments)],
+        [sys.executable, "-c", "from heeltoe.cli.main import main; main()", *map(str, arguments)],
         capture_output=True,
         text=True,
         cwd=cwd,

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from heeltoe import cli
+from heeltoe.cli import main as cli
 
 GOOD = """
 title = "Test"

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from heeltoe.case import case_schema, case_warnings, read_case
+from heeltoe.case.read import case_schema, case_warnings, read_case
 from heeltoe.errors import InputError
-from heeltoe.quantities import Acceleration
+from heeltoe.units.parse import Acceleration
 from test_case_errors import DAM, PULSE, dam, write
 
 NAMES = ["anchored", "block", "koyna", "koyna-top", "slender", "triangular", "typical-base", "typical-height"]

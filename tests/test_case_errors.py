@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import heeltoe.case
-from heeltoe.case import Case, read_case
+import heeltoe.case.read
+from heeltoe.case.read import Case, read_case
 from heeltoe.errors import CATALOGUE, InputError
 
 DAM = {
@@ -384,7 +384,7 @@ def test_override_that_is_wrong(override, message):
 
 
 def test_every_error_of_the_case_is_tested():
-    package = Path(heeltoe.case.__file__).parent
+    package = Path(heeltoe.case.read.__file__).parent
     sources = ["case.py", "case_errors.py", "case_model.py", "case_options.py", "quantities.py", "section.py"]
     text = "".join((package / name).read_text() for name in sources)
     raised = set(re.findall(r'InputError\(\s*"([a-z-]+)"', text)) | {"crack-no-width", "crack-pieces"}

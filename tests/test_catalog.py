@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from heeltoe import InputError
-from heeltoe.records import catalog
+from heeltoe.motion.records import catalog
 
 
 @pytest.fixture

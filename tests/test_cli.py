@@ -23,7 +23,7 @@ FAST = ("--set", "flexible.convergence_check=false", "--set", "motion.duration=3
 
 def heeltoe(*arguments: str | Path, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [sys.executable, "-c", "from heeltoe.cli import main; main()", *map(str, arguments)],
+        [sys.executable, "-c", "from heeltoe.cli.main import main; main()", *map(str, arguments)],
         capture_output=True,
         text=True,
         cwd=cwd,

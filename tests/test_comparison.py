@@ -12,8 +12,8 @@ import pytest
 
 from conftest import ROOT
 from heeltoe import Comparison, InputError, compare, flexible, read_case, rigid
-from heeltoe.outputs import write_all
-from heeltoe.response import json_text
+from heeltoe.result.response import json_text
+from heeltoe.views.files.write import write_all
 
 BASE = ROOT / "examples" / "typical-base.toml"
 HEIGHT = ROOT / "examples" / "typical-height.toml"
@@ -132,7 +132,7 @@ def test_a_failure_leaves_nothing_behind(both, tmp_path, monkeypatch):
     def fail(*_, **__):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("heeltoe.outputs.write_figures", fail)
+    monkeypatch.setattr("heeltoe.views.files.write.write_figures", fail)
     with pytest.raises(InputError, match="No space left") as refused:
         write_all(both, tmp_path)
     assert refused.value.code == "cannot-write"

@@ -11,8 +11,8 @@ from scipy.integrate import solve_ivp
 
 from conftest import ROOT
 from heeltoe import GroundMotion, InputError, _kernel, flexible, read_case
-from heeltoe.crack_forces import CrackWater, longest_step
-from heeltoe.flexible_parts import build_flexible_dam
+from heeltoe.models.flexible.inside import CrackWater, longest_step
+from heeltoe.models.flexible.reduced import build_flexible_dam
 
 G = 9.80665
 MASS = 2400.0 * 4.0

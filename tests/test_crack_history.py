@@ -10,8 +10,8 @@ import pytest
 
 from conftest import ROOT
 from heeltoe import GroundMotion, flexible, read_case
-from heeltoe.crack_history import CrackHistory, crack_table
-from heeltoe.elastic import bonded_state
+from heeltoe.models.flexible.elastic import bonded_state
+from heeltoe.models.flexible.history import CrackHistory, crack_table
 
 SMALL = ["flexible.elements_across=2", "flexible.convergence_check=false", "motion.duration=2s"]
 EXAMPLES = {"base": ROOT / "examples" / "typical-base.toml", "height": ROOT / "examples" / "typical-height.toml"}

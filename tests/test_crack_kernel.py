@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from heeltoe import _kernel, read_case
-from heeltoe.flexible_parts import Part, build_flexible_dam
+from heeltoe.models.flexible.reduced import Part, build_flexible_dam
 from heeltoe.validation.random_dams import LEFT, MADE, draw
 
 G = 9.80665

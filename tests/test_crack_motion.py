@@ -11,7 +11,8 @@ from scipy.optimize import brentq
 
 from conftest import ROOT
 from heeltoe import GroundMotion, InputError, build_block, read_case, response_spectrum
-from heeltoe.crack_motion import (
+from heeltoe.geometry.section import cut
+from heeltoe.models.decoupled.chain import (
     STRAIGHT,
     Chain,
     attached_mass,
@@ -21,10 +22,9 @@ from heeltoe.crack_motion import (
     plane_fit,
     shaken,
 )
-from heeltoe.elastic import dofs
-from heeltoe.mesh import dam_mesh
-from heeltoe.modes import intact_periods
-from heeltoe.section import cut
+from heeltoe.models.flexible.elastic import dofs
+from heeltoe.models.flexible.mesh.dam import dam_mesh
+from heeltoe.models.flexible.modes import intact_periods
 
 KOYNA = ROOT / "examples" / "koyna.toml"
 COARSE = "flexible.elements_across=3"

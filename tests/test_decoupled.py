@@ -17,12 +17,12 @@ from rich.console import Console
 
 from conftest import ROOT
 from heeltoe import GroundMotion, InputError, compare, decoupled, read_case, rigid, verdict, with_spread
-from heeltoe.comparison import Comparison
-from heeltoe.decoupled_model import crack_motions
-from heeltoe.outputs import write_all
-from heeltoe.response import json_text
-from heeltoe.variation_summary import print_grid
-from heeltoe.variations import MOST, parse_variations, run_grid
+from heeltoe.models.decoupled.model import crack_motions
+from heeltoe.result.response import json_text
+from heeltoe.study.comparison import Comparison
+from heeltoe.study.grid import MOST, parse_variations, run_grid
+from heeltoe.views.files.write import write_all
+from heeltoe.views.terminal.grid import print_grid
 
 KOYNA = ROOT / "examples" / "koyna.toml"
 COARSE = ["flexible.elements_across=3"]
@@ -32,7 +32,7 @@ STIFF = [*SHORT, "concrete.modulus=1e15 Pa"]
 
 def heeltoe(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [sys.executable, "-c", "from heeltoe.cli import main; main()", *map(str, arguments)],
+        [sys.executable, "-c", "from heeltoe.cli.main import main; main()", *map(str, arguments)],
         capture_output=True,
         text=True,
         env={**os.environ, "COLUMNS": "80"},
@@ -346,7 +346,7 @@ def test_variations_that_are_none(texts, code):
 
 
 def test_the_option_of_one_run_is_refused_in_process():
-    from heeltoe.run_command import run
+    from heeltoe.cli.run import run
 
     with pytest.raises(InputError) as refused:
         run(str(KOYNA), vary=["crack.friction=1,2"], model="both")

@@ -1,4 +1,4 @@
-"""The elastic bodies: closed forms, patch test, resultants against heeltoe.loads, mirror images."""
+"""The elastic bodies: closed forms, patch test, resultants against heeltoe.mechanics.loads, mirror images."""
 
 import dataclasses
 import math
@@ -8,12 +8,12 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from heeltoe import loads
-from heeltoe.elastic import bonded_state, dam, dofs, principal, stresses
 from heeltoe.errors import InputError
-from heeltoe.mesh import dam_mesh
-from heeltoe.mesh_checks import boundary_edges, check_elements
-from heeltoe.section import cut
+from heeltoe.geometry.section import cut
+from heeltoe.mechanics import loads
+from heeltoe.models.flexible.elastic import bonded_state, dam, dofs, principal, stresses
+from heeltoe.models.flexible.mesh.checks import boundary_edges, check_elements
+from heeltoe.models.flexible.mesh.dam import dam_mesh
 from test_mesh import RECTANGLE, TRIANGLE, TYPICAL, bodies, flat
 from test_section import dams, make
 

@@ -15,7 +15,7 @@ from matplotlib.text import Text
 from conftest import ROOT
 from heeltoe import compare, decoupled, flexible, read_case, rigid, with_spread
 from heeltoe.errors import InputError
-from heeltoe.figures import (
+from heeltoe.views.figures import (
     NAMES,
     all_figures,
     crack_figure,
@@ -31,11 +31,11 @@ from heeltoe.figures import (
     write_comparison_figure,
     write_figures,
 )
-from heeltoe.figures.crack import contact_pressure
-from heeltoe.figures.energy import friction_loss
-from heeltoe.figures.histories import slip_by_kind
-from heeltoe.figures.panels import draw_ribbon, ground_motion
-from heeltoe.outputs import write_all
+from heeltoe.views.figures.crack import contact_pressure
+from heeltoe.views.figures.energy import friction_loss
+from heeltoe.views.figures.histories import slip_by_kind
+from heeltoe.views.figures.panels import draw_ribbon, ground_motion
+from heeltoe.views.files.write import write_all
 
 FAST = ["flexible.elements_across=2", "flexible.convergence_check=false", "motion.duration=3s"]
 ROCKING = ["reservoir.depth=60m", "motion.pga=1.2g", "motion.duration=8s"]
@@ -376,7 +376,7 @@ def test_titles_of_any_kind(both, tmp_path, title):
 
 
 def test_letters_without_a_font_become_squares(both, monkeypatch):
-    monkeypatch.setattr("heeltoe.figures.fonts._other_fonts", lambda: ())
+    monkeypatch.setattr("heeltoe.views.figures.fonts._other_fonts", lambda: ())
     figure = response_figure(replace(both.rigid, title="大坝 5"))
     assert figure._suptitle.get_text().startswith("□□ 5")
     check(figure, "response")

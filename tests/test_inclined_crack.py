@@ -10,15 +10,16 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from conftest import ROOT
-from heeltoe import GroundMotion, InputError, flexible, loads, read_case, rigid
-from heeltoe.block import build_block
-from heeltoe.case import Case
-from heeltoe.crack_axes import along_and_across, places
-from heeltoe.elastic import bonded_state, dam, dofs
-from heeltoe.flexible_parts import build_flexible_dam
-from heeltoe.mesh import dam_mesh
-from heeltoe.mesh_checks import check_elements, check_pieces
-from heeltoe.section import cut
+from heeltoe import GroundMotion, InputError, flexible, read_case, rigid
+from heeltoe.case.read import Case
+from heeltoe.geometry.axes import along_and_across, places
+from heeltoe.geometry.section import cut
+from heeltoe.mechanics import loads
+from heeltoe.mechanics.block import build_block
+from heeltoe.models.flexible.elastic import bonded_state, dam, dofs
+from heeltoe.models.flexible.mesh.checks import check_elements, check_pieces
+from heeltoe.models.flexible.mesh.dam import dam_mesh
+from heeltoe.models.flexible.reduced import build_flexible_dam
 from test_mesh import area, bodies, flat, on_polyline
 from test_section import dams
 
@@ -269,7 +270,7 @@ def test_frames_of_an_inclined_crack(tmp_path):
     assert response.histories["normal_force_n"][1:] == pytest.approx(record.force[1:, 1].sum(axis=1))
     # What is drawn of the crack has moved as the dam has.
     meshio = pytest.importorskip("meshio")
-    from heeltoe.vtk import write_vtk_series
+    from heeltoe.views.files.vtk import write_vtk_series
 
     write_vtk_series(record, tmp_path, frames=[-1])
     found = meshio.read(next(tmp_path.glob("crack-*.vtu"))).point_data["displacement"][:, :2]

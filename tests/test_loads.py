@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from heeltoe import loads
-from heeltoe.section import cut
+from heeltoe.geometry.section import cut
+from heeltoe.mechanics import loads
 from test_section import by_strips, dams, make
 
 G = 9.80665

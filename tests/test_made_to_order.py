@@ -9,14 +9,14 @@ from hypothesis import strategies as st
 from scipy.stats import gamma
 from typer.testing import CliRunner
 
-from heeltoe.case import read_case
-from heeltoe.cli import app
+from heeltoe.case.read import read_case
+from heeltoe.case.shaking import resolve
+from heeltoe.cli.main import app
 from heeltoe.errors import InputError
-from heeltoe.made_to_order import Parameters, modulation, stochastic_motion
-from heeltoe.measures import arias_intensity, husid_time, significant_duration, velocity_displacement
-from heeltoe.motion import STANDARD_GRAVITY as G
-from heeltoe.scenario import normal_scores, parameters_of, scenario_parameters, synthetic
-from heeltoe.shaking import resolve
+from heeltoe.motion.ground_motion import STANDARD_GRAVITY as G
+from heeltoe.motion.measures import arias_intensity, husid_time, significant_duration, velocity_displacement
+from heeltoe.motion.scenario import normal_scores, parameters_of, scenario_parameters, synthetic
+from heeltoe.motion.stochastic import Parameters, modulation, stochastic_motion
 from test_processing import DAM
 
 ORDER = Parameters(arias=0.5, duration=12.0, middle=7.0, frequency=5.0, frequency_rate=-0.1, bandwidth=0.25)

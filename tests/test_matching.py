@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from heeltoe.errors import InputError
-from heeltoe.matching import match
-from heeltoe.motion import GroundMotion
-from heeltoe.records import read_record
-from heeltoe.records.catalog import find
-from heeltoe.spectrum import response_spectrum
-from heeltoe.targets import en_1998, table
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.motion.matching import match
+from heeltoe.motion.records import read_record
+from heeltoe.motion.records.catalog import find
+from heeltoe.motion.spectrum import response_spectrum
+from heeltoe.motion.targets import en_1998, table
 
 
 def test_el_centro_to_en_1998():

@@ -9,11 +9,18 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from heeltoe.case import read_case
+from heeltoe.case.read import read_case
 from heeltoe.errors import InputError
-from heeltoe.mesh import dam_mesh
-from heeltoe.mesh_checks import CORNERS, MIDDLES, boundary_edges, check_elements, check_pieces, jacobians
-from heeltoe.section import cut
+from heeltoe.geometry.section import cut
+from heeltoe.models.flexible.mesh.checks import (
+    CORNERS,
+    MIDDLES,
+    boundary_edges,
+    check_elements,
+    check_pieces,
+    jacobians,
+)
+from heeltoe.models.flexible.mesh.dam import dam_mesh
 from test_section import dams, make
 
 TYPICAL = [(0.0, 0.0), (80.0, 0.0), (8.0, 90.0), (8.0, 100.0), (0.0, 100.0)]

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 import scipy.linalg
 
-from heeltoe.elastic import bonded_state, dofs
-from heeltoe.modes import intact_periods, part_periods, rayleigh, reduce, residual_error
+from heeltoe.models.flexible.elastic import bonded_state, dofs
+from heeltoe.models.flexible.modes import intact_periods, part_periods, rayleigh, reduce, residual_error
 from test_elastic import built, deep, parts
 from test_mesh import TYPICAL
 

@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from heeltoe import GroundMotion, InputError, read_case
-from heeltoe.motion import check
-from heeltoe.shaking import resolve
+from heeltoe.case.shaking import resolve
+from heeltoe.motion.ground_motion import check
 
 G = 9.80665
 

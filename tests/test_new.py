@@ -4,8 +4,8 @@ import re
 
 import pytest
 
-from heeltoe.case import case_schema, case_warnings, read_case
-from heeltoe.new import new_case_text
+from heeltoe.case.read import case_schema, case_warnings, read_case
+from heeltoe.case.template import new_case_text
 from test_case_errors import refusal, write
 
 

@@ -7,8 +7,8 @@ import pytest
 from typer.testing import CliRunner
 
 from heeltoe import InputError, overturning_map, read_case
-from heeltoe.cli import app
-from heeltoe.overturning import ENDS
+from heeltoe.cli.main import app
+from heeltoe.study.overturning import ENDS
 
 SLENDER = {
     "gravity": "9.81 m/s^2",

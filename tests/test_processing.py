@@ -7,9 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from heeltoe.case import read_case
+from heeltoe.case.processing import BandPass, Baseline
+from heeltoe.case.read import read_case
+from heeltoe.case.shaking import resolve
 from heeltoe.errors import InputError
-from heeltoe.measures import (
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.motion.measures import (
     arias_intensity,
     cumulative_absolute_velocity,
     fourier_amplitudes,
@@ -20,8 +23,7 @@ from heeltoe.measures import (
     uniform,
     velocity_displacement,
 )
-from heeltoe.motion import GroundMotion
-from heeltoe.processing import (
+from heeltoe.motion.processing import (
     band_pass,
     baseline,
     cut_significant,
@@ -31,9 +33,7 @@ from heeltoe.processing import (
     scale_to_spectrum,
     taper,
 )
-from heeltoe.processing_steps import BandPass, Baseline
-from heeltoe.shaking import resolve
-from heeltoe.spectrum import response_spectrum
+from heeltoe.motion.spectrum import response_spectrum
 
 G = 9.81
 

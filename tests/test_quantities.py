@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
 from heeltoe.errors import InputError
-from heeltoe.quantities import (
+from heeltoe.units.parse import (
     DIMENSIONS,
     STANDARD_GRAVITY,
     Acceleration,
@@ -147,5 +147,5 @@ def test_pydantic_types():
 
 
 def test_pint_waits_for_the_first_unit():
-    program = "import sys, heeltoe.case; sys.exit('pint' in sys.modules)"
+    program = "import sys, heeltoe.case.read; sys.exit('pint' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", program], check=False).returncode == 0

@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from heeltoe import InputError, read_record
-from heeltoe.records import read_text
-from heeltoe.records.catalog import available, find
+from heeltoe.motion.records import read_text
+from heeltoe.motion.records.catalog import available, find
 
 G = 9.80665
 VALUES = [0.01, -0.02, 0.3, -0.12345, 0.0]

@@ -9,9 +9,9 @@ import pytest
 from pydantic import ValidationError
 
 from heeltoe import InputError, read_record
-from heeltoe.case_model import Motion
-from heeltoe.records import read_channels, read_text, read_text_channels
-from heeltoe.shaking import resolve
+from heeltoe.case.model import Motion
+from heeltoe.case.shaking import resolve
+from heeltoe.motion.records import read_channels, read_text, read_text_channels
 from record_samples import GAL, WAVE, G, cosmos, csmip, knet, smc
 
 THREE = csmip({" 90 DEG": GAL, "UP": -0.5 * GAL, "  0 DEG": 0.8 * GAL})

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from heeltoe import GroundMotion, InputError
-from heeltoe.records import read_text, read_text_channels
+from heeltoe.motion.records import read_text, read_text_channels
 from record_samples import GAL, cosmos, csmip, knet, smc
 from record_samples import WAVE as _WAVE
 

@@ -14,13 +14,13 @@ from pypdf import PdfReader
 
 from conftest import ROOT
 from heeltoe import InputError, compare, decoupled, flexible, read_case, rigid, with_spread
-from heeltoe.report import build_report, check_packages, write_report
-from heeltoe.report.build_input import fields, input_hash
-from heeltoe.report.content import Document, FigureBlock, Section, Value, paragraph
-from heeltoe.report.drawings import caption
-from heeltoe.report.html import html
-from heeltoe.report.typst_pdf import pages, pdf, source
-from heeltoe.response import json_text
+from heeltoe.result.response import json_text
+from heeltoe.views.report import build_report, check_packages, write_report
+from heeltoe.views.report.build_input import fields, input_hash
+from heeltoe.views.report.content import Document, FigureBlock, Section, Value, paragraph
+from heeltoe.views.report.drawings import caption
+from heeltoe.views.report.html import html
+from heeltoe.views.report.typst_pdf import pages, pdf, source
 from report_reader import BASE, FAST, Reader, lookup, pdf_text, squeezed
 
 
@@ -330,7 +330,7 @@ def test_units_of_the_united_states_all_through(which, request):
 
 
 def test_packages_that_are_missing_are_named(monkeypatch, tmp_path, block):
-    monkeypatch.setattr("heeltoe.report.find_spec", lambda name: None)
+    monkeypatch.setattr("heeltoe.views.report.find_spec", lambda name: None)
     with pytest.raises(InputError) as found:
         check_packages()
     assert found.value.code == "report-package"
@@ -343,7 +343,7 @@ def test_packages_that_are_missing_are_named(monkeypatch, tmp_path, block):
 
 def test_letters_without_a_font_are_owned_up_to(monkeypatch):
     document = Document("x", "y", "z", (paragraph("\U00012345"),))
-    monkeypatch.setattr("heeltoe.figures.fonts._other_fonts", lambda: ())
+    monkeypatch.setattr("heeltoe.views.figures.fonts._other_fonts", lambda: ())
     assert "no font was found" in source(document)
     assert "no font was found" not in source(Document("Плотина μ²", "y", "z", ()))
     assert pdf(document)

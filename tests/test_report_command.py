@@ -11,7 +11,7 @@ from report_reader import BASE, FAST, Reader, lookup
 
 
 def test_the_command_line_writes_a_report(tmp_path, monkeypatch, capsys):
-    from heeltoe.cli import main
+    from heeltoe.cli.main import main
 
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(sys, "argv", ["heeltoe", "run", str(BASE), "--duration", "3s", "--report"])
@@ -39,10 +39,10 @@ def test_the_command_line_writes_a_report(tmp_path, monkeypatch, capsys):
 )
 @pytest.mark.usefixtures("no_figures")
 def test_a_report_has_the_spread_where_it_is_cheap(arguments, spreads, tmp_path, monkeypatch):
-    from heeltoe.cli import main
+    from heeltoe.cli.main import main
 
-    monkeypatch.setattr("heeltoe.outputs.write_figures", lambda *_, **__: None)
-    monkeypatch.setattr("heeltoe.outputs.write_comparison_figure", lambda *_, **__: None)
+    monkeypatch.setattr("heeltoe.views.files.write.write_figures", lambda *_, **__: None)
+    monkeypatch.setattr("heeltoe.views.files.write.write_comparison_figure", lambda *_, **__: None)
     changes = [argument for change in FAST for argument in ("--set", change)]
     monkeypatch.setattr(sys, "argv", ["heeltoe", "run", str(BASE), *changes, *arguments, "--out", str(tmp_path)])
     with pytest.raises(SystemExit) as ended:
@@ -60,9 +60,9 @@ def test_a_report_has_the_spread_where_it_is_cheap(arguments, spreads, tmp_path,
 
 @pytest.mark.usefixtures("no_figures")
 def test_a_dam_that_cannot_stand_has_no_spread(tmp_path, monkeypatch):
-    from heeltoe.cli import main
+    from heeltoe.cli.main import main
 
-    monkeypatch.setattr("heeltoe.outputs.write_figures", lambda *_, **__: None)
+    monkeypatch.setattr("heeltoe.views.files.write.write_figures", lambda *_, **__: None)
     given = ["heeltoe", "run", str(BASE), "--set", "crack.friction=0.2", "--report", "--out", str(tmp_path)]
     monkeypatch.setattr(sys, "argv", given)
     with pytest.raises(SystemExit) as ended:

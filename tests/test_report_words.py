@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from heeltoe.report.build_input import shown
-from heeltoe.report.build_question import glued
-from heeltoe.report.numbers import Numbers, digits, kind
-from heeltoe.report.wording import us_words
+from heeltoe.views.report.build_input import shown
+from heeltoe.views.report.build_question import glued
+from heeltoe.views.report.wording import us_words
+from heeltoe.views.words.numbers import Numbers, digits, kind
 
 
 def test_sentences_in_units_of_the_united_states():

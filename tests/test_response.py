@@ -11,7 +11,7 @@ import pytest
 import heeltoe
 from conftest import ROOT
 from heeltoe import GroundMotion, read_case, rigid, rigid_many, verdict
-from heeltoe.ground import ground
+from heeltoe.motion.moments import ground
 
 EXAMPLES = sorted((ROOT / "examples").glob("*.toml"))
 KOYNA = ROOT / "examples" / "koyna-top.toml"

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from heeltoe.case import Case
+from heeltoe.case.read import Case
 from heeltoe.errors import InputError
-from heeltoe.section import cut
+from heeltoe.geometry.section import cut
 
 
 def make(corners, elevation=0.0, **more):

@@ -11,10 +11,10 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from conftest import ROOT
 from heeltoe import read_case
-from heeltoe.block import build_block
-from heeltoe.figures import section_figure
-from heeltoe.figures.section_forces import _ends
-from heeltoe.loads import uplift_profile
+from heeltoe.mechanics.block import build_block
+from heeltoe.mechanics.loads import uplift_profile
+from heeltoe.views.figures import section_figure
+from heeltoe.views.figures.section_forces import _ends
 
 EVERYTHING = [
     "tailwater.depth=12m",

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from heeltoe import GroundMotion, InputError, read_record
-from heeltoe.spectrum import response_spectrum
+from heeltoe.motion.spectrum import response_spectrum
 
 
 def motion(time, values):

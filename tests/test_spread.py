@@ -10,8 +10,8 @@ import pytest
 
 from conftest import ROOT
 from heeltoe import InputError, flexible, read_case, rigid, verdict, with_spread
-from heeltoe.response import json_text
-from heeltoe.spread import QUANTITIES, _step, check_runs
+from heeltoe.result.response import json_text
+from heeltoe.study.spread import QUANTITIES, _step, check_runs
 
 BASE = ROOT / "examples" / "typical-base.toml"
 KOYNA = ROOT / "examples" / "koyna-top.toml"

@@ -7,8 +7,8 @@ import pytest
 from typer.testing import CliRunner
 
 from heeltoe import read_case, statics
-from heeltoe.cli import app
-from heeltoe.standing import standing_warnings
+from heeltoe.cli.main import app
+from heeltoe.models.statics.standing import standing_warnings
 
 MASONRY = {
     "section": {

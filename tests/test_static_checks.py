@@ -9,7 +9,7 @@ import pytest
 import heeltoe
 from conftest import ROOT
 from heeltoe import read_case
-from heeltoe.criteria import CRITERIA, criteria
+from heeltoe.models.statics.criteria import CRITERIA, criteria
 from test_cli import heeltoe as command
 from test_statics import CLOSE, check, dam, only
 

@@ -19,10 +19,10 @@ from hypothesis import strategies as st
 
 import heeltoe
 from heeltoe import read_case
-from heeltoe.block import build_block
-from heeltoe.loads import total, uplift_profile
-from heeltoe.section import cut
-from heeltoe.static_cases import pseudo_static, usual
+from heeltoe.geometry.section import cut
+from heeltoe.mechanics.block import build_block
+from heeltoe.mechanics.loads import total, uplift_profile
+from heeltoe.models.statics.cases import pseudo_static, usual
 
 M = 1e6
 CLOSE = {"rel": 1e-6}

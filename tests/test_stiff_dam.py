@@ -5,7 +5,7 @@ import pytest
 import scipy.linalg
 
 from heeltoe import GroundMotion, flexible, read_case, rigid
-from heeltoe.flexible_parts import build_flexible_dam
+from heeltoe.models.flexible.reduced import build_flexible_dam
 
 G = 9.80665
 DAM = [(0.0, 0.0), (24.0, 0.0), (8.0, 20.0), (6.0, 30.0), (0.0, 30.0)]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from heeltoe.errors import InputError
-from heeltoe.targets import asce_7, en_1998, table
+from heeltoe.motion.targets import asce_7, en_1998, table
 
 G = 9.81
 

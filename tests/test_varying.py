@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from heeltoe import _kernel, build_block, read_case, rigid, verdict
-from heeltoe.motion import GroundMotion
-from heeltoe.rigid_model import SETTLE
-from heeltoe.varying import varies, varying
+from heeltoe.models.rigid.model import SETTLE
+from heeltoe.models.rigid.varying import varies, varying
+from heeltoe.motion.ground_motion import GroundMotion
 
 G = 9.80665
 RULES = ("constant", "zero while open", "full while open", "follows opening")

@@ -9,7 +9,7 @@ import pytest
 
 from conftest import ROOT
 from heeltoe import Response, flexible, read_case, verdict
-from heeltoe.verdicts import angle, comes_to_rest, length
+from heeltoe.result.verdict import angle, comes_to_rest, length
 
 FAST = ["flexible.elements_across=2", "flexible.convergence_check=false"]
 BASE = ROOT / "examples" / "typical-base.toml"

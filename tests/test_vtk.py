@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from heeltoe import InputError
-from heeltoe.elastic import principal
-from heeltoe.vtk import write_vtk_series
+from heeltoe.models.flexible.elastic import principal
+from heeltoe.views.files.vtk import write_vtk_series
 from test_crack_history import EXAMPLES, shaken
 
 

@@ -6,29 +6,29 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from heeltoe.animation import animate
-    from heeltoe.block import Block, build_block
-    from heeltoe.case import Case, read_case
-    from heeltoe.comparison import Comparison, compare
-    from heeltoe.decoupled_model import decoupled
-    from heeltoe.ensemble import rigid_many
+    from heeltoe.case.read import Case, read_case
     from heeltoe.errors import HeeltoeError, InputError
-    from heeltoe.flexible_model import flexible
-    from heeltoe.flexible_parts import FlexibleDam, build_flexible_dam
-    from heeltoe.made_to_order import stochastic_motion
-    from heeltoe.matching import match
-    from heeltoe.motion import GroundMotion
-    from heeltoe.periods import DamPeriods, dam_periods
-    from heeltoe.records import read_channels, read_record
-    from heeltoe.report import write_report
-    from heeltoe.response import Response
-    from heeltoe.rigid_model import rigid
-    from heeltoe.scenario import synthetic
-    from heeltoe.spectrum import response_spectrum
-    from heeltoe.spread import with_spread
-    from heeltoe.statics_model import Statics, statics
-    from heeltoe.targets import asce_7, en_1998
-    from heeltoe.verdicts import verdict
+    from heeltoe.mechanics.block import Block, build_block
+    from heeltoe.models.decoupled.model import decoupled
+    from heeltoe.models.flexible.model import flexible
+    from heeltoe.models.flexible.periods import DamPeriods, dam_periods
+    from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
+    from heeltoe.models.rigid.many import rigid_many
+    from heeltoe.models.rigid.model import rigid
+    from heeltoe.models.statics.model import Statics, statics
+    from heeltoe.motion.ground_motion import GroundMotion
+    from heeltoe.motion.matching import match
+    from heeltoe.motion.records import read_channels, read_record
+    from heeltoe.motion.scenario import synthetic
+    from heeltoe.motion.spectrum import response_spectrum
+    from heeltoe.motion.stochastic import stochastic_motion
+    from heeltoe.motion.targets import asce_7, en_1998
+    from heeltoe.result.response import Response
+    from heeltoe.result.verdict import verdict
+    from heeltoe.study.comparison import Comparison, compare
+    from heeltoe.study.spread import with_spread
+    from heeltoe.views.animation import animate
+    from heeltoe.views.report import write_report
 
 __all__ = [
     "Block",
@@ -67,39 +67,39 @@ __all__ = [
 ]
 
 _HOME = {
-    "Block": "block",
-    "Case": "case",
-    "Comparison": "comparison",
-    "DamPeriods": "periods",
-    "GroundMotion": "motion",
+    "Block": "mechanics.block",
+    "Case": "case.read",
+    "Comparison": "study.comparison",
+    "DamPeriods": "models.flexible.periods",
+    "GroundMotion": "motion.ground_motion",
     "HeeltoeError": "errors",
     "InputError": "errors",
-    "Response": "response",
-    "Statics": "statics_model",
-    "animate": "animation",
-    "asce_7": "targets",
-    "build_block": "block",
-    "build_flexible_dam": "flexible_parts",
-    "compare": "comparison",
-    "dam_periods": "periods",
-    "decoupled": "decoupled_model",
-    "en_1998": "targets",
-    "flexible": "flexible_model",
-    "FlexibleDam": "flexible_parts",
-    "match": "matching",
-    "overturning_map": "overturning",
-    "read_case": "case",
-    "read_channels": "records",
-    "read_record": "records",
-    "response_spectrum": "spectrum",
-    "rigid": "rigid_model",
-    "rigid_many": "ensemble",
-    "statics": "statics_model",
-    "stochastic_motion": "made_to_order",
-    "synthetic": "scenario",
-    "verdict": "verdicts",
-    "with_spread": "spread",
-    "write_report": "report",
+    "Response": "result.response",
+    "Statics": "models.statics.model",
+    "animate": "views.animation",
+    "asce_7": "motion.targets",
+    "build_block": "mechanics.block",
+    "build_flexible_dam": "models.flexible.reduced",
+    "compare": "study.comparison",
+    "dam_periods": "models.flexible.periods",
+    "decoupled": "models.decoupled.model",
+    "en_1998": "motion.targets",
+    "flexible": "models.flexible.model",
+    "FlexibleDam": "models.flexible.reduced",
+    "match": "motion.matching",
+    "overturning_map": "study.overturning",
+    "read_case": "case.read",
+    "read_channels": "motion.records",
+    "read_record": "motion.records",
+    "response_spectrum": "motion.spectrum",
+    "rigid": "models.rigid.model",
+    "rigid_many": "models.rigid.many",
+    "statics": "models.statics.model",
+    "stochastic_motion": "motion.stochastic",
+    "synthetic": "motion.scenario",
+    "verdict": "result.verdict",
+    "with_spread": "study.spread",
+    "write_report": "views.report",
 }
 
 

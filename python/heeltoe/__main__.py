@@ -1,5 +1,5 @@
 """``python -m heeltoe`` is the command ``heeltoe``."""
 
-from heeltoe.cli import main
+from heeltoe.cli.main import main
 
 main()

@@ -132,7 +132,7 @@ CRACK_STATES: Final[list[str]]
 CONTACT_STATUSES: Final[list[str]]
 
 class CrackPart(Protocol):
-    """One elastic part: m modes, k nodes on the crack; see :class:`heeltoe.flexible_parts.Part`."""
+    """One elastic part: m modes, k nodes on the crack; see :class:`heeltoe.models.flexible.reduced.Part`."""
 
     @property
     def omega_squared(self) -> Floats: ...
@@ -154,7 +154,7 @@ class CrackPart(Protocol):
     def position(self) -> Floats: ...
 
 class CrackWater(Protocol):
-    """Water in the crack; see :class:`heeltoe.crack_forces.CrackWater`."""
+    """Water in the crack; see :class:`heeltoe.models.flexible.inside.CrackWater`."""
 
     @property
     def law(self) -> str: ...
@@ -166,7 +166,7 @@ class CrackWater(Protocol):
     def full(self) -> Sequence[Floats]: ...
 
 class CrackAnchor(Protocol):
-    """An anchor; see :class:`heeltoe.crack_forces.CrackAnchor`."""
+    """An anchor; see :class:`heeltoe.models.flexible.inside.CrackAnchor`."""
 
     @property
     def points(self) -> Sequence[Sequence[tuple[int, float]]]: ...

@@ -7,8 +7,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from heeltoe.case import read_case
-from heeltoe.rigid_model import rigid
+from heeltoe.case.read import read_case
+from heeltoe.models.rigid.model import rigid
 from heeltoe.validation.plain import rectangle, run, sampled, times_of
 from heeltoe.validation.row import Row
 

@@ -19,7 +19,7 @@ import scipy.linalg
 from numpy.typing import NDArray
 
 from heeltoe import _kernel
-from heeltoe.flexible_parts import Part
+from heeltoe.models.flexible.reduced import Part
 from heeltoe.validation.row import Row
 
 Floats = NDArray[np.float64]

@@ -15,11 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe import _kernel
-from heeltoe.case import Case, read_case
-from heeltoe.flexible_parts import FlexibleDam, Part, build_flexible_dam
-from heeltoe.motion import GroundMotion
-from heeltoe.response import Response
-from heeltoe.rigid_model import rigid
+from heeltoe.case.read import Case, read_case
+from heeltoe.models.flexible.reduced import FlexibleDam, Part, build_flexible_dam
+from heeltoe.models.rigid.model import rigid
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.result.response import Response
 from heeltoe.validation.flexible_runs import Runs
 from heeltoe.validation.plain import rectangle, run, sampled, times_of
 from heeltoe.validation.row import Row

@@ -16,12 +16,12 @@ from typing import Any
 
 import numpy as np
 
-from heeltoe.case import Case, read_case
-from heeltoe.flexible_model import Shaken
-from heeltoe.flexible_parts import build_flexible_dam
-from heeltoe.modes import intact_periods
-from heeltoe.motion import GroundMotion
-from heeltoe.rigid_model import rigid
+from heeltoe.case.read import Case, read_case
+from heeltoe.models.flexible.model import Shaken
+from heeltoe.models.flexible.modes import intact_periods
+from heeltoe.models.flexible.reduced import build_flexible_dam
+from heeltoe.models.rigid.model import rigid
+from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.validation.flexible_runs import Runs
 from heeltoe.validation.row import Row
 from heeltoe.validation.thesis_dams import record_named

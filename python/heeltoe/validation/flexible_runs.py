@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from heeltoe.case import Case
-from heeltoe.flexible_model import flexible
-from heeltoe.motion import GroundMotion
-from heeltoe.response import Response
+from heeltoe.case.read import Case
+from heeltoe.models.flexible.model import flexible
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.result.response import Response
 from heeltoe.validation.row import Row
 
 #: The program warns where contact makes more than this part of the energy that goes about.

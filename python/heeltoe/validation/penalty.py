@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from heeltoe.case import Case, read_case
-from heeltoe.flexible_model import flexible
-from heeltoe.response import Response
+from heeltoe.case.read import Case, read_case
+from heeltoe.models.flexible.model import flexible
+from heeltoe.result.response import Response
 from heeltoe.validation.row import Row
 from heeltoe.validation.thesis_dams import record_named
 

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe import _kernel
-from heeltoe.case import Case, read_case
-from heeltoe.flexible_parts import FlexibleDam, build_flexible_dam
+from heeltoe.case.read import Case, read_case
+from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
 from heeltoe.validation.flexible_runs import GAINED
 from heeltoe.validation.row import Row
 

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from heeltoe.case import read_case
-from heeltoe.motion import GroundMotion
-from heeltoe.rigid_model import rigid
+from heeltoe.case.read import read_case
+from heeltoe.models.rigid.model import rigid
+from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.validation.plain import rectangle, run, sampled, times_of
 from heeltoe.validation.row import Row
 

@@ -7,12 +7,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from heeltoe.case import Case, read_case
+from heeltoe.case.read import Case, read_case
 from heeltoe.errors import InputError
-from heeltoe.motion import GroundMotion
-from heeltoe.records import read_record
-from heeltoe.records.catalog import find
-from heeltoe.rigid_model import rigid
+from heeltoe.models.rigid.model import rigid
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.motion.records import read_record
+from heeltoe.motion.records.catalog import find
 from heeltoe.validation.row import Row, Skipped
 
 _G = 9.81

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe import _kernel
-from heeltoe.block import Block, build_block
-from heeltoe.case import Case, read_case
-from heeltoe.rigid_model import SETTLE
+from heeltoe.case.read import Case, read_case
+from heeltoe.mechanics.block import Block, build_block
+from heeltoe.models.rigid.model import SETTLE
+from heeltoe.models.rigid.varying import varying
 from heeltoe.validation.row import Row
-from heeltoe.varying import varying
 
 Floats = NDArray[np.float64]
 _G = 9.81

@@ -1,0 +1,142 @@
+"""What the user chooses about models, checks and limits: blocks of a case that say nothing of the dam itself."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from heeltoe.case.fields import Block, Count, Fraction, FrictionCoefficient, Head, TimeSpan, Truth
+from heeltoe.case.sentences import collected, shown
+from heeltoe.errors import InputError
+from heeltoe.units.parse import DimensionlessNumber, Length, Pressure
+
+
+class Flexible(Block):
+    """How the flexible model represents the dam, its damping and the contact in the crack."""
+
+    plane: Literal["stress", "strain"] = "stress"
+    """Plane stress (dams with open joints between monoliths) or plane strain."""
+    elements_across: Annotated[int, Field(strict=True, ge=1, le=200)] = 8
+    """Number of elements along the crack."""
+    damping: Literal["deformation", "thesis", "modal"] = "deformation"
+    """Rayleigh on deformation only; as in Zhu (2004), on all motion while the crack sticks; or one ratio for
+    every deformation mode."""
+    virtual_mass: Literal["complete", "thesis"] = "complete"
+    """Virtual water on both parts of the dam; or, as in Zhu (2004), above the crack only, its depth counted
+    from the crack."""
+    contact: Literal["coulomb", "idce"] = "coulomb"
+    """Exact contact on velocity level; or the penalty method of Zhu (2004), for comparison."""
+    time_step: TimeSpan | None = None
+    """Time step; chosen by the program where it is not given."""
+    convergence_check: Truth = True
+    """Run again at half the step and say how much changes; without a given step, halve it until little does."""
+    elements_across_below: Annotated[int, Field(strict=True, ge=1, le=200)] | None = None
+    """Number of elements along the crack in the part below, where it differs."""
+    mesh_above: str | None = Field(default=None, strict=True, min_length=1)
+    """Mesh of the part above the crack from a file, relative to the case file, in place of the program's own."""
+    mesh_below: str | None = Field(default=None, strict=True, min_length=1)
+    """Mesh of the part below the crack from a file."""
+    modes: Count | None = None
+    """Number of vibration modes to keep in each part, beside the static shapes of the crack; all, where the mesh
+    is small enough, if not given."""
+    contactors: Annotated[int, Field(strict=True, ge=1, le=5)] = 3
+    """Which nodes are watched for contact, after Zhu (2004): 1 those of the upper face, 2 of the lower, 3 of the
+    upper and the ends of the lower, 4 the reverse, 5 all."""
+    theta: Annotated[DimensionlessNumber, Field(ge=0.5, le=1.0)] = 0.52
+    """Weight of the new state within a step of `coulomb`. 0.5 loses no energy, but lets a sliding face flutter where
+    the concrete has no damping; 0.52 wears that out and takes some 1e-4 of critical damping from a dam's own modes."""
+    penalty_factor: Annotated[DimensionlessNumber, Field(gt=0.0, le=1e12)] = 1000.0
+    """Of `idce`: stiffness of the contact over the largest diagonal term of the dam's."""
+    newmark_gamma: Annotated[DimensionlessNumber, Field(ge=0.5, le=1.5)] = 0.7
+    """Of `idce`: Newmark's gamma; more than 0.5 damps fast vibrations. With 0.5 contact makes energy at every blow."""
+    newmark_beta: Annotated[DimensionlessNumber, Field(ge=0.25, le=1.0)] | None = None
+    """Of `idce`: Newmark's beta; (gamma + 1/2)^2 / 4 where it is not given."""
+
+
+class Analysis(Block):
+    """What to do in rare situations."""
+
+    paradox: Literal["stop", "tangential impact"] = "stop"
+    """Where no motion of a rigid block agrees with Coulomb's law (Painlevé's paradox): stop and say so, or
+    let an impulse of friction end the slip."""
+    event_limit: Count = 1_000_000
+    """Stop after so many events."""
+    rotation: Literal["small", "p-delta", "finite"] = "small"
+    """Of the rigid block: small; small with the weight's moment that changes with it (P-Delta); or of any size.
+    Only with the last two can the block overturn."""
+
+
+class Limits(Block):
+    """What the user allows; the verdict and the report compare the results with it."""
+
+    residual_slip: Annotated[Length, Field(ge=0.0)] | None = None
+    """Slip that remains, either way."""
+    peak_slip: Annotated[Length, Field(ge=0.0)] | None = None
+    """Largest slip on the way, either way."""
+    opening_upstream: Annotated[Length, Field(ge=0.0)] | None = None
+    """Opening of the crack at the upstream face."""
+    opening_downstream: Annotated[Length, Field(ge=0.0)] | None = None
+    """Opening of the crack at the downstream face."""
+
+
+class Statics(Block):
+    """Strength and load cases of the static checks before, during and after the earthquake."""
+
+    criteria: Literal["USACE", "USBR", "FERC", "CDA"] = "USACE"
+    """Whose required factors the checks are judged by."""
+    structure: Literal["critical", "normal"] = "critical"
+    """Critical where a failure would cost lives (FERC: high or significant hazard, otherwise low)."""
+    site_information: Literal["well defined", "ordinary", "limited"] = "ordinary"
+    """How well strengths are known: well defined by tests, explored in the ordinary way, or hardly."""
+    bonded: Fraction = 0.0
+    """Part of the crack's width, from the toe, that is not cracked; only there cohesion and tension count."""
+    cohesion: Annotated[Pressure, Field(ge=0.0, le=1e8)] = Field(default="0 MPa", validate_default=True)
+    """Cohesion of the bonded part."""
+    tensile_strength: Annotated[Pressure, Field(ge=0.0, le=1e8)] = Field(default="0 MPa", validate_default=True)
+    """Tensile strength of the bonded part; more tension than that lets the crack grow."""
+    compressive_strength: Annotated[Pressure, Field(gt=0.0, le=1e9)] | None = None
+    """Compressive strength of the concrete; stresses are judged by it where it is given."""
+    flood_depth: Head | None = None
+    """Reservoir in the flood; no such check without it."""
+    flood_tailwater: Head | None = None
+    """Tailwater in the flood; the usual one where it is not given."""
+    flood_rarity: Literal["unusual", "extreme"] = "unusual"
+    """Whether the flood is an unusual load or, as the probable maximum flood, an extreme one."""
+    seismic_coefficient: Annotated[DimensionlessNumber, Field(gt=0.0, le=3.0)] | None = None
+    """Horizontal acceleration of the pseudo-static check in g; no such check without it."""
+    vertical_seismic_coefficient: Annotated[DimensionlessNumber, Field(ge=0.0, le=3.0)] = 0.0
+    """Vertical acceleration at the same time in g, taken the worse way."""
+    residual_friction: FrictionCoefficient | None = None
+    """Coefficient of friction after the earthquake; the kinetic one where it is not given."""
+    residual_slip: Annotated[Length, Field(ge=0.0)] | None = None
+    """Slip after the earthquake; that of an analysis where it is not given."""
+    drain_diameter: Annotated[Length, Field(gt=0.0, le=10.0)] | None = None
+    """Of the drains of a `drained` uplift: slip closes them in proportion, and wholly from one diameter on."""
+
+    @model_validator(mode="after")
+    @collected
+    def _belong_together(self) -> Self:
+        for name in ("cohesion", "tensile_strength"):
+            if getattr(self, name) and not self.bonded:
+                raise InputError("needs-other", name, other="a part of the crack that is bonded (statics.bonded)")
+        if self.flood_tailwater is not None and self.flood_depth is None:
+            raise InputError("needs-other", "flood_tailwater", other="flood_depth")
+        if self.vertical_seismic_coefficient and self.seismic_coefficient is None:
+            raise InputError("needs-other", "vertical_seismic_coefficient", other="seismic_coefficient")
+        if self.flood_rarity == "extreme" and self.flood_depth is None:
+            raise InputError("needs-other", "flood_rarity", other="flood_depth")
+        if self.criteria == "USACE" and self.site_information == "limited" and self.structure == "critical":
+            # USACE has no factors for these: the site must be explored.
+            other = 'structure = "critical" under USACE'
+            raise InputError("contradiction", "site_information", shown(self.site_information), other=other)
+        return self
+
+
+class Decoupled(Block):
+    """Choices of the decoupled chain: the elastic part below the crack shakes the rigid part above it."""
+
+    vertical: Truth = False
+    """The block feels the vertical motion at the crack too."""
+    rotation: Truth = False
+    """The block feels the rotation of the crack too."""

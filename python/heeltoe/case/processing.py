@@ -1,0 +1,145 @@
+"""Steps of processing as a case file writes them: ``[[motion.processing]]`` with ``step = "band-pass"`` and so on.
+
+The work is done in :mod:`heeltoe.motion.processing`; here are fields, units and defaults."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.motion.processing import (
+    Ends,
+    band_pass,
+    baseline,
+    cut_significant,
+    scale_time,
+    scale_to_arias,
+    scale_to_spectrum,
+    taper,
+)
+from heeltoe.units.parse import AccelerationField, DimensionlessNumber, Duration, Frequency, Velocity
+
+Share = Annotated[DimensionlessNumber, Field(ge=0.0, le=1.0)]
+Corner = Annotated[Frequency, Field(gt=0.0, le=1e4)]
+Truth = Annotated[bool, Field(strict=True)]
+Order = Annotated[int, Field(strict=True, ge=1, le=10)]
+
+
+class _Step(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
+
+
+class Baseline(_Step):
+    """Take a polynomial out of the velocity, so that the motion ends at rest."""
+
+    step: Literal["baseline"]
+    """Which step this is."""
+    order: Order = 2
+    """Degree of the polynomial of velocity over time."""
+    displacement: Truth = False
+    """Let the displacement end at zero too; wants an order of 2 or more."""
+
+    def apply(self, motion: GroundMotion, gravity: float) -> GroundMotion:
+        """Return the processed motion."""
+        return baseline(motion, self.order, displacement=self.displacement)
+
+
+class BandPass(_Step):
+    """Butterworth filter, forward and backward; with one corner alone a high-pass or a low-pass."""
+
+    step: Literal["band-pass"]
+    """Which step this is."""
+    low: Corner | None = None
+    """What is slower goes."""
+    high: Corner | None = None
+    """What is faster goes."""
+    order: Order = 4
+    """Of each of the two passes."""
+
+    def apply(self, motion: GroundMotion, gravity: float) -> GroundMotion:
+        """Return the processed motion."""
+        return band_pass(motion, self.low, self.high, self.order)
+
+
+class Taper(_Step):
+    """Fade in and out with half a cosine."""
+
+    step: Literal["taper"]
+    """Which step this is."""
+    share: Share = 0.05
+    """Part of the duration at each end, up to a half."""
+    ends: Ends = "both"
+    """Which ends."""
+
+    def apply(self, motion: GroundMotion, gravity: float) -> GroundMotion:
+        """Return the processed motion."""
+        return taper(motion, self.share, self.ends)
+
+
+class CutSignificant(_Step):
+    """Keep the significant duration."""
+
+    step: Literal["cut"]
+    """Which step this is."""
+    start: Share = 0.05
+    """Share of the Arias intensity at which the motion begins."""
+    end: Share = 0.95
+    """Share of the Arias intensity at which it ends."""
+
+    def apply(self, motion: GroundMotion, gravity: float) -> GroundMotion:
+        """Return the processed motion."""
+        return cut_significant(motion, self.start, self.end)
+
+
+class ScaleToArias(_Step):
+    """Scale to an Arias intensity."""
+
+    step: Literal["scale-to-arias"]
+    """Which step this is."""
+    intensity: Annotated[Velocity, Field(gt=0.0)]
+    """The Arias intensity."""
+
+    def apply(self, motion: GroundMotion, gravity: float) -> GroundMotion:
+        """Return the processed motion."""
+        return scale_to_arias(motion, self.intensity, gravity)
+
+
+class ScaleToSpectrum(_Step):
+    """Scale to a spectral pseudo-acceleration at one period."""
+
+    step: Literal["scale-to-spectrum"]
+    """Which step this is."""
+    period: Annotated[Duration, Field(ge=0.0, le=100.0)]
+    """Period of the oscillator."""
+    acceleration: AccelerationField
+    """The pseudo-acceleration."""
+    damping: Annotated[DimensionlessNumber, Field(ge=0.0, lt=1.0)] = 0.05
+    """Damping ratio of the oscillator."""
+
+    def apply(self, motion: GroundMotion, gravity: float) -> GroundMotion:
+        """Return the processed motion."""
+        return scale_to_spectrum(motion, self.period, self.acceleration.si(gravity), self.damping)
+
+
+class ScaleTime(_Step):
+    """Stretch time, which changes the frequency content."""
+
+    step: Literal["scale-time"]
+    """Which step this is."""
+    factor: Annotated[DimensionlessNumber, Field(gt=0.0)]
+    """Above 1 the motion becomes longer and slower."""
+    allow: Truth = False
+    """Say that the change of the frequency content is meant."""
+
+    def apply(self, motion: GroundMotion, gravity: float) -> GroundMotion:
+        """Return the processed motion."""
+        return scale_time(motion, self.factor, allow=self.allow)
+
+
+ProcessingStep = Annotated[
+    Baseline | BandPass | Taper | CutSignificant | ScaleToArias | ScaleToSpectrum | ScaleTime,
+    Field(discriminator="step"),
+]
+"""Any step, told by its field ``step``."""

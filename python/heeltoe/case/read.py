@@ -1,0 +1,188 @@
+"""Read a case: a file in TOML or JSON, or a dictionary, with fields set on the command line, to a
+:class:`Case` that is sound.
+
+The models are in :mod:`heeltoe.case.model`, the way from their complaints to one plain sentence in
+:mod:`heeltoe.case.sentences`."""
+
+from __future__ import annotations
+
+import copy
+import json
+import os
+import tomllib
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from heeltoe.case.model import Anchor, Case, Concrete, Crack, Ice, Motion, Section, Shaking, Silt, Uplift, Water
+from heeltoe.case.options import Analysis, Decoupled, Flexible, Limits, Statics
+from heeltoe.case.sentences import first_error, shown
+from heeltoe.errors import InputError
+from heeltoe.geometry import section
+
+__all__ = [
+    "Analysis",
+    "Anchor",
+    "Case",
+    "Concrete",
+    "Crack",
+    "Decoupled",
+    "Flexible",
+    "Ice",
+    "Limits",
+    "Motion",
+    "Section",
+    "Shaking",
+    "Silt",
+    "Statics",
+    "Uplift",
+    "Water",
+    "case_schema",
+    "case_warnings",
+    "read_case",
+]
+
+# An override says how it shall be now: what the file says in the other form of the same thing goes.
+_REPLACES = {
+    # Unit and time step belong to the file that goes; taken for another one's they would spoil it silently.
+    "motion.file": ("motion.points", "motion.unit", "motion.time_step"),
+    "motion.points": ("motion.file", "motion.unit", "motion.time_step"),
+    "crack.friction": ("crack.static_friction", "crack.kinetic_friction"),
+    "crack.static_friction": ("crack.friction",),
+    "crack.kinetic_friction": ("crack.friction",),
+    "uplift.pattern": ("uplift.extent", "uplift.drain_position", "uplift.drain_efficiency", "uplift.points"),
+}
+
+
+def read_case(source: str | os.PathLike[str] | Mapping[str, Any], overrides: Sequence[str] = ()) -> Case:
+    """Read and check a case.
+
+    Parameters
+    ----------
+    source
+        Path of a TOML or JSON file (told apart by what is in it), or the fields themselves.
+    overrides
+        ``"PATH=VALUE"`` each, for example ``"crack.friction=1.0"`` or ``"reservoir.depth=95m"``; they win
+        over `source`.
+
+    Returns
+    -------
+    Case
+        A case in which crack, water and section agree.
+
+    Raises
+    ------
+    InputError
+        The first thing that is wrong, and how many more there are.
+    """
+    if isinstance(source, Mapping):
+        fields, directory = copy.deepcopy(dict(source)), Path()
+    else:
+        path = Path(source)
+        fields, directory = _parsed(path), path.parent
+    _apply(fields, overrides)
+    try:
+        case = Case.model_validate(fields)
+    except ValidationError as found:
+        raise first_error(found, Case) from None
+    section.check_loads(case, section.cut(case))
+    return case.based_in(directory)
+
+
+def case_schema() -> dict[str, Any]:
+    """Return the JSON schema of a case."""
+    return Case.model_json_schema()
+
+
+def case_warnings(case: Case) -> tuple[str, ...]:
+    """Return what is allowed in a case but seldom meant, a sentence each."""
+    warnings = []
+    if case.crack.mu_static > 2.0:
+        warnings.append(
+            f"crack: a coefficient of friction of {case.crack.mu_static:g} is higher than concrete has shown"
+        )
+    if case.uplift.intensity > 1.0:
+        warnings.append(f"uplift.intensity: {case.uplift.intensity:g} means more pressure than the pattern gives")
+    if not 1800.0 <= case.concrete.density <= 3200.0:
+        warnings.append(f"concrete.density: {case.concrete.density:g} kg/m^3 is unusual for concrete")
+    upstream = case.reservoir.depth if case.reservoir else 0.0
+    if case.reservoir and 0.0 < upstream <= case.crack.elevation:
+        warnings.append(
+            "reservoir: it ends below the crack, so that no water presses on the part above or in the crack"
+        )
+    if case.ice and upstream - case.ice.depth < case.crack.elevation:
+        warnings.append("ice: it acts below the crack, so that nothing of it is on the part above")
+    if case.silt and case.silt.depth <= case.crack.elevation:
+        warnings.append("silt: it ends below the crack, so that nothing of it is on the part above")
+    if case.silt and case.silt.depth > upstream:
+        warnings.append("silt.depth: the silt is higher than the water, though its densities are of silt under water")
+    if case.silt and (case.silt.horizontal_density > 1000.0 or case.silt.vertical_density > 1300.0):
+        warnings.append(
+            f"silt: {case.silt.horizontal_density:g} and {case.silt.vertical_density:g} kg/m^3 look as if the water "
+            "were in them; it is counted by itself"
+        )
+    if case.tailwater and case.tailwater.depth > upstream:
+        warnings.append("tailwater.depth: the water is deeper downstream than upstream")
+    return tuple(warnings)
+
+
+def _parsed(path: Path) -> dict[str, Any]:
+    name = str(path)
+    try:
+        text = path.read_bytes().decode("utf-8-sig")  # editors on Windows begin a file with a byte order mark
+    except FileNotFoundError:
+        raise InputError("case-file-missing", name) from None
+    except UnicodeDecodeError:
+        raise InputError("case-file-encoding", name) from None
+    except (OSError, ValueError) as error:
+        raise InputError("case-file-unreadable", name, reason=getattr(error, "strerror", None) or error) from None
+    kind = "JSON" if text.lstrip().startswith("{") else "TOML"
+    try:
+        fields: dict[str, Any] = json.loads(text) if kind == "JSON" else tomllib.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise InputError("case-file-syntax", name, kind=kind, reason=error) from None
+    return fields
+
+
+def _apply(fields: dict[str, Any], overrides: Sequence[str]) -> None:
+    split = [_split(override) for override in overrides]
+    for path, _ in split:
+        for other in _REPLACES.get(".".join(path), ()):
+            _remove(fields, other.split("."))
+    for path, value in split:
+        block = fields
+        for name in path[:-1]:
+            inner = block.setdefault(name, {})
+            if not isinstance(inner, dict):
+                raise InputError("unknown-field", ".".join(path), suggestion=f'"{name}" has no fields')
+            block = inner
+        block[path[-1]] = value
+
+
+def _split(override: str) -> tuple[list[str], Any]:
+    name, equals, text = override.partition("=")
+    path = [part.strip() for part in name.split(".")]
+    if not equals or not all(path):
+        raise InputError("override-form", "--set", shown(override))
+    return path, _value(text.strip())
+
+
+def _value(text: str) -> Any:
+    """Return a number, truth value, list or table where `text` reads as one in TOML, else `text` itself."""
+    try:
+        read = tomllib.loads(f"value = {text}")
+    except (ValueError, RecursionError):
+        return text
+    value = read.get("value")
+    # A line break would smuggle in more fields, and TOML's dates are no values of ours.
+    return value if len(read) == 1 and isinstance(value, bool | int | float | str | list | dict) else text
+
+
+def _remove(fields: dict[str, Any], path: Sequence[str]) -> None:
+    block: Any = fields
+    for name in path[:-1]:
+        block = block.get(name) if isinstance(block, dict) else None
+    if isinstance(block, dict):
+        block.pop(path[-1], None)

@@ -1,0 +1,101 @@
+"""From the motion section of a case to ground motions ready for an analysis."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from heeltoe.case.model import Motion, Shaking
+from heeltoe.errors import InputError
+from heeltoe.motion.ground_motion import GroundMotion, check
+from heeltoe.motion.processing import process
+from heeltoe.motion.records import read_record
+from heeltoe.motion.records.catalog import find
+from heeltoe.motion.scenario import PREFIX, synthetic
+
+
+def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[GroundMotion, GroundMotion | None]:
+    """Read, process, scale, reverse and cut the ground motions of a case, in this order, and check them.
+
+    A peak asked for is the peak of the whole record. A vertical motion without a peak of its own is scaled by the
+    same factor as the horizontal one, as both were recorded together.
+
+    Parameters
+    ----------
+    shaking
+        The motion section of the case.
+    gravity
+        One g of the case [m/s2].
+    base_directory
+        Where relative paths start.
+
+    Returns
+    -------
+    horizontal, vertical
+        The second is None where the case has none.
+
+    Raises
+    ------
+    InputError
+        Where a record cannot be found, read or trusted.
+    """
+    horizontal = _read(shaking, gravity, base_directory, "motion")
+    vertical = None
+    factor = 1.0
+    if shaking.pga is not None and (horizontal.pga > 0.0 or not shaking.allow_zero):
+        peak = shaking.pga.si(gravity)
+        factor = peak / horizontal.pga if horizontal.pga else 1.0
+        horizontal = horizontal.scaled_to(peak, f"scaled by {factor:.6g} to a peak of {shaking.pga}")
+    if shaking.vertical is not None:
+        vertical = _read(shaking.vertical, gravity, base_directory, "motion.vertical")
+        if shaking.vertical.pga is not None and vertical.pga > 0.0:
+            vertical = vertical.scaled_to(
+                shaking.vertical.pga.si(gravity), f"scaled to a peak of {shaking.vertical.pga}"
+            )
+        elif factor != 1.0:
+            vertical = vertical.scaled(factor, f"scaled by {factor:.6g} like the horizontal motion")
+        vertical = _finish(vertical, shaking.vertical, shaking.duration)
+        vertical = vertical.with_warnings(*check(vertical, gravity, allow_zero=True, field="motion.vertical"))
+    horizontal = _finish(horizontal, shaking, shaking.duration)
+    allowed = shaking.allow_zero or (vertical is not None and vertical.pga > 0.0)
+    return horizontal.with_warnings(*check(horizontal, gravity, allow_zero=allowed)), vertical
+
+
+def _read(shaking: Shaking, gravity: float, base_directory: Path, field: str) -> GroundMotion:
+    """Read, or make, the motion, and process it."""
+    motion = _source(shaking, gravity, base_directory, field)
+    return process(motion, shaking.processing, gravity, field=f"{field}.processing")
+
+
+def _source(shaking: Shaking, gravity: float, base_directory: Path, field: str) -> GroundMotion:
+    if shaking.points is not None:
+        time = [moment for moment, _ in shaking.points]
+        values = [value.si(gravity) for _, value in shaking.points]
+        motion = GroundMotion.from_points(time, values, name="points of the case")
+        return replace(motion, format="points", source="the case")
+    assert shaking.file is not None
+    if shaking.file.startswith(PREFIX):
+        for option in ("channel", "unit", "time_step"):
+            if getattr(shaking, option) is not None:
+                raise InputError("synthetic-option", f"{field}.{option}")
+        return synthetic(shaking.file, gravity=gravity, field=f"{field}.file")
+    path = find(shaking.file, base_directory, field=f"{field}.file")
+    motion = read_record(
+        path, shaking.channel, unit=shaking.unit, time_step=shaking.time_step, gravity=gravity, field=field
+    )
+    component = motion.component.lower()
+    if field == "motion.vertical" and (component.startswith(("down", "dwn")) or "positive down" in component):
+        motion = replace(
+            motion.reversed(),
+            processing=(*motion.processing, "the record counts down as positive: turned to up"),
+        )
+    # The name a user gave is the one that tells versions of a record apart.
+    if path.stem == shaking.file:
+        return motion
+    return replace(motion, name=Path(shaking.file).stem + motion.name.removeprefix(path.stem))
+
+
+def _finish(motion: GroundMotion, shaking: Shaking, duration: float | None) -> GroundMotion:
+    if shaking.reverse:
+        motion = motion.reversed()
+    return motion if duration is None else motion.cut(duration)

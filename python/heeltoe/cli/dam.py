@@ -1,0 +1,181 @@
+"""Commands about a dam beside running it: periods, overturning, static checks, animation."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+
+from heeltoe.cli.common import (
+    NO_RESULT,
+    CasePath,
+    Changes,
+    JsonPath,
+    as_given,
+    check_directory,
+    check_json,
+    finish,
+    status,
+)
+from heeltoe.errors import InputError
+
+if TYPE_CHECKING:
+    from heeltoe.case.read import Case
+    from heeltoe.result.response import Response
+
+
+def periods(
+    case: CasePath,
+    count: Annotated[int, typer.Option(metavar="N", help="How many of each.")] = 5,
+    set_: Changes = None,
+    json_: JsonPath = None,
+) -> None:
+    """Say in which periods the dam vibrates: intact, and the parts above and below its crack by themselves."""
+    from heeltoe.case.read import read_case
+    from heeltoe.models.flexible.periods import dam_periods
+    from heeltoe.views.terminal.dam import print_periods
+
+    loaded = read_case(case, list(set_ or []))
+    check_json(json_)
+    with status() as say:
+        say("building the elastic parts")
+        found = dam_periods(loaded, count, field="--count")
+    finish(found.to_json(), json_, [], lambda console: print_periods(found, console))
+
+
+def overturning(
+    case: CasePath,
+    pulse: Annotated[str, typer.Option(metavar="sine|half-sine|cosine", help="Shape of the pulse.")] = "sine",
+    count: Annotated[int, typer.Option(metavar="N", help="How many frequencies, and how many amplitudes.")] = 60,
+    set_: Changes = None,
+    json_: JsonPath = None,
+    out: Annotated[Path, typer.Option(metavar="DIR", help="Write map and figure here.")] = Path("overturning"),
+) -> None:
+    """Draw which pulses overturn the block: a map over their frequency and amplitude, with the safe gap."""
+    from heeltoe.case.read import read_case
+    from heeltoe.study.overturning import overturning_map, write_overturning
+    from heeltoe.views.terminal.dam import print_overturning
+
+    loaded = read_case(case, list(set_ or []))
+    check_directory(out)
+    check_json(json_)
+    with status() as say:
+        say(f"running {count * count} pulses")
+        found = overturning_map(loaded, pulse, count=count)
+        written = write_overturning(found, out)
+    finish(found.to_json(), json_, written, lambda console: print_overturning(found, console))
+
+
+def statics(
+    case: CasePath,
+    set_: Changes = None,
+    criteria: Annotated[
+        str | None, typer.Option(metavar="USACE|USBR|FERC|CDA", help="Whose required factors to judge by.")
+    ] = None,
+    slip: Annotated[
+        str | None,
+        typer.Option(metavar="0.15m", help="Residual slip of the post-seismic case; without it that of a rigid run."),
+    ] = None,
+    json_: JsonPath = None,
+) -> None:
+    """Judge the stability before, during (pseudo-static) and after the earthquake."""
+    from heeltoe.case.read import read_case
+    from heeltoe.models.statics.model import statics as judge
+    from heeltoe.units.parse import parse
+    from heeltoe.views.terminal.statics import print_statics
+
+    changes = [*(set_ or []), *([] if criteria is None else [f"statics.criteria={criteria}"])]
+    loaded = read_case(case, changes)
+    check_json(json_)
+    with status() as say:
+        if slip is not None:
+            found = judge(loaded, parse(slip, "length", "--slip"), slip_source="--slip")
+        elif loaded.motion is not None and loaded.statics.residual_slip is None:
+            from heeltoe.models.rigid.model import rigid
+
+            say("running the rigid model")
+            response = rigid(loaded)
+            if response.outcome == "ok":
+                source = f"rigid model, {response.motion.name}, PGA {response.motion.pga / response.gravity:.4g} g"
+                if response.final_mode != "rest":
+                    source += ", still moving when the run ends"
+                found = judge(loaded, response.residual_slip_m, slip_source=source)
+            elif response.outcome == "overturned":
+                found = judge(loaded, overturned_about=response.overturned_about)
+            else:
+                found = judge(loaded, 0.0, slip_source=f"the rigid model ends {response.outcome!r}, zero is taken")
+        else:
+            found = judge(loaded)
+    finish(found.to_json(), json_, [], lambda console: print_statics(found, console))
+
+
+def animate(
+    case: CasePath,
+    model: Annotated[
+        str, typer.Option(metavar="rigid|flexible|decoupled", help="What the dam is taken for.")
+    ] = "rigid",
+    to: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="A .mp4, .gif or .html; CASE.animation.html here if not said.")
+    ] = None,
+    exaggerate: Annotated[
+        str, typer.Option(metavar="N|auto", help="Draw displacements N times as far as they are.")
+    ] = "auto",
+    fps: Annotated[float, typer.Option(metavar="30", help="Pictures per second of a video.")] = 30.0,
+    speed: Annotated[float, typer.Option(metavar="1.0", help="Seconds of the earthquake per second.")] = 1.0,
+    from_: Annotated[str, typer.Option("--from", metavar="0s", help="Where to start.")] = "0 s",
+    until: Annotated[str | None, typer.Option(metavar="20s", help="Where to end.")] = None,
+    motion: Annotated[str | None, typer.Option(metavar="FILE-or-NAME", help="Another ground motion.")] = None,
+    pga: Annotated[str | None, typer.Option(metavar="0.4g", help="Scale the motion to this peak.")] = None,
+    set_: Changes = None,
+) -> None:
+    """Show what the dam does: a video, or a page that plays in any browser without a network."""
+    from time import perf_counter
+
+    from heeltoe.case.read import read_case
+    from heeltoe.units.parse import parse
+    from heeltoe.views.animation.write import animate as write_animation
+    from heeltoe.views.animation.write import check_options
+
+    if model not in ("rigid", "flexible", "decoupled"):
+        raise InputError("animation-model", "--model", model)
+    place = to or Path(f"{Path(case).stem}.animation.html")
+    many = None if exaggerate == "auto" else parse(exaggerate, "number", "--exaggerate")
+    start = parse(from_, "duration", "--from")
+    end = None if until is None else parse(until, "duration", "--until")
+    check_options(place, exaggerate=many, frames_per_second=fps, speed=speed)
+    if not place.absolute().parent.is_dir():
+        raise InputError("no-directory", str(place.parent))
+    changes = list(set_ or [])
+    options = (("file", motion and json.dumps(as_given(motion))), ("pga", pga))
+    changes += [f"motion.{name}={value}" for name, value in options if value is not None]
+    loaded = read_case(case, changes)
+    with status() as say:
+        began = perf_counter()
+        response = _one_response(loaded, model, say)
+        analysed = perf_counter()
+        if response.histories:
+            say("drawing")
+            write_animation(
+                loaded, response, place, exaggerate=many, frames_per_second=fps, speed=speed, start=start, end=end
+            )
+        drawn = perf_counter()
+    console = Console(highlight=False)
+    if response.histories:
+        spent = f"analysis {analysed - began:.1f} s, writing {drawn - analysed:.1f} s"
+        console.print(f"wrote {place} ({place.stat().st_size / 1e6:.1f} MB; {spent})", soft_wrap=True, markup=False)
+    if not response.ok:
+        console.print(f"{response.outcome}: {response.advice}", soft_wrap=True, markup=False)
+        raise typer.Exit(NO_RESULT)
+
+
+def _one_response(case: Case, model: str, say: Callable[[str], None]) -> Response:
+    """Run one model."""
+    import heeltoe
+
+    say(f"running the {model} model")
+    found: Response = getattr(heeltoe, model)(case)
+    return found

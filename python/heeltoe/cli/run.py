@@ -1,0 +1,276 @@
+"""The command that runs a case, once or as a table of runs."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+from rich.console import Console
+from typer.core import TyperCommand
+
+from heeltoe.cli.common import (
+    NO_RESULT,
+    CasePath,
+    Changes,
+    JsonPath,
+    as_given,
+    check_directory,
+    check_json,
+    command_line,
+    finish,
+    status,
+)
+from heeltoe.errors import InputError
+
+if TYPE_CHECKING:
+    from heeltoe.case.read import Case
+    from heeltoe.result.response import Response
+    from heeltoe.study.comparison import Comparison
+
+# What --model takes; "both" is the rigid and the flexible one.
+_MODELS = ("rigid", "decoupled", "flexible", "both", "rigid,flexible", "decoupled,flexible")
+
+
+class Run(TyperCommand):
+    """A command whose option ``--spread`` needs no value, which is empty then; typer itself knows no such option."""
+
+    def parse_args(self, ctx: typer.Context, args: list[str]) -> list[str]:  # type: ignore[override]
+        given = list(args)
+        for place, argument in enumerate(args):
+            if argument == "--":
+                break
+            following = args[place + 1] if place + 1 < len(args) else "--"
+            if argument == "--spread" and (following.startswith("--") or following.endswith((".toml", ".json"))):
+                given[place] = "--spread="
+        return super().parse_args(ctx, given)
+
+
+def run(
+    case: CasePath,
+    model: Annotated[
+        str, typer.Option(metavar="rigid|decoupled|flexible|both", help="What the dam is taken for.")
+    ] = "rigid",
+    motion: Annotated[str | None, typer.Option(metavar="FILE-or-NAME", help="Another ground motion.")] = None,
+    pga: Annotated[str | None, typer.Option(metavar="0.4g", help="Scale the motion to this peak.")] = None,
+    reverse: Annotated[bool, typer.Option("--reverse", help="Turn the motion round.")] = False,
+    duration: Annotated[str | None, typer.Option(metavar="30s", help="Length of the run.")] = None,
+    set_: Changes = None,
+    spread: Annotated[
+        str | None,
+        typer.Option(
+            metavar="[N|none]",
+            help="Run N times more, 11 if not said, the shaking scaled by 0.99 to 1.01: what the result hangs on. "
+            "A report of a rigid or decoupled block has it without asking, but for none.",
+        ),
+    ] = None,
+    json_: JsonPath = None,
+    out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write figures, histories and JSON here.")] = None,
+    csv: Annotated[bool, typer.Option("--csv", help="Histories as CSV instead of Parquet.")] = False,
+    vtk: Annotated[
+        bool, typer.Option("--vtk", help="With --out: VTK files of the flexible model for ParaView.")
+    ] = False,
+    units: Annotated[
+        str, typer.Option(metavar="si|us", help="Units of what is shown, figures and report; files of numbers stay SI.")
+    ] = "si",
+    output_step: Annotated[
+        str | None,
+        typer.Option(
+            metavar="0.001s", help="Spacing of the histories; without it the record's own, 0.01 s if flexible."
+        ),
+    ] = None,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(metavar="PATH=V1,V2,...", help="A table of runs: every combination of the values of some fields."),
+    ] = None,
+    report: Annotated[
+        bool,
+        typer.Option(
+            "--report",
+            help="Write a report as PDF and HTML, into --out or a directory named by the case, with figures in "
+            "the report.",
+        ),
+    ] = False,
+) -> None:
+    """Run a case and say what the dam does."""
+    from heeltoe.case.read import read_case
+    from heeltoe.units.parse import parse
+    from heeltoe.views.terminal.common import in_units
+
+    if model not in _MODELS:
+        raise InputError("unknown-model", "--model", model)
+    if units not in ("si", "us"):
+        raise InputError("unknown-units", "--units", units)
+    if report:
+        from heeltoe.views.report import check_packages
+
+        check_packages()
+    # What asks for a report alone gets its figures in it.
+    figures = out is not None
+    if report and out is None:
+        out = Path(f"{Path(case).stem}-report")
+    if vtk and out is None:
+        raise InputError("vtk-without-out", "--vtk")
+    if vtk and model in ("rigid", "decoupled"):
+        raise InputError("vtk-rigid", "--vtk")
+    for option, given in (("--vtk", vtk), ("--spread", spread is not None), ("--report", report)):
+        if vary and given:
+            raise InputError("vary-option", option)
+    if vary and model not in _MODELS[:3]:
+        raise InputError("vary-option", "--model", model)
+    runs = None
+    if spread not in (None, "none"):
+        from heeltoe.study.spread import RUNS, check_runs
+
+        runs = check_runs(spread or RUNS, "--spread")
+
+    changes = list(set_ or [])
+    options = (("file", motion and json.dumps(as_given(motion))), ("pga", pga), ("duration", duration))
+    changes += [f"motion.{name}={value}" for name, value in options if value is not None]
+    loaded = read_case(case, changes)
+    if reverse and loaded.motion is not None:
+        changes.append(f"motion.reverse={'false' if loaded.motion.reverse else 'true'}")
+        loaded = read_case(case, changes)
+    step = None if output_step is None else parse(output_step, "duration", "--output-step")
+    if out is not None:
+        check_directory(out)
+    check_json(json_)
+    if vary:
+        _vary(case, changes, vary, model, step, json_, out, units)
+        return
+    with status() as say:
+        result = _analysis(loaded, model, step, runs, say)
+        if report and spread is None:
+            result = _with_cheap_spread(result, loaded, say)
+        # Files first: if they cannot be written that is all there is to say.
+        written = []
+        if out is not None:
+            from heeltoe.views.files.write import write_all
+
+            say("writing")
+            suffix = ".csv" if csv else ".parquet"
+            written = write_all(result, out, loaded, units, suffix=suffix, vtk=vtk, figures=figures)
+            if report:
+                from heeltoe.views.report import write_report
+
+                say("writing the report")
+                written += write_report(loaded, result, out, units=units, command=command_line())
+    finish(result.to_json(), json_, written, lambda console: _print(result, in_units(console, units, result.title)))
+    if not result.ok:
+        raise typer.Exit(NO_RESULT)
+
+
+def _vary(
+    case: str,
+    changes: list[str],
+    vary: list[str],
+    model: str,
+    step: float | None,
+    json_: str | None,
+    out: Path | None,
+    units: str,
+) -> None:
+    """Run a table of runs, show and write it."""
+    from heeltoe.study.grid import parse_variations, run_grid
+    from heeltoe.views.terminal.grid import print_grid
+
+    variations = parse_variations(vary)
+    with status() as say:
+
+        def run_one(each: Case) -> Response:
+            return _run_model(each, model, step)
+
+        def told(done: int, of: int) -> None:
+            say(f"running the {model} model, {done} of {of} runs done")
+
+        grid = run_grid(case, changes, variations, run_one, told=told)
+        written = []
+        if out is not None:
+            from heeltoe.views.files.write import write_all
+
+            say("writing")
+            written = write_all(grid, out, units=units)
+    finish(grid.to_json(), json_, written, lambda console: print_grid(grid, console))
+    if not grid.ok:
+        raise typer.Exit(NO_RESULT)
+
+
+def _analysis(
+    case: Case, model: str, step: float | None, runs: int | None, say: Callable[[str], None]
+) -> Response | Comparison:
+    """Run what is asked for; `say` is told what goes on."""
+    from heeltoe.models.statics.standing import with_standing
+
+    result: Response | Comparison
+    if model in _MODELS[:3]:
+        say(f"running the {model} model")
+        result = _run_model(case, model, step)
+    else:
+        from heeltoe.study.comparison import compare
+
+        say("running both models")
+        both = compare(case, output_step=step, block="decoupled" if model.startswith("decoupled") else "rigid")
+        result = both.with_responses(lambda response: with_standing(response, case))
+    return result if runs is None else _with_spread(result, case, runs, say)
+
+
+def _with_cheap_spread(result: Response | Comparison, case: Case, say: Callable[[str], None]) -> Response | Comparison:
+    """Give a result the spread that costs milliseconds: that of a rigid block which stands, whatever shakes it."""
+    from heeltoe.study.spread import RUNS
+
+    return _with_spread(result, case, RUNS, say, lambda each: each.ok and each.model in ("rigid", "decoupled"))
+
+
+def _with_spread(
+    result: Response | Comparison,
+    case: Case,
+    runs: int,
+    say: Callable[[str], None],
+    wanted: Callable[[Response], bool] = lambda response: True,
+) -> Response | Comparison:
+    """Vary the shaking of the responses that are wanted."""
+    from heeltoe.study.comparison import Comparison
+    from heeltoe.study.spread import with_spread
+
+    def vary(response: Response) -> Response:
+        if not wanted(response):
+            return response
+
+        def told(done: int, of: int) -> None:
+            say(f"varying the shaking of the {response.model} model, {done} of {of} runs done")
+
+        return with_spread(response, case, runs, told=told)
+
+    return result.with_responses(vary) if isinstance(result, Comparison) else vary(result)
+
+
+def _run_model(case: Case, model: str, step: float | None) -> Response:
+    """Run one of the models; what another one needs is not loaded."""
+    from heeltoe.models.statics.standing import with_standing
+
+    found: Response
+    if model == "rigid":
+        from heeltoe.models.rigid.model import rigid
+
+        found = rigid(case, output_step=step)
+    elif model == "decoupled":
+        from heeltoe.models.decoupled.model import decoupled
+
+        found = decoupled(case, output_step=step)
+    else:
+        from heeltoe.models.flexible.model import flexible
+
+        found = flexible(case, output_step=step)
+    return with_standing(found, case)
+
+
+def _print(result: Response | Comparison, console: Console) -> None:
+    from heeltoe.result.response import Response
+    from heeltoe.views.terminal.response import print_comparison, print_summary
+
+    if isinstance(result, Response):
+        print_summary(result, console)
+    else:
+        print_comparison(result, console)

@@ -1,0 +1,267 @@
+"""The section of the dam and its part above the crack."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from heeltoe.case.model import Case, Section, Water
+from heeltoe.case.sentences import shown
+from heeltoe.errors import InputError
+
+# Corners this close to the crack line, as a part of the section's size, are on it: far above rounding, far
+# below any drawing.
+_ON_LINE = 1e-9
+# A section outside these [m] has a wrong unit; far outside, areas and inertias overflow.
+_SMALLEST, _LARGEST = 1e-3, 1e4
+
+
+@dataclass(frozen=True, eq=False)
+class CutSection:
+    """The part of the section above the crack, x downstream and z up, in the coordinates of the case.
+
+    Parameters
+    ----------
+    polygon
+        Corners, counter-clockwise from the heel, shape (n, 2), not closed [m].
+    area
+        Area [m^2].
+    centroid
+        Centroid (x, z) [m].
+    polar_inertia
+        Polar second moment of area about the centroid [m^4].
+    heel, toe
+        Upstream and downstream end (x, z) of the crack [m].
+    upstream_face
+        From the heel up to the crest, shape (k, 2) [m].
+    downstream_face
+        From the toe up to the crest, shape (k, 2) [m].
+    base_elevation, crest_elevation
+        z of the lowest and of the highest point of the whole section [m].
+    """
+
+    polygon: NDArray[np.float64]
+    area: float
+    centroid: tuple[float, float]
+    polar_inertia: float
+    heel: tuple[float, float]
+    toe: tuple[float, float]
+    upstream_face: NDArray[np.float64]
+    downstream_face: NDArray[np.float64]
+    base_elevation: float
+    crest_elevation: float
+
+    @property
+    def crack_width(self) -> float:
+        """Distance from heel to toe [m]."""
+        return math.hypot(self.toe[0] - self.heel[0], self.toe[1] - self.heel[1])
+
+    @property
+    def crack_elevation(self) -> float:
+        """z of the heel [m]; the case counts it from the lowest point instead."""
+        return self.heel[1]
+
+    @property
+    def inclination(self) -> float:
+        """Angle of the crack to the horizontal, positive where it rises downstream [rad]."""
+        return math.atan2(self.toe[1] - self.heel[1], self.toe[0] - self.heel[0])
+
+    def in_crack_frame(self, x: float, z: float) -> tuple[float, float]:
+        """Return the components of a vector (x, z) along the crack, downstream, and across it, upwards."""
+        if self.toe[1] == self.heel[1]:
+            return x, z
+        along, up = math.cos(self.inclination), math.sin(self.inclination)
+        return along * x + up * z, along * z - up * x
+
+    @property
+    def height(self) -> float:
+        """From the crack to the crest [m]."""
+        return self.crest_elevation - self.crack_elevation
+
+    def from_crack_frame(self, along: float, across: float) -> tuple[float, float]:
+        """Return (x, z) of a vector with components along and across the crack."""
+        if self.toe[1] == self.heel[1]:
+            return along, across
+        down, up = math.cos(self.inclination), math.sin(self.inclination)
+        return down * along - up * across, up * along + down * across
+
+    def water_above_crack(self, water: Water | None, *, toe: bool = False) -> float:
+        """Return how high the water stands above the heel, or the toe [m]; zero where it does not reach it."""
+        if water is None:
+            return 0.0
+        return max(0.0, self.base_elevation + water.depth - (self.toe if toe else self.heel)[1])
+
+
+def section_polygon(section: Section) -> shapely.Polygon:
+    """Return the whole section, counter-clockwise [m].
+
+    Raises
+    ------
+    InputError
+        Where the corners are too few, or the outline crosses or touches itself.
+    """
+    corners = section.vertices()
+    field = "section.polygon" if section.polygon is not None else "section"
+    if len(set(corners)) < 3:
+        raise InputError("polygon-corners", field, f"{len(set(corners))}")
+    spread = max(max(axis) - min(axis) for axis in zip(*corners, strict=True))
+    farthest = max(max(map(abs, corner)) for corner in corners)
+    if not _SMALLEST <= spread <= _LARGEST or farthest > 1e3 * _LARGEST:
+        raise InputError("section-size", field, f"{spread:g} m")
+    outline = shapely.Polygon(corners)
+    if not outline.is_valid or outline.area <= _ON_LINE * outline.length**2:
+        raise InputError("polygon-crossing", field, shown([list(corner) for corner in corners]))
+    return shapely.geometry.polygon.orient(outline)
+
+
+def cut(case: Case) -> CutSection:
+    """Return the part of the section above the crack.
+
+    Raises
+    ------
+    InputError
+        Where the section is no simple polygon, or the crack does not cut it in two along one line.
+    """
+    whole = section_polygon(case.section)
+    left, base, right, crest = whole.bounds
+    size = max(right - left, crest - base)
+    slack = _ON_LINE * size
+    elevation = case.crack.elevation if case.crack.elevation > slack else 0.0
+    if elevation >= crest - base - slack:
+        raise InputError("crack-outside", "crack.elevation", f"{elevation:g} m", height=f"{crest - base:g} m")
+    level = base + elevation
+    if case.crack.inclination:
+        corners = _cut_inclined(whole, level, case.crack.inclination, slack)
+    else:
+        corners = _cut_level(whole, level, slack, elevation)
+    return _measured(corners, base, crest)
+
+
+def _cut_inclined(whole: shapely.Polygon, level: float, inclination: float, slack: float) -> NDArray[np.float64]:
+    """Return the corners above a crack that starts at `level` on the upstream face: turned until it is level, cut as
+    a level one and turned back."""
+    left, _, right, _ = whole.bounds
+    line = shapely.LineString([(left - 1.0, level), (right + 1.0, level)])
+    heel = np.array([shapely.intersection(whole, line).bounds[0], level])
+    down, up = math.cos(inclination), math.sin(inclination)
+    turn = np.array([[down, up], [-up, down]])
+    turned = shapely.transform(whole, lambda corners: (corners - heel) @ turn.T)
+    corners = _cut_level(turned, 0.0, slack, level - whole.bounds[1])
+    back: NDArray[np.float64] = corners @ turn + heel
+    # The crest, whose corners tell the two faces apart, must be level again to the last bit.
+    for corner in shapely.get_coordinates(whole):
+        back[np.all(np.abs(back - corner) <= slack, axis=1)] = corner
+    return back
+
+
+def _cut_level(whole: shapely.Polygon, level: float, slack: float, elevation: float) -> NDArray[np.float64]:
+    """Return the corners of what is above a level crack, from the heel round; `elevation` is what the case says."""
+    left, base, right, crest = whole.bounds
+    size = max(right - left, crest - base)
+    whole = _snapped(whole, level, slack)
+    above = shapely.box(left - size, level, right + size, crest + size)
+    below = shapely.box(left - size, base - size, right + size, level)
+    upper = _snapped(_solid(shapely.intersection(whole, above)), level, slack)
+    # At the base the block stands on all of its lower edge; higher up, on what both parts share (a ledge
+    # sticks out of one of them).
+    lower = _snapped(_solid(shapely.intersection(whole, below)), level, slack)
+    contact = shapely.intersection(upper, lower)
+    if upper.geom_type == "Polygon" and contact.geom_type == "Point":
+        raise InputError("crack-no-width", "crack.elevation", f"{elevation:g} m")
+    crack = shapely.line_merge(contact) if contact.geom_type == "MultiLineString" else contact
+    if upper.geom_type != "Polygon" or crack.geom_type != "LineString":
+        raise InputError("crack-pieces", "crack.elevation", f"{elevation:g} m")
+    start, _, end, _ = crack.bounds
+    return _ring(upper, start, end, level, slack)
+
+
+def check_loads(case: Case, section: CutSection) -> None:
+    """Refuse water and silt above the crest, as what flows over a dam is another problem, and anchors beyond the toe.
+
+    Raises
+    ------
+    InputError
+        Where a surface is above the highest point of the section, or an anchor does not cross the crack.
+    """
+    height = section.crest_elevation - section.base_elevation
+    highest = height * (1.0 + _ON_LINE)
+    surfaces = {
+        "reservoir.depth": case.reservoir.depth if case.reservoir else None,
+        "tailwater.depth": case.tailwater.depth if case.tailwater else None,
+        "statics.flood_depth": case.statics.flood_depth,
+        "statics.flood_tailwater": case.statics.flood_tailwater,
+    }
+    for field, depth in surfaces.items():
+        if depth is not None and depth > highest:
+            raise InputError("water-above-crest", field, f"{depth:g} m", height=f"{height:g} m")
+    if case.silt is not None and case.silt.depth > highest:
+        raise InputError("silt-above-crest", "silt.depth", f"{case.silt.depth:g} m", height=f"{height:g} m")
+    for place, anchor in enumerate(case.anchors):
+        if anchor.distance > section.crack_width * (1.0 + _ON_LINE):
+            field, width = f"anchors[{place}].distance", f"{section.crack_width:g} m"
+            raise InputError("anchor-outside", field, f"{anchor.distance:g} m", width=width)
+
+
+def _solid(shape: shapely.Geometry) -> shapely.Geometry:
+    """Drop the edges of the other part that lie on the crack line."""
+    if shape.geom_type != "GeometryCollection":
+        return shape
+    return shapely.union_all([part for part in shape.geoms if part.area > 0.0])
+
+
+def _snapped(shape: shapely.Geometry, level: float, slack: float) -> shapely.Geometry:
+    """Put corners that are within `slack` of the crack line onto it, so that rounding cuts off no sliver."""
+
+    def snap(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+        z = corners[:, 1]
+        return np.column_stack([corners[:, 0], np.where(np.abs(z - level) <= slack, level, z)])
+
+    return shapely.transform(shape, snap)
+
+
+def _ring(upper: shapely.Polygon, start: float, end: float, level: float, slack: float) -> NDArray[np.float64]:
+    """Return the corners of the upper part: heel, toe, up the downstream face, down the upstream face."""
+    corners = shapely.get_coordinates(shapely.geometry.polygon.orient(upper).exterior)[:-1]
+    x, z = corners.T
+    # What lies on the crack line from heel to toe goes; the two ends come instead, also where an overhang
+    # reaches past them.
+    inside = (z == level) & (x >= start - slack) & (x <= end + slack)
+    following = np.roll(corners, -1, axis=0)
+    on_line = (z == level) & (following[:, 1] == level)
+    covering = on_line & (x <= start + slack) & (following[:, 0] > start + slack)
+    first = int(np.flatnonzero(covering)[0])
+    rolled = np.roll(np.column_stack([corners, inside]), -first - 1, axis=0)
+    rest = rolled[rolled[:, 2] == 0.0, :2]
+    return np.vstack([[start, level], [end, level], rest])
+
+
+def _measured(corners: NDArray[np.float64], base: float, crest: float) -> CutSection:
+    """Measure the upper part; its corners start with heel and toe."""
+    outline = shapely.Polygon(corners)
+    centroid = outline.centroid
+    x, z = (corners - [centroid.x, centroid.y]).T
+    x1, z1 = np.roll(x, -1), np.roll(z, -1)
+    cross = x * z1 - x1 * z
+    # Green's theorem, edge by edge, about the centroid, where nothing cancels.
+    inertia = float(np.sum(cross * (x * x + x * x1 + x1 * x1 + z * z + z * z1 + z1 * z1))) / 12.0
+    top = np.flatnonzero(corners[:, 1] == crest)
+    upstream = np.vstack([corners[:1], corners[: top[-1] - 1 : -1]])
+    downstream = corners[1 : top[0] + 1]
+    for array in (corners, upstream, downstream):
+        array.flags.writeable = False
+    return CutSection(
+        polygon=corners,
+        area=outline.area,
+        centroid=(centroid.x, centroid.y),
+        polar_inertia=inertia,
+        heel=(float(corners[0, 0]), float(corners[0, 1])),
+        toe=(float(corners[1, 0]), float(corners[1, 1])),
+        upstream_face=upstream,
+        downstream_face=downstream,
+        base_elevation=base,
+        crest_elevation=crest,
+    )

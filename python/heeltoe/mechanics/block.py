@@ -1,0 +1,257 @@
+"""The rigid block: the part of the dam above the crack as masses, distances and generalised forces.
+
+Everything is per metre of dam. The reference point stands at the height of the centre of the horizontal mass
+(concrete and virtual water) and horizontally at the centroid of the concrete; there, for small rotations,
+translation and rotation do not couple although the two masses differ. On an inclined crack they do, and the reference
+point is the centroid of the concrete.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe import _kernel
+from heeltoe.case.model import Case
+from heeltoe.geometry.section import CutSection, cut
+from heeltoe.mechanics.loads import Resultant, VirtualMass, concrete_mass, face_at, static_forces, total, virtual_mass
+
+#: A sum of forces that is a smaller part of them is none.
+ROUNDING_OF_FORCES = 1e-13
+
+
+@dataclass(frozen=True)
+class CriticalAccelerations:
+    """Ground accelerations [m/s2] at which a block at rest starts to move, as magnitudes.
+
+    "Downstream" is the motion of the block: the ground then accelerates upstream. A negative value means that the
+    static loads alone start that motion.
+    """
+
+    sliding_downstream: float
+    sliding_upstream: float
+    rocking_downstream: float
+    rocking_upstream: float
+
+    @property
+    def sliding(self) -> float:
+        """The smaller of the two for sliding."""
+        return min(self.sliding_downstream, self.sliding_upstream)
+
+    @property
+    def rocking(self) -> float:
+        """The smaller of the two for rocking."""
+        return min(self.rocking_downstream, self.rocking_upstream)
+
+
+@dataclass(frozen=True)
+class Block:
+    """A block on its crack, ready for the kernel. "Along" and "across" count from the crack, which may be inclined: on
+    a level one they are downstream and upwards.
+
+    Attributes
+    ----------
+    mass_horizontal, mass_vertical
+        That moves along the crack: concrete with virtual water; and across it: concrete, and on an inclined crack its
+        share of the water [kg/m].
+    coupling
+        Of the motions along and across, along and rotation, across and rotation by the water, which moves horizontally
+        [kg/m, kg, kg]; zero on a level crack.
+    inertia
+        Polar inertia about the reference point [kg m2/m].
+    height
+        Of the reference point across the crack [m].
+    heel_distance, toe_distance
+        From the reference point to heel and toe along the crack [m].
+    static
+        Sum of the static loads along and across; its moment is about the heel [N/m, N m/m].
+    static_moment
+        Moment of the static loads about the reference point, counter-clockwise [N m/m].
+    per_horizontal, per_vertical
+        Loads (along, across, moment about the reference point) per unit of ground acceleration [kg/m, kg/m, kg].
+    forces
+        The loads one by one, horizontal and vertical.
+    following
+        Those of them that follow the vertical motion.
+    water
+        Virtual water.
+    friction_static, friction_kinetic, restitution
+        Of the crack.
+    gravity
+        One g of the case [m/s2].
+    section
+        The part above the crack.
+    """
+
+    mass_horizontal: float
+    mass_vertical: float
+    coupling: tuple[float, float, float]
+    inertia: float
+    height: float
+    heel_distance: float
+    toe_distance: float
+    static: Resultant
+    static_moment: float
+    per_horizontal: tuple[float, float, float]
+    per_vertical: tuple[float, float, float]
+    forces: tuple[Resultant, ...]
+    following: tuple[Resultant, ...]
+    water: VirtualMass
+    friction_static: float
+    friction_kinetic: float
+    restitution: float
+    gravity: float
+    section: CutSection
+
+    @property
+    def width(self) -> float:
+        """Width of the crack [m]."""
+        return self.heel_distance + self.toe_distance
+
+    @property
+    def concrete_mass(self) -> float:
+        """Mass of the concrete alone [kg/m]; `mass_vertical` has water in it where the crack is inclined."""
+        weight = next(force for force in self.forces if force.name == "weight")
+        return -weight.vertical / self.gravity
+
+    @property
+    def normal_force(self) -> float:
+        """Effective weight on the crack, water pressure taken off [N/m]."""
+        return -self.static.vertical
+
+    @property
+    def sliding_safety_factor(self) -> float | None:
+        """Friction there is over friction needed under the static loads; None where none is needed, zero where the
+        water lifts the block."""
+        needed = abs(self.static.horizontal)
+        # Equal water on both sides leaves the rounding of its forces.
+        rounding = ROUNDING_OF_FORCES * sum(abs(force.horizontal) + abs(force.vertical) for force in self.forces)
+        return self.friction_static * max(0.0, self.normal_force) / needed if needed > rounding else None
+
+    @property
+    def resultant_position(self) -> float | None:
+        """Where the resultant of the static loads meets the crack, from the heel [m]; None without a normal force."""
+        return -self.static.moment / self.normal_force if self.normal_force > 0.0 else None
+
+    def critical_accelerations(self) -> CriticalAccelerations:
+        """Accelerations at which rest ends, each motion by itself.
+
+        At rest under the loads (F, N, M) along, across and about the reference point, which are linear in the ground
+        acceleration, ``T = -F`` and the moments about the corners give ``B N_h = M - H F - B_t N`` and
+        ``B N_t = -M + H F - B_h N``; sliding starts where ``|T| = mu N`` (Zhu 2004, 4.3.12), rocking where a normal
+        force vanishes (the limits behind 4.3.14). Where an acceleration cannot do it the limit is infinite.
+        """
+        along, across, moment = self.static.horizontal, self.static.vertical, self.static_moment
+        rates = self.per_horizontal
+
+        def limit(shear: float, normal: float, turning: float, sign: float) -> float:
+            """Return the magnitude at which a sum of the loads, these many of each, vanishes."""
+            value = shear * along + normal * across + turning * moment
+            rate = sign * (shear * rates[0] + normal * rates[1] + turning * rates[2])
+            return -value / rate if rate < 0.0 else math.inf
+
+        mu, height = self.friction_static, self.height
+        return CriticalAccelerations(
+            sliding_downstream=limit(-1.0, -mu, 0.0, -1.0),
+            sliding_upstream=limit(1.0, -mu, 0.0, 1.0),
+            rocking_downstream=limit(-height, -self.toe_distance, 1.0, -1.0),
+            rocking_upstream=limit(height, -self.heel_distance, -1.0, 1.0),
+        )
+
+    def parameters(self) -> NDArray[np.float64]:
+        """Return the numbers the kernel takes, shape (21,), in the order of ``_kernel.BLOCK_FIELDS``."""
+        values = [
+            self.mass_horizontal,
+            self.mass_vertical,
+            self.inertia,
+            self.height,
+            self.heel_distance,
+            self.toe_distance,
+            self.static.horizontal,
+            self.static.vertical,
+            self.static_moment,
+            *self.per_horizontal,
+            *self.per_vertical,
+            self.friction_static,
+            self.friction_kinetic,
+            self.restitution,
+            *self.coupling,
+        ]
+        assert len(values) == len(_kernel.BLOCK_FIELDS)
+        return np.array(values)
+
+
+def build_block(case: Case) -> Block:
+    """Cut the section at the crack and gather masses and static loads of the part above it.
+
+    Returns
+    -------
+    Block
+
+    Raises
+    ------
+    InputError
+        Where the crack does not cut the section in two.
+    """
+    section = cut(case)
+    concrete = concrete_mass(case, section)
+    water = virtual_mass(case, section)
+    offset = section.in_crack_frame(section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1])
+    inertia = case.concrete.density * section.polar_inertia
+    forces = static_forces(case, section)
+    static = across_crack(total("static loads", forces), section)
+    sides = {"reservoir": case.reservoir, "tailwater": case.tailwater}
+    hanging = [name for name, side in sides.items() if side is not None and side.follows_vertical_motion]
+    following = tuple(force for force in forces if force.name in hanging)
+    pressed = across_crack(total("following", following), section)
+    if section.inclination == 0.0:
+        mass = concrete + water.mass
+        height = (concrete * offset[1] + water.mass * water.height) / mass
+        inertia += concrete * (offset[1] - height) ** 2 + water.mass * (water.height - height) ** 2
+        masses = (mass, concrete, inertia)
+        coupling = (0.0, 0.0, 0.0)
+        horizontal, vertical = (-mass, 0.0, 0.0), (0.0, -concrete, 0.0)
+    else:
+        # The reference point is the centroid of the concrete; the water moves with one point of the face, sideways.
+        height = offset[1]
+        e, n = section.in_crack_frame(1.0, 0.0)
+        x, z = section.in_crack_frame(face_at(section, water.height), water.height)
+        arm = n * (x - offset[0]) - e * (z - height)
+        moved = water.mass
+        masses = (concrete + moved * e * e, concrete + moved * n * n, inertia + moved * arm * arm)
+        coupling = (moved * e * n, moved * e * arm, moved * n * arm)
+        horizontal = (-(concrete + moved) * e, -(concrete + moved) * n, -moved * arm)
+        up = section.in_crack_frame(0.0, 1.0)
+        vertical = (-concrete * up[0], -concrete * up[1], 0.0)
+    g = case.gravity
+    pressure = (pressed.horizontal / g, pressed.vertical / g, pressed.moment_about(offset[0], height) / g)
+    return Block(
+        mass_horizontal=masses[0],
+        mass_vertical=masses[1],
+        coupling=coupling,
+        inertia=masses[2],
+        height=height,
+        heel_distance=offset[0],
+        toe_distance=section.crack_width - offset[0],
+        static=static,
+        static_moment=static.moment_about(offset[0], height),
+        per_horizontal=horizontal,
+        per_vertical=(vertical[0] + pressure[0], vertical[1] + pressure[1], vertical[2] + pressure[2]),
+        forces=forces,
+        following=following,
+        water=water,
+        friction_static=case.crack.mu_static,
+        friction_kinetic=case.crack.mu_kinetic,
+        restitution=case.crack.restitution,
+        gravity=case.gravity,
+        section=section,
+    )
+
+
+def across_crack(force: Resultant, section: CutSection) -> Resultant:
+    """Return a force by its components along and across the crack."""
+    along, across = section.in_crack_frame(force.horizontal, force.vertical)
+    return Resultant(force.name, along, across, force.moment, force.virial)

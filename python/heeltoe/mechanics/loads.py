@@ -1,0 +1,249 @@
+"""Static forces on the part of a dam above the crack, and the water that moves with it; per metre of dam."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe.case.model import Case, Water
+from heeltoe.geometry.section import CutSection
+
+
+@dataclass(frozen=True)
+class Resultant:
+    """A force and its moment.
+
+    Parameters
+    ----------
+    name
+        What exerts it.
+    horizontal
+        Positive downstream [N/m].
+    vertical
+        Positive upward [N/m].
+    moment
+        About the heel, counter-clockwise positive with x downstream and z up [N m/m].
+    virial
+        Sum of the forces times their places from the heel: where the places turn by a small angle about the heel and
+        the forces keep their directions, the moment falls by that angle times this [N m/m].
+    """
+
+    name: str
+    horizontal: float
+    vertical: float
+    moment: float
+    virial: float = 0.0
+
+    def moment_about(self, x: float, z: float) -> float:
+        """Return the moment [N m/m] about a point `x` downstream of the heel and `z` above the crack [m]."""
+        return self.moment - x * self.vertical + z * self.horizontal
+
+
+@dataclass(frozen=True)
+class VirtualMass:
+    """Water that moves horizontally with the dam: mass [kg/m], height of its centre above the crack [m]."""
+
+    mass: float
+    height: float
+
+
+def total(name: str, forces: Iterable[Resultant]) -> Resultant:
+    """Return the sum of some forces under a new name."""
+    forces = tuple(forces)
+    return Resultant(
+        name,
+        math.fsum(force.horizontal for force in forces),
+        math.fsum(force.vertical for force in forces),
+        math.fsum(force.moment for force in forces),
+        math.fsum(force.virial for force in forces),
+    )
+
+
+def static_forces(case: Case, section: CutSection) -> tuple[Resultant, ...]:
+    """Return weight, reservoir, tailwater and uplift, with zeros for what is not there, then ice, silt and prestress
+    of the anchors where there are any."""
+    forces = [
+        weight(case, section),
+        reservoir_pressure(case, section),
+        tailwater_pressure(case, section),
+        uplift(case, section),
+    ]
+    for there, force in ((case.ice, ice), (case.silt, silt), (case.anchors, prestress)):
+        if there:
+            forces.append(force(case, section))
+    return tuple(forces)
+
+
+def concrete_mass(case: Case, section: CutSection) -> float:
+    """Return the mass of the concrete above the crack [kg/m]."""
+    return case.concrete.density * section.area
+
+
+def weight(case: Case, section: CutSection) -> Resultant:
+    """Return the weight of the concrete above the crack."""
+    force = -concrete_mass(case, section) * case.gravity
+    x, z = section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1]
+    return Resultant("weight", 0.0, force, force * x, force * z)
+
+
+def reservoir_pressure(case: Case, section: CutSection) -> Resultant:
+    """Return the force of the reservoir on the upstream face above the crack, with its weight on a slope."""
+    # Going up the upstream face, the concrete is on the right hand.
+    return _face_pressure("reservoir", case, section, case.reservoir, section.upstream_face, 1.0)
+
+
+def tailwater_pressure(case: Case, section: CutSection) -> Resultant:
+    """Return the force of the tailwater on the downstream face above the crack, with its weight on slopes."""
+    return _face_pressure("tailwater", case, section, case.tailwater, section.downstream_face, -1.0)
+
+
+def ice(case: Case, section: CutSection) -> Resultant:
+    """Return the push of the ice; zero where it acts below the crack."""
+    if case.ice is None or case.reservoir is None:
+        return Resultant("ice", 0.0, 0.0, 0.0)
+    height = section.base_elevation + case.reservoir.depth - case.ice.depth - section.crack_elevation
+    push = case.ice.force if height >= 0.0 else 0.0
+    return Resultant("ice", push, 0.0, -push * max(height, 0.0), push * face_at(section, max(height, 0.0)))
+
+
+def silt(case: Case, section: CutSection) -> Resultant:
+    """Return the force of the silt on the upstream face above the crack, beyond that of the water it stands in."""
+    if case.silt is None:
+        return Resultant("silt", 0.0, 0.0, 0.0)
+    densities = (case.silt.horizontal_density, case.silt.vertical_density)
+    return _face_fluid("silt", case, section, case.silt.depth, densities, section.upstream_face, 1.0)
+
+
+def prestress(case: Case, section: CutSection) -> Resultant:
+    """Return the prestress of all anchors on the part above the crack, which they pull towards the part below."""
+    forces = []
+    for anchor in case.anchors:
+        along, across = -math.sin(anchor.inclination), -math.cos(anchor.inclination)
+        x, z = section.from_crack_frame(along, across)
+        forces.append(
+            Resultant(
+                "anchors", anchor.prestress * x, anchor.prestress * z, anchor.prestress * across * anchor.distance
+            )
+        )
+    return total("anchors", forces)
+
+
+def uplift_profile(case: Case, section: CutSection) -> NDArray[np.float64]:
+    """Return the pressure in the crack, straight between its points.
+
+    Heads count from the crack. At the drains the head is ``tail + (1 - efficiency) (heel - tail)``: USBR,
+    Design of Gravity Dams (1976), section 3-9, has efficiency 2/3; USACE, EM 1110-2-2200 (1995), the same
+    form with K = 1 - efficiency for a crack that reaches the drains.
+
+    Returns
+    -------
+    ndarray, shape (k, 2)
+        Distance from the heel [m], ascending, and pressure times the intensity [Pa]; twice the same distance
+        is a jump.
+    """
+    pattern = case.uplift
+    heel, toe = _pressure(case, section, case.reservoir), _pressure(case, section, case.tailwater, toe=True)
+    drains = toe + (1.0 - (pattern.drain_efficiency or 0.0)) * (heel - toe)
+    own = case.gravity * (case.reservoir.density if case.reservoir else 1000.0)
+    points: dict[str, list[tuple[float, float]]] = {
+        "none": [(0.0, 0.0), (1.0, 0.0)],
+        "uniform": [(0.0, heel), (1.0, heel)],
+        "triangular": [(0.0, heel), (1.0, toe)],
+        "cut-off": [(0.0, heel), (pattern.extent or 1.0, toe), (1.0, toe)],
+        "drained": [(0.0, heel), (pattern.drain_position or 0.0, drains), (1.0, toe)],
+        "profile": [(fraction, own * head) for fraction, head in pattern.points or ()],
+    }
+    return np.array(points[pattern.pattern]) * [section.crack_width, pattern.intensity]
+
+
+def uplift(case: Case, section: CutSection) -> Resultant:
+    """Return the force of the water in the crack, which is normal to it."""
+    profile = uplift_profile(case, section)
+    x, pressure = profile.T
+    length = np.diff(x)
+    force = float(np.sum(length * (pressure[:-1] + pressure[1:]))) / 2.0
+    horizontal, vertical = section.from_crack_frame(0.0, force)
+    return Resultant(
+        "uplift",
+        horizontal,
+        vertical,
+        float(np.sum(length * _mean_product(x[:-1], x[1:], pressure[:-1], pressure[1:]))),
+    )
+
+
+def virtual_mass(case: Case, section: CutSection) -> VirtualMass:
+    """Return the water that Westergaard (1931) lets move with a vertical upstream face, from the crack to the
+    surface.
+
+    Per unit height it is ``7/8 rho sqrt(D (D - eta))``, eta from the bottom of a reservoir of depth D; with h
+    of water above the crack the integral is ``7/12 rho sqrt(D) h^(3/2)``, its centre 0.4 h above the crack. A
+    slope of the face and the tailwater are left out."""
+    water = case.reservoir
+    depth = section.water_above_crack(water)
+    if water is None or depth == 0.0:
+        return VirtualMass(0.0, 0.0)
+    return VirtualMass(7.0 / 12.0 * water.density * math.sqrt(water.depth) * depth**1.5, 0.4 * depth)
+
+
+def _pressure(case: Case, section: CutSection, water: Water | None, *, toe: bool = False) -> float:
+    """Return the pressure of still water at the heel, or at the toe [Pa]."""
+    return water.density * case.gravity * section.water_above_crack(water, toe=toe) if water else 0.0
+
+
+def _face_pressure(
+    name: str, case: Case, section: CutSection, water: Water | None, face: NDArray[np.float64], side: float
+) -> Resultant:
+    """Return the force of still water on a face; `side` as in :func:`_face_fluid`."""
+    if water is None:
+        return Resultant(name, 0.0, 0.0, 0.0)
+    return _face_fluid(name, case, section, water.depth, (water.density, water.density), face, side)
+
+
+def _face_fluid(
+    name: str,
+    case: Case,
+    section: CutSection,
+    depth: float,
+    densities: tuple[float, float],
+    face: NDArray[np.float64],
+    side: float,
+) -> Resultant:
+    """Integrate edge by edge the pressure of a fluid that has one density sideways and one in its weight; `side` is 1
+    with the concrete on the right of the way up, -1 on the left."""
+    # Counted from the heel, also where the toe is lower.
+    surface = section.base_elevation + depth - section.crack_elevation
+    start, end = face[:-1] - section.heel, face[1:] - section.heel
+    # The wet part of each edge, from fraction a to b of its length; along it the pressure is linear.
+    with np.errstate(divide="ignore", invalid="ignore"):
+        crossing = np.clip((surface - start[:, 1]) / (end[:, 1] - start[:, 1]), 0.0, 1.0)
+    wet_start, wet_end = start[:, 1] < surface, end[:, 1] < surface
+    a = np.where(wet_start, 0.0, np.where(wet_end, crossing, 1.0))
+    b = np.where(wet_end, 1.0, np.where(wet_start, crossing, 1.0))
+    lower, upper = start + a[:, None] * (end - start), start + b[:, None] * (end - start)
+    h0, h1 = surface - lower[:, 1], surface - upper[:, 1]
+    along = upper - lower
+    # The normal into the concrete, as long as the edge, times the weight of a unit of the fluid.
+    normal = case.gravity * side * np.column_stack([densities[0] * along[:, 1], -densities[1] * along[:, 0]])
+    lever = _mean_product(lower[:, 0], upper[:, 0], h0, h1) * normal[:, 1]
+    lever -= _mean_product(lower[:, 1], upper[:, 1], h0, h1) * normal[:, 0]
+    virial = _mean_product(lower[:, 0], upper[:, 0], h0, h1) * normal[:, 0]
+    virial += _mean_product(lower[:, 1], upper[:, 1], h0, h1) * normal[:, 1]
+    horizontal, vertical = (h0 + h1) / 2.0 @ normal
+    return Resultant(name, float(horizontal), float(vertical), float(np.sum(lever)), float(np.sum(virial)))
+
+
+def face_at(section: CutSection, height: float) -> float:
+    """Return where the upstream face is at a height above the heel, downstream of the heel [m]."""
+    face = section.upstream_face - section.heel
+    return float(np.interp(height, face[:, 1], face[:, 0]))
+
+
+def _mean_product(
+    f0: NDArray[np.float64], f1: NDArray[np.float64], g0: NDArray[np.float64], g1: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the mean of the product of two linear functions over pieces, from the values at their ends."""
+    return (2.0 * f0 * g0 + f0 * g1 + f1 * g0 + 2.0 * f1 * g1) / 6.0

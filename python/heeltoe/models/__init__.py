@@ -1,0 +1,1 @@
+"""The models of one dam: each takes a case and a motion and returns a response."""

@@ -1,0 +1,1 @@
+"""Two elastic parts with a frictional crack between them."""

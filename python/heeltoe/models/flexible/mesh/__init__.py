@@ -1,0 +1,1 @@
+"""Meshes of the parts: our own or by file, and what is wrong with them."""

@@ -1,0 +1,230 @@
+"""The dam as two bodies of eight-node quadrilaterals, above and below the crack.
+
+The program's own mesh follows the section row by row (:mod:`heeltoe.models.flexible.mesh.rows`); a mesh from a file may
+have any shape whose crack and area are those of the section."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+
+from heeltoe.case.model import Case
+from heeltoe.errors import InputError
+from heeltoe.geometry.axes import in_x_and_z
+from heeltoe.geometry.axes import places as locate
+from heeltoe.geometry.section import CutSection, section_polygon
+from heeltoe.models.flexible.mesh.checks import boundary_edges
+from heeltoe.models.flexible.mesh.rows import meshed_rows
+
+# As parts of the size of a mesh: nodes this close to the crack line are on it (files may have single precision),
+# and the area may differ by this much.
+_ON_LINE = 1e-6
+_AREA = 0.01
+# A part below the crack with less than this part of the area above it is rounding.
+_NOTHING = 1e-9
+
+
+@dataclass(frozen=True, eq=False)
+class BodyMesh:
+    """One part of the dam.
+
+    Parameters
+    ----------
+    nodes
+        x and z [m] in the coordinates of the case, shape (n, 2).
+    elements
+        Four corners counter-clockwise, then the midside nodes between corners 1-2, 2-3, 3-4, 4-1, shape (m, 8).
+    crack
+        Nodes of the crack face from the heel to the toe, midside nodes included, shape (k,), k odd.
+    upstream, downstream
+        Nodes along the two faces from bottom to top, midside nodes included.
+    fixed
+        Nodes held still: the base of the lower part, none of the upper.
+    """
+
+    nodes: NDArray[np.float64]
+    elements: NDArray[np.int64]
+    crack: NDArray[np.int64]
+    upstream: NDArray[np.int64]
+    downstream: NDArray[np.int64]
+    fixed: NDArray[np.int64]
+
+
+@dataclass(frozen=True, eq=False)
+class DamMesh:
+    """Both parts of the dam.
+
+    Parameters
+    ----------
+    upper
+        The part above the crack.
+    lower
+        The part below it; None where the crack is at the base and the foundation is a rigid plane.
+    """
+
+    upper: BodyMesh
+    lower: BodyMesh | None
+
+
+def dam_mesh(case: Case, section: CutSection, base_directory: Path | None = None) -> DamMesh:
+    """Return the mesh of the dam.
+
+    Parameters
+    ----------
+    case
+        Its block `flexible` says how fine, or names files.
+    section
+        The part above the crack, from :func:`heeltoe.geometry.section.cut`.
+    base_directory
+        Where relative paths of files start; the case's own where it is not given.
+
+    Raises
+    ------
+    InputError
+        Where rows of elements cannot follow the section or the crack, or a mesh from a file is unfit.
+    """
+    options = case.flexible
+    below = section_polygon(case.section).area - section.area
+    # At the base, or along a sloping one, there is nothing below.
+    grounded = below <= _NOTHING * section.area
+    _check_ends(section, grounded=grounded)
+    directory = case.base_directory if base_directory is None else base_directory
+    if options.mesh_above:
+        upper = _from_file(directory / options.mesh_above, section, section.area, above=True)
+    else:
+        rows = meshed_rows(section.upstream_face, section.downstream_face, options.elements_across)
+        upper = _body(*rows, section, "section", above=True)
+    if grounded:
+        if options.mesh_below:
+            raise InputError("mesh-none-below", "flexible.mesh_below", options.mesh_below)
+        return DamMesh(upper, None)
+    if options.mesh_below:
+        return DamMesh(upper, _from_file(directory / options.mesh_below, section, below, above=False))
+    across = options.elements_across_below or options.elements_across
+    rows = meshed_rows(*_faces_below(case, section), across)
+    return DamMesh(upper, _body(*rows, section, "section", above=False))
+
+
+def _check_ends(section: CutSection, *, grounded: bool) -> None:
+    """Refuse an inclined crack at one of whose ends there is nothing above or below it."""
+    if section.inclination == 0.0:
+        return
+    slack = _ON_LINE * section.crack_width
+    for end, (_, z) in (("heel", section.heel), ("toe", section.toe)):
+        if z <= section.base_elevation + slack and not grounded:
+            raise InputError("mesh-nothing", "crack.inclination", side="below", end=end)
+        if z >= section.crest_elevation - slack:
+            raise InputError("mesh-nothing", "crack.inclination", side="above", end=end)
+
+
+def _from_file(path: Path, section: CutSection, area: float, *, above: bool) -> BodyMesh:
+    # Needs an optional package and is seldom used.
+    from heeltoe.models.flexible.mesh.file import read_quadrilaterals
+
+    nodes, elements = read_quadrilaterals(path)
+    name = str(path)
+    # The crack line in the middle of the lower or upper side, as far as one can tell where a mesh is.
+    places = locate(nodes, section)
+    (left, bottom), (right, top) = places.min(axis=0), places.max(axis=0)
+    edge = bottom if above else top
+    if right <= 0.0 or left >= section.crack_width or abs(edge) > max(top - bottom, section.crack_width):
+        (left, bottom), (right, top) = nodes.min(axis=0), nodes.max(axis=0)
+        found = f"x from {left:g} to {right:g} m, z from {bottom:g} to {top:g} m"
+        raise InputError("mesh-far", name, found, crack=_said(section))
+    mesh = _body(nodes, elements, section, name, above=above)
+    # Exactly on the line, so that the two faces of the crack touch.
+    along = places[mesh.crack, 0]
+    along[[0, -1]] = 0.0, section.crack_width
+    nodes[mesh.crack] = in_x_and_z(np.column_stack([along, np.zeros(len(along))]), section) + section.heel
+    nodes[mesh.crack[[0, -1]]] = section.heel, section.toe
+    edges = boundary_edges(elements)
+    # Green's theorem with Simpson's rule, exact on edges of three nodes.
+    start, middle, end = (nodes[edges[:, i]] for i in range(3))
+    meshed = sum(
+        weight * float(np.sum(place[:, 0] * along[:, 1]))
+        for weight, place, along in (
+            (1 / 6, start, 4.0 * middle - 3.0 * start - end),
+            (4 / 6, middle, end - start),
+            (1 / 6, end, start + 3.0 * end - 4.0 * middle),
+        )
+    )
+    if abs(meshed - area) > _AREA * area:
+        raise InputError("mesh-area", name, f"{meshed:.6g} m^2", area=f"{area:.6g} m^2")
+    return mesh
+
+
+def _said(section: CutSection) -> str:
+    (heel, bottom), (toe, top) = section.heel, section.toe
+    if bottom == top:
+        return f"x from {heel:g} to {toe:g} m at z = {bottom:g} m"
+    return f"x from {heel:g} to {toe:g} m and z from {bottom:g} to {top:g} m"
+
+
+def _body(
+    nodes: NDArray[np.float64], elements: NDArray[np.int64], section: CutSection, name: str, *, above: bool
+) -> BodyMesh:
+    """Find crack, faces and base on the boundary of a mesh."""
+    slack = _ON_LINE * np.ptp(nodes, axis=0).max()
+    places = locate(nodes, section)
+    edges = boundary_edges(elements)
+    t, n = places[edges, 0], places[edges, 1]
+    on_crack = np.all((np.abs(n) <= slack) & (t >= -slack) & (t <= section.crack_width + slack), axis=1)
+    # With the body on the left, the crack runs downstream along the upper part and upstream along the lower.
+    on_crack &= (t[:, 2] > t[:, 0]) == above
+    start, end = (0.0, section.crack_width) if above else (section.crack_width, 0.0)
+    starts = np.flatnonzero(on_crack & (np.abs(t[:, 0] - start) <= slack))
+    path = _walked(edges, int(starts[0])) if starts.size else np.empty(0, dtype=np.int64)
+    last = 2 * int(on_crack.sum())
+    walked = path[: last + 1]
+    if last >= len(path) or abs(places[path[last], 0] - end) > slack or np.ptp(places[walked, 1]) > 2.0 * slack:
+        side = places[:, 1].min() if above else places[:, 1].max()
+        width = nodes[np.abs(places[:, 1] - side) <= slack]
+        found = f"x from {width[:, 0].min():g} to {width[:, 0].max():g} m at z = {width[0, 1]:g} m"
+        raise InputError("mesh-crack", name, found, crack=_said(section), side="lower" if above else "upper")
+    crack, rest = path[: last + 1], path[last:]
+    heights = nodes[rest, 1]
+    far = np.flatnonzero(np.abs(heights - (heights.max() if above else heights.min())) <= slack)
+    onward, back = rest[: far[0] + 1], rest[far[-1] :]
+    if above:
+        return BodyMesh(nodes, elements, crack, back[::-1], onward, np.empty(0, dtype=np.int64))
+    if len(far) < 3:
+        raise InputError("mesh-base", name)
+    return BodyMesh(nodes, elements, crack[::-1], onward[::-1], back, rest[far])
+
+
+def _walked(edges: NDArray[np.int64], first: int) -> NDArray[np.int64]:
+    """Return the nodes along the boundary from the start of an edge once around, the first again at the end."""
+    following = {int(edge[0]): edge for edge in edges}
+    path, edge = [], edges[first]
+    while True:
+        path += [edge[0], edge[1]]
+        if edge[2] == path[0]:
+            return np.array([*path, edge[2]])
+        edge = following[int(edge[2])]
+
+
+def _faces_below(case: Case, section: CutSection) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the two faces of the part below the crack, from the base up."""
+    corners = shapely.get_coordinates(section_polygon(case.section).exterior)[:-1]
+    base, slack = section.base_elevation, 1e-9 * np.ptp(corners, axis=0).max()
+    on_base = np.abs(corners[:, 1] - base) <= slack
+    first = np.flatnonzero(on_base & ~np.roll(on_base, 1))
+    ring, count = np.roll(corners, -first[0], axis=0), int(on_base.sum())
+    if len(first) != 1 or count < 2:
+        raise InputError("mesh-section", "section")
+    faces = []
+    for chain, end in ((np.vstack([ring[:1], ring[:0:-1]]), section.heel), (ring[count - 1 :], section.toe)):
+        level = end[1]
+        higher = int(np.flatnonzero(chain[:, 1] > level - slack)[0])
+        (x0, z0), (x1, z1) = chain[higher - 1 : higher + 1]
+        # A face that does not lead to the end of the crack leads to a ledge.
+        if abs(x0 + (x1 - x0) * (level - z0) / (z1 - z0) - end[0]) > 1e3 * slack:
+            raise InputError("mesh-section", "section")
+        face = np.vstack([chain[:higher], end])
+        face[0, 1] = base
+        faces.append(face)
+    return faces[0], faces[1]

@@ -1,0 +1,106 @@
+"""Meshes of quadrilaterals from files, read by meshio: Gmsh (.msh), VTK (.vtu), Abaqus (.inp) and others.
+
+What is read here is a sound mesh of one piece; whether it belongs to the section is for
+:mod:`heeltoe.models.flexible.mesh.dam`."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe.errors import InputError
+from heeltoe.models.flexible.mesh.checks import check_elements, check_pieces
+
+# Meshers write the boundary beside the body.
+_BOUNDARY = {"vertex", "line", "line3"}
+
+
+def read_quadrilaterals(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Read a plane mesh; quadrilaterals of four nodes get midside nodes on straight sides.
+
+    Parameters
+    ----------
+    path
+        In a format of meshio told by its ending, lengths in metres; in the plane x, y (z constant) or x, z (y
+        constant).
+
+    Returns
+    -------
+    nodes : ndarray, shape (n, 2)
+        x and z [m].
+    elements : ndarray, shape (m, 8)
+        In the order of :class:`heeltoe.models.flexible.mesh.dam.BodyMesh`.
+
+    Raises
+    ------
+    InputError
+        Where the file cannot be read, holds anything but one piece of quadrilaterals of 4 or 8 nodes, or an element
+        runs clockwise or is folded over.
+    """
+    name = str(path)
+    mesh = _read(path)
+    blocks: dict[str, list[NDArray[np.int64]]] = {}
+    for block in mesh.cells:
+        if block.type not in _BOUNDARY and len(block.data):
+            blocks.setdefault(block.type, []).append(np.asarray(block.data, dtype=np.int64))
+    if list(blocks) not in (["quad"], ["quad8"]):
+        raise InputError("mesh-kind", name, ", ".join(sorted(blocks)) or "no elements")
+    kind, parts = blocks.popitem()
+    elements = np.vstack(parts)
+    if elements.min() < 0 or elements.max() >= len(mesh.points):
+        raise InputError("mesh-unreadable", name, reason="an element names a node that is not there")
+    nodes = _plane(np.asarray(mesh.points, dtype=np.float64), name)
+    unused = np.setdiff1d(np.arange(len(nodes)), elements)
+    if unused.size:
+        raise InputError("mesh-unused", name, f"{unused.size}", first=int(unused[0]) + 1)
+    if kind == "quad":
+        nodes, elements = _with_midside_nodes(nodes, elements)
+    check_elements(nodes, elements, name)
+    check_pieces(nodes, elements, name)
+    return nodes, elements
+
+
+def _read(path: Path) -> Any:
+    if not path.is_file():
+        raise InputError("mesh-missing", str(path))
+    try:
+        import meshio
+    except ImportError:
+        raise InputError("mesh-package", str(path)) from None
+    try:
+        with path.open("rb") as file:
+            # Ansys has files of the same ending.
+            kind = "gmsh" if file.read(11) == b"$MeshFormat" else None
+        with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
+            return meshio.read(path, kind)
+    except SystemExit:  # this is how meshio ends when no reader for the ending knows the file
+        raise InputError("mesh-unreadable", str(path), reason="it is not what its ending says") from None
+    except Exception as error:  # its readers fail in any way that Python knows
+        raise InputError("mesh-unreadable", str(path), reason=str(error).rstrip(".")) from None
+
+
+def _plane(points: NDArray[np.float64], name: str) -> NDArray[np.float64]:
+    """Return the two coordinates of a plane mesh."""
+    if not np.isfinite(points).all():
+        raise InputError("mesh-not-finite", name, f"{int(np.argmin(np.isfinite(points).all(axis=1))) + 1}")
+    if points.shape[1] == 2:
+        return points.copy()
+    extent = np.ptp(points, axis=0)
+    for across, axes in ((2, [0, 1]), (1, [0, 2])):
+        if extent[across] <= 1e-6 * extent.max():
+            return points[:, axes]
+    raise InputError("mesh-plane", name)
+
+
+def _with_midside_nodes(
+    nodes: NDArray[np.float64], elements: NDArray[np.int64]
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    sides = np.stack([elements, np.roll(elements, -1, axis=1)], axis=-1).reshape(-1, 2)
+    ends, place = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True)
+    middles = nodes[ends].mean(axis=1)
+    return np.vstack([nodes, middles]), np.hstack([elements, len(nodes) + place.reshape(-1, 4)])

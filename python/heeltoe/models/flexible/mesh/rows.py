@@ -1,0 +1,230 @@
+"""Rows of quadrilaterals between the upstream and the downstream face of a part of the dam.
+
+Every line of nodes runs straight from face to face, every kink of a face is on such a line, and the rows grow and
+shrink with the width of the dam. Above and below an inclined crack the lines turn evenly, from the crack's direction
+to level, as they join points of the two faces at the same part of their heights. A pointed crest ends in three fields
+of quadrilaterals that meet inside the tip, so that the mesh has the very area of the section: blunting the tip would
+need many thin rows and still change weight and water pressure."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe.errors import InputError
+from heeltoe.models.flexible.mesh.checks import check_elements
+
+Line = tuple[NDArray[np.float64], NDArray[np.float64]]
+
+# Rows per element across, so that any part has about so many elements; a tip has its own instead of some of them.
+_ROWS, _ROWS_OF_TIP = 1.65, 0.75
+# Between these ratios to the width of their elements, rows are as high as its square root says: with as many elements,
+# the higher frequencies of tall dams are much nearer to the exact ones than with rows as high as the elements are wide.
+_SQUAT, _SLENDER = 1.0, 3.0
+# Steps in which the height of rows is integrated over a segment between kinks.
+_STEPS = 100
+# A face that runs more than this per unit of rise is a ledge: elements on it would be needles.
+_FLATTEST = 20.0
+# Rows that are a smaller part of the width of their elements come from a slip in the corners or a crack at the base.
+_THINNEST = 1e-4
+# Kinks of the two faces closer than this part of a row share a line, which then slopes.
+_NEAR = 0.25
+# Rows that run together towards one face may become so much thinner than their elements are wide, and no more.
+_WEDGE = 0.02
+
+
+def meshed_rows(
+    left: NDArray[np.float64], right: NDArray[np.float64], across: int
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Mesh the part of a section between two faces.
+
+    Parameters
+    ----------
+    left, right
+        Upstream and downstream face, straight between points (x, z) [m], from bottom to top; they end at one point, or
+        two. Where they start or end at two heights, the first or the last line of nodes slopes.
+    across
+        Number of elements in a row.
+
+    Returns
+    -------
+    nodes, elements : ndarray
+        As in :class:`heeltoe.models.flexible.mesh.dam.BodyMesh`.
+
+    Raises
+    ------
+    InputError
+        Where a face has a ledge or doubles back, two of its kinks are so close that elements between them would be
+        too thin, rows run together to wedges thinner than elements can be, or a single element across would have to
+        fill a tip.
+    """
+    for face in (left, right):
+        run, rise = np.diff(face, axis=0).T
+        if np.any(rise <= 0.0) or np.any(np.abs(run) > _FLATTEST * rise):
+            raise InputError("mesh-section", "section")
+    faces = left, right
+    sloping = left[0, 1] != right[0, 1] or left[-1, 1] != right[-1, 1]
+    span = (left[[0, -1], 1] + right[[0, -1], 1]) / 2.0
+    if sloping:
+        # Rows are laid out between faces that are stretched to the same heights, and put back.
+        left, right = (_stretched(face, face[[0, -1], 1], span) for face in faces)
+    keys = _key_lines(left, right, across)
+    start, end = keys[-1]
+    pointed = end[0] - start[0] <= 1e-9 * (end[1] - keys[0][0][1])
+    if pointed and across < 2:
+        raise InputError("mesh-tip", "flexible.elements_across", f"{across}")
+    if pointed:
+        # Rows up to half the height of the uppermost segment, the tip from there.
+        keys[-1] = ((keys[-2][0] + left[-1]) / 2.0, (keys[-2][1] + left[-1]) / 2.0)
+    lines = _graded(keys, across, across * (_ROWS - _ROWS_OF_TIP if pointed else _ROWS))
+    if sloping:
+        ends = (face[[0, -1], 1] for face in faces)
+        back = [
+            _stretched(np.array(points), span, given)
+            for points, given in zip(zip(*lines, strict=True), ends, strict=True)
+        ]
+        lines = list(zip(*back, strict=True))
+    fields = [_field(lines, across)]
+    if pointed:
+        fields += _tip(*lines[-1], faces[0][-1], across)
+    nodes, elements = _joined(fields)
+    if sloping:
+        _check_turned(lines, nodes, elements, across)
+    return nodes, elements
+
+
+def _stretched(
+    points: NDArray[np.float64], given: NDArray[np.float64], wanted: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return points with their heights moved as the two ends of their range are, which come out to the last bit."""
+    part = (points[:, 1] - given[0]) / (given[1] - given[0])
+    return np.column_stack([points[:, 0], wanted[0] * (1.0 - part) + wanted[1] * part])
+
+
+def _check_turned(lines: list[Line], nodes: NDArray[np.float64], elements: NDArray[np.int64], across: int) -> None:
+    """Refuse rows that turn so much that nothing is left of their elements."""
+    ends = np.array(lines)
+    thinnest = np.diff(ends[:, :, 1], axis=0).min()
+    widest = (ends[:, 1, 0] - ends[:, 0, 0]).max() / across
+    try:
+        check_elements(nodes, elements, "section")
+        folded = False
+    except InputError:
+        folded = True
+    if folded or thinnest < _WEDGE * widest:
+        raise InputError("mesh-wedge", "crack.inclination")
+
+
+def _key_lines(left: NDArray[np.float64], right: NDArray[np.float64], across: int) -> list[Line]:
+    """Return the lines through the kinks of both faces, from bottom to top."""
+    levels = np.unique(np.concatenate([left[:, 1], right[:, 1]]))
+    on_left, on_right = np.isin(levels, left[:, 1]), np.isin(levels, right[:, 1])
+    widths = np.interp(levels, right[:, 1], right[:, 0]) - np.interp(levels, left[:, 1], left[:, 0])
+    pairs: list[tuple[float, float]] = []
+    joined = False
+    for i, level in enumerate(levels):
+        if joined:
+            joined = False
+            continue
+        alone = i + 1 < len(levels) and on_left[i] != on_right[i]
+        joined = bool(
+            alone
+            and on_left[i + 1] == on_right[i]
+            and on_right[i + 1] == on_left[i]
+            and levels[i + 1] - level < _NEAR * widths[i] / across
+        )
+        other = levels[i + 1] if joined else level
+        pairs.append((level, other) if on_left[i] else (other, level))
+    return [
+        (np.array([np.interp(a, left[:, 1], left[:, 0]), a]), np.array([np.interp(b, right[:, 1], right[:, 0]), b]))
+        for a, b in pairs
+    ]
+
+
+def _graded(keys: list[Line], across: int, wanted: float) -> list[Line]:
+    """Put about as many lines between the key lines as are wanted, close where the part is narrow."""
+    widths = np.array([end[0] - start[0] for start, end in keys]) / across
+    heights = np.diff([(start[1] + end[1]) / 2.0 for start, end in keys])
+    thin = heights < _THINNEST * widths[:-1]
+    if thin.any():
+        level = keys[int(np.argmax(thin))][0][1]
+        raise InputError("mesh-thin", "section", f"{heights[thin][0]:.3g} m", level=f"{level:g} m")
+    places = (np.arange(_STEPS) + 0.5) / _STEPS
+    width = widths[:-1, None] + np.diff(widths)[:, None] * places
+
+    def rows(scale: float) -> NDArray[np.float64]:
+        """Rows per step of each segment."""
+        height = np.clip(scale * np.sqrt(width), _SQUAT * width, _SLENDER * width)
+        return heights[:, None] / height / _STEPS
+
+    # The coarsest scale is that at which all rows are as slender as they may be, the finest that of squat ones.
+    fine, coarse = _SQUAT * math.sqrt(width.min()), _SLENDER * math.sqrt(width.max())
+    for _ in range(50):
+        middle = (fine + coarse) / 2.0
+        fine, coarse = (middle, coarse) if rows(middle).sum() > wanted else (fine, middle)
+    lines = keys[:1]
+    for (below, above), density in zip(pairwise(keys), rows(coarse), strict=True):
+        passed = np.concatenate([[0.0], np.cumsum(density)])
+        count = max(1, round(passed[-1]))
+        marks = np.arange(1, count) / count * passed[-1]
+        parts = np.interp(marks, passed, np.linspace(0.0, 1.0, _STEPS + 1))
+        lines += [(below[0] + part * (above[0] - below[0]), below[1] + part * (above[1] - below[1])) for part in parts]
+        lines.append(above)
+    return lines
+
+
+def _field(lines: list[Line], across: int) -> NDArray[np.float64]:
+    """Return the points of the elements between lines, midside nodes and centres too, shape (rows, columns, 2)."""
+    ends = np.array(lines)
+    ends = np.insert(ends, range(1, len(ends)), (ends[1:] + ends[:-1]) / 2.0, axis=0)
+    part = np.linspace(0.0, 1.0, 2 * across + 1)[:, None]
+    points: NDArray[np.float64] = ends[:, None, 0] + part * (ends[:, None, 1] - ends[:, None, 0])
+    return points
+
+
+def _tip(
+    left: NDArray[np.float64], right: NDArray[np.float64], apex: NDArray[np.float64], across: int
+) -> list[NDArray[np.float64]]:
+    """Return the three fields of a triangle whose base has `across` elements."""
+    a, b = (across + 1) // 2, across // 2
+    # Each side is cut in two, from cut to cut through one point inside; the base into a and b elements, and from the
+    # base up the left flank into b and b, the right into b and a.
+    base = left + (right - left) * a / across
+    flank_left, flank_right = left + (apex - left) / 2.0, right + (apex - right) * b / across
+    middle = (base + flank_left + flank_right) / 3.0
+
+    def between(below: Line, above: Line, columns: int) -> NDArray[np.float64]:
+        part = np.linspace(0.0, 1.0, b + 1)[:, None]
+        starts, ends = below[0] + part * (above[0] - below[0]), below[1] + part * (above[1] - below[1])
+        return _field(list(zip(starts, ends, strict=True)), columns)
+
+    return [
+        between((left, base), (flank_left, middle), a),
+        between((base, right), (middle, flank_right), b),
+        between((flank_left, middle), (apex, flank_right), a),
+    ]
+
+
+def _joined(fields: list[NDArray[np.float64]]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Return nodes and elements of fields of points, with the nodes that two fields share made one."""
+    found, start = [], 0
+    for field in fields:
+        rows, columns, _ = field.shape
+        numbers = start + np.arange(rows * columns).reshape(rows, columns)
+        start += rows * columns
+        # Down-left corner of each element, and from there its nodes in their order.
+        up = columns
+        offsets = np.array([0, 2, 2 * up + 2, 2 * up, 1, up + 2, 2 * up + 1, up])
+        found.append(numbers[:-2:2, :-2:2].reshape(-1, 1) + offsets)
+    nodes = np.vstack([field.reshape(-1, 2) for field in fields])
+    elements = np.vstack(found)
+    if len(fields) > 1:
+        from scipy.spatial import cKDTree
+
+        near = cKDTree(nodes).query_ball_point(nodes, 1e-9 * np.ptp(nodes, axis=0).max())
+        elements = np.array([min(others) for others in near])[elements]
+    used, places = np.unique(elements, return_inverse=True)
+    return nodes[used], places.reshape(elements.shape).astype(np.int64)

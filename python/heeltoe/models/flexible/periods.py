@@ -1,0 +1,103 @@
+"""Periods of vibration: of the intact dam, and of each part by itself once the crack is there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from heeltoe.case.read import Case
+from heeltoe.errors import InputError
+from heeltoe.models.flexible.modes import intact_periods, part_periods
+from heeltoe.models.flexible.reduced import build_flexible_dam
+from heeltoe.result.response import build_info
+
+COUNT = 5
+_MOST = 50
+
+
+@dataclass(frozen=True)
+class DamPeriods:
+    """Periods of a dam [s], longest first.
+
+    Attributes
+    ----------
+    title
+        Of the case.
+    intact_dry, intact
+        The whole dam, its crack bonded: without water, and with the virtual water that vibrates with it.
+    above
+        The part above the crack by itself, free, with its water; rigid-body motion is none of them.
+    below
+        The part below the crack by itself, held at its base, with its water; None where the crack is at the base.
+    rayleigh
+        Coefficients of mass [1/s] and stiffness [s] of the damping that follow from the intact dam; None with `modal`.
+    damping, damping_ratio
+        What the case says of them.
+    elements, nodes
+        Of each part, from above.
+    """
+
+    title: str
+    intact_dry: tuple[float, ...]
+    intact: tuple[float, ...]
+    above: tuple[float, ...]
+    below: tuple[float, ...] | None
+    rayleigh: tuple[float, float] | None
+    damping: str
+    damping_ratio: float
+    elements: tuple[int, ...]
+    nodes: tuple[int, ...]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain numbers, strings and lists."""
+        return {
+            "title": self.title,
+            "periods_s": {
+                "intact_dry": list(self.intact_dry),
+                "intact": list(self.intact),
+                "above_crack": list(self.above),
+                "below_crack": None if self.below is None else list(self.below),
+            },
+            "damping": self.damping,
+            "damping_ratio": self.damping_ratio,
+            "rayleigh": None
+            if self.rayleigh is None
+            else dict(zip(("mass_1_s", "stiffness_s"), self.rayleigh, strict=True)),
+            "mesh": {"elements": list(self.elements), "nodes": list(self.nodes)},
+            "build": build_info(),
+        }
+
+
+def dam_periods(case: Case, count: int = COUNT, *, field: str = "count") -> DamPeriods:
+    """Return the longest periods of a dam and of its parts.
+
+    Parameters
+    ----------
+    case
+        A dam with a modulus; it needs no earthquake.
+    count
+        How many of each, 1 to 50; fewer where the mesh has no more.
+    field
+        What the count is called where it cannot be used.
+
+    Raises
+    ------
+    InputError
+        Where the count, the modulus or the mesh cannot be used.
+    """
+    if not 1 <= count <= _MOST:
+        raise InputError("period-count", field, count, most=_MOST)
+    dam = build_flexible_dam(case)
+    parts = [tuple(part_periods(modes, count).tolist()) for modes in dam.modes]
+    return DamPeriods(
+        title=case.title,
+        intact_dry=tuple(intact_periods(dam.dam, count, water=False).tolist()),
+        intact=tuple(intact_periods(dam.dam, count).tolist()),
+        above=parts[0],
+        below=parts[1] if len(parts) > 1 else None,
+        rayleigh=dam.coefficients,
+        damping=case.flexible.damping,
+        damping_ratio=case.concrete.damping,
+        elements=tuple(len(body.mesh.elements) for body in dam.bodies),
+        nodes=tuple(len(body.mesh.nodes) for body in dam.bodies),
+    )

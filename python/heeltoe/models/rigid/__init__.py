@@ -1,0 +1,1 @@
+"""The part above the crack as a rigid block, exact between events."""

@@ -1,0 +1,106 @@
+"""Which blocks the exact kernel cannot take, since loads or geometry change as they move, and what the other one needs
+to know of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe import _kernel
+from heeltoe.case.model import Case
+from heeltoe.mechanics.block import Block, across_crack
+from heeltoe.mechanics.loads import face_at, total, uplift_profile
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Varying:
+    """What changes as a block moves, as the kernel takes it.
+
+    Attributes
+    ----------
+    numbers
+        (21,) in the order of ``_kernel.VARYING_FIELDS``.
+    rotation, rule
+        ``analysis.rotation`` and ``uplift.during_shaking`` of the case.
+    pressure
+        (k, 2) distance from the heel [m], pressure in the closed crack [Pa].
+    anchors
+        (n, 6) distance, axis along and across the crack, prestress, axial and shear stiffness.
+    """
+
+    numbers: Floats
+    rotation: str
+    rule: str
+    pressure: Floats
+    anchors: Floats
+
+
+def varies(case: Case) -> bool:
+    """Whether loads or geometry change as the block moves, so that there are no closed forms between events."""
+    return (
+        case.analysis.rotation != "small"
+        or case.uplift.during_shaking != "constant"
+        or any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors)
+    )
+
+
+def varying(case: Case, block: Block) -> Varying:
+    """Gather what changes. Dead loads keep their directions and act on points of the block, which turn with it."""
+    section = block.section
+    uplift = case.uplift
+    moves = ("weight", "uplift", "anchors")
+    dead = across_crack(total("dead", (force for force in block.forces if force.name not in moves)), section)
+    centroid = section.in_crack_frame(section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1])
+    water = section.in_crack_frame(face_at(section, block.water.height), block.water.height)
+    horizontal = section.in_crack_frame(1.0, 0.0)
+    following = across_crack(total("following", block.following), section)
+    g = case.gravity
+    profile = uplift_profile(case, section)
+    full = 0.0
+    if case.reservoir is not None:
+        full = case.reservoir.density * g * section.water_above_crack(case.reservoir)
+    numbers = {
+        "mass": case.concrete.density * section.area,
+        "inertia": case.concrete.density * section.polar_inertia,
+        "centroid_along": centroid[0],
+        "centroid_across": centroid[1],
+        "water_mass": block.water.mass,
+        "water_along": water[0],
+        "water_across": water[1],
+        "horizontal_along": horizontal[0],
+        "horizontal_across": horizontal[1],
+        "gravity": g,
+        "width": block.width,
+        "dead_along": dead.horizontal,
+        "dead_across": dead.vertical,
+        "dead_moment": dead.moment,
+        "dead_virial": dead.virial,
+        "per_vertical_along": following.horizontal / g,
+        "per_vertical_across": following.vertical / g,
+        "per_vertical_moment": following.moment / g,
+        "per_vertical_virial": following.virial / g,
+        "opening": uplift.opening_of_change,
+        "full_pressure": full,
+    }
+    anchors = [
+        (
+            anchor.distance,
+            np.sin(anchor.inclination),
+            np.cos(anchor.inclination),
+            anchor.prestress,
+            anchor.axial_stiffness,
+            anchor.shear_stiffness,
+        )
+        for anchor in case.anchors
+    ]
+    return Varying(
+        numbers=np.array([numbers[name] for name in _kernel.VARYING_FIELDS]),
+        rotation=case.analysis.rotation,
+        rule=uplift.during_shaking,
+        pressure=np.ascontiguousarray(profile),
+        anchors=np.array(anchors, dtype=np.float64).reshape(-1, 6),
+    )

@@ -1,0 +1,1 @@
+"""Stability before, during and after the earthquake: load cases, the section that cracks, criteria."""

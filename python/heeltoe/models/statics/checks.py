@@ -1,0 +1,161 @@
+"""What is required of each load case beside what is there, each with a sentence."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from heeltoe.case.options import Statics as Choice
+from heeltoe.models.statics.criteria import Criterion, criteria
+from heeltoe.models.statics.load_case import LoadCase
+
+# A value that meets its limit to rounding meets it.
+_ROUNDING = 1e-9
+_ZONES = {1.0 / 6.0: "the middle third", 1.0 / 4.0: "the middle half", 1.0 / 2.0: "the base"}
+
+
+@dataclass(frozen=True)
+class Check:
+    """A requirement and what is there.
+
+    Attributes
+    ----------
+    load_case
+        Name of the load case.
+    name
+        "equilibrium", "sliding factor", "flotation factor", "resultant" or "compression".
+    value, required
+        Factors; of the resultant its distance from the middle of the contact over the width of the contact; of the
+        compression the stress over the strength. None where there is no such number.
+    at_least
+        Whether the value must be at least, not at most, the required one.
+    met
+        Whether it is.
+    source
+        Document and paragraph.
+    note
+        What a reader must know about the required value.
+    sentence
+        All this in words, with by how much.
+    """
+
+    load_case: str
+    name: str
+    value: float | None
+    required: float | None
+    at_least: bool
+    met: bool
+    source: str
+    note: str
+    sentence: str
+
+
+def check_case(found: LoadCase, choice: Choice) -> tuple[Check, ...]:
+    """Return the checks of a load case by the criteria chosen, equilibrium first.
+
+    A sliding factor is judged by the factors for cohesion only where cohesion is in its resistance.
+    """
+    rows = criteria(
+        choice.criteria,
+        found.loads,
+        cohesion=found.cohesive_force_n > 0.0,
+        structure=choice.structure,
+        site_information=choice.site_information,
+    )
+    checks = [_equilibrium(found)]
+    for row in rows:
+        if row.check == "compression":
+            if choice.compressive_strength is not None:
+                checks.append(_compression(found, row, choice.compressive_strength))
+        elif row.check == "resultant":
+            checks.append(_resultant(found, row))
+        else:
+            checks.append(_factor(found, row))
+    return tuple(checks)
+
+
+def fallen(words: str) -> Check:
+    """Return the check of a block that the earthquake leaves nowhere to stand, as the words say."""
+    text = f"post-seismic: {words}"
+    return Check("post-seismic", "equilibrium", None, None, True, False, "equilibrium", "", text)
+
+
+def _equilibrium(found: LoadCase) -> Check:
+    if found.outcome == "stands":
+        words = "the block stands"
+        if found.cracked_length_m:
+            words += f" with {found.cracked_length_m:.2f} m of its crack open from the {found.cracked_from}"
+    elif found.outcome == "floats":
+        words = f"the water lifts the block with {-found.normal_force_n / 1e3:.4g} kN/m more than holds it down"
+    else:
+        words = f"the crack opens through from the {found.cracked_from}"
+        eccentricity = found.eccentricity_m
+        if eccentricity is not None:
+            beyond = abs(eccentricity) - found.contact_width_m / 2.0
+            end = "toe" if eccentricity > 0.0 else "heel"
+            words += f"; the resultant is {abs(beyond):.2f} m {'beyond' if beyond > 0.0 else 'inside'} the {end}"
+    met = found.outcome == "stands"
+    sentence = f"{found.name}: {words}"
+    return Check(found.name, "equilibrium", None, None, True, met, "equilibrium", "", sentence)
+
+
+def _factor(found: LoadCase, row: Criterion) -> Check:
+    name = f"{row.check} factor"
+    value = found.sliding_factor if row.check == "sliding" else found.flotation_factor
+    if value is None:
+        words = "nothing pushes along the crack" if row.check == "sliding" else "nothing pushes up"
+        return _check(found, name, None, row, True, words)
+    met = value >= row.required * (1.0 - _ROUNDING)
+    digits = _digits(value - row.required)
+    words = (
+        f"{name} {value:.{digits}f} is {abs(value - row.required):.{digits}f} {'above' if met else 'below'} "
+        f"the {row.required:.2f} of {row.source}"
+    )
+    return _check(found, name, value, row, met, words)
+
+
+def _resultant(found: LoadCase, row: Criterion) -> Check:
+    eccentricity = found.eccentricity_m
+    if eccentricity is None:
+        return _check(
+            found, "resultant", None, row, False, f"no resultant, the block floats; {row.source} asks for one"
+        )
+    width = found.contact_width_m
+    value = abs(eccentricity) / width
+    met = value <= row.required * (1.0 + _ROUNDING) and found.outcome == "stands"
+    away = value * width - row.required * width
+    digits = _digits(away)
+    side = "downstream" if eccentricity >= 0.0 else "upstream"
+    place = f"{abs(eccentricity):.{digits}f} m {side} of" if round(abs(eccentricity), digits) else "in"
+    words = (
+        f"resultant {place} the middle is {abs(away):.{digits}f} m "
+        f"{'outside' if away > 0.0 else 'inside'} {_ZONES[row.required]} of {row.source}"
+    )
+    if found.outcome != "stands":
+        words += f", but the block {found.outcome}" if found.outcome == "floats" else ", but the crack opens through"
+    return _check(found, "resultant", value, row, met, words)
+
+
+def _compression(found: LoadCase, row: Criterion, strength: float) -> Check:
+    if found.heel_stress_pa is None or found.toe_stress_pa is None:
+        words = f"no stress to compare with {row.source}: the block does not stand"
+        return _check(found, "compression", None, row, False, words)
+    stress = max(found.heel_stress_pa, found.toe_stress_pa)
+    value, allowed = stress / strength, row.required * strength
+    met = value <= row.required * (1.0 + _ROUNDING)
+    digits = _digits((stress - allowed) / 1e6)
+    words = (
+        f"compression {stress / 1e6:.{digits}f} MPa is {abs(stress - allowed) / 1e6:.{digits}f} MPa "
+        f"{'below' if met else 'above'} the {allowed / 1e6:.2f} MPa ({row.required:.3g} of the strength) of "
+        f"{row.source}"
+    )
+    return _check(found, "compression", value, row, met, words)
+
+
+def _check(found: LoadCase, name: str, value: float | None, row: Criterion, met: bool, words: str) -> Check:
+    sentence = f"{found.name}: {words}"
+    return Check(found.name, name, value, row.required, row.at_least, met, row.source, row.note, sentence)
+
+
+def _digits(difference: float) -> int:
+    """Return how many decimals show a difference: two, or as many as its first figure needs."""
+    return next((digits for digits in range(2, 7) if round(abs(difference), digits)), 2)

@@ -1,0 +1,231 @@
+"""One load case of the static checks: its forces, the state of its crack, its factors."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from heeltoe.geometry.section import CutSection
+from heeltoe.mechanics.block import ROUNDING_OF_FORCES
+from heeltoe.mechanics.loads import Resultant, total
+from heeltoe.models.statics.contact import Contact, Settled, settle
+from heeltoe.models.statics.criteria import Loads
+from heeltoe.models.statics.water import CrackWater, Floats, force_and_moment
+
+
+@dataclass(frozen=True)
+class LoadCase:
+    """What one case of loads does to the block above the crack. Per metre of dam, SI.
+
+    Attributes
+    ----------
+    name
+        "usual", "flood", "pseudo-static downstream", "pseudo-static upstream" (the way the block is pushed) or
+        "post-seismic".
+    loads
+        What the criteria take it for: "usual", "unusual", "extreme", "earthquake", "post-earthquake".
+    forces
+        One by one: horizontal downstream, vertical upward, moment about the heel counter-clockwise; the uplift as it is
+        with the crack open as far as found.
+    outcome
+        "stands", "cracks through", "floats" or "slid off": only the first has stresses.
+    normal_force_n, shear_force_n
+        Across the crack, uplift taken off, and along it, positive downstream.
+    friction
+        Coefficient used.
+    cohesive_force_n
+        Cohesion on what is bonded, closed and in compression.
+    sliding_factor
+        (cohesive force + friction times normal force) over shear force; None where nothing pushes.
+    overturning_factor, overturning_about
+        Stabilising over overturning moments about the end of the contact that the forces push to; each force counts
+        as a whole on the side to which it turns the block. None where nothing overturns.
+    flotation_factor
+        Forces down over forces up; None where nothing pushes up.
+    resultant_from_heel_m
+        Where the normal force acts; None without one.
+    resultant_zone
+        "middle third", "middle half", "base" of the contact, or "outside".
+    heel_stress_pa, toe_stress_pa
+        Normal stress at the ends of what is closed, compression positive, water pressure taken off.
+    contact_from_m, contact_to_m
+        Where the block can stand, from its heel: all of the crack but what a slip has left.
+    cracked_length_m, cracked_from
+        How far the contact is open, from "heel" or "toe".
+    compressed_length_m
+        How much of it is in compression.
+    iterations
+        Of the search for the cracked length.
+    assumptions
+        What was taken for granted, a sentence each.
+    """
+
+    name: str
+    loads: Loads
+    forces: tuple[Resultant, ...]
+    outcome: str
+    normal_force_n: float
+    shear_force_n: float
+    friction: float
+    cohesive_force_n: float
+    sliding_factor: float | None
+    overturning_factor: float | None
+    overturning_about: str
+    flotation_factor: float | None
+    resultant_from_heel_m: float | None
+    resultant_zone: str
+    heel_stress_pa: float | None
+    toe_stress_pa: float | None
+    contact_from_m: float
+    contact_to_m: float
+    cracked_length_m: float
+    cracked_from: str
+    compressed_length_m: float
+    iterations: int
+    assumptions: tuple[str, ...]
+
+    @property
+    def contact_width_m(self) -> float:
+        """Length of the contact."""
+        return self.contact_to_m - self.contact_from_m
+
+    @property
+    def eccentricity_m(self) -> float | None:
+        """Distance of the resultant from the middle of the contact, positive downstream; None without one."""
+        if self.resultant_from_heel_m is None:
+            return None
+        return self.resultant_from_heel_m - (self.contact_from_m + self.contact_to_m) / 2.0
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain numbers, strings and lists."""
+        forces = [
+            {
+                "name": force.name,
+                "horizontal_n": force.horizontal,
+                "vertical_n": force.vertical,
+                "moment_about_heel_nm": force.moment,
+            }
+            for force in self.forces
+        ]
+        extra = {"contact_width_m": self.contact_width_m, "eccentricity_m": self.eccentricity_m}
+        return {**asdict(self), "forces": forces, **extra, "assumptions": list(self.assumptions)}
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """A load case with the state of its crack."""
+
+    load_case: LoadCase
+    settled: Settled
+
+
+def solve_case(
+    name: str,
+    loads: Loads,
+    section: CutSection,
+    forces: tuple[Resultant, ...],
+    contact: Contact,
+    water: CrackWater,
+    strength: tuple[float, float],
+    said: tuple[str, ...],
+) -> Solved:
+    """Find the state of the crack and the factors.
+
+    Parameters
+    ----------
+    name, loads
+        Of the load case.
+    section
+        The part above the crack.
+    forces
+        All but that of the water in the crack.
+    contact, water
+        Where the block can stand, and the water there.
+    strength
+        Coefficient of friction, and cohesion of the bonded part [Pa].
+    said
+        Assumptions.
+    """
+    settled = settle(contact, _across(total(name, forces), section), water)
+    forces = (*forces, _uplift(settled.profile, section))
+    across = [_across(force, section) for force in forces]
+    shear = math.fsum(force.horizontal for force in across)
+    if abs(shear) <= ROUNDING_OF_FORCES * math.fsum(abs(force.horizontal) + abs(force.vertical) for force in across):
+        shear = 0.0
+    friction, cohesion = strength
+    closed = (contact.start + settled.heel_crack, contact.end - settled.toe_crack)
+    pressed = _in_compression(closed, settled)
+    bonded = max(pressed[0], contact.bonded_from), min(pressed[1], contact.bonded_to)
+    cohesive = cohesion * max(0.0, bonded[1] - bonded[0])
+    about = "heel" if shear < 0.0 else "toe"
+    down = -math.fsum(min(0.0, force.vertical) for force in across)
+    up = math.fsum(max(0.0, force.vertical) for force in across)
+    load_case = LoadCase(
+        name=name,
+        loads=loads,
+        forces=forces,
+        outcome=settled.outcome,
+        normal_force_n=settled.normal,
+        shear_force_n=shear,
+        friction=friction,
+        cohesive_force_n=cohesive,
+        sliding_factor=(cohesive + friction * max(0.0, settled.normal)) / abs(shear) if shear else None,
+        overturning_factor=_overturning(across, contact.start if about == "heel" else contact.end, about),
+        overturning_about=about,
+        flotation_factor=down / up if up else None,
+        resultant_from_heel_m=settled.position,
+        resultant_zone=_zone(settled.position, contact),
+        heel_stress_pa=settled.heel_stress,
+        toe_stress_pa=settled.toe_stress,
+        contact_from_m=contact.start,
+        contact_to_m=contact.end,
+        cracked_length_m=settled.heel_crack + settled.toe_crack,
+        cracked_from="toe" if settled.toe_crack else "heel",
+        compressed_length_m=max(0.0, pressed[1] - pressed[0]),
+        iterations=settled.iterations,
+        assumptions=said,
+    )
+    return Solved(load_case, settled)
+
+
+def _across(force: Resultant, section: CutSection) -> Resultant:
+    """Return a force by its components along and across the crack."""
+    along, across = section.in_crack_frame(force.horizontal, force.vertical)
+    return Resultant(force.name, along, across, force.moment)
+
+
+def _uplift(profile: Floats, section: CutSection) -> Resultant:
+    force, moment = force_and_moment(profile)
+    return Resultant("uplift", *section.from_crack_frame(0.0, force), moment)
+
+
+def _in_compression(closed: tuple[float, float], settled: Settled) -> tuple[float, float]:
+    """Return from where to where the closed part is in compression; nothing unless it stands."""
+    low, high = closed
+    heel, toe = settled.heel_stress, settled.toe_stress
+    if heel is None or toe is None or (heel <= 0.0 and toe <= 0.0):
+        return low, low
+    # The tip of a crack without strength is at zero, to rounding.
+    crossing = low + (high - low) * heel / (heel - toe) if min(heel, toe) < 0.0 else low
+    return (crossing, high) if heel < 0.0 else (low, crossing) if toe < 0.0 else (low, high)
+
+
+def _overturning(across: Iterable[Resultant], pivot: float, about: str) -> float | None:
+    """Return stabilising over overturning moments about a point of the crack."""
+    # Counter-clockwise moments keep the block from turning about its toe, and turn it about its heel.
+    sign = 1.0 if about == "toe" else -1.0
+    moments = [sign * force.moment_about(pivot, 0.0) for force in across]
+    overturning = -math.fsum(min(0.0, moment) for moment in moments)
+    return math.fsum(max(0.0, moment) for moment in moments) / overturning if overturning else None
+
+
+def _zone(position: float | None, contact: Contact) -> str:
+    if position is None:
+        return "outside"
+    share = abs(position - (contact.start + contact.end) / 2.0) / contact.width
+    for zone, reach in (("middle third", 1.0 / 6.0), ("middle half", 1.0 / 4.0), ("base", 1.0 / 2.0)):
+        if share <= reach * (1.0 + 1e-9):
+            return zone
+    return "outside"

@@ -1,0 +1,253 @@
+"""Stability before, during (pseudo-static) and after the earthquake, judged by the criteria of the case."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from scipy.optimize import brentq
+
+from heeltoe.case.read import Case, case_warnings
+from heeltoe.geometry.section import CutSection, cut
+from heeltoe.mechanics.block import build_block
+from heeltoe.models.rigid.model import REFERENCES, static_state
+from heeltoe.models.statics.cases import at_depth, flood, post_seismic, pseudo_static, usual
+from heeltoe.models.statics.checks import Check, check_case, fallen
+from heeltoe.models.statics.criteria import criteria
+from heeltoe.models.statics.load_case import LoadCase
+from heeltoe.result.response import build_info
+
+# Depths that the search for a critical water level looks at: a sign that changes twice between two of them is no level
+# that anyone could keep to.
+_LEVELS = 60
+
+
+@dataclass(frozen=True)
+class Statics:
+    """Result of the static checks.
+
+    Attributes
+    ----------
+    title
+        Of the case.
+    criteria, structure, site_information
+        What the checks are judged by.
+    cases
+        The load cases, one by one.
+    checks
+        Every requirement with what is there.
+    critical_acceleration_g
+        Ground accelerations in g at which the block at rest starts to slide and to rock, each way by itself; infinite
+        where no acceleration does it, negative where the static loads do.
+    critical_water_level_m
+        Depth of the reservoir, from the lowest point of the section, at which the usual loads bring the factor of
+        sliding downstream to 1 ("sliding") and to what is required ("sliding_required"), open the crack through
+        ("overturning") and leave no normal force ("flotation"); None where no depth up to the crest does.
+    slip_m, slip_source
+        Residual slip of the post-seismic case and where it comes from; None without that case.
+    warnings
+        What a reader must know before using the numbers.
+    references
+        Sources of the criteria and methods used.
+    """
+
+    title: str
+    criteria: str
+    structure: str
+    site_information: str
+    cases: tuple[LoadCase, ...]
+    checks: tuple[Check, ...]
+    critical_acceleration_g: Mapping[str, float]
+    critical_water_level_m: Mapping[str, float | None]
+    slip_m: float | None
+    slip_source: str | None
+    warnings: tuple[str, ...]
+    references: tuple[str, ...]
+
+    @property
+    def ok(self) -> bool:
+        """Whether every check is met."""
+        return all(check.met for check in self.checks)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a dictionary of plain numbers, strings and lists."""
+        return {
+            "model": "statics",
+            "title": self.title,
+            "criteria": self.criteria,
+            "structure": self.structure,
+            "site_information": self.site_information,
+            "ok": self.ok,
+            "cases": [each.to_json() for each in self.cases],
+            "checks": [asdict(check) for check in self.checks],
+            "critical_acceleration_g": dict(self.critical_acceleration_g),
+            "critical_water_level_m": dict(self.critical_water_level_m),
+            "slip_m": self.slip_m,
+            "slip_source": self.slip_source,
+            "warnings": list(self.warnings),
+            "references": list(self.references),
+            "build": build_info(),
+        }
+
+
+def statics(
+    case: Case, slip_m: float | None = None, *, slip_source: str = "given", overturned_about: str | None = None
+) -> Statics:
+    """Judge the stability of the block above the crack.
+
+    Load cases: usual; flood where ``statics.flood_depth`` is given; pseudo-static both ways where
+    ``statics.seismic_coefficient`` is; post-seismic where a slip or a residual friction is given or the case has a
+    motion. Docs/statics.md has the equations.
+
+    Parameters
+    ----------
+    case
+        Dam, crack, water and the choices of ``[statics]``.
+    slip_m
+        Residual slip that the earthquake leaves, positive downstream [m]; that of ``statics.residual_slip`` where it is
+        not given. Without either it is zero, and a warning says so: this function runs no earthquake.
+    slip_source
+        Where `slip_m` comes from, for the result.
+    overturned_about
+        "toe" or "heel" where the earthquake has overturned the block: the check after it fails then.
+
+    Returns
+    -------
+    Statics
+
+    Raises
+    ------
+    InputError
+        Where the crack does not cut the section in two.
+    """
+    section, choice = cut(case), case.statics
+    warnings = list(case_warnings(case))
+    before = usual(case, section)
+    solved = [before]
+    if choice.flood_depth is not None:
+        solved.append(flood(case, section))
+    if choice.seismic_coefficient is not None:
+        solved += pseudo_static(case, section, before)
+    cases = [each.load_case for each in solved]
+    checks = [check for each in cases for check in check_case(each, choice)]
+    slip, source = _slip(case, slip_m, slip_source)
+    if overturned_about is not None:
+        slip, source = None, None
+        checks.append(
+            fallen(f"the earthquake overturns the block about its {overturned_about}: nothing stands after it")
+        )
+    if slip is not None and source is not None:
+        after = post_seismic(case, section, slip, source)
+        if after is None:
+            lost = (
+                f"a slip of {abs(slip):.2f} m leaves nothing of the {section.crack_width:.2f} m that the block stood on"
+            )
+            checks.append(fallen(lost))
+        else:
+            cases.append(after.load_case)
+            checks += check_case(after.load_case, choice)
+        if source == _UNKNOWN:
+            warnings.append(f"post-seismic: {_UNKNOWN}; statics.residual_slip, or a run of the motion, says how much")
+    if before.load_case.cracked_length_m:
+        warnings.append(
+            f"the usual loads open the crack by {before.load_case.cracked_length_m:.2f} m, and water follows; the "
+            "critical accelerations keep the case's uplift, as the time histories do at the start"
+        )
+    usual_depth = case.reservoir.depth if case.reservoir else 0.0
+    if choice.flood_depth is not None and choice.flood_depth < usual_depth:
+        warnings.append(f"statics.flood_depth: the flood is lower than the {usual_depth:g} m of the usual loads")
+    if choice.residual_friction is not None and choice.residual_friction > case.crack.mu_static:
+        warnings.append("statics.residual_friction: more than the friction of the crack before it has slid")
+    if any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors):
+        warnings.append("anchors: the static checks count their prestress, not what opening and slip would add")
+    references = dict.fromkeys(check.source for check in checks if check.required is not None)
+    if choice.seismic_coefficient is not None and section.water_above_crack(case.reservoir):
+        references[REFERENCES["water"]] = None
+    return Statics(
+        title=case.title,
+        criteria=choice.criteria,
+        structure=choice.structure,
+        site_information=choice.site_information,
+        cases=tuple(cases),
+        checks=tuple(checks),
+        critical_acceleration_g=static_state(build_block(case))["critical_acceleration_g"],
+        critical_water_level_m=critical_water_levels(case, section),
+        slip_m=slip,
+        slip_source=source,
+        warnings=tuple(warnings),
+        references=tuple(references),
+    )
+
+
+_UNKNOWN = "no slip is given, taken as zero"
+
+
+def _slip(case: Case, slip: float | None, source: str) -> tuple[float | None, str | None]:
+    """Return the residual slip and where it comes from; None where nothing asks for a post-seismic case."""
+    if slip is not None:
+        return slip, source
+    if case.statics.residual_slip is not None:
+        return case.statics.residual_slip, "statics.residual_slip"
+    if case.statics.residual_friction is not None or case.motion is not None:
+        return 0.0, _UNKNOWN
+    return None, None
+
+
+def critical_water_levels(case: Case, section: CutSection) -> dict[str, float | None]:
+    """Return the depths of the reservoir at which the usual loads become critical, see :class:`Statics`.
+
+    The depth rises from the heel, or from the lowest point of the section where that is higher, to the crest; the
+    tailwater stays, and so does the ice, pushed up with the surface.
+    """
+    highest = section.crest_elevation - section.base_elevation
+    lowest = section.heel[1] - section.base_elevation
+    if case.ice is not None:
+        lowest = max(lowest, case.ice.depth)
+    counted = bool(case.statics.cohesion and case.statics.bonded)
+    choice = case.statics
+    rows = criteria(
+        choice.criteria,
+        "usual",
+        cohesion=counted,
+        structure=choice.structure,
+        site_information=choice.site_information,
+    )
+    required = next(row.required for row in rows if row.check == "sliding")
+    known: dict[float, LoadCase] = {}
+
+    def state(depth: float) -> LoadCase:
+        if depth not in known:
+            known[depth] = usual(at_depth(case, depth), section).load_case
+        return known[depth]
+
+    def sliding(factor: float) -> Callable[[float], float]:
+        def margin(depth: float) -> float:
+            found = state(depth)
+            strength = found.cohesive_force_n + found.friction * max(0.0, found.normal_force_n)
+            return strength - factor * max(0.0, found.shear_force_n)
+
+        return margin
+
+    def overturning(depth: float) -> float:
+        # A crack that goes through has no resultant to follow: the change of sign is a jump. What an empty reservoir
+        # lets fall upstream is not overturned by water.
+        found = state(depth)
+        return 1.0 if found.outcome == "stands" or found.cracked_from == "toe" else -1.0
+
+    margins: dict[str, Callable[[float], float]] = {
+        "sliding": sliding(1.0),
+        "sliding_required": sliding(required),
+        "overturning": overturning,
+        "flotation": lambda depth: state(depth).normal_force_n,
+    }
+    depths = [lowest + (highest - lowest) * step / _LEVELS for step in range(_LEVELS + 1)]
+    return {name: _first_zero(margin, depths) for name, margin in margins.items()}
+
+
+def _first_zero(margin: Callable[[float], float], depths: list[float]) -> float | None:
+    """Return the first depth at which a margin falls below zero; the lowest where it starts there."""
+    for low, high in zip([depths[0], *depths[:-1]], depths, strict=True):
+        if margin(high) < 0.0:
+            return high if low == high else float(brentq(margin, low, high, xtol=1e-9, rtol=1e-12))
+    return None

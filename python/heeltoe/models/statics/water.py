@@ -1,0 +1,147 @@
+"""The water in a crack for the static checks: where the crack opens its pressure changes.
+
+A profile is an array of shape (k, 2): distance from the heel of the block along the crack [m], ascending, and pressure
+[Pa], straight in between; twice the same distance is a jump.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe.case.model import Case, Water
+from heeltoe.geometry.section import CutSection
+from heeltoe.mechanics.loads import uplift_profile
+
+Floats = NDArray[np.float64]
+
+
+def force_and_moment(profile: Floats) -> tuple[float, float]:
+    """Return the force of a profile on the block [N/m] and its moment about the heel, counter-clockwise [N m/m]."""
+    x, pressure = profile.T
+    length, middle, mean = np.diff(x), (x[:-1] + x[1:]) / 2.0, (pressure[:-1] + pressure[1:]) / 2.0
+    # Simpson's rule, exact for the product of two straight lines.
+    lever = (x[:-1] * pressure[:-1] + 4.0 * middle * mean + x[1:] * pressure[1:]) / 6.0
+    return float(length @ mean), float(length @ lever)
+
+
+def cut_out(profile: Floats, start: float, end: float) -> list[tuple[float, float]]:
+    """Return the points of a profile from `start` to `end`, the pressures at both ends among them."""
+    points: list[tuple[float, float]] = []
+    for (x0, p0), (x1, p1) in zip(profile[:-1].tolist(), profile[1:].tolist(), strict=True):
+        low, high = max(x0, start), min(x1, end)
+        if x1 > x0 and high > low:
+            slope = (p1 - p0) / (x1 - x0)
+            points += [(low, p0 + slope * (low - x0)), (high, p1 - slope * (x1 - high))]
+    return points
+
+
+@dataclass(frozen=True, eq=False)
+class CrackWater:
+    """The pressure in a crack as a function of how far it is open.
+
+    Attributes
+    ----------
+    pressure
+        Gives the profile over the whole base of the block for a length open from the heel and one from the toe [m],
+        counted from the ends of the contact.
+    places
+        Distances from the heel at which the profile bends or jumps [m]: on a length of opening between two of them,
+        force and moment are polynomials of it.
+    """
+
+    pressure: Callable[[float, float], Floats]
+    places: tuple[float, ...]
+
+
+def still_water(case: Case, section: CutSection, start: float, end: float) -> CrackWater:
+    """Return the water at rest in a crack whose contact goes from `start` to `end` of the base of the block.
+
+    Over the contact it is the case's uplift, with its pattern fitted to that length. What opens from the heel has the
+    pressure of the reservoir over all of its area, whatever the intensity, and the rest of the pattern starts at the
+    tip: from there straight to the next of its points (extent, drains or toe), so that drains which the crack has
+    passed no longer count (so does USACE, EM 1110-2-2200, 1995, chapter 3). A profile of the user's own stays beyond
+    the tip as it is. What opens from the toe has the pressure of the tailwater, in the same way. The base outside the
+    contact, left there by a slip, feels reservoir and tailwater. With the pattern "none" no water enters.
+    """
+    dry = case.uplift.pattern == "none"
+    base = uplift_profile(case, section) * [(end - start) / section.crack_width, 1.0] + [start, 0.0]
+    own = case.uplift.pattern == "profile"
+
+    def outside(water: Water | None, low: float, high: float) -> list[tuple[float, float]]:
+        """Return the points of free water under the block; none gets in where it does not reach the crack's end."""
+        if high <= low:
+            return []
+        if dry or not section.water_above_crack(water, toe=water is case.tailwater):
+            return [(low, 0.0), (high, 0.0)]
+        # Where an inclined crack rises out of the water the pressure ends.
+        surface = _surface(section, water)
+        places = [low, surface, high] if low < surface < high else [low, high]
+        return [(x, _pressure_at(case, section, water, x)) for x in places]
+
+    def pressure(heel: float, toe: float) -> Floats:
+        tip, back = start + heel, end - toe
+        points = outside(case.reservoir, 0.0, tip)
+        if own or dry:
+            points += cut_out(base, tip, back)
+        elif tip < back:
+            ends = [float(base[0, 1]), float(base[-1, 1])]
+            if heel > 0.0:
+                ends[0] = case.uplift.intensity * _pressure_at(case, section, case.reservoir, tip)
+            # A uniform pressure ends at the tip as it did at the toe: it knows no tailwater.
+            if toe > 0.0 and case.uplift.pattern != "uniform":
+                ends[1] = case.uplift.intensity * _pressure_at(case, section, case.tailwater, back)
+            points += [(tip, ends[0]), *((x, p) for x, p in base.tolist() if tip < x < back), (back, ends[1])]
+        points += outside(case.tailwater, back, section.crack_width)
+        return np.array(points)
+
+    bends = [float(x) for x in base[:, 0]]
+    bends += [x for water in (case.reservoir, case.tailwater) if math.isfinite(x := _surface(section, water))]
+    return CrackWater(pressure, tuple(bends))
+
+
+def water_in_earthquake(before: Floats, start: float, end: float, opened: float, *, vanishes: bool) -> CrackWater:
+    """Return the water in a crack that the earthquake opens further.
+
+    Parameters
+    ----------
+    before
+        Profile before the earthquake.
+    start, end, opened
+        Ends of the contact, and how far it was open from the heel before [m].
+    vanishes
+        Whether the pressure in what the earthquake opens is zero (USBR 1987), or what it was (USACE 1995, FERC 2002).
+    """
+
+    def pressure(heel: float, toe: float) -> Floats:
+        if not vanishes or (heel <= opened and toe <= 0.0):
+            return before
+        # From the heel the pressure vanishes between the old tip and the new one.
+        low, high = (start + opened, start + heel) if heel > opened else (end - toe, end)
+        points = cut_out(before, 0.0, low)
+        points += [(low, 0.0), (high, 0.0)]
+        return np.array(points + cut_out(before, high, float(before[-1, 0])))
+
+    return CrackWater(pressure, (start + opened, *(float(x) for x in before[:, 0])))
+
+
+def _level(section: CutSection, water: Water | None) -> float:
+    """Return how high the water stands above the heel [m], negative below it."""
+    return -math.inf if water is None else section.base_elevation + water.depth - section.heel[1]
+
+
+def _pressure_at(case: Case, section: CutSection, water: Water | None, x: float) -> float:
+    """Return the pressure of still water at a distance from the heel along the crack [Pa]."""
+    if water is None:
+        return 0.0
+    return water.density * case.gravity * max(0.0, _level(section, water) - x * math.sin(section.inclination))
+
+
+def _surface(section: CutSection, water: Water | None) -> float:
+    """Return at which distance from the heel an inclined crack meets the water surface [m]."""
+    rise = math.sin(section.inclination)
+    return _level(section, water) / rise if rise and water is not None else math.inf

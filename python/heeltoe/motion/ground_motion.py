@@ -1,0 +1,282 @@
+"""Ground motion: acceleration that is linear between moments, with where it comes from and what was done to it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from heeltoe.errors import InputError
+
+Floats = NDArray[np.float64]
+
+STANDARD_GRAVITY = 9.80665
+# Of a refined motion: days of shaking at a thousandth of a second, and still within memory.
+_MOST_SAMPLES = 5e7
+
+
+def integrals(time: Floats, acceleration: Floats) -> tuple[Floats, Floats]:
+    """Return velocity and displacement from rest under an acceleration that is straight between moments, exactly."""
+    h = np.diff(time)
+    a0, a1 = acceleration[:-1], acceleration[1:]
+    v = np.concatenate([[0.0], np.cumsum(h * (a0 + a1) / 2.0)])
+    d = np.concatenate([[0.0], np.cumsum(h * v[:-1] + h**2 * (2.0 * a0 + a1) / 6.0)])
+    return v, d
+
+
+@dataclass(frozen=True, eq=False)
+class GroundMotion:
+    """An immutable ground acceleration.
+
+    Attributes
+    ----------
+    name
+        What it is called in every output: file stem or catalogue name.
+    time
+        (n,) moments [s], from zero, not decreasing; a repeated moment is a jump. Steps may differ.
+    acceleration
+        (n,) acceleration [m/s2]; horizontal is positive downstream, vertical positive upward.
+    event, station, component, date, channel, format, units_as_read, source
+        What the file says about itself; empty where it does not.
+    processing
+        What the file says was done, and all that was done here.
+    warnings
+        What a reader of any result with this motion must know.
+    """
+
+    name: str
+    time: Floats
+    acceleration: Floats
+    event: str = ""
+    station: str = ""
+    component: str = ""
+    date: str = ""
+    channel: str = ""
+    format: str = ""
+    units_as_read: str = ""
+    source: str = ""
+    processing: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        for name in ("time", "acceleration"):
+            values = np.ascontiguousarray(getattr(self, name), dtype=np.float64)
+            if values.flags.writeable:
+                values = values.copy()
+                values.flags.writeable = False
+            object.__setattr__(self, name, values)
+        t, a = self.time, self.acceleration
+        if t.ndim != 1 or t.shape != a.shape or t.size < 2:
+            raise InputError("motion-short", self.name, min(t.size, a.size))
+        if not (np.isfinite(t).all() and np.isfinite(a).all()):
+            bad = int(np.flatnonzero(~(np.isfinite(t) & np.isfinite(a)))[0])
+            found = t[bad] if np.isfinite(a[bad]) else a[bad]
+            raise InputError("motion-not-finite", self.name, str(found), number=bad + 1)
+        if (np.diff(t) < 0.0).any():
+            bad = int(np.flatnonzero(np.diff(t) < 0.0)[0])
+            raise InputError("motion-order", self.name, f"{t[bad + 1]:g} s", before=f"{t[bad]:g} s")
+        if t[-1] == t[0]:
+            raise InputError("motion-short", self.name, 1)
+        if t[0] != 0.0:
+            shifted = t - t[0]
+            shifted.flags.writeable = False
+            object.__setattr__(self, "time", shifted)
+            object.__setattr__(self, "processing", (*self.processing, f"time counted from {t[0]:g} s"))
+
+    @classmethod
+    def from_points(cls, time: ArrayLike, acceleration: ArrayLike, *, name: str = "points") -> GroundMotion:
+        """Make a motion of moments [s] and accelerations [m/s2], straight in between."""
+        return cls(name, np.array(time, dtype=np.float64), np.array(acceleration, dtype=np.float64))
+
+    @property
+    def duration(self) -> float:
+        """Length [s]."""
+        return float(self.time[-1])
+
+    @cached_property
+    def dt(self) -> float:
+        """Median step [s], jumps left out."""
+        steps = np.diff(self.time)
+        # The mean of equal steps has less rounding than any one of them.
+        return self.duration / steps.size if self.is_uniform else float(np.median(steps[steps > 0.0]))
+
+    @cached_property
+    def is_uniform(self) -> bool:
+        """Whether all steps are equal, to a millionth."""
+        steps = np.diff(self.time)
+        return bool(np.allclose(steps, self.duration / steps.size, rtol=1e-6, atol=0.0))
+
+    @property
+    def pga(self) -> float:
+        """Peak ground acceleration, without sign [m/s2]."""
+        return float(np.abs(self.acceleration).max())
+
+    @property
+    def peak(self) -> tuple[float, float]:
+        """Time [s] and value [m/s2] of the largest acceleration, with its sign."""
+        k = int(np.abs(self.acceleration).argmax())
+        return float(self.time[k]), float(self.acceleration[k])
+
+    @property
+    def pgv(self) -> float:
+        """Peak ground velocity from rest [m/s], exact for straight pieces."""
+        return self._integrals[0]
+
+    @property
+    def pgd(self) -> float:
+        """Peak ground displacement from rest [m], exact for straight pieces."""
+        return self._integrals[1]
+
+    @property
+    def end_velocity(self) -> float:
+        """Velocity at the end, from rest [m/s]; a record that is not corrected for its baseline keeps some."""
+        return self._integrals[2]
+
+    @cached_property
+    def _integrals(self) -> tuple[float, float, float]:
+        """PGV, PGD and end velocity; extremes lie at samples or where their derivative changes sign inside a piece."""
+        v, d = integrals(self.time, self.acceleration)
+        h = np.diff(self.time)
+        a0, a1 = self.acceleration[:-1], self.acceleration[1:]
+        crosses = a0 * a1 < 0.0
+        s = h[crosses] * a0[crosses] / (a0[crosses] - a1[crosses])
+        between = v[:-1][crosses] + s * a0[crosses] / 2.0
+        pgv = max(np.abs(v).max(), np.abs(between).max(initial=0.0))
+        # Inside a piece v(s) = v0 + a0 s + (a1 - a0) s^2 / (2 h); its roots are the turning points of d.
+        moving = h > 0.0
+        h, a0, a1, v0, d0 = h[moving], a0[moving], a1[moving], v[:-1][moving], d[:-1][moving]
+        c = (a1 - a0) / (2.0 * h)
+        root = np.sqrt(np.maximum(a0**2 - 4.0 * c * v0, 0.0))
+        q = -0.5 * (a0 + np.copysign(root, a0))
+        pgd = float(np.abs(d).max())
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            candidates = (q / c, v0 / q)
+        for candidate in candidates:
+            inside = np.isfinite(candidate) & (candidate > 0.0) & (candidate < h)
+            s = candidate[inside]
+            at = d0[inside] + s * (v0[inside] + s * (a0[inside] / 2.0 + s * c[inside] / 3.0))
+            pgd = max(pgd, float(np.abs(at).max(initial=0.0)))
+        return float(pgv), pgd, float(v[-1])
+
+    def _repr_html_(self) -> str:
+        from heeltoe.views.notebook import motion_html
+
+        return motion_html(self)
+
+    def scaled(self, factor: float, note: str = "") -> GroundMotion:
+        """Return the motion times `factor`."""
+        said = note or f"scaled by {factor:.6g}"
+        return replace(self, acceleration=self.acceleration * factor, processing=(*self.processing, said))
+
+    def scaled_to(self, pga: float, note: str = "") -> GroundMotion:
+        """Return the motion scaled to a peak of `pga` [m/s2]."""
+        if self.pga == 0.0:
+            raise InputError("motion-zero", self.name)
+        factor = pga / self.pga
+        return self.scaled(factor, note or f"scaled by {factor:.6g} to a peak of {pga:.6g} m/s2")
+
+    def reversed(self) -> GroundMotion:
+        """Return the motion with the other sign."""
+        return replace(self, acceleration=-self.acceleration, processing=(*self.processing, "sign reversed"))
+
+    def cut(self, duration: float) -> GroundMotion:
+        """Return the first `duration` [s], with a last sample right there; a shorter motion is returned as it is."""
+        if duration >= self.duration:
+            return self
+        keep = self.time < duration
+        # Up to the first sample not before the cut: at a jump the record ends with the value before it.
+        until = int(np.searchsorted(self.time, duration)) + 1
+        last = np.interp(duration, self.time[:until], self.acceleration[:until])
+        result = replace(
+            self,
+            time=np.append(self.time[keep], duration),
+            acceleration=np.append(self.acceleration[keep], last),
+            processing=(*self.processing, f"cut to {duration:g} s"),
+        )
+        if result.pga < 0.999 * self.pga:
+            lost = f"the cut to {duration:g} s leaves out the record's peak at {self.peak[0]:g} s"
+            result = replace(result, warnings=(*result.warnings, lost))
+        return result
+
+    def resampled(self, step: float) -> GroundMotion:
+        """Return the motion at a finer step [s].
+
+        Refining is exact, since the motion is straight between its moments: `step` must divide every step of the
+        record; jumps stay. Coarsening would change the motion and is refused; no analysis here needs it.
+
+        Raises
+        ------
+        InputError
+            Where `step` would lie about the motion.
+        """
+        steps = np.diff(self.time)
+        ratio = np.where(steps > 0.0, steps / step, 1.0) if step > 0.0 else np.zeros(1)
+        whole = np.rint(ratio)
+        if (whole < 1.0).any() or (np.abs(ratio - whole) > 1e-6 * whole).any():
+            raise InputError("motion-resample", self.name, f"{step:g} s", step=f"{self.dt:g} s")
+        if whole.sum() > _MOST_SAMPLES:
+            raise InputError("motion-samples", self.name, f"{step:g} s", count=whole.sum(), limit=_MOST_SAMPLES)
+        count = whole.astype(int)
+        share = np.concatenate([np.arange(n) / n for n in count])
+        start = np.repeat(np.arange(count.size), count)
+        time = self.time[start] + share * steps[start]
+        values = self.acceleration[start] + share * np.diff(self.acceleration)[start]
+        return replace(
+            self,
+            time=np.append(time, self.time[-1]),
+            acceleration=np.append(values, self.acceleration[-1]),
+            processing=(*self.processing, f"refined to a step of {step:g} s"),
+        )
+
+    def with_warnings(self, *warnings: str) -> GroundMotion:
+        """Return the motion with more warnings."""
+        return replace(self, warnings=(*self.warnings, *warnings)) if warnings else self
+
+
+def check(motion: GroundMotion, gravity: float, *, allow_zero: bool = False, field: str = "motion") -> tuple[str, ...]:
+    """Return what is suspicious about a motion.
+
+    Parameters
+    ----------
+    motion
+        The motion as it goes into the analysis.
+    gravity
+        One g [m/s2].
+    allow_zero
+        Accept a motion that is zero throughout.
+    field
+        Where it stands in the case, for errors.
+
+    Raises
+    ------
+    InputError
+        Where it is zero, or peaks beyond anything an earthquake does.
+    """
+    peak = motion.pga / gravity
+    if peak == 0.0:
+        if allow_zero:
+            return (f"{motion.name} is zero throughout: in this direction the ground does not move",)
+        raise InputError("motion-zero", field, motion.name)
+    if peak > 10.0:
+        raise InputError("motion-peak", field, f"{peak:.4g} g", name=motion.name)
+    said = []
+    if peak > 3.0:
+        said.append(f"{motion.name} peaks at {peak:.3g} g, more than any ground has been seen to do: check its unit")
+    if peak < 1e-3:
+        said.append(f"{motion.name} peaks at {peak:.2g} g only: check its unit, or scale it by motion.pga")
+    if motion.format != "points" and motion.pgv > 0.0 and abs(motion.end_velocity) > 0.2 * motion.pgv:
+        said.append(
+            f"{motion.name} ends at {motion.end_velocity:.3g} m/s, {abs(motion.end_velocity) / motion.pgv:.0%} of its "
+            "largest velocity: its baseline drifts, or it was cut"
+        )
+    steps = np.diff(motion.time)
+    if (steps > 5.0 * motion.dt).any() and motion.time.size > 20:
+        gap = int(steps.argmax())
+        said.append(f"{motion.name} has a gap of {steps[gap]:.3g} s at {motion.time[gap]:.4g} s")
+    top = np.abs(motion.acceleration) >= motion.pga * (1.0 - 1e-12)
+    run = top[:-3] & top[1:-2] & top[2:-1] & top[3:]
+    if motion.time.size > 20 and run.any():
+        said.append(f"{motion.name} stays at its peak for four samples or more: it may be clipped")
+    return tuple(said)

@@ -1,0 +1,145 @@
+"""Measures of a ground motion: intensity, duration, frequency content; exact for straight pieces where said."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe.errors import InputError
+from heeltoe.motion.ground_motion import STANDARD_GRAVITY, GroundMotion, integrals
+
+Floats = NDArray[np.float64]
+
+
+def velocity_displacement(motion: GroundMotion) -> tuple[Floats, Floats]:
+    """Return velocity [m/s] and displacement [m] from rest at the moments of the motion, exactly."""
+    return integrals(motion.time, motion.acceleration)
+
+
+def husid(motion: GroundMotion) -> Floats:
+    """Return the integral of the squared acceleration up to each moment [m2/s3], exactly."""
+    a0, a1 = motion.acceleration[:-1], motion.acceleration[1:]
+    return np.concatenate([[0.0], np.cumsum(np.diff(motion.time) * (a0**2 + a0 * a1 + a1**2) / 3.0)])
+
+
+def arias_intensity(motion: GroundMotion, gravity: float = STANDARD_GRAVITY) -> float:
+    """Return the Arias intensity [m/s], pi / (2 g) times the integral of a^2 (Arias 1970), exactly."""
+    return float(np.pi / (2.0 * gravity) * husid(motion)[-1])
+
+
+def husid_time(motion: GroundMotion, share: float) -> float:
+    """Return the moment [s] at which `share` of the Arias intensity has come in.
+
+    The Husid curve is a cubic in each straight piece; its crossing is found by bisection to the last bit.
+    """
+    curve = husid(motion)
+    if curve[-1] == 0.0:
+        raise InputError("order-zero", "", motion.name)
+    wanted = share * curve[-1]
+    k = int(np.clip(np.searchsorted(curve, wanted) - 1, 0, curve.size - 2))
+    h = motion.time[k + 1] - motion.time[k]
+    a0, rise = motion.acceleration[k], motion.acceleration[k + 1] - motion.acceleration[k]
+    low, high = 0.0, 1.0
+    while low < (middle := (low + high) / 2.0) < high:
+        reached = curve[k] + h * middle * (a0**2 + a0 * rise * middle + rise**2 * middle**2 / 3.0)
+        low, high = (middle, high) if reached < wanted else (low, middle)
+    return float(motion.time[k] + high * h)
+
+
+def significant_duration(motion: GroundMotion, start: float = 0.05, end: float = 0.95) -> float:
+    """Return the time [s] between two shares of the Arias intensity (Trifunac and Brady 1975), exactly."""
+    return husid_time(motion, end) - husid_time(motion, start)
+
+
+def cumulative_absolute_velocity(motion: GroundMotion) -> float:
+    """Return the integral of |a| [m/s] (EPRI 1988), exactly."""
+    a0, a1 = motion.acceleration[:-1], motion.acceleration[1:]
+    size = np.abs(a0) + np.abs(a1)
+    # A piece that changes sign is two triangles over parts of h that are as |a0| to |a1|.
+    crossing = (a0**2 + a1**2) / np.where(size > 0.0, size, 1.0)
+    return float(np.sum(np.diff(motion.time) * np.where(a0 * a1 < 0.0, crossing, size) / 2.0))
+
+
+def uniform(motion: GroundMotion) -> GroundMotion:
+    """Return the motion in equal steps, refined where it has none; refining is exact.
+
+    Raises
+    ------
+    InputError
+        Where it jumps, or no step down to a hundredth of its smallest divides all its steps.
+    """
+    if motion.is_uniform:
+        return motion
+    steps = np.diff(motion.time)
+    if (steps > 0.0).all():
+        for parts in range(1, 101):
+            step = float(steps.min()) / parts
+            # Few records have a million samples; a step that asks for more is none that was meant.
+            if motion.duration / step > 1e6:
+                break
+            ratio = steps / step
+            if (np.abs(ratio - np.rint(ratio)) <= 1e-6 * ratio).all():
+                return motion.resampled(step)
+    raise InputError("order-uniform", "", motion.name)
+
+
+def fourier_amplitudes(motion: GroundMotion, resolution: float | None = None) -> tuple[Floats, Floats]:
+    """Return the Fourier amplitude spectrum, |dt DFT(a)|, as is usual for records.
+
+    Parameters
+    ----------
+    motion
+        In steps of its own; refined to equal ones where they differ.
+    resolution
+        Largest step of frequency [Hz]; zeros behind the record make it finer.
+
+    Returns
+    -------
+    frequency, amplitude
+        In Hz, from 0 to the Nyquist frequency, and in m/s.
+    """
+    motion = uniform(motion)
+    size = motion.time.size
+    if resolution is not None:
+        size = max(size, int(np.ceil(1.0 / (resolution * motion.dt))))
+    amplitude: Floats = motion.dt * np.abs(np.fft.rfft(motion.acceleration, size))
+    return np.arange(amplitude.size) / (size * motion.dt), amplitude
+
+
+def mean_period(motion: GroundMotion) -> float:
+    """Return the mean period [s]: sum of C^2 / f over sum of C^2, from 0.25 Hz to 20 Hz.
+
+    After Rathje et al. (2004), who ask for steps of frequency of at most 0.05 Hz.
+    """
+    frequency, amplitude = fourier_amplitudes(motion, resolution=0.05)
+    inside = (frequency >= 0.25) & (frequency <= 20.0)
+    power = amplitude[inside] ** 2
+    if power.sum() == 0.0:
+        raise InputError("order-zero", "", motion.name)
+    return float(np.sum(power / frequency[inside]) / power.sum())
+
+
+def measures(motion: GroundMotion, gravity: float = STANDARD_GRAVITY) -> dict[str, float]:
+    """Return all measures by names that carry their units.
+
+    The mean period is left out where the motion jumps and so has no samples to take a Fourier transform of, and
+    durations and periods of a motion that is zero throughout.
+    """
+    velocity, displacement = velocity_displacement(motion)
+    result = {
+        "duration_s": motion.duration,
+        "pga_m_s2": motion.pga,
+        "pgv_m_s": motion.pgv,
+        "pgd_m": motion.pgd,
+        "arias_intensity_m_s": arias_intensity(motion, gravity),
+        "cav_m_s": cumulative_absolute_velocity(motion),
+        "end_velocity_m_s": float(velocity[-1]),
+        "end_displacement_m": float(displacement[-1]),
+    }
+    for name, measure in (("significant_duration_s", significant_duration), ("mean_period_s", mean_period)):
+        try:
+            result[name] = measure(motion)
+        except InputError as error:
+            if error.code not in ("order-zero", "order-uniform"):
+                raise
+    return result

@@ -1,0 +1,221 @@
+"""Processing of a ground motion: each step is asked for by name, and says in `processing` what it did.
+
+Errors name the parameter that cannot be; :func:`process` puts before it where the step stands.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Literal, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe.errors import InputError
+from heeltoe.motion.ground_motion import STANDARD_GRAVITY, GroundMotion, integrals
+from heeltoe.motion.measures import arias_intensity, fourier_amplitudes, husid_time, measures, uniform
+from heeltoe.motion.spectrum import response_spectrum
+
+__all__ = [
+    "Step",
+    "band_pass",
+    "baseline",
+    "cut_significant",
+    "fourier_amplitudes",
+    "measures",
+    "process",
+    "scale_time",
+    "scale_to_arias",
+    "scale_to_spectrum",
+    "taper",
+]
+
+Floats = NDArray[np.float64]
+Ends = Literal["both", "start", "end"]
+
+
+class Step(Protocol):
+    """One step of processing; those of a case file are in :mod:`heeltoe.case.processing`."""
+
+    def apply(self, motion: GroundMotion, gravity: float) -> GroundMotion:
+        """Return the processed motion, where one g is `gravity` [m/s2]."""
+
+
+def process(
+    motion: GroundMotion, steps: Sequence[Step], gravity: float = STANDARD_GRAVITY, *, field: str = "processing"
+) -> GroundMotion:
+    """Apply `steps` in their order; `field` is where they stand in the case, for errors."""
+    for place, step in enumerate(steps):
+        try:
+            motion = step.apply(motion, gravity)
+        except InputError as error:
+            error.field = ".".join(part for part in (f"{field}[{place}]", error.field) if part)
+            raise
+    return motion
+
+
+def baseline(motion: GroundMotion, order: int = 2, *, displacement: bool = False) -> GroundMotion:
+    """Take a polynomial of time out of the velocity, so that the motion ends at rest.
+
+    The polynomial, of degree `order` and zero at the start, is the one nearest to the velocity in the sense of
+    least squares over time among those that meet it at the end; the acceleration loses its derivative. After
+    Boore (2001), who fits quadratic velocities to the Chi-Chi records, with the end held.
+
+    Each power is integrated as the straight pieces it becomes between the moments, so that the end velocity is zero
+    to rounding for any steps.
+
+    Parameters
+    ----------
+    motion
+        The motion.
+    order
+        Degree of the polynomial, from 1.
+    displacement
+        Hold the end displacement to zero too; `order` is at least 2 then.
+    """
+    if order < 1 + displacement or order > 10:
+        raise InputError("order-baseline", "order", order, least=1 + displacement)
+    share = motion.time / motion.duration
+    # Legendre polynomials as accelerations: they span the same space as powers and do not become alike.
+    powers = [np.polynomial.Legendre.basis(k)(2.0 * share - 1.0) for k in range(order)]
+    moved = [integrals(motion.time, power) for power in powers]
+    velocity, place = integrals(motion.time, motion.acceleration)
+    fit = np.array([v for v, _ in moved])
+    held = [[v[-1] for v, _ in moved]] + ([[d[-1] for _, d in moved]] if displacement else [])
+    ends = [velocity[-1]] + ([place[-1]] if displacement else [])
+    steps = np.diff(motion.time)
+    weight = np.zeros(motion.time.size)
+    weight[:-1] += steps / 2.0
+    weight[1:] += steps / 2.0
+    # Least squares with equality constraints: null-space method, as it keeps the constraints to rounding.
+    constraint = np.array(held)
+    start = np.linalg.lstsq(constraint, np.array(ends), rcond=None)[0]
+    free = np.linalg.svd(constraint)[2][len(ends) :].T
+    if free.size:
+        root = np.sqrt(weight)
+        start = start + free @ np.linalg.lstsq((fit.T @ free) * root[:, None], root * (velocity - fit.T @ start))[0]
+    taken = start @ np.array(powers)
+    also = " and displacement" if displacement else ""
+    said = f"baseline: polynomial of degree {order} taken from the velocity, end velocity{also} zero"
+    return replace(
+        motion,
+        acceleration=motion.acceleration - taken,
+        processing=(*motion.processing, f"{said} (was {ends[0]:.4g} m/s)"),
+    )
+
+
+def band_pass(
+    motion: GroundMotion, low: float | None = None, high: float | None = None, order: int = 4
+) -> GroundMotion:
+    """Filter with a Butterworth filter, forward and backward, so that phases stay (scipy's sosfiltfilt).
+
+    Before and after the record stand 1.5 `order` / `low` seconds of zeros, the rule of Converse and Brady (1992), and
+    are cut off again. The two passes together have twice the order; each corner is down by half (6 dB). Cutting off
+    the transients leaves a small end velocity; let a baseline step follow where that matters.
+
+    Parameters
+    ----------
+    motion
+        The motion; refined to equal steps where its steps differ.
+    low, high
+        Corner frequencies [Hz]; without `low` a low-pass, without `high` a high-pass.
+    order
+        Of one pass.
+
+    Raises
+    ------
+    InputError
+        Where there is no corner, one is at or beyond the Nyquist frequency, or they are in the wrong order.
+    """
+    # scipy.signal takes longer to load than a rigid run does, so it waits for the first filter.
+    from scipy import signal
+
+    motion = uniform(motion)
+    nyquist = 0.5 / motion.dt
+    if low is None and high is None:
+        raise InputError("order-corner-missing", "")
+    for name, corner in (("low", low), ("high", high)):
+        if corner is not None and not 0.0 < corner < nyquist:
+            raise InputError("order-corner", name, f"{corner:g} Hz", nyquist=f"{nyquist:g} Hz")
+    if low is not None and high is not None and low >= high:
+        raise InputError("order-corners", "low", f"{low:g} Hz", high=f"{high:g} Hz")
+    if not 1 <= order <= 10:
+        raise InputError("order-filter", "order", order)
+    corners = [corner for corner in (low, high) if corner is not None]
+    kind = "bandpass" if len(corners) == 2 else "highpass" if high is None else "lowpass"
+    sections = signal.butter(
+        order, corners if len(corners) == 2 else corners[0], kind, fs=1.0 / motion.dt, output="sos"
+    )
+    zeros = int(np.ceil(1.5 * order / corners[0] / motion.dt))
+    padded = np.pad(motion.acceleration, zeros)
+    filtered = signal.sosfiltfilt(sections, padded, padlen=0)[zeros : zeros + motion.time.size]
+    band = " to ".join(f"{corner:g}" for corner in corners)
+    said = f"{kind} {band} Hz (Butterworth of order {order}, forward and backward, {zeros * motion.dt:g} s of zeros)"
+    return replace(motion, acceleration=filtered, processing=(*motion.processing, said))
+
+
+def taper(motion: GroundMotion, share: float = 0.05, ends: Ends = "both") -> GroundMotion:
+    """Fade the motion in and out with half a cosine (Tukey) over `share` of its duration at each end asked for."""
+    if not 0.0 < share <= 0.5:
+        raise InputError("order-share", "share", f"{share:g}", bounds="above 0 and up to 0.5")
+    place = motion.time / motion.duration
+    weight = np.ones_like(place)
+    if ends in ("both", "start"):
+        weight *= 0.5 - 0.5 * np.cos(np.pi * np.minimum(place / share, 1.0))
+    if ends in ("both", "end"):
+        weight *= 0.5 - 0.5 * np.cos(np.pi * np.minimum((1.0 - place) / share, 1.0))
+    where = "both ends" if ends == "both" else f"the {ends}"
+    return replace(
+        motion,
+        acceleration=motion.acceleration * weight,
+        processing=(*motion.processing, f"cosine taper over {share:.4g} of the duration at {where}"),
+    )
+
+
+def cut_significant(motion: GroundMotion, start: float = 0.05, end: float = 0.95) -> GroundMotion:
+    """Keep what lies between two shares of the Arias intensity, with samples right at the cuts."""
+    if not 0.0 <= start < end <= 1.0:
+        raise InputError("order-shares", "start", f"{start:g}", end=f"{end:g}")
+    first, last = husid_time(motion, start), husid_time(motion, end)
+    inside = (motion.time > first) & (motion.time < last)
+    edges = np.interp([first, last], motion.time, motion.acceleration)
+    said = f"cut to {start:g} to {end:g} of the Arias intensity, {first:.6g} s to {last:.6g} s"
+    return replace(
+        motion,
+        time=np.concatenate([[first], motion.time[inside], [last]]) - first,
+        acceleration=np.concatenate([edges[:1], motion.acceleration[inside], edges[1:]]),
+        processing=(*motion.processing, said),
+    )
+
+
+def scale_to_arias(motion: GroundMotion, intensity: float, gravity: float = STANDARD_GRAVITY) -> GroundMotion:
+    """Scale to an Arias intensity [m/s]."""
+    if not intensity > 0.0:
+        raise InputError("order-target", "intensity", f"{intensity:g} m/s")
+    if motion.pga == 0.0:
+        raise InputError("order-zero", "", motion.name)
+    factor = float(np.sqrt(intensity / arias_intensity(motion, gravity)))
+    return motion.scaled(factor, f"scaled by {factor:.6g} to an Arias intensity of {intensity:.6g} m/s")
+
+
+def scale_to_spectrum(motion: GroundMotion, period: float, acceleration: float, damping: float = 0.05) -> GroundMotion:
+    """Scale to a spectral pseudo-acceleration [m/s2] at one period [s] and damping ratio."""
+    if not acceleration > 0.0:
+        raise InputError("order-target", "acceleration", f"{acceleration:g} m/s2")
+    if motion.pga == 0.0:
+        raise InputError("order-zero", "", motion.name)
+    factor = acceleration / float(response_spectrum(motion, [period], damping).pseudo_acceleration[0])
+    said = f"to a pseudo-acceleration of {acceleration:.6g} m/s2 at {period:g} s and {damping:.3%} damping"
+    return motion.scaled(factor, f"scaled by {factor:.6g} {said}")
+
+
+def scale_time(motion: GroundMotion, factor: float, *, allow: bool = False) -> GroundMotion:
+    """Stretch time by `factor`, which divides all frequencies by it; refused unless `allow` says it is meant."""
+    if not 0.01 <= factor <= 100.0:
+        raise InputError("order-time-factor", "factor", f"{factor:g}")
+    if not allow:
+        raise InputError("order-time", "allow", f"{factor:g}")
+    said = f"time stretched by {factor:.6g}: all its frequencies are divided by that"
+    stretched = replace(motion, time=motion.time * factor, processing=(*motion.processing, said))
+    return stretched.with_warnings(f"{motion.name} had its time stretched by {factor:g}: no earthquake was recorded so")

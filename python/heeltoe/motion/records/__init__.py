@@ -1,0 +1,155 @@
+"""Strong-motion records: one reader per format, chosen by looking into the file.
+
+A reader is a module with ``FORMAT``, ``matches(lines) -> bool`` and ``read(lines, name) -> list[RawRecord]``, one for
+each channel. To add a format, write one and put it into :data:`READERS` before the more forgiving ones.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+from pathlib import Path
+from types import ModuleType
+
+from heeltoe.errors import InputError
+from heeltoe.motion.ground_motion import STANDARD_GRAVITY, GroundMotion
+from heeltoe.motion.records.channel import choose, numbered
+from heeltoe.motion.records.formats import columns, cosmos_v2, csmip_v2, foreign, knet, peer_at2, usgs_smc
+from heeltoe.motion.records.raw import RawRecord
+from heeltoe.motion.records.to_motion import Told, to_motion
+
+__all__ = ["READERS", "RawRecord", "read_channels", "read_record", "read_text", "read_text_channels"]
+
+#: In the order in which they are asked.
+READERS: tuple[ModuleType, ...] = (csmip_v2, cosmos_v2, usgs_smc, knet, foreign, peer_at2, columns)
+
+# No record comes near; what is larger is something else.
+_LARGEST_BYTES = 64_000_000
+
+
+def read_record(
+    path: str | os.PathLike[str],
+    channel: str | int | None = None,
+    *,
+    unit: str | None = None,
+    time_step: float | None = None,
+    gravity: float = STANDARD_GRAVITY,
+    field: str = "motion",
+    assume: bool = False,
+) -> GroundMotion:
+    """Read a record as it was downloaded.
+
+    Parameters
+    ----------
+    path
+        The file.
+    channel
+        Which one of a file of several, by number or by direction (``1``, ``"90 deg"``, ``"up"``).
+    unit
+        Unit of the accelerations where the file does not state it (``"g"``, ``"cm/s^2"``, ...); where it does, the two
+        must agree.
+    time_step
+        Step [s] of a file that does not state it; where it does, the two must agree.
+    gravity
+        One g [m/s2], for records in g.
+    field
+        Where the record stands in a case, for errors that ask for more.
+    assume
+        Take the likeliest unit and step where neither the file nor the caller states them, and warn of it: good enough
+        to look at a file, not for an analysis.
+
+    Returns
+    -------
+    GroundMotion
+
+    Raises
+    ------
+    InputError
+        Where there is no such file, or what is in it cannot be used.
+    """
+    data, name = _load(path)
+    return read_text(data, name, channel, unit=unit, time_step=time_step, gravity=gravity, field=field, assume=assume)
+
+
+def read_channels(
+    path: str | os.PathLike[str],
+    *,
+    unit: str | None = None,
+    time_step: float | None = None,
+    gravity: float = STANDARD_GRAVITY,
+    field: str = "motion",
+    assume: bool = True,
+) -> list[GroundMotion]:
+    """Read all channels of a file, to look at them; see :func:`read_record`. Most files have one."""
+    data, name = _load(path)
+    return read_text_channels(data, name, unit=unit, time_step=time_step, gravity=gravity, field=field, assume=assume)
+
+
+def read_text(
+    data: bytes,
+    name: str,
+    channel: str | int | None = None,
+    *,
+    unit: str | None = None,
+    time_step: float | None = None,
+    gravity: float = STANDARD_GRAVITY,
+    field: str = "motion",
+    assume: bool = False,
+) -> GroundMotion:
+    """Read a record from the bytes of its file; see :func:`read_record`."""
+    records, format_ = _records(data, name)
+    raw = choose(records, channel, name, f"{field}.channel")
+    return to_motion(raw, format_, name, len(records), Told(unit, time_step, gravity, field, assume))
+
+
+def read_text_channels(
+    data: bytes,
+    name: str,
+    *,
+    unit: str | None = None,
+    time_step: float | None = None,
+    gravity: float = STANDARD_GRAVITY,
+    field: str = "motion",
+    assume: bool = True,
+) -> list[GroundMotion]:
+    """Read all channels from the bytes of a file; see :func:`read_channels`."""
+    records, format_ = _records(data, name)
+    told = Told(unit, time_step, gravity, field, assume)
+    return [to_motion(raw, format_, name, len(records), told) for raw in records]
+
+
+def _load(path: str | os.PathLike[str]) -> tuple[bytes, str]:
+    path = Path(path)
+    try:
+        status = path.stat()
+        # A device or a pipe may never end.
+        if not stat.S_ISREG(status.st_mode):
+            raise InputError("record-unreadable", str(path), reason="it is not a file")
+        if status.st_size > _LARGEST_BYTES:
+            raise InputError("record-large", str(path), f"{status.st_size / 1e6:.0f} MB")
+        return path.read_bytes(), path.name
+    except (OSError, ValueError) as error:
+        raise InputError("record-unreadable", str(path), reason=getattr(error, "strerror", None) or error) from None
+
+
+def _records(data: bytes, name: str) -> tuple[list[RawRecord], str]:
+    """The channels of a file and its format."""
+    lines = _lines(data, name)
+    reader = next((reader for reader in READERS if reader.matches(lines)), None)
+    if reader is None:
+        raise InputError("record-format", name, repr(lines[0][:40]))
+    records: list[RawRecord] = reader.read(lines, name)
+    return numbered(records), reader.FORMAT
+
+
+def _lines(data: bytes, name: str) -> list[str]:
+    if not data.strip():
+        raise InputError("record-empty", name)
+    if b"\x00" in data:
+        raise InputError("record-binary", name)
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        # Old headers carry degree signs and names in Latin-1, which decodes anything.
+        text = data.decode("latin-1")
+    return text.splitlines()

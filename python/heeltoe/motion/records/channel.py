@@ -1,0 +1,72 @@
+"""One channel out of a file of several: by its number, or by its direction."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+import numpy as np
+
+from heeltoe.errors import InputError
+from heeltoe.motion.records.raw import RawRecord
+
+# What a message lists of a file with very many.
+_LISTED = 12
+
+
+def numbered(records: list[RawRecord]) -> list[RawRecord]:
+    """Return records with a number each where there are several: the stated ones, or else the order in the file."""
+    numbers = [record.channel for record in records]
+    if len(records) == 1 or (all(numbers) and len(set(numbers)) == len(numbers)):
+        return records
+    return [replace(record, channel=str(k)) for k, record in enumerate(records, 1)]
+
+
+def choose(records: list[RawRecord], wanted: str | int | None, name: str, field: str) -> RawRecord:
+    """Return the record that is wanted.
+
+    Parameters
+    ----------
+    records
+        The channels of the file, numbered.
+    wanted
+        Number of the channel, or its direction as the file states it, whatever the case and with or without "deg". A
+        number goes before a direction in degrees.
+    name
+        Of the file.
+    field
+        Where the choice stands in a case, for errors.
+
+    Raises
+    ------
+    InputError
+        Where there is none, or more than one.
+    """
+    if wanted is None:
+        if len(records) == 1:
+            return records[0]
+        raise InputError("record-channel-missing", name, listed(records), channel_field=field)
+    text = str(wanted).strip()
+    found = [record for record in records if (record.channel or "1") == text]
+    if not found:
+        found = [record for record in records if _direction(record.about.get("component", "")) == _direction(text)]
+    if len(found) != 1:
+        count = len(found) or "none"
+        raise InputError("record-channel", field, repr(text[:30]), count=count, name=name, channels=listed(records))
+    return found[0]
+
+
+def listed(records: list[RawRecord]) -> str:
+    """Return the channels with number, direction and peak, in one line."""
+    said = []
+    for record in records[:_LISTED]:
+        peak = float(np.abs(record.values).max(initial=0.0))
+        direction = record.about.get("component") or "no direction"
+        said.append(f"{record.channel or '1'}: {direction}, peak {peak:.4g} {record.unit or '(no unit)'}")
+    return "; ".join(said) + ("; ..." if len(records) > _LISTED else "")
+
+
+def _direction(text: str) -> str:
+    """A direction without what is written in different ways: case, blanks, degrees, zeros in front."""
+    bare = re.sub(r"\s+|deg(?:rees)?\.?|°", "", text.lower())
+    return bare.lstrip("0") or "0" if bare.isdecimal() else bare

@@ -1,0 +1,1 @@
+"""One reader for each format of a strong-motion record: ``FORMAT``, ``matches``, ``read``."""

@@ -1,0 +1,129 @@
+"""COSMOS V2 (format 1.20): one section per channel and quantity, often several in one file.
+
+A section has some 13 lines of text, a block of integers, a block of reals, comments behind ``|`` and one series::
+
+    Corrected acceleration   (Format v01.20 with 13 text lines) Src: 15481673
+    ...
+     100 Real-header values follow on  20 lines, Format= (5F15.6)
+    ...
+       42000 acceleration pts, approx  210 secs, units=cm/sec2(04),Format=(1E15.6)
+    ...
+    End-of-data for Chan  1 acceleration
+
+Real 62 is the step of the series in milliseconds. Real 34, in seconds, is the recorder's: it may be another one.
+"""
+
+from __future__ import annotations
+
+import re
+
+from heeltoe.errors import InputError
+from heeltoe.motion.records.raw import NUMBER, Floats, RawRecord, counted, numbers, peaked, plain, real, word_of_unit
+
+FORMAT = "COSMOS V2"
+
+_SECTION = re.compile(r"\s*(?:corrected|velocity|displacement)\b.*\(format v *[\d.]+", re.IGNORECASE)
+_SERIES = re.compile(r"\s*(\d+)\s+(acc|vel|dis)\w*\b.*\b(?:pts|points|data)\b", re.IGNORECASE)
+_UNIT = re.compile(r"units?\s*[=:]\s*([a-z][\w/^]*)", re.IGNORECASE)
+_WIDTH = re.compile(r"format\s*[=:]\s*\(\s*\d*\s*[a-z]\s*(\d{1,2})", re.IGNORECASE)
+_SECONDS = re.compile(rf"approx\.?\s+({NUMBER})\s*sec", re.IGNORECASE)
+_REALS = re.compile(r"\s*\d+\s+real-header values follow on\s+(\d{1,3})\s+lines", re.IGNORECASE)
+_END = re.compile(r"\s*(?:/&|end[- ]of[- ]data)", re.IGNORECASE)
+_CHANNEL = re.compile(r"\s*sta chan\s*(\S+?)\s*:\s*([^(]*)", re.IGNORECASE)
+_CODE = re.compile(r"\|\s*<scnl>\s*\w+\.(\w+)\.", re.IGNORECASE)
+_STATION = re.compile(r"\s*statn no:.*\bcode:\s*\S+\s+(.*)", re.IGNORECASE)
+_EVENT = re.compile(r"\s*re?co?rd of\s+(?:(.*?)\bearthquake\s+of\s+)?(.+)", re.IGNORECASE)
+_PROCESSED = re.compile(rf"\s*(processed:.*?)(?:,\s*max\s*=\s*({NUMBER})\s*([a-z][\w/^]*).*)?$", re.IGNORECASE)
+_FILTERED = re.compile(r"\s*record\b.*\bfiltered", re.IGNORECASE)
+_LINE = 200
+
+
+def matches(lines: list[str]) -> bool:
+    """Whether one of the first lines opens a section of corrected data."""
+    return any(_SECTION.match(line[:_LINE]) for line in lines[:5])
+
+
+def read(lines: list[str], name: str) -> list[RawRecord]:
+    """Read the accelerations of every channel of a file that matches."""
+    starts = [k for k, line in enumerate(lines) if _SECTION.match(line[:_LINE])]
+    records, others = [], []
+    for start, stop in zip(starts, [*starts[1:], len(lines)], strict=True):
+        series = _first(lines, start, stop, _SERIES)
+        found = _SERIES.match(lines[series][:_LINE]) if series < stop else None
+        if found is None:
+            raise InputError("record-header", name, "series of numbers")
+        quantity = found[2].lower()
+        if quantity == "acc":
+            # Velocity and displacement may follow without a header of their own.
+            end = min(_first(lines, series + 1, stop, _END), _first(lines, series + 1, stop, _SERIES))
+            values = numbers(lines[series + 1 : end], name, series + 2, _width(lines[series]))
+            header = [line[:_LINE] for line in lines[start : series + 1]]
+            records.append(_channel(header, values, real(found[1]), name, start + 1))
+        else:
+            others.append({"vel": "velocity", "dis": "displacement"}[quantity])
+    if not records:
+        raise InputError("record-not-acceleration", name, others[0])
+    return records
+
+
+def _first(lines: list[str], start: int, stop: int, pattern: re.Pattern[str]) -> int:
+    """Index of the first line that matches, or `stop`."""
+    return next((k for k in range(start, stop) if pattern.match(lines[k][:_LINE])), stop)
+
+
+def _channel(header: list[str], values: Floats, count: float, name: str, first_line: int) -> RawRecord:
+    announced = header[-1]
+    unit = word_of_unit(found[1]) if (found := _UNIT.search(announced)) else None
+    warnings = counted(values, count, name)
+    number, about, said = "", {"component": ""}, []
+    for line in header:
+        if found := _CHANNEL.match(line):
+            number = found[1] if found[1].isdecimal() else ""
+            about["component"] = found[2].strip() if found[2].strip().lower() != "other" else ""
+        elif (found := _CODE.match(line)) and not about["component"]:
+            about["component"] = found[1]
+        elif found := _STATION.match(line):
+            about["station"] = re.split(r"\s{2,}", found[1].strip())[-1]
+        elif found := _PROCESSED.match(line):
+            said.append(plain(found[1]))
+            if found[2] and word_of_unit(found[3]) == unit:
+                warnings += peaked(values, found[2], name)
+        elif _FILTERED.match(line):
+            said.append(plain(line))
+        elif "date" not in about and (found := _EVENT.match(line)):
+            about["event"] = f"{found[1].strip()} earthquake" if found[1] else ""
+            about["date"] = plain(found[2])
+    step, doubt = _step(_reals(header, name, first_line), count, announced, name)
+    return RawRecord(
+        values,
+        time_step=step,
+        unit=unit,
+        about=about,
+        processing=tuple(said),
+        warnings=warnings + doubt,
+        channel=number,
+    )
+
+
+def _width(announced: str) -> int:
+    return int(found[1]) if (found := _WIDTH.search(announced[:_LINE])) else 10
+
+
+def _reals(header: list[str], name: str, first_line: int) -> Floats:
+    for k, line in enumerate(header):
+        if found := _REALS.match(line):
+            return numbers(header[k + 1 : k + 1 + int(found[1])], name, first_line + k + 1, _width(line))
+    raise InputError("record-header", name, "real header")
+
+
+def _step(reals: Floats, count: float, announced: str, name: str) -> tuple[float | None, tuple[str, ...]]:
+    """The step [s] and what is doubtful about it: of the two that may be stated, the one the duration agrees with."""
+    stated = [float(reals[k]) * scale for k, scale in ((61, 1e-3), (33, 1.0)) if k < reals.size and reals[k] > 0.0]
+    seconds = _SECONDS.search(announced)
+    if not stated or seconds is None:
+        return next(iter(stated), None), ()
+    duration = real(seconds[1])
+    for step in stated:
+        if abs(count * step - duration) <= 1.0 + 0.01 * duration:
+            return step, ()
+    return stated[0], (f"{name} states a step of {stated[0]:g} s, {count:g} values and {duration:g} s: check it",)

@@ -1,0 +1,89 @@
+"""CSMIP V2 (CDMG, CGS): several channels in one file, of each the corrected acceleration, velocity and displacement.
+
+A channel has 25 lines of text, 100 integers, 100 reals and three series, each behind a line that says what it is::
+
+     3251 POINTS OF ACCEL DATA EQUALLY SPACED AT  .020 SEC.  (UNITS: CM/SEC/SEC)
+    15050 points of accel data equally spaced at  .020 sec, in cm/sec2. (8f10.6)
+
+and ends with ``/&  ----------  END OF DATA FOR CHANNEL  1  ----------``.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+
+from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, peaked, plain, real, word_of_unit
+
+FORMAT = "CSMIP V2"
+
+_ACCELERATION = re.compile(
+    rf"\s*(\d+) points of acc\w* data equally.spaced at\s+({NUMBER})\s*sec[.,]*\s*(?:\(units:|in)\s*([a-z][\w/^]*)",
+    re.IGNORECASE,
+)
+_END = re.compile(r"\s*/&|.*(?:end of data| points of |corrected accelerogram)", re.IGNORECASE)
+_FORMAT = re.compile(r"\(\s*\d+\s*[a-z](\d{1,2})\.", re.IGNORECASE)
+_CHANNEL = re.compile(r"\bchan\s*(\d+):\s*(\S+(?: \S+)*)", re.IGNORECASE)
+_FIRST = re.compile(r"\s*corrected accelerogram", re.IGNORECASE)
+_PEAK = re.compile(rf"peak\s+acceleration\s*=\s*({NUMBER})\s*([a-z][\w/^]*)", re.IGNORECASE)
+_FILTERED, _PROCESSED = re.compile(r"\s*accelerogram .*filtered", re.IGNORECASE), re.compile(r"processed:\s*\S", re.I)
+_UNNAMED = re.compile(r"re?co?rd of\s+(.+)", re.IGNORECASE)
+# A header has 45 lines; the format is recognised by the line behind the first one.
+_HEADER_LINES, _WIDTH = 60, 200
+
+
+def matches(lines: list[str]) -> bool:
+    """Whether a line announces accelerations in the words of the format."""
+    return any(_ACCELERATION.match(line[:_WIDTH]) for line in lines[: 2 * _HEADER_LINES])
+
+
+def read(lines: list[str], name: str) -> list[RawRecord]:
+    """Read the accelerations of every channel of a file that matches."""
+    starts = [k for k, line in enumerate(lines) if _ACCELERATION.match(line[:_WIDTH])]
+    records = []
+    for before, k in zip([-1, *starts], starts, strict=False):
+        end = next((j for j in range(k + 1, len(lines)) if _END.match(lines[j][:_WIDTH])), len(lines))
+        header = [line[:_WIDTH] for line in lines[max(before + 1, k - _HEADER_LINES) : k]]
+        records.append(_channel(header, lines[k][:_WIDTH], lines[k + 1 : end], name, k + 2))
+    opened = sum(_FIRST.match(line[:_WIDTH]) is not None for line in lines)
+    if opened > len(records):
+        lost = f"{name} opens {opened} channels and has accelerations of {len(records)}"
+        records = [replace(record, warnings=(*record.warnings, lost)) for record in records]
+    return records
+
+
+def _channel(header: list[str], announced: str, data: list[str], name: str, first_line: int) -> RawRecord:
+    found = _ACCELERATION.match(announced)
+    assert found is not None
+    form = _FORMAT.search(announced)
+    values = numbers(data, name, first_line, int(form[1]) if form else 10)
+    unit = word_of_unit(found[3])
+    channels = [match for line in header if (match := _CHANNEL.search(line))]
+    number, component = channels[-1].groups() if channels else ("", "")
+    called = f"{name}, channel {number}" if number else name
+    warnings = counted(values, real(found[1]), called)
+    peak = next((match for line in header if (match := _PEAK.match(line.strip()))), None)
+    if peak and word_of_unit(peak[2]) == unit:
+        warnings += peaked(values, peak[1], called)
+    said = [plain(line) for line in header if _FILTERED.match(line)]
+    said = [plain(line[match.start() :]) for line in header if (match := _PROCESSED.search(line))][:1] + said
+    return RawRecord(
+        values,
+        time_step=real(found[2]),
+        unit=unit,
+        about={**_about(header), "component": component},
+        processing=tuple(said),
+        warnings=warnings,
+        channel=number,
+    )
+
+
+def _about(header: list[str]) -> dict[str, str]:
+    """Event, date and station stand in the third, fourth and seventh line of text."""
+    first = next((k for k, line in enumerate(header) if _FIRST.match(line)), None)
+    if first is None or len(header) < first + 7:
+        return {}
+    event, date, station = (re.split(r"\s{2,}", header[first + k].strip())[0] for k in (2, 3, 6))
+    if unnamed := _UNNAMED.match(event):
+        event, date = "", unnamed[1]
+    return {"event": event, "date": date, "station": station}

@@ -1,0 +1,89 @@
+"""K-NET and KiK-net ASCII (NIED): 17 lines of header, then counts of the digitiser, eight to a line.
+
+A label fills 18 characters, the value follows::
+
+    Sampling Freq(Hz) 100Hz
+    Dir.              N-S
+    Scale Factor      3920(gal)/6182761
+
+Counts times the scale factor are gal. They carry the offset of the instrument: as NIED does for the peak that the
+header states, the mean is taken out.
+"""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+
+from heeltoe.errors import InputError
+from heeltoe.motion.records.cells import is_data
+from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, peaked, real
+
+FORMAT = "K-NET"
+
+_LABEL = 18
+_SIGNS = ("origin time", "scale factor")
+_SCALE = re.compile(rf"({NUMBER})\s*\(gal\)\s*/\s*({NUMBER})", re.IGNORECASE)
+# A sensor of KiK-net in the borehole, and one at the surface above it.
+_KIKNET = {
+    "1": "N-S borehole",
+    "2": "E-W borehole",
+    "3": "U-D borehole",
+    "4": "N-S surface",
+    "5": "E-W surface",
+    "6": "U-D surface",
+}
+
+
+def matches(lines: list[str]) -> bool:
+    """Whether the first lines bear the labels of the format."""
+    head = [line[:_LABEL].strip().lower() for line in lines[:20]]
+    return any(label in _SIGNS for label in head) and any(line.lower().startswith("dir.") for line in head)
+
+
+def read(lines: list[str], name: str) -> list[RawRecord]:
+    """Read a file that matches."""
+    first = next((k for k, line in enumerate(lines) if is_data(line[:200])), len(lines))
+    header = {line[:_LABEL].strip().lower(): line[_LABEL:200].strip() for line in lines[: min(first, 40)]}
+    scale = _SCALE.match(header.get("scale factor", ""))
+    if scale is None or real(scale[2]) == 0.0:
+        raise InputError("record-header", name, "scale factor")
+    counts = numbers(lines[first:], name, first + 1)
+    if counts.size == 0:
+        raise InputError("motion-short", name, 0)
+    with np.errstate(over="ignore", invalid="ignore"):
+        values = counts * (real(scale[1]) / real(scale[2]))
+        offset = float(values.mean())
+        values = values - offset
+    frequency = re.match(rf"({NUMBER})\s*hz", header.get("sampling freq(hz)", ""), re.IGNORECASE)
+    rate = real(frequency[1]) if frequency else 0.0
+    warnings: tuple[str, ...] = ()
+    duration = re.fullmatch(NUMBER, header.get("duration time(s)", ""), re.IGNORECASE)
+    if duration and rate > 0.0:
+        warnings += counted(values, real(duration[0]) * rate, name)
+    peak = re.fullmatch(NUMBER, header.get("max. acc. (gal)", ""), re.IGNORECASE)
+    if peak:
+        # Rounding of the mean, and of the counts.
+        warnings += peaked(values, peak[0], name, share=0.01)
+    record = RawRecord(
+        values,
+        time_step=1.0 / rate if rate > 0.0 else None,
+        unit="gal",
+        about=_about(header),
+        processing=(f"mean of {offset:.5g} gal taken out",),
+        warnings=warnings,
+    )
+    return [record]
+
+
+def _about(header: dict[str, str]) -> dict[str, str]:
+    direction = header.get("dir.", "")
+    place = [header[label] for label in ("lat.", "long.") if header.get(label)]
+    magnitude = header.get("mag.")
+    return {
+        "event": f"magnitude {magnitude} at {', '.join(place)}" if magnitude and place else "",
+        "date": header.get("origin time", ""),
+        "station": header.get("station code", ""),
+        "component": _KIKNET.get(direction, direction),
+    }

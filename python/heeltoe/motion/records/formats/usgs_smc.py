@@ -1,0 +1,81 @@
+"""USGS SMC: one corrected accelerogram in cm/s2.
+
+11 lines of text, 48 integers on six lines, 50 reals on ten, comments behind ``|``, then the data, eight to a line in
+columns of ten that may touch (``-1.2518E+1 1.5642E+0-8.8063E+0``). What is unknown is -32768, or 1.7e38.
+"""
+
+from __future__ import annotations
+
+import re
+
+from heeltoe.errors import InputError
+from heeltoe.motion.records.raw import NUMBER, Floats, RawRecord, counted, numbers, peaked, plain
+
+FORMAT = "USGS SMC"
+
+_FIRST = re.compile(r"\s*\d?\s*(corrected accelerogram|velocity|displacement)\s*$", re.IGNORECASE)
+_EVENT = re.compile(r"\s*(\d{4})\s+(\d\d?)\s+(\d\d?)(?:\s+(\d{4}))?\s+(.*)")
+_STATION = re.compile(r"\s*station\s*=\s*(.*?)\s*component\s*=\s*(.*)", re.IGNORECASE)
+_PEAK = re.compile(rf".*\bpk(?:\s+acc)?\s*=\s*({NUMBER})", re.IGNORECASE)
+_TEXT, _INTEGERS, _REALS = slice(0, 11), slice(11, 17), slice(17, 27)
+_UNKNOWN = -32768
+_LINE = 200
+
+
+def matches(lines: list[str]) -> bool:
+    """Whether the file opens in the words of the format; its second line is a star if it has nothing to say."""
+    head = [line[:_LINE] for line in lines[_TEXT]]
+    return _FIRST.match(head[0]) is not None and (
+        any(line.strip() == "*" for line in head) or any(_STATION.match(line) for line in head)
+    )
+
+
+def read(lines: list[str], name: str) -> list[RawRecord]:
+    """Read a file that matches."""
+    text = [line[:_LINE] for line in lines[_TEXT]]
+    kind = _FIRST.match(text[0])
+    assert kind is not None
+    if kind[1].lower() in ("velocity", "displacement"):
+        raise InputError("record-not-acceleration", name, kind[1].lower())
+    integers, reals = numbers(lines[_INTEGERS], name, 12), numbers(lines[_REALS], name, 18)
+    if integers.size < 48 or reals.size < 50:
+        raise InputError("record-header", name, "48 integers and 50 reals")
+    first = next((k for k in range(_REALS.stop, len(lines)) if not lines[k].startswith("|")), len(lines))
+    values = numbers(lines[first:], name, first + 1, 10)
+    warnings = counted(values, integers[16], name) if integers[16] != _UNKNOWN else ()
+    if integers[17] == 1:
+        warnings += (f"{name} flags a problem with its data: see the comments in it",)
+    peak = next((found for line in text if (found := _PEAK.match(line))), None)
+    if peak:
+        warnings += peaked(values, peak[1], name)
+    record = RawRecord(
+        values,
+        # A rate that is unknown is 1.7e38.
+        time_step=1.0 / float(reals[1]) if 0.0 < reals[1] < 1e5 else None,
+        unit="cm/s^2",
+        about=_about(text, integers),
+        processing=("corrected accelerogram",),
+        warnings=warnings,
+    )
+    return [record]
+
+
+def _about(text: list[str], integers: Floats) -> dict[str, str]:
+    about = {"component": _direction(integers)}
+    for line in text:
+        if found := _STATION.match(line):
+            about["station"] = plain(found[1]).rstrip(",")
+            about["component"] = plain(found[2]) or about["component"]
+        elif found := _EVENT.match(line):
+            year, month, day, minute, event = found.groups("")
+            about["date"] = f"{year}-{month:0>2}-{day:0>2} {minute}".strip()
+            about["event"] = plain(event)
+    return about
+
+
+def _direction(integers: Floats) -> str:
+    """The direction the integers state: degrees from the vertical, then from north."""
+    vertical, horizontal = integers[12:14]
+    if vertical in (0, 180):
+        return "up" if vertical == 0 else "down"
+    return f"{horizontal:g}" if horizontal != _UNKNOWN else ""

@@ -1,0 +1,150 @@
+"""What a reader returns: numbers as they stand in the file, with what the file says about them."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe.errors import InputError
+from heeltoe.units.parse import acceleration_unit
+
+Floats = NDArray[np.float64]
+
+#: A number of Fortran's, for patterns that ignore case; see :func:`real`.
+NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[ED][-+]?\d+)?"
+
+
+@dataclass
+class RawRecord:
+    """A record as it stands in its file.
+
+    Attributes
+    ----------
+    values
+        (n,) acceleration in `unit`.
+    time
+        (n,) moments [s]; None where the samples are `time_step` apart.
+    time_step
+        Step [s]; None where the file does not state one.
+    unit
+        Unit of the values as the file states it; None where it does not.
+    about
+        event, station, component, date as far as stated.
+    processing
+        What the file says was done to the record.
+    warnings
+        What does not fit together in the file.
+    channel
+        Number of the channel as the file states it; empty where it does not.
+    """
+
+    values: Floats
+    time: Floats | None = None
+    time_step: float | None = None
+    unit: str | None = None
+    about: dict[str, str] = field(default_factory=dict)
+    processing: tuple[str, ...] = ()
+    warnings: tuple[str, ...] = ()
+    channel: str = ""
+
+
+def numbers(lines: list[str], name: str, first_line: int, width: int = 0) -> Floats:
+    """Read all numbers of some lines, any white space between them, Fortran's D exponents and glued columns too.
+
+    Parameters
+    ----------
+    lines
+        Lines that hold nothing but numbers.
+    name
+        Of the file, for errors.
+    first_line
+        Number of the first of them in the file, for errors.
+    width
+        Width of Fortran's columns where it is known. Positive numbers that fill theirs leave no gap (8F10.6 of 100.5).
+
+    Raises
+    ------
+    InputError
+        Where a word is not a number.
+    """
+    text = " ".join(lines)
+    # Python reads 1_0 as ten, and digits of any script; in a record both are damage.
+    if text.isascii() and "_" not in text:
+        try:
+            return np.array(text.split(), dtype=np.float64)
+        except ValueError:
+            pass
+    values: list[float] = []
+    for number, line in enumerate(lines, first_line):
+        words = unglued(line).split()
+        if width and any(word.count(".") > 1 for word in words):
+            words = [line[k : k + width].strip() for k in range(0, len(line.rstrip()), width)]
+        for word in words:
+            try:
+                if "_" in word or not word.isascii():
+                    raise ValueError
+                values.append(float(word))
+            except ValueError:
+                raise InputError("record-number", name, repr(word[:30]), line=number) from None
+    return np.array(values)
+
+
+def real(text: str) -> float:
+    """Return the number that a text of the pattern :data:`NUMBER` is."""
+    return float(text.upper().replace("D", "E"))
+
+
+def plain(text: str) -> str:
+    """Return a line of a header without the blanks that fill its columns."""
+    return " ".join(text.split())
+
+
+def counted(values: Floats, stated: float, name: str) -> tuple[str, ...]:
+    """Return a warning where a file states another number of values than it has."""
+    if values.size == stated:
+        return ()
+    return (f"{name} states {stated:g} values and has {values.size}: all of them are used",)
+
+
+def peaked(values: Floats, stated: str, name: str, share: float = 1e-3) -> tuple[str, ...]:
+    """Return a warning where the peak of the values is not the stated one.
+
+    Parameters
+    ----------
+    values
+        The values.
+    stated
+        The peak as the file writes it, in the unit of the values; its last digit may be rounded.
+    name
+        Of the file.
+    share
+        Share of the peak by which the two may differ beyond that.
+    """
+    peak = abs(real(stated))
+    found = float(np.abs(values).max(initial=0.0))
+    last_digit = 0.0 if stated.upper().isupper() else 10.0 ** -len(stated.partition(".")[2])
+    # A value that is not a number is refused later, by its place.
+    if not abs(found - peak) > last_digit + share * peak:
+        return ()
+    return (f"{name} states a peak of {peak:g} and has {found:.6g}: what it has is used",)
+
+
+def word_of_unit(word: str) -> str | None:
+    """Return the unit a word of a header stands for; None where it is no unit, and the user must tell.
+
+    A unit of another quantity is returned too: the user is told that it is none of acceleration.
+    """
+    unit = re.sub(r"/s(?:/s|\*\*2|2)$", "/s^2", word.lower().strip().rstrip(".").replace("sec", "s"))
+    try:
+        acceleration_unit(unit, "")
+    except InputError as error:
+        return unit if error.code == "wrong-quantity" else None
+    return unit
+
+
+def unglued(line: str) -> str:
+    """Part columns that touch (8F10.5, E15.7: a sign right behind a digit) and turn Fortran's D exponents into E."""
+    return re.sub(r"(?<=[\d.])(?=[-+])", " ", re.sub(r"(?<=[\d.])[dD](?=[-+]?\d)", "e", line))

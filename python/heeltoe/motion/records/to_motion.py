@@ -1,0 +1,130 @@
+"""From a record as it stands in its file, and what the caller tells of it, to a ground motion in SI units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe.errors import InputError
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.motion.records.raw import RawRecord
+from heeltoe.units.parse import acceleration_unit
+
+# Beyond these the numbers are no record in any unit, and displacements would overflow.
+_LARGEST_VALUE, _LARGEST_GAP = 1e12, 1e4
+# The commonest of digitised records.
+_LIKELY_STEP = 0.01
+
+
+@dataclass(frozen=True)
+class Told:
+    """What the caller says of a record; see :func:`heeltoe.motion.records.read_record`."""
+
+    unit: str | None
+    time_step: float | None
+    gravity: float
+    field: str
+    assume: bool
+
+
+def to_motion(raw: RawRecord, format_: str, name: str, channels: int, told: Told) -> GroundMotion:
+    """Make a ground motion of a record.
+
+    Parameters
+    ----------
+    raw
+        The record as it stands in its file.
+    format_
+        Name of the format of the file.
+    name
+        Of the file.
+    channels
+        How many there are in the file.
+    told
+        What the caller says.
+
+    Raises
+    ------
+    InputError
+        Where file and caller contradict each other, or neither states what is needed.
+    """
+    if raw.values.size < 2:
+        raise InputError("motion-short", name, raw.values.size)
+    if not np.isfinite(raw.values).all():
+        bad = int(np.flatnonzero(~np.isfinite(raw.values))[0])
+        raise InputError("motion-not-finite", name, str(raw.values[bad]), number=bad + 1)
+    peak = float(np.abs(raw.values).max())
+    time, unsure = _time(raw, name, told)
+    unit, read_as, unsure_too = _unit(raw, name, peak, told)
+    factor = _si(unit, f"{told.field}.unit" if raw.unit is None else name, told)
+    if peak * factor > _LARGEST_VALUE:
+        raise InputError("motion-peak", name, f"{peak:.4g} {unit}", name="it")
+    stem = Path(name).stem
+    return GroundMotion(
+        name=f"{stem}-chan{raw.channel}" if channels > 1 else stem,
+        time=time,
+        acceleration=raw.values * factor,
+        format=format_,
+        units_as_read=read_as,
+        source=name,
+        channel=raw.channel,
+        processing=raw.processing,
+        warnings=(*raw.warnings, *unsure, *unsure_too),
+        **raw.about,
+    )
+
+
+def _unit(raw: RawRecord, name: str, peak: float, told: Told) -> tuple[str, str, tuple[str, ...]]:
+    """The unit of the values, how it is known, and a warning if it is only assumed."""
+    field = f"{told.field}.unit"
+    if raw.unit:
+        if told.unit and _si(told.unit, field, told) != _si(raw.unit, name, told):
+            raise InputError("record-unit-conflict", field, told.unit, stated=raw.unit, name=name)
+        return raw.unit, raw.unit, ()
+    if told.unit:
+        return told.unit, f"{told.unit} (as told)", ()
+    likely = _likely_unit(peak)
+    if likely and told.assume:
+        return (
+            likely,
+            f"{likely} (assumed)",
+            (f"{name} states no unit: {likely} is assumed; an analysis asks for {field}",),
+        )
+    guess = f'probably unit = "{likely}"' if likely else 'unit = "m/s^2", or "g" or "cm/s^2"'
+    raise InputError("record-unit-missing", name, f"{peak:.4g}", unit_field=field, guess=guess)
+
+
+def _si(unit: str, field: str, told: Told) -> float:
+    return acceleration_unit(unit, field).si(told.gravity)
+
+
+def _likely_unit(peak: float) -> str | None:
+    # Hardly any ground has passed 1.3 g; a few m/s^2 are a common peak, and a few g a grave mistake.
+    if peak < 1.3:
+        return "g"
+    return "cm/s^2" if peak > 20.0 else None
+
+
+def _time(raw: RawRecord, name: str, told: Told) -> tuple[NDArray[np.float64], tuple[str, ...]]:
+    """The moments of the values, and a warning if their step is only assumed."""
+    if raw.time is not None:
+        with np.errstate(invalid="ignore", over="ignore"):
+            gap = float(np.abs(np.diff(raw.time)).max())
+        if gap > _LARGEST_GAP:
+            raise InputError("record-step", name, f"{gap:g} s")
+        return raw.time, ()
+    step, field = raw.time_step or told.time_step, f"{told.field}.time_step"
+    warnings: tuple[str, ...] = ()
+    if step is None and told.assume:
+        step = _LIKELY_STEP
+        warnings = (f"{name} states no time step: {step:g} s is assumed; an analysis asks for {field}",)
+    if step is None:
+        raise InputError("record-step-missing", name, step_field=field)
+    if raw.time_step and told.time_step and abs(raw.time_step - told.time_step) > 1e-9 * told.time_step:
+        raise InputError("record-step-conflict", field, f"{told.time_step:g} s", stated=raw.time_step)
+    if not 1e-6 <= step <= 10.0:
+        raise InputError("record-step", name, f"{step:g} s")
+    return np.arange(raw.values.size, dtype=np.float64) * step, warnings

@@ -1,0 +1,81 @@
+"""Response spectra, exact for a ground acceleration that is linear between its moments."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from heeltoe import _kernel
+from heeltoe.errors import InputError
+from heeltoe.motion.ground_motion import GroundMotion
+
+Floats = NDArray[np.float64]
+
+#: 200 periods from 0.02 s to 10 s, evenly spread on a logarithmic axis.
+PERIODS: Floats = np.geomspace(0.02, 10.0, 200)
+
+
+@dataclass(frozen=True, eq=False)
+class Spectrum:
+    """Response spectrum of one ground motion.
+
+    Attributes
+    ----------
+    name
+        Of the motion.
+    period
+        (k,) periods [s].
+    damping
+        Damping ratio.
+    displacement
+        (k,) largest displacement relative to the ground [m].
+    total_acceleration
+        (k,) largest acceleration of ground and oscillator together [m/s2].
+    """
+
+    name: str
+    period: Floats
+    damping: float
+    displacement: Floats
+    total_acceleration: Floats
+
+    @property
+    def pseudo_acceleration(self) -> Floats:
+        """(k,) displacement times the circular frequency squared [m/s2]; the PGA at period zero."""
+        zero = self.period == 0.0
+        frequency = 2.0 * np.pi / np.where(zero, 1.0, self.period)
+        result: Floats = np.where(zero, self.total_acceleration, self.displacement * frequency**2)
+        return result
+
+
+def response_spectrum(motion: GroundMotion, periods: ArrayLike | None = None, damping: float = 0.05) -> Spectrum:
+    """Return the response spectrum of a ground motion.
+
+    Parameters
+    ----------
+    motion
+        The ground motion.
+    periods
+        (k,) periods [s], zero allowed; :data:`PERIODS` where not given.
+    damping
+        Damping ratio, at least 0 and below 1.
+
+    Returns
+    -------
+    Spectrum
+
+    Raises
+    ------
+    InputError
+        Where a period or the damping is out of range.
+    """
+    period = np.ascontiguousarray(PERIODS if periods is None else periods, dtype=np.float64)
+    if not 0.0 <= damping < 1.0:
+        raise InputError("spectrum-damping", "damping", f"{damping:g}")
+    if period.ndim != 1 or not np.isfinite(period).all() or (period < 0.0).any():
+        raise InputError("spectrum-period", "periods")
+    table = _kernel.spectrum(motion.time, motion.acceleration, period, damping)
+    displacement, total = np.ascontiguousarray(table.T)
+    return Spectrum(motion.name, period, damping, displacement, total)

@@ -1,0 +1,265 @@
+"""What an analysis returns: one immutable :class:`Response` with its evidence and warnings."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.csv
+import pyarrow.parquet
+from numpy.typing import NDArray
+
+from heeltoe import _kernel
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.motion.measures import measures
+
+if TYPE_CHECKING:
+    from heeltoe.case.options import Limits
+    from heeltoe.models.flexible.history import CrackHistory
+
+Floats = NDArray[np.float64]
+
+_MEASURES = ("arias_intensity_m_s", "cav_m_s", "significant_duration_s", "mean_period_s", "end_velocity_m_s")
+
+#: Outcomes of a run; only the first two come with a result to trust.
+OUTCOMES = ("ok", "overturned", "unstable", "paradox", "event limit", "cycling", "lost", "blown up")
+
+
+@dataclass(frozen=True)
+class LimitCheck:
+    """A result beside what the user allows.
+
+    Attributes
+    ----------
+    name
+        Field of ``limits`` in the case.
+    value_m, allowed_m
+        Magnitude of the result, and how much it may be [m].
+    """
+
+    name: str
+    value_m: float
+    allowed_m: float
+
+    @property
+    def met(self) -> bool:
+        """Whether the result is within the limit."""
+        return self.value_m <= self.allowed_m
+
+
+def check_limits(limits: Limits, summary: Mapping[str, Any]) -> tuple[LimitCheck, ...]:
+    """Compare the numbers of a summary with the limits that the user has set."""
+    values = {
+        "residual_slip": abs(summary["residual_slip_m"]),
+        "peak_slip": max(summary["peak_slip_downstream_m"], -summary["peak_slip_upstream_m"]),
+        "opening_upstream": summary["opening_upstream_m"],
+        "opening_downstream": summary["opening_downstream_m"],
+    }
+    allowed = {name: getattr(limits, name) for name in values}
+    return tuple(LimitCheck(name, values[name], limit) for name, limit in allowed.items() if limit is not None)
+
+
+@dataclass(frozen=True)
+class Energy:
+    """The energy ledger of a run, per metre of dam.
+
+    Attributes
+    ----------
+    input_j
+        Work of water, weight, uplift and the ground's inertia force on the motion relative to the ground.
+    friction_j, impact_j
+        Energy lost in friction and in impacts, both positive.
+    kinetic_j
+        Kinetic energy left at the end; of elastic parts with their strain energy, less that at the start.
+    residual
+        What is left of the balance of all others, over the turnover; rounding if the run is sound.
+    damping_j, numerical_j
+        Lost in the concrete's damping, and by the time stepping itself; zero for a rigid block.
+    gained_j
+        Sum of what contact added in steps in which its work was positive; it should be nothing.
+    """
+
+    input_j: float
+    friction_j: float
+    impact_j: float
+    kinetic_j: float
+    residual: float
+    damping_j: float = 0.0
+    numerical_j: float = 0.0
+    gained_j: float = 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Response:
+    """Result of one analysis. Signs: slip is positive downstream, rotation positive counter-clockwise (upstream).
+
+    Attributes
+    ----------
+    model
+        ``"rigid"``, ``"decoupled"`` or ``"flexible"``.
+    title
+        Of the case.
+    outcome, advice
+        ``"ok"``, or what stopped the run and what to do about it.
+    warnings
+        Everything a reader must know before using the numbers.
+    summary
+        The numbers of the contract, by their JSON names (SI). Empty where the run never started.
+    energy
+        The ledger; None where the run never started.
+    motion, vertical
+        The ground motions, as used.
+    gravity
+        One g of the case [m/s2].
+    histories
+        Columns of equal length, by name with unit; the first is ``time_s``.
+    mode
+        Mode of motion at each moment of the histories, by name.
+    event_log
+        Columns of equal length: every event with time, kind, modes, state, impulses.
+    static
+        State under the static loads: safety factors, resultant, critical accelerations.
+    references
+        Sources of the methods used.
+    crack
+        Of the flexible model: what crack and parts did, frame by frame.
+    spread
+        The same run with slightly weaker and stronger shaking, where that was asked for.
+    limits
+        The results beside the limits that the user has set.
+    """
+
+    model: str
+    title: str
+    outcome: str
+    advice: str | None
+    warnings: tuple[str, ...]
+    summary: Mapping[str, Any]
+    energy: Energy | None
+    motion: GroundMotion
+    vertical: GroundMotion | None
+    gravity: float
+    histories: Mapping[str, Floats]
+    mode: tuple[str, ...]
+    event_log: Mapping[str, Any]
+    static: Mapping[str, Any]
+    references: tuple[str, ...] = field(default=())
+    crack: CrackHistory | None = None
+    spread: Mapping[str, Any] | None = None
+    limits: tuple[LimitCheck, ...] = ()
+
+    def __post_init__(self) -> None:
+        for name in ("summary", "histories", "event_log", "static"):
+            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+
+    def __getattr__(self, name: str) -> Any:
+        """Give the numbers of the summary as attributes: ``response.residual_slip_m``."""
+        if not name.startswith("_"):
+            try:
+                return self.summary[name]
+            except KeyError:
+                pass
+        raise AttributeError(f"a {type(self).__name__} with outcome {self.__dict__.get('outcome')!r} has no {name!r}")
+
+    @property
+    def ok(self) -> bool:
+        """Whether the run ended with a result to trust."""
+        return self.outcome in ("ok", "overturned")
+
+    def _repr_html_(self) -> str:
+        from heeltoe.views.notebook import response_html
+
+        return response_html(self)
+
+    def citation(self) -> tuple[str, ...]:
+        """Return the references for exactly the methods and options this result used."""
+        return self.references
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the contract: a dictionary of plain numbers, strings and lists."""
+        energy = None
+        if self.energy is not None:
+            energy = asdict(self.energy)
+        return {
+            "model": self.model,
+            "title": self.title,
+            "outcome": self.outcome,
+            "advice": self.advice,
+            "warnings": list(self.warnings),
+            **self.summary,
+            "critical_acceleration_g": dict(self.static["critical_acceleration_g"]),
+            "static": {k: v for k, v in self.static.items() if k != "critical_acceleration_g"},
+            "energy": energy,
+            **({} if self.spread is None else {"spread": dict(self.spread)}),
+            "limits": [{**asdict(check), "met": check.met} for check in self.limits],
+            "motion": motion_json(self.motion, self.gravity),
+            "vertical_motion": motion_json(self.vertical, self.gravity) if self.vertical else None,
+            "references": list(self.references),
+            "build": build_info(),
+        }
+
+    def to_table(self) -> pa.Table:
+        """Return the histories with the mode as a table."""
+        return pa.table({**self.histories, "mode": list(self.mode)})
+
+    def events_table(self) -> pa.Table:
+        """Return the events as a table."""
+        return pa.table(dict(self.event_log))
+
+    def write_histories(self, path: Path) -> None:
+        """Write the histories to `path`: CSV if it ends so, else Parquet."""
+        write_table(self.to_table(), path)
+
+    def write_events(self, path: Path) -> None:
+        """Write the events to `path`: CSV if it ends so, else Parquet."""
+        write_table(self.events_table(), path)
+
+
+def write_table(table: pa.Table, path: Path) -> None:
+    """Write a table to `path`: CSV if it ends so, else Parquet."""
+    if path.suffix == ".csv":
+        pa.csv.write_csv(table, path)
+    else:
+        pa.parquet.write_table(table, path)
+
+
+def json_text(data: Mapping[str, Any]) -> str:
+    """Return strict JSON: what is not finite, as only a run without a result leaves it, is null."""
+    return json.dumps(_finite(data), indent=2, ensure_ascii=False, allow_nan=False)
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {name: _finite(each) for name, each in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(each) for each in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
+
+
+def motion_json(motion: GroundMotion, gravity: float) -> dict[str, Any]:
+    """Return what the contract says about a ground motion; `gravity` is one g [m/s2]."""
+    found = measures(motion, gravity)
+    return {
+        "name": motion.name,
+        "pga_g": motion.pga / gravity,
+        "pgv_m_s": motion.pgv,
+        "pgd_m": motion.pgd,
+        "dt_s": motion.dt,
+        "duration_s": motion.duration,
+        "samples": int(motion.time.size),
+        **{name: found[name] for name in _MEASURES if name in found},
+        "source": motion.source,
+        "processing": list(motion.processing),
+    }
+
+
+def build_info() -> dict[str, str]:
+    """Return which build made a result."""
+    return {"heeltoe": _kernel.VERSION, "kernel": _kernel.PROFILE, "numpy": np.__version__}

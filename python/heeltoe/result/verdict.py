@@ -1,0 +1,243 @@
+"""What a response means, in a few sentences."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from heeltoe import _kernel
+from heeltoe.result.response import Response
+
+# Exact by definition (NIST Special Publication 811, appendix B.8) [m], [kg].
+FOOT, POUND = 0.3048, 0.45359237
+# Below these nobody measures anything on a dam: a hundredth of a millimetre, a thousandth of a milliradian.
+_SLIP_M = 1e-5
+_ROTATION_RAD = 1e-6
+# Of an elastic dam a tenth of a millimetre, what a joint meter on a dam is read to: both ends of its crack shift by
+# hundredths of a millimetre in every earthquake, with nothing happening to the dam.
+_ELASTIC_M = 1e-4
+# Less time in the air in all [s] is a few bounces, which the strikes tell of.
+_IN_THE_AIR_S = 0.05
+# A crack that lets go for less than this in all [s], hardly longer than a frame of the history, moves no dam.
+_LETS_GO_S = 0.02
+# Whether a dam that vibrates is still on its way is seen over this time [s].
+_LAST_S = 1.0
+
+
+def verdict(response: Response, units: str = "si") -> str:
+    """Say what the part above the crack does, and whether it is at rest in the end, in units ``"si"`` or ``"us"``."""
+    if not response.ok:
+        return f"No result to trust ({response.outcome}): {response.advice}."
+    if response.outcome == "overturned":
+        about = response.overturned_about
+        way = "downstream" if about == "toe" else "upstream"
+        sentences = [f"The dam overturns {way}, about its {about}: it lies on its side at {response.end_time_s:.2f} s."]
+    elif response.model == "flexible":
+        sentences = [_elastic_slip(response, units), _openings(response, units), _elastic_end(response, units)]
+    else:
+        sentences = [_slip(response, units), _rocking(response, units), _end(response)]
+    return " ".join(sentence for sentence in [*sentences, _limits(response, units)] if sentence)
+
+
+def _limits(response: Response, units: str) -> str:
+    """Say which of the limits that the user has set are met."""
+    if not response.limits:
+        return ""
+    broken = [
+        f"{_LIMITS[check.name]} of {length(check.value_m, units)} is more than the "
+        f"{length(check.allowed_m, units)} allowed"
+        for check in response.limits
+        if not check.met
+    ]
+    if broken:
+        return f"It does not keep within its limits: its {' and its '.join(broken)}."
+    return "It keeps within its limits."
+
+
+_LIMITS = {
+    "residual_slip": "residual slip",
+    "peak_slip": "largest slip",
+    "opening_upstream": "opening at the upstream face",
+    "opening_downstream": "opening at the downstream face",
+}
+
+
+def length(metres: float, units: str = "si") -> str:
+    """Write a length as people say it: in m from one metre, else in mm, to no less than a hundredth; in ft from ten
+    feet, else in inches."""
+    size = abs(metres)
+    if units == "us":
+        return _us_length(metres)
+    if size >= 1.0:
+        return f"{metres:.2f} m"
+    if size >= 0.9995e-3:
+        return f"{1e3 * metres:.1f} mm"
+    return f"{1e3 * metres:.2f} mm" if size >= 0.5e-5 or not size else "under 0.01 mm"
+
+
+def _us_length(metres: float) -> str:
+    size = abs(metres) / FOOT
+    if size >= 10.0:
+        return f"{metres / FOOT:.2f} ft"
+    inches = 12.0 * metres / FOOT
+    if abs(inches) >= 0.9995:
+        return f"{inches:.2f} in"
+    if abs(inches) >= 0.04:
+        return f"{inches:.3f} in"
+    if not inches:
+        return "0 in"
+    return f"{inches:.4f} in" if abs(inches) >= 2e-4 else "under 0.0004 in"
+
+
+def speed(metres_per_second: float, units: str = "si") -> str:
+    """Write a velocity to two digits."""
+    return f"{metres_per_second / FOOT:.2g} ft/s" if units == "us" else f"{metres_per_second:.2g} m/s"
+
+
+def angle(radians: float) -> str:
+    """Write a rotation in mrad: that times the width of the crack in metres is the opening in millimetres; in rad from
+    one radian."""
+    return f"{radians:.3g} rad" if abs(radians) >= 1.0 else f"{1e3 * radians:.3g} mrad"
+
+
+def last_change(response: Response) -> tuple[float, float]:
+    """Return how long [s] the last second of a run is, half of a shorter one, and by how much the slip varies in it."""
+    time, slip = response.histories["time_s"], response.histories["slip_m"]
+    since = max(time[-1] - _LAST_S, time[-1] / 2.0)
+    return float(time[-1] - since), float(np.ptp(slip[time >= since]))
+
+
+def comes_to_rest(response: Response) -> bool:
+    """Whether the dam has stopped sliding when the run ends.
+
+    A rigid block says so itself. An elastic dam is never quite still, and where its crack stays open in part it is not
+    in the state of rest: it has stopped where its slip changes by nothing measurable any more.
+    """
+    if response.model == "flexible":
+        return last_change(response)[1] < _ELASTIC_M
+    return bool(response.final_mode == "rest")
+
+
+def lets_go(response: Response) -> bool:
+    """Whether there are moments in which no node of an elastic dam's crack sticks, as the frames show it.
+
+    Only then the whole dam can slide; otherwise the crack slips here and then there, while the rest holds.
+    """
+    if response.crack is None:
+        return True
+    stick = _kernel.CONTACT_STATUSES.index("stick")
+    loose = (response.crack.status != stick).all(axis=1)
+    return float(np.diff(response.crack.time, prepend=0.0)[loose].sum()) >= _LETS_GO_S
+
+
+def _spread(response: Response, units: str) -> str:
+    """Return the range of the residual slip with slightly different shaking, in brackets."""
+    found = None if response.spread is None else response.spread["residual_slip_m"]
+    if found is None:
+        return ""
+    low, high = sorted((abs(found["min"]), abs(found["max"])))
+    if found["min"] * found["max"] < 0.0:
+        return f" (with the shaking varied by 1 %, {length(found['min'], units)} to {length(found['max'], units)})"
+    return f" ({length(low, units)} to {length(high, units)} with the shaking varied by 1 %)"
+
+
+def _slip(response: Response, units: str) -> str:
+    slip: float = response.residual_slip_m
+    down, up = response.peak_slip_downstream_m, -response.peak_slip_upstream_m
+    if max(down, up) == 0.0:
+        return "The dam does not slide."
+    if abs(slip) < _SLIP_M:
+        return f"The dam slides to and fro by up to {length(max(down, up), units)} and ends where it began."
+    text = f"The dam slides {length(abs(slip), units)} {_way(slip)}{_spread(response, units)}"
+    return text + _on_the_way(slip, down, up, _SLIP_M, units) + "."
+
+
+def _elastic_slip(response: Response, units: str) -> str:
+    slip: float = response.residual_slip_m
+    down, up = response.peak_slip_downstream_m, -response.peak_slip_upstream_m
+    largest = max(down, up)
+    if largest < _ELASTIC_M:
+        return "The dam does not slide."
+    if abs(slip) < _ELASTIC_M:
+        return f"The dam does not slide: its crack shifts by up to {length(largest, units)} and comes back."
+    if lets_go(response):
+        text = f"The dam slides {length(abs(slip), units)} {_way(slip)}{_spread(response, units)}"
+        return text + _on_the_way(slip, down, up, _ELASTIC_M, units) + "."
+    return (
+        f"The dam creeps {length(abs(slip), units)} {_way(slip)}{_spread(response, units)}: parts of the crack slip in "
+        "turn, while the rest holds."
+    )
+
+
+def _way(slip: float) -> str:
+    return "downstream" if slip > 0.0 else "upstream"
+
+
+def _on_the_way(slip: float, down: float, up: float, least: float, units: str) -> str:
+    back = max(down if slip > 0.0 else up, 0.0) - abs(slip)
+    return f", after up to {length(abs(slip) + back, units)} on the way" if back > max(least, 0.05 * abs(slip)) else ""
+
+
+def _openings(response: Response, units: str) -> str:
+    """Say how far an elastic dam's crack opens, and how it closes."""
+    faces = {"upstream": response.opening_upstream_m, "downstream": response.opening_downstream_m}
+    open_ = [f"{length(gap, units)} at the {face} face" for face, gap in faces.items() if gap >= _ELASTIC_M]
+    if not open_:
+        return (
+            "The crack stays closed at both faces."
+            if max(faces.values()) == 0.0
+            else ("The crack opens by less than anyone could measure.")
+        )
+    text = f"The crack opens up to {' and '.join(open_)}"
+    rotation = max(response.rocking_downstream_rad, response.rocking_upstream_rad)
+    text += f", the part above it rotates by up to {angle(rotation)}"
+    strikes = response.impacts
+    if strikes:
+        fastest = "" if strikes == 1 else ", the fastest"
+        count = "once" if strikes == 1 else f"{strikes} times"
+        text += f"; nodes of the crack strike {count}{fastest} at {speed(response.largest_impact_velocity_m_s, units)}"
+    text += "."
+    in_the_air = response.time_by_mode_s["drifting"]
+    if in_the_air >= _IN_THE_AIR_S:
+        text += f" For {in_the_air:.2f} s in all it touches nothing."
+    return text
+
+
+def _elastic_end(response: Response, units: str) -> str:
+    if comes_to_rest(response):
+        return "It has come to rest in the end."
+    factor = response.static["sliding_safety_factor"]
+    if factor is not None and factor < 1.0:
+        return "It slides away: its static loads alone move it, and nothing stops it."
+    seconds, change = last_change(response)
+    moved = length(change, units)
+    return f"It has not come to rest when the run ends: in the last {seconds:.2g} s its slip changes by {moved}."
+
+
+def _rocking(response: Response, units: str) -> str:
+    down, up = response.rocking_downstream_rad, response.rocking_upstream_rad
+    if max(response.largest_gap_heel_m, response.largest_gap_toe_m) == 0.0:
+        return "It does not rock."
+    if max(down, up) < _ROTATION_RAD and response.time_by_mode_s["drifting"] == 0.0:
+        return "It lifts off by less than anyone could measure."
+    parts = []
+    if down >= _ROTATION_RAD:
+        parts.append(
+            f"downstream by {angle(down)}, opening the crack {length(response.opening_upstream_m, units)} at the "
+            "upstream face"
+        )
+    if up >= _ROTATION_RAD:
+        parts.append(
+            f"upstream by {angle(up)}, opening it {length(response.opening_downstream_m, units)} at the downstream face"
+        )
+    text = "It rocks " + " and ".join(parts) if parts else "It lifts off"
+    strikes = response.impacts
+    if strikes:
+        fastest = speed(response.largest_impact_velocity_m_s, units)
+        text += f"; {strikes} impact{'s' if strikes > 1 else ''}, bounces included, at up to {fastest}"
+    return text + "."
+
+
+def _end(response: Response) -> str:
+    if response.final_mode == "rest":
+        return "It is at rest in the end."
+    return f"It still moves when the run ends ({response.final_mode})."

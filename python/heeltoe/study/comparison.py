@@ -1,0 +1,162 @@
+"""The rigid model, or the decoupled chain, and the flexible model side by side on the same ground motion."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from time import perf_counter
+from types import MappingProxyType
+from typing import Any, Literal
+
+from heeltoe.case.read import Case
+from heeltoe.case.shaking import resolve
+from heeltoe.errors import InputError
+from heeltoe.models.decoupled.model import decoupled
+from heeltoe.models.flexible.model import flexible
+from heeltoe.models.flexible.reduced import build_flexible_dam
+from heeltoe.models.rigid.model import rigid
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.result.response import Response
+
+# Numbers that are compared, and below which value of the rigid block a ratio would compare nothing with nothing.
+_COMPARED = {
+    "residual_slip_m": 1e-5,
+    "peak_slip_downstream_m": 1e-5,
+    "peak_slip_upstream_m": 1e-5,
+    "rocking_downstream_rad": 1e-6,
+    "rocking_upstream_rad": 1e-6,
+    "opening_upstream_m": 1e-5,
+    "opening_downstream_m": 1e-5,
+}
+# From which ratio on the models differ by more than the flexible one is known to differ from its references.
+_CLOSE = 1.25
+# A slip of less is none that matters to a dam [m].
+_LITTLE = 1e-3
+
+_TABLE = "Zhu 2004, table 7.8: a dam of 20, 200, 2000 and 20000 GPa slides 218, 94, 52 and 37 mm, a rigid block 36 mm"
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """Two models on one case.
+
+    Attributes
+    ----------
+    rigid
+        Response of the rigid part above the crack: of the model ``"rigid"`` or ``"decoupled"``.
+    flexible
+        That of the flexible model, to the same ground motion.
+    seconds
+        How long each took to compute, by model [s]; building the elastic parts is part of it.
+    """
+
+    rigid: Response
+    flexible: Response
+    seconds: Mapping[str, float]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "seconds", MappingProxyType(dict(self.seconds)))
+
+    @property
+    def title(self) -> str:
+        """Of the case."""
+        return self.flexible.title
+
+    @property
+    def ok(self) -> bool:
+        """Whether both runs ended with a result to trust."""
+        return self.rigid.ok and self.flexible.ok
+
+    def ratio(self) -> dict[str, float | None]:
+        """Return flexible over rigid for slips, rotations and openings; None where the rigid one is next to nothing."""
+        return {name: self._ratio(name, least) for name, least in _COMPARED.items()}
+
+    def meaning(self) -> str:
+        """Say in a sentence what the difference means."""
+        if not self.ok:
+            failed = [each.model for each in (self.rigid, self.flexible) if not each.ok]
+            return f"There is nothing to compare: no result to trust from the {' and the '.join(failed)} model."
+        block, dam = (abs(each.residual_slip_m) for each in (self.rigid, self.flexible))
+        if max(block, dam) < _LITTLE:
+            return "Both say that the dam slides by less than a millimetre."
+        if self.rigid.model == "decoupled":
+            return self._meaning_of_decoupling(block, dam)
+        if block < _LITTLE:
+            return (
+                "Only the flexible dam slides: its own vibration adds to the shaking, of which a rigid block knows "
+                f"nothing. Trust the flexible model ({_TABLE})."
+            )
+        if self.rigid.residual_slip_m * self.flexible.residual_slip_m < 0.0:
+            return "They slide opposite ways: the dam's own vibration decides here. Trust the flexible model."
+        if dam > _CLOSE * block:
+            return (
+                f"The flexible dam slides {dam / block:.2g} times as far: its own vibration adds to the shaking, of "
+                f"which a rigid block knows nothing. Trust the flexible model ({_TABLE})."
+            )
+        if block > _CLOSE * dam:
+            share = f"{dam / block:.2g} times" if dam > 0.01 * block else "less than a hundredth of"
+            return (
+                f"The flexible dam slides only {share} what the rigid block does: its own vibration works against the "
+                "shaking here. Trust the flexible model."
+            )
+        return "They agree: the dam is so stiff against this shaking that a rigid block says what it does."
+
+    def _meaning_of_decoupling(self, block: float, dam: float) -> str:
+        """Say the same where the block was shaken by the part below it."""
+        if self.rigid.residual_slip_m * self.flexible.residual_slip_m < 0.0:
+            text = "They slide opposite ways"
+        elif max(block, dam) <= _CLOSE * min(block, dam):
+            return "They agree: the part below shakes the top as if the top never slid on it."
+        elif dam < 0.01 * block:
+            text = "The flexible dam slides less than a hundredth of what the decoupled top does"
+        elif block < 0.01 * dam:
+            text = "The decoupled top slides less than a hundredth of what the flexible dam does"
+        else:
+            text = f"The flexible dam slides {dam / block:.2g} times as far as the decoupled top"
+        return (
+            f"{text}: in the decoupled chain the part below vibrates as if the top never slid or rocked, and the top "
+            "does not vibrate itself. Trust the flexible model."
+        )
+
+    def to_json(self) -> dict[str, Any]:
+        """Return both results and their ratio as plain numbers, strings and lists."""
+        return {
+            "model": "both",
+            "title": self.title,
+            self.rigid.model: self.rigid.to_json(),
+            "flexible": self.flexible.to_json(),
+            "ratio": self.ratio(),
+            "meaning": self.meaning(),
+            "seconds": dict(self.seconds),
+        }
+
+    def with_responses(self, change: Callable[[Response], Response]) -> Comparison:
+        """Return the same with both responses changed."""
+        return replace(self, rigid=change(self.rigid), flexible=change(self.flexible))
+
+    def _ratio(self, name: str, least: float) -> float | None:
+        block, dam = (each.summary.get(name) for each in (self.rigid, self.flexible))
+        if block is None or dam is None or not self.ok or abs(block) < least:
+            return None
+        return float(dam / block)
+
+
+def compare(
+    case: Case,
+    motion: GroundMotion | None = None,
+    vertical: GroundMotion | None = None,
+    *,
+    output_step: float | None = None,
+    block: Literal["rigid", "decoupled"] = "rigid",
+) -> Comparison:
+    """Run two models on a case: the flexible one and `block`, which knows a rigid part above the crack. Parameters and
+    errors are those of :func:`heeltoe.flexible` and :func:`heeltoe.decoupled`."""
+    if motion is None:
+        if case.motion is None:
+            raise InputError("motion-missing", "motion")
+        motion, vertical = resolve(case.motion, case.gravity, case.base_directory)
+    began = perf_counter()
+    stiff = (rigid if block == "rigid" else decoupled)(case, motion, vertical, output_step=output_step)
+    between = perf_counter()
+    dam = flexible(case, motion, vertical, output_step=output_step, dam=build_flexible_dam(case))
+    return Comparison(stiff, dam, {block: between - began, "flexible": perf_counter() - between})

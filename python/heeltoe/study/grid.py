@@ -1,0 +1,177 @@
+"""A table of runs: one case, some of its fields varied, every combination of their values."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import Any
+
+import pyarrow as pa
+
+from heeltoe.case.read import Case, read_case
+from heeltoe.case.sentences import shown
+from heeltoe.errors import InputError
+from heeltoe.result.response import Response, build_info
+
+#: More runs than this are a study, not a table.
+MOST = 32
+
+Run = Callable[[Case], Response]
+
+# Columns of the table after the varied fields: name and what it is in the summary.
+_NUMBERS = (
+    "residual_slip_m",
+    "peak_slip_downstream_m",
+    "peak_slip_upstream_m",
+    "rocking_downstream_rad",
+    "rocking_upstream_rad",
+    "opening_upstream_m",
+    "opening_downstream_m",
+    "impacts",
+)
+_MODES = ("sliding", "slide_rocking", "drifting")
+
+
+@dataclass(frozen=True)
+class Variation:
+    """A field of the case and its values, as the user wrote them."""
+
+    path: str
+    values: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Grid:
+    """Every combination of some values.
+
+    Attributes
+    ----------
+    variations
+        The fields that vary.
+    cells
+        The values of each run, in the order of the variations; the last varies fastest.
+    responses
+        The results, in the order of `cells`.
+    """
+
+    variations: tuple[Variation, ...]
+    cells: tuple[tuple[str, ...], ...]
+    responses: tuple[Response, ...]
+
+    @property
+    def model(self) -> str:
+        """Of all runs."""
+        return self.responses[0].model
+
+    @property
+    def title(self) -> str:
+        """Of the case."""
+        return self.responses[0].title
+
+    @property
+    def ok(self) -> bool:
+        """Whether any run has a result to trust; that friction too low has none belongs in the table."""
+        return any(each.ok for each in self.responses)
+
+    def rows(self) -> list[dict[str, Any]]:
+        """Return the table: the varied fields, numbers by their JSON names (None without a result), the outcome."""
+        paths = [each.path for each in self.variations]
+        return [
+            {**dict(zip(paths, cell, strict=True)), **_numbers(response)}
+            for cell, response in zip(self.cells, self.responses, strict=True)
+        ]
+
+    def to_table(self) -> pa.Table:
+        """Return the same as an Arrow table."""
+        return pa.Table.from_pylist(self.rows())
+
+    def to_json(self) -> dict[str, Any]:
+        """Return all results in full, with the values that belong to them."""
+        paths = [each.path for each in self.variations]
+        return {
+            "model": self.model,
+            "title": self.title,
+            "varied": {each.path: list(each.values) for each in self.variations},
+            "runs": [
+                {"varied": dict(zip(paths, cell, strict=True)), **response.to_json()}
+                for cell, response in zip(self.cells, self.responses, strict=True)
+            ],
+            "build": build_info(),
+        }
+
+
+def parse_variations(texts: Sequence[str], field: str = "--vary") -> tuple[Variation, ...]:
+    """Return what ``"PATH=VALUE,VALUE"`` mean.
+
+    Raises
+    ------
+    InputError
+        Where one has no values or no path, a path comes twice, or they make too many runs.
+    """
+    found: list[Variation] = []
+    runs = 1
+    for text in texts:
+        path, _, values = text.partition("=")
+        each = Variation(path.strip(), tuple(value.strip() for value in values.split(",")))
+        if not each.path or not all(each.values):
+            raise InputError("vary-form", field, shown(text))
+        if each.path in [other.path for other in found] or len(set(each.values)) < len(each.values):
+            raise InputError("vary-twice", field, shown(each.path))
+        found.append(each)
+        runs *= len(each.values)
+    if runs > MOST:
+        raise InputError("vary-many", field, runs, most=MOST)
+    return tuple(found)
+
+
+def run_grid(
+    source: str | os.PathLike[str] | Mapping[str, Any],
+    changes: Sequence[str],
+    variations: Sequence[Variation],
+    run: Run,
+    *,
+    told: Callable[[int, int], None] | None = None,
+) -> Grid:
+    """Run every combination of the values.
+
+    Parameters
+    ----------
+    source, changes
+        As :func:`heeltoe.read_case` takes them; the varied fields win.
+    variations
+        From :func:`parse_variations`.
+    run
+        Makes a response of a case.
+    told
+        Called with how many runs are done, and of how many.
+
+    Raises
+    ------
+    InputError
+        Where a value cannot be used; all cases are read before the first one runs.
+    """
+    cells = tuple(product(*(each.values for each in variations)))
+    paths = [each.path for each in variations]
+    cases = [
+        read_case(source, [*changes, *(f"{path}={value}" for path, value in zip(paths, cell, strict=True))])
+        for cell in cells
+    ]
+    responses = []
+    for done, case in enumerate(cases):
+        if told is not None:
+            told(done, len(cases))
+        responses.append(run(case))
+    return Grid(tuple(variations), cells, tuple(responses))
+
+
+def _numbers(response: Response) -> dict[str, Any]:
+    found = response.summary if response.ok else {}
+    by_mode = found.get("slip_by_mode_m", {})
+    return {
+        **{name: found.get(name) for name in _NUMBERS[:3]},
+        **{f"slip_{name}_m": by_mode.get(name) for name in _MODES},
+        **{name: found.get(name) for name in _NUMBERS[3:]},
+        "outcome": response.outcome,
+    }

@@ -1,0 +1,1 @@
+"""Units in and out: what people write to SI, and SI to what people read."""

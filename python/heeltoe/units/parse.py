@@ -1,0 +1,240 @@
+"""Numbers with units, as people write them (``"95 m"``, ``"0.4 g"``), to numbers in SI units and back."""
+
+from __future__ import annotations
+
+import functools
+import math
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from numbers import Real
+from typing import TYPE_CHECKING, Annotated, Any
+
+from pydantic import BeforeValidator, PlainSerializer, PlainValidator, WithJsonSchema
+
+from heeltoe.case.sentences import collected, shown
+from heeltoe.errors import InputError
+
+if TYPE_CHECKING:
+    import pint
+
+STANDARD_GRAVITY = 9.80665
+"""One g where the case does not say otherwise [m/s^2]."""
+
+# A number, then a unit made of names, powers, products and quotients. pint would read more (sums, "1,5 m" as
+# 15 m), and wrongly.
+_QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\d\s.,+-].{0,39})?", re.DOTALL)
+_PARTS = {"": 1.0, "%": 0.01, "percent": 0.01}
+_FREQUENCY = re.compile(r"[mkM]?Hz|hertz|1/s|s\^-1")
+_ANGLE = re.compile(r"deg|degrees?|°|rad|radians?|mrad")
+_UNIT = re.compile(r"[A-Za-z%µμ_0-9()*/^²³⁻·. -]+")
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """A kind of quantity: what people call it, its SI unit and an example."""
+
+    kind: str
+    unit: str
+    example: str | float
+
+
+DIMENSIONS = {
+    "length": Dimension("a length", "m", "100 m"),
+    "density": Dimension("a density", "kg/m^3", "2400 kg/m^3"),
+    "pressure": Dimension("a pressure or modulus", "Pa", "20 GPa"),
+    "duration": Dimension("a time", "s", "30 s"),
+    "acceleration": Dimension("an acceleration", "m/s^2", "0.4 g"),
+    "velocity": Dimension("a velocity", "m/s", "0.5 m/s"),
+    "frequency": Dimension("a frequency", "Hz", "0.1 Hz"),
+    "angle": Dimension("an angle", "rad", "5 deg"),
+    "line force": Dimension("a force per metre of dam", "N/m", "150 kN/m"),
+    "stiffness": Dimension("a stiffness per metre of dam", "N/m^2", "50 MN/m/m"),
+    "number": Dimension("a number", "", 1.0),
+}
+
+
+@dataclass(frozen=True)
+class Acceleration:
+    """An acceleration that remembers whether it was given in g, since one g may differ from case to case.
+
+    Parameters
+    ----------
+    value
+        In m/s^2, or in g.
+    in_g
+        Whether `value` counts g.
+    """
+
+    value: float
+    in_g: bool
+
+    def si(self, gravity: float) -> float:
+        """Return the acceleration in m/s^2 where one g is `gravity` [m/s^2]."""
+        return self.value * gravity if self.in_g else self.value
+
+    def __str__(self) -> str:
+        return f"{repr(self.value).removesuffix('.0')} {'g' if self.in_g else 'm/s^2'}"
+
+
+def parse(value: object, dimension: str, field: str) -> float:
+    """Return a quantity in SI units; an acceleration given in g counts standard gravity.
+
+    Parameters
+    ----------
+    value
+        A text such as ``"95m"`` or ``"150 lb/ft^3"``; for the dimension ``number`` also a plain number.
+    dimension
+        Key of :data:`DIMENSIONS`.
+    field
+        Where the value stands, for the error.
+
+    Raises
+    ------
+    InputError
+        Where the value is no finite number, or its unit is missing, unknown, or of another kind.
+    """
+    if dimension == "acceleration":
+        return parse_acceleration(value, field).si(STANDARD_GRAVITY)
+    number, unit = _split(value, dimension, field)
+    return _finite(number * _factor(unit, value, dimension, field), value, dimension, field)
+
+
+def parse_acceleration(value: object, field: str) -> Acceleration:
+    """Return an acceleration; ``g`` means gravity here, not gram. Otherwise as :func:`parse`."""
+    if isinstance(value, Acceleration):
+        return value
+    number, unit = _split(value, "acceleration", field)
+    if unit == "g":
+        return Acceleration(number, in_g=True)
+    # Seismologists write gal; to pint that is a gallon.
+    factor = _factor("Gal" if unit == "gal" else unit, value, "acceleration", field)
+    return Acceleration(_finite(number * factor, value, "acceleration", field), in_g=False)
+
+
+def acceleration_unit(unit: str, field: str) -> Acceleration:
+    """Return what one `unit` (``"g"``, ``"cm/s^2"``, ...) of a record's numbers is; many headers write ``G``."""
+    return parse_acceleration(f"1 {'g' if unit.strip() == 'G' else unit}", field)
+
+
+@functools.cache
+def _registry() -> pint.UnitRegistry[Any]:
+    # Importing pint and building its registry takes longer than all the rest of a rigid run, so they wait for
+    # the first unit.
+    import pint
+
+    return pint.UnitRegistry(cache_folder=None)
+
+
+def _split(value: object, dimension: str, field: str) -> tuple[float, str]:
+    """Take number and unit apart; the unit of a plain number is empty."""
+    wanted = DIMENSIONS[dimension]
+    if isinstance(value, Real) and not isinstance(value, bool):
+        if wanted.unit:
+            raise InputError("unit-missing", field, shown(value), example=_with_unit(value, dimension))
+        try:
+            number = float(value)
+        except OverflowError:
+            number = math.inf
+        return _finite(number, value, dimension, field), ""
+    match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
+    if match is None:
+        raise InputError("wrong-quantity", field, shown(value), kind=wanted.kind, example=shown(wanted.example))
+    unit = (match[2] or "").strip()
+    if wanted.unit and not unit:
+        raise InputError("unit-missing", field, shown(value), example=_with_unit(match[1], dimension))
+    return _finite(float(match[1]), value, dimension, field), unit
+
+
+@functools.lru_cache(maxsize=256)
+def _conversion(unit: str, wanted: str) -> float | None:
+    """Return how many `wanted` one `unit` is; None where they are of different kinds."""
+    registry = _registry()
+    # "m/s2" is how many people write a square.
+    one = registry.Quantity(1.0, registry.parse_units(re.sub(r"(?<=[A-Za-z])([23])\b", r"^\1", unit)))
+    return float(one.to(wanted).magnitude) if one.is_compatible_with(wanted) else None
+
+
+def _factor(unit: str, value: object, dimension: str, field: str) -> float:
+    wanted = DIMENSIONS[dimension]
+    try:
+        if not wanted.unit:
+            # Not by way of pint, to which a degree is a number too: a friction of "45 deg" is not 0.785.
+            factor = _PARTS.get(unit)
+        elif dimension == "frequency" and not _FREQUENCY.fullmatch(unit):
+            # To pint a radian is 1, so that 1 rad/s would be 1 Hz.
+            factor = None
+        elif dimension == "angle":
+            # To pint a per cent is an angle.
+            factor = _conversion(unit, wanted.unit) if _ANGLE.fullmatch(unit) else None
+        elif _UNIT.fullmatch(unit):
+            factor = _conversion(unit, wanted.unit)
+        else:
+            raise ValueError
+    except Exception:  # pint passes on whatever Python's tokenizer and arithmetic make of a unit it cannot read
+        raise InputError("unit-unknown", field, shown(value), unit=shown(unit), example=shown(wanted.example)) from None
+    if factor is None:
+        raise InputError("wrong-quantity", field, shown(value), kind=wanted.kind, example=shown(wanted.example))
+    return factor
+
+
+def _finite(number: float, value: object, dimension: str, field: str) -> float:
+    if not math.isfinite(number):
+        raise InputError("not-finite", field, shown(value), example=shown(DIMENSIONS[dimension].example))
+    return number
+
+
+def _with_unit(value: object, dimension: str) -> str:
+    """Return the user's own number with a unit, unless it is none that could be meant."""
+    example = str(DIMENSIONS[dimension].example)
+    return shown(f"{value} {example.split()[-1]}" if math.isfinite(float(str(value))) else example)
+
+
+def _validator(dimension: str) -> Callable[[object], float]:
+    return collected(lambda value: parse(value, dimension, ""))
+
+
+def _schema(dimension: str, type_: object = "string") -> WithJsonSchema:
+    return WithJsonSchema({"type": type_, "examples": [DIMENSIONS[dimension].example]})
+
+
+def _written(dimension: str) -> PlainSerializer:
+    """Write the SI value with its unit, so that a case written as JSON is a case that can be read."""
+    unit = DIMENSIONS[dimension].unit
+    return PlainSerializer(lambda value: f"{value!r} {unit}", return_type=str, when_used="json-unless-none")
+
+
+Length = Annotated[float, BeforeValidator(_validator("length")), _written("length"), _schema("length")]
+"""A length [m] for pydantic models."""
+Density = Annotated[float, BeforeValidator(_validator("density")), _written("density"), _schema("density")]
+"""A density [kg/m^3] for pydantic models."""
+Pressure = Annotated[float, BeforeValidator(_validator("pressure")), _written("pressure"), _schema("pressure")]
+"""A pressure or modulus [Pa] for pydantic models."""
+Duration = Annotated[float, BeforeValidator(_validator("duration")), _written("duration"), _schema("duration")]
+"""A time [s] for pydantic models."""
+Velocity = Annotated[float, BeforeValidator(_validator("velocity")), _written("velocity"), _schema("velocity")]
+"""A velocity, or an Arias intensity [m/s], for pydantic models."""
+Frequency = Annotated[float, BeforeValidator(_validator("frequency")), _written("frequency"), _schema("frequency")]
+"""A frequency [Hz] for pydantic models."""
+Angle = Annotated[float, BeforeValidator(_validator("angle")), _written("angle"), _schema("angle")]
+"""An angle [rad] for pydantic models."""
+LineForce = Annotated[float, BeforeValidator(_validator("line force")), _written("line force"), _schema("line force")]
+"""A force per metre of dam [N/m] for pydantic models."""
+Stiffness = Annotated[float, BeforeValidator(_validator("stiffness")), _written("stiffness"), _schema("stiffness")]
+"""A force per metre of dam and metre of displacement [N/m^2] for pydantic models."""
+Gravity = Annotated[
+    float,
+    BeforeValidator(_validator("acceleration")),
+    _written("acceleration"),
+    WithJsonSchema({"type": "string", "examples": ["9.81 m/s^2"]}),
+]
+"""The acceleration of gravity [m/s^2] for pydantic models."""
+DimensionlessNumber = Annotated[float, BeforeValidator(_validator("number")), _schema("number", ["number", "string"])]
+"""A number without unit for pydantic models; ``"5 %"`` is 0.05."""
+AccelerationField = Annotated[
+    Acceleration,
+    PlainValidator(collected(lambda value: parse_acceleration(value, ""))),
+    PlainSerializer(str, return_type=str, when_used="json-unless-none"),
+    _schema("acceleration"),
+]
+"""An :class:`Acceleration` for pydantic models."""

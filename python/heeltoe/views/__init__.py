@@ -1,0 +1,1 @@
+"""What people see: words, figures, terminal, files, animation, notebook, report."""

@@ -1,0 +1,114 @@
+"""Traces of a scene over time with a cursor, for a video (matplotlib)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Rectangle
+from numpy.typing import NDArray
+
+from heeltoe.views.animation import look
+from heeltoe.views.animation.frames import Scene, Trace
+
+Floats = NDArray[np.float64]
+
+# Places as parts of the picture.
+_LEFT, _WIDTH, _TOP, _BOTTOM = 0.715, 0.269, 0.79, 0.125
+_RIBBON, _BETWEEN = 0.03, 0.062
+
+
+class Charts:
+    """Traces and modes over time with a cursor, the time, and the mode of motion."""
+
+    def __init__(self, figure: Figure, scene: Scene) -> None:
+        self.scene = scene
+        self.cursors: list[Line2D] = []
+        self.points: list[tuple[Line2D, Floats]] = []
+        groups: dict[str, list[Trace]] = {}
+        for trace in scene.traces:
+            groups.setdefault(trace.name.split(" at ")[0], []).append(trace)
+        height = (_TOP - _BOTTOM - _RIBBON - _BETWEEN * len(groups)) / len(groups)
+        y = _TOP
+        for name, traces in groups.items():
+            axes = figure.add_axes((_LEFT, y - height, _WIDTH, height))
+            self._traces(axes, name, traces)
+            y -= height + _BETWEEN
+        axes = figure.add_axes((_LEFT, _BOTTOM, _WIDTH, _RIBBON))
+        self._ribbon(axes)
+        self.time = animated(figure.text(_LEFT, 0.852, "", fontsize=17, fontweight="bold", va="center"))
+        self.mode = animated(figure.text(_LEFT + 0.105, 0.852, "", fontsize=10.5, va="center", parse_math=False))
+        swatch = Rectangle((_LEFT + 0.085, 0.839), 0.0146, 0.026, transform=figure.transFigure)
+        swatch.set(edgecolor="#888888", linewidth=0.6)
+        self.swatch = animated(figure.add_artist(swatch))
+
+    def _traces(self, axes: Axes, name: str, traces: list[Trace]) -> None:
+        scene = self.scene
+        for place, trace in enumerate(traces):
+            colour = look.TRACES[trace.name]
+            axes.plot(scene.history_times, trace.values, color=colour, linewidth=0.9)
+            point = animated(axes.plot([], [], "o", color=colour, markersize=5)[0])
+            self.points.append((point, np.interp(scene.times, scene.history_times, trace.values)))
+            if len(traces) > 1:
+                text = trace.name.rsplit(" ", 1)[1]
+                x = 1.0 - 0.12 * (len(traces) - 1 - place)
+                axes.text(x, 1.03, text, color=colour, fontsize=9, ha="right", transform=axes.transAxes)
+        label = f"{name} [{traces[0].unit}]{', + downstream' if name == 'slip' else ''}"
+        axes.set_title(label, fontsize=9, loc="left", pad=3)
+        axes.tick_params(labelsize=8, labelbottom=False)
+        axes.spines[["top", "right"]].set_visible(False)
+        axes.grid(color="#e6e6e6", linewidth=0.6)
+        axes.margins(y=0.08)
+        self._time_axis(axes)
+
+    def _ribbon(self, axes: Axes) -> None:
+        scene = self.scene
+        change = np.flatnonzero(np.diff(scene.history_mode)) + 1
+        starts = np.concatenate([[0], change])
+        ends = np.concatenate([change, [scene.history_mode.size - 1]])
+        begin, end = scene.history_times[starts], scene.history_times[ends]
+        colours = [look.MODES[look.mode_kind(scene.modes[k])] for k in scene.history_mode[starts]]
+        spans = list(zip(begin.tolist(), (end - begin).tolist(), strict=True))
+        axes.broken_barh(spans, (0.0, 1.0), facecolors=colours)
+        axes.set_ylim(0.0, 1.0)
+        axes.set_yticks([])
+        axes.set_title("mode", fontsize=9, loc="left", pad=3)
+        axes.tick_params(labelsize=8)
+        axes.spines[["top", "right"]].set_visible(False)
+        self._time_axis(axes)
+        axes.set_xlabel("time [s]", fontsize=9, loc="right", labelpad=1)
+        seen = {look.mode_kind(scene.modes[k]) for k in np.unique(scene.history_mode)}
+        x = _LEFT
+        for kind in (kind for kind in look.MODES if kind in seen):
+            box = Rectangle((x, 0.029), 0.01, 0.018, transform=axes.figure.transFigure, facecolor=look.MODES[kind])
+            axes.figure.add_artist(box)
+            axes.figure.text(x + 0.013, 0.038, kind, fontsize=9, va="center")
+            x += 0.025 + 0.0056 * len(kind)
+
+    def _time_axis(self, axes: Axes) -> None:
+        times = self.scene.times
+        axes.set_xlim(times[0], times[-1])
+        self.cursors.append(animated(axes.axvline(times[0], color="#c00000", linewidth=1.2)))
+
+    def at(self, frame: int) -> list[Any]:
+        """Move cursors and texts to a moment and return them."""
+        scene = self.scene
+        now = float(scene.times[frame])
+        for cursor in self.cursors:
+            cursor.set_xdata([now, now])
+        for point, values in self.points:
+            point.set_data([now], [values[frame]])
+        mode = scene.modes[scene.mode[frame]]
+        self.time.set_text(f"{now:.2f} s")
+        self.mode.set_text(mode)
+        self.swatch.set_facecolor(look.MODES[look.mode_kind(mode)])
+        return [*self.cursors, *(point for point, _ in self.points), self.swatch, self.time, self.mode]
+
+
+def animated(artist: Any) -> Any:
+    """Leave an artist out when the figure is drawn as a whole."""
+    artist.set_animated(True)
+    return artist

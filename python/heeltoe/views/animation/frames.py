@@ -1,0 +1,258 @@
+"""The scene of an animation: what is drawn at every moment, whatever draws it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe.case.read import Case
+from heeltoe.geometry.section import CutSection, cut
+from heeltoe.models.flexible.history import CrackHistory
+from heeltoe.result.response import Response
+from heeltoe.views.animation.bodies import Moments, Part, elastic_parts, rigid_parts
+
+Floats = NDArray[np.float64]
+
+#: What a point of the crack does, as `Scene.status` counts it; -1 where nothing is known or opposite.
+STATUSES = ("open", "stick", "slip downstream", "slip upstream")
+#: The largest displacement is drawn at most this long, as a part of the dam's height and of the crack's width.
+_OF_HEIGHT, _OF_CRACK = 0.08, 0.35
+#: A part above the crack lower than this part of the dam's height is shown in a picture of its own, too.
+_SMALL = 0.45
+#: How long an arrow of `Scene.force_scale` is, as a part of the height of the picture of the crack.
+ARROW = 0.1
+#: Longer arrows are cut at so many times that.
+CUT = 2.5
+#: Openings below a hundredth of a millimetre are not worth a trace.
+_NO_OPENING = 1e-5
+
+
+@dataclass(frozen=True, eq=False)
+class Trace:
+    """A history below the picture: name, unit, and values by the samples of the response."""
+
+    name: str
+    unit: str
+    values: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """All that an animation shows.
+
+    Attributes
+    ----------
+    title, subtitle
+        Of the case; the motion, its peak, the model, and the outcome where it is not ok.
+    times
+        (f,) moments [s].
+    exaggeration
+        How many times as far as they are all displacements are drawn.
+    parts
+        The part above the crack and, if there is one, the part below.
+    forces
+        (f, k, 2) forces (x, z) from below on the points of the upper part's crack.
+    force_unit, force_scale
+        Unit of the forces, and the force whose arrow has the length :data:`ARROW`.
+    status
+        (f, k) what the points of the crack do, counting :data:`STATUSES`.
+    mode, modes
+        (f,) the mode of motion, counting `modes`, as the response names them.
+    history_times
+        (h,) samples of the traces and of `history_mode` [s].
+    history_mode
+        (h,) the mode at these.
+    traces
+        Ground acceleration, slip, openings.
+    base, water, tailwater
+        z of the base, and of the surfaces of the water; None where there is none [m].
+    views
+        (x from, x to, z from, z to) of the pictures: of the whole dam and, if that is too small to see anything, of the
+        part above the crack [m].
+    """
+
+    title: str
+    subtitle: str
+    times: Floats
+    exaggeration: float
+    parts: tuple[Part, ...]
+    forces: Floats
+    force_unit: str
+    force_scale: float
+    status: NDArray[np.int8]
+    mode: NDArray[np.int64]
+    modes: tuple[str, ...]
+    history_times: Floats
+    history_mode: NDArray[np.int64]
+    traces: tuple[Trace, ...]
+    base: float
+    water: float | None
+    tailwater: float | None
+    views: tuple[tuple[float, float, float, float], ...]
+
+
+def build_scene(case: Case, response: Response, times: Floats, exaggeration: float | None) -> Scene:
+    """Gather what an animation of a response shows at some moments [s], which are among its histories.
+
+    Without an `exaggeration` it is chosen so that the largest displacement is drawn 3 to 8 % of the dam's height long,
+    and no longer than a third of the crack: 1, 2, 5, 10, 20, ... An overturned dam is drawn as it is.
+    """
+    section = cut(case)
+    histories = response.histories
+    moments = Moments.of(histories["time_s"], times)
+    if response.crack is None:
+        parts = rigid_parts(case, section, histories, moments)
+        forces, status = _corners(section, histories, response.mode, moments)
+        unit, size = "MN/m", 1e6
+    else:
+        moved = Moments.of(response.crack.time, times)
+        parts = elastic_parts(response.crack, moved)
+        forces, status = _nodes(section, response.crack, moved)
+        unit, size = "MPa", 1e6
+    forces = forces / size
+    largest = max(float(np.abs(part.displacements(part.outline)).max()) for part in parts)
+    if exaggeration is None:
+        overturned = response.outcome == "overturned"
+        exaggeration = 1.0 if overturned else automatic(largest, section)
+    modes = tuple(dict.fromkeys(response.mode))
+    number = {name: place for place, name in enumerate(modes)}
+    mode = np.array([number[name] for name in response.mode])
+    within = (histories["time_s"] >= times[0]) & (histories["time_s"] <= times[-1])
+    return Scene(
+        title=response.title or "Untitled case",
+        subtitle=_subtitle(response),
+        times=times,
+        exaggeration=exaggeration,
+        parts=parts,
+        forces=forces,
+        force_unit=unit,
+        force_scale=_usual(forces),
+        status=status,
+        mode=mode[moments.nearest],
+        modes=modes,
+        history_times=histories["time_s"][within],
+        history_mode=mode[within],
+        traces=_traces(response, within),
+        base=section.base_elevation,
+        water=None if case.reservoir is None else section.base_elevation + case.reservoir.depth,
+        tailwater=None if case.tailwater is None else section.base_elevation + case.tailwater.depth,
+        views=_views(section, parts, exaggeration),
+    )
+
+
+def automatic(largest: float, section: CutSection) -> float:
+    """Return the exaggeration that shows a largest displacement [m] well."""
+    room = min(_OF_HEIGHT * (section.crest_elevation - section.base_elevation), _OF_CRACK * section.crack_width)
+    return 1.0 if largest <= 0.0 else max(1.0, round_below(min(room / largest, 1e6)))
+
+
+def round_below(value: float) -> float:
+    """Return the largest of 1, 2, 5, 10, 20, ... (and 0.5, 0.2, ...) that is not above a value."""
+    power = 10.0 ** math.floor(math.log10(value) + 1e-12)
+    return next(step * power for step in (5.0, 2.0, 1.0) if step * power <= value * (1.0 + 1e-12))
+
+
+def _corners(
+    section: CutSection, histories: Mapping[str, Floats], modes: tuple[str, ...], moments: Moments
+) -> tuple[Floats, NDArray[np.int8]]:
+    """Return forces [N/m] and status of heel and toe of a rigid block, which share the friction as the normal force."""
+    at = moments.nearest
+    normal = np.column_stack([histories[f"normal_force_{corner}_n"][at] for corner in ("heel", "toe")])
+    whole = np.abs(normal).sum(axis=1, keepdims=True)
+    share = np.abs(normal) / np.where(whole > 0.0, whole, 1.0)
+    friction = share * histories["friction_force_n"][at][:, None]
+    forces = _turned(section, friction, normal)
+    gaps = np.column_stack([histories[f"gap_{corner}_m"][at] for corner in ("heel", "toe")])
+    doing = np.array([_slips(mode) for mode in modes], dtype=np.int8)[at]
+    status = np.where(gaps > 1e-9 * section.crack_width, np.int8(0), doing[:, None])
+    return forces, status.astype(np.int8)
+
+
+def _slips(mode: str) -> int:
+    """Return what a corner in contact does in a mode: "slide-rock on toe upstream" slips upstream."""
+    if not mode.startswith("slid"):
+        return STATUSES.index("stick")
+    return STATUSES.index("slip upstream" if mode.endswith("upstream") else "slip downstream")
+
+
+def _nodes(section: CutSection, record: CrackHistory, moments: Moments) -> tuple[Floats, NDArray[np.int8]]:
+    """Return contact stresses [Pa] and status of the nodes of the upper face.
+
+    A node's force counts on the length over which an even stress gives it that force: of an element of length L the
+    ends have L/6, the node in its middle 2 L/3 (Simpson's rule).
+    """
+    mesh = record.dam.bodies[0].mesh
+    along = np.hypot(*(mesh.nodes[mesh.crack] - mesh.nodes[mesh.crack[0]]).T)
+    lengths = np.zeros(along.size)
+    elements = along[2::2] - along[:-2:2]
+    lengths[:-2:2] += elements / 6.0
+    lengths[1::2] += elements * (2.0 / 3.0)
+    lengths[2::2] += elements / 6.0
+    force = record.forces()[moments.nearest] / lengths
+    names = record.status_names()
+    known = np.array([STATUSES.index(name) if name in STATUSES else -1 for name in names] + [-1], dtype=np.int8)
+    # -1, of nodes that are not watched, finds the last.
+    status = known[record.node_status()[0][moments.nearest]]
+    return _turned(section, force[:, 0], force[:, 1]), status
+
+
+def _turned(section: CutSection, along: Floats, across: Floats) -> Floats:
+    """Return vectors (..., 2) along x and z by their components along and across the crack."""
+    down, up = np.array(section.from_crack_frame(1.0, 0.0)), np.array(section.from_crack_frame(0.0, 1.0))
+    found: Floats = along[..., None] * down + across[..., None] * up
+    return found
+
+
+def _usual(forces: Floats) -> float:
+    """Return a round force that half of the moments reach, so that blows do not make the usual arrows vanish."""
+    usual = float(np.median(np.hypot(forces[..., 0], forces[..., 1]).max(axis=1)))
+    return round_below(usual) if usual > 0.0 else 1.0
+
+
+def _subtitle(response: Response) -> str:
+    peak = response.motion.pga / response.gravity
+    ending = "" if response.outcome == "ok" else f"; {response.outcome}"
+    return f"{response.motion.name}, peak {peak:.3g} g; {response.model} model{ending}"
+
+
+def _traces(response: Response, within: NDArray[np.bool_]) -> tuple[Trace, ...]:
+    histories = response.histories
+
+    def metres(*named: tuple[str, str]) -> tuple[Trace, ...]:
+        """Return lengths in one unit that gives them readable numbers."""
+        values = [histories[key][within] for _, key in named]
+        largest = max(float(np.abs(each).max()) for each in values)
+        unit, size = ("m", 1.0) if largest >= 1.0 else ("mm", 1e-3)
+        return tuple(Trace(name, unit, each / size) for (name, _), each in zip(named, values, strict=True))
+
+    ground = Trace("ground acceleration", "g", histories["ground_acceleration_m_s2"][within] / response.gravity)
+    found = [ground, *metres(("slip", "slip_m"))]
+    if max(float(histories[key][within].max()) for key in ("gap_heel_m", "gap_toe_m")) > _NO_OPENING:
+        found += metres(("opening at the heel", "gap_heel_m"), ("opening at the toe", "gap_toe_m"))
+    return tuple(found)
+
+
+def _views(
+    section: CutSection, parts: tuple[Part, ...], exaggeration: float
+) -> tuple[tuple[float, float, float, float], ...]:
+    upper = parts[0]
+    drawn = upper.points[upper.outline] + exaggeration * upper.displacements(upper.outline)
+    low = np.minimum(drawn.min(axis=(0, 1)), upper.points.min(axis=0))
+    high = np.maximum(drawn.max(axis=(0, 1)), upper.points.max(axis=0))
+    points = np.vstack([part.points for part in parts])
+    left, right = min(points[:, 0].min(), low[0]), max(points[:, 0].max(), high[0])
+    base, height = section.base_elevation, section.crest_elevation - section.base_elevation
+    top = max(section.crest_elevation, high[1])
+    near_crack = section.height <= _SMALL * height
+    # Below a crack that has no picture of its own there must be room for its forces.
+    bottom = min(base - 0.14 * height, section.heel[1] - (0.0 if near_crack else 0.2 * height), low[1])
+    whole = (float(left - 0.35 * height), float(right + 0.12 * height), float(bottom), float(top + 0.05 * height))
+    if not near_crack:
+        return (whole,)
+    size = max(section.height, section.crack_width)
+    sides = (float(low[0] - 0.3 * size), float(high[0] + 0.3 * size))
+    return whole, (*sides, float(section.heel[1] - 0.45 * size), float(high[1] + 0.12 * size))

@@ -1,0 +1,95 @@
+"""The scene as one HTML page with everything in it: data, drawing, controls; nothing is loaded from anywhere."""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from html import escape
+from importlib.resources import files
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe.views.animation import look
+from heeltoe.views.animation.frames import ARROW, CUT, STATUSES, Scene
+
+# Samples of a trace that a page of any size can show.
+_MOST_SAMPLES = 8000
+
+
+def write_page(scene: Scene, speed: float, path: Path) -> None:
+    """Write a scene as a page that starts at this speed."""
+    here = files("heeltoe.views.animation")
+
+    def text(name: str) -> str:
+        return here.joinpath(name).read_text(encoding="utf-8")
+
+    # In one pass over the template, so that nothing that is put in is taken for a place.
+    content = {
+        "TITLE": escape(" ".join(scene.title.split())),
+        "SUBTITLE": escape(scene.subtitle),
+        "STYLE": text("page.css"),
+        "SCENE": _script_text(page_data(scene, speed)),
+        "MODEL": text("scene.js"),
+        "PLAYER": text("player.js"),
+    }
+    pieces = text("page.html").split("%%")
+    path.write_text("".join(content.get(piece, piece) for piece in pieces), encoding="utf-8")
+
+
+def page_data(scene: Scene, speed: float) -> dict[str, Any]:
+    """Return what the page draws: plain numbers and texts, and arrays as :func:`packed`."""
+    every = max(1, -(-scene.history_times.size // _MOST_SAMPLES))
+    return {
+        "title": scene.title,
+        "times": packed(scene.times, "float32"),
+        "exaggeration": scene.exaggeration,
+        "speed": speed,
+        "parts": [
+            {
+                "points": packed(part.points, "float32"),
+                "outline": packed(part.outline, "int32"),
+                "grid": packed(part.grid, "int32"),
+                "upstream": packed(part.upstream, "int32"),
+                "downstream": packed(part.downstream, "int32"),
+                "crack": packed(part.crack, "int32"),
+                "shapes": packed(part.shapes, "float32"),
+                "amplitudes": packed(part.amplitudes, "float32"),
+            }
+            for part in scene.parts
+        ],
+        "forces": packed(scene.forces, "float32"),
+        "forceScale": scene.force_scale,
+        "forceText": look.force_text(scene.force_scale, scene.force_unit, CUT),
+        "arrow": ARROW,
+        "cut": CUT,
+        "status": packed(scene.status, "int8"),
+        "statuses": list(STATUSES),
+        "statusNames": list(look.STATUS_NAMES),
+        "mode": packed(scene.mode, "int8"),
+        "modes": [{"name": mode, "kind": look.mode_kind(mode)} for mode in scene.modes],
+        "historyTimes": packed(scene.history_times[::every], "float32"),
+        "historyMode": packed(scene.history_mode[::every], "int8"),
+        "traces": [
+            {"name": trace.name, "unit": trace.unit, "values": packed(trace.values[::every], "float32")}
+            for trace in scene.traces
+        ],
+        "base": scene.base,
+        "water": scene.water,
+        "tailwater": scene.tailwater,
+        "views": [list(view) for view in scene.views],
+    }
+
+
+def packed(values: NDArray[Any], kind: str) -> dict[str, Any]:
+    """Return an array as text: its kind, its shape, and its numbers, little-endian, in base64."""
+    plain = np.ascontiguousarray(values, dtype=np.dtype(kind).newbyteorder("<"))
+    return {"kind": kind, "shape": list(values.shape), "data": b64encode(plain.tobytes()).decode("ascii")}
+
+
+def _script_text(data: dict[str, Any]) -> str:
+    """Return JSON in which no text can end the script that it stands in."""
+    text = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")

@@ -1,0 +1,160 @@
+"""Writing an animation: what is asked for is checked, the scene is built, and the file appears whole or not at all."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from heeltoe.case.read import Case
+from heeltoe.errors import InputError
+from heeltoe.result.response import Response
+
+#: What an animation can be written as.
+SUFFIXES = (".mp4", ".gif", ".html")
+_FASTEST_RATE = 120.0
+_SLOWEST, _FASTEST = 0.001, 100.0
+_LARGEST_EXAGGERATION = 1e6
+_MOST_FRAMES = 20_000
+#: A page interpolates by itself; more moments than these would only make it larger.
+_PAGE_STEP, _MOST_PAGE_FRAMES = 0.01, 3000
+
+
+def animate(
+    case: Case,
+    response: Response,
+    path: Path | str,
+    *,
+    exaggerate: float | None = None,
+    frames_per_second: float = 30.0,
+    speed: float = 1.0,
+    start: float = 0.0,
+    end: float | None = None,
+) -> Path:
+    """Write what a dam did in an earthquake as an animation.
+
+    Parameters
+    ----------
+    case
+        The dam.
+    response
+        What an analysis of it has returned, of any model.
+    path
+        Where to: a video (``.mp4``, ``.gif``) or a page (``.html``) with everything in it, which any browser plays
+        without a network. A file that is there is replaced.
+    exaggerate
+        How many times as far as they are displacements are drawn, the same for all parts. Where it is not given,
+        1, 2, 5, 10, 20, ...: so many that the largest is drawn up to 8 % of the dam's height long, and no longer than a
+        third of the crack. The picture says how many.
+    frames_per_second
+        Of a video. A GIF has at most 300 pictures, and then fewer per second; a page draws as fast as the screen.
+    speed
+        Seconds of the earthquake per second of the animation.
+    start, end
+        The time that is shown [s]; all of it where they are not given.
+
+    Returns
+    -------
+    Path
+        Of the file.
+
+    Raises
+    ------
+    InputError
+        Where the file's ending is not known, a number is out of range, the response has no histories, the package for
+        videos is missing, or the file cannot be written.
+    """
+    place = Path(path)
+    check_options(place, exaggerate=exaggerate, frames_per_second=frames_per_second, speed=speed)
+    if not response.histories:
+        raise InputError("animation-nothing", "response", response.outcome)
+    suffix = place.suffix.lower()
+    first, last = _window(response, start, end)
+    try:
+        with TemporaryDirectory(dir=place.parent) as aside:
+            fresh = Path(aside) / f"fresh{suffix}"
+            _write(case, response, fresh, exaggerate, frames_per_second, speed, first, last)
+            return fresh.replace(place)
+    except OSError as error:
+        # ffmpeg says what it has to say in many lines.
+        reason = error.strerror or str(error).strip().split("\n")[0]
+        raise InputError("cannot-write", "animation", place, reason=reason) from None
+
+
+def check_options(
+    path: Path, *, exaggerate: float | None = None, frames_per_second: float = 30.0, speed: float = 1.0
+) -> None:
+    """Refuse what no animation can be made of, before anything is computed.
+
+    Raises
+    ------
+    InputError
+        As :func:`animate`.
+    """
+    if path.suffix.lower() not in SUFFIXES:
+        raise InputError("animation-ending", "animation", path)
+    for field, value, low, high in (
+        ("exaggerate", exaggerate, 0.0, _LARGEST_EXAGGERATION),
+        ("frames_per_second", frames_per_second, 1.0, _FASTEST_RATE),
+        ("speed", speed, _SLOWEST, _FASTEST),
+    ):
+        if value is None or (math.isfinite(value) and low <= value <= high and value > 0.0):
+            continue
+        raise InputError("animation-range", field, f"{value:g}", low=f"{low:g}" if low else "above 0", high=f"{high:g}")
+    if path.suffix.lower() == ".mp4":
+        from heeltoe.views.animation.video import ffmpeg
+
+        ffmpeg()
+
+
+def _window(response: Response, start: float, end: float | None) -> tuple[float, float]:
+    """Return the time that is shown, within that of the response [s]."""
+    times = response.histories["time_s"]
+    begin, finish = float(times[0]), float(times[-1])
+    last = finish if end is None else end
+    if not (math.isfinite(start) and math.isfinite(last)) or max(start, begin) >= min(last, finish):
+        raise InputError(
+            "animation-window", "animation", f"{start:g} s to {last:g} s", begin=f"{begin:g} s", finish=f"{finish:g} s"
+        )
+    return max(start, begin), min(last, finish)
+
+
+def _write(
+    case: Case,
+    response: Response,
+    path: Path,
+    exaggerate: float | None,
+    frames_per_second: float,
+    speed: float,
+    first: float,
+    last: float,
+) -> None:
+    # matplotlib and pillow only where they are needed.
+    from heeltoe.views.animation.frames import build_scene
+
+    if path.suffix == ".html":
+        from heeltoe.views.animation.page import write_page
+
+        step = max(_PAGE_STEP, (last - first) / _MOST_PAGE_FRAMES)
+        write_page(build_scene(case, response, _moments(first, last, step), exaggerate), speed, path)
+    elif path.suffix == ".gif":
+        from heeltoe.views.animation.video import gif_delay, write_gif
+
+        delay = gif_delay(frames_per_second, (last - first) / speed)
+        times = _moments(first, last, 0.01 * delay * speed)
+        write_gif(build_scene(case, response, times, exaggerate), delay, path)
+    else:
+        from heeltoe.views.animation.video import write_mp4
+
+        times = _moments(first, last, speed / frames_per_second)
+        write_mp4(build_scene(case, response, times, exaggerate), frames_per_second, path)
+
+
+def _moments(first: float, last: float, step: float) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    """Return moments from the first on, at equal distances, that do not go beyond the last [s]."""
+    count = int((last - first) / step * (1.0 + 1e-12)) + 1
+    if count > _MOST_FRAMES:
+        raise InputError("animation-frames", "animation", f"{count}", most=_MOST_FRAMES)
+    return first + step * np.arange(count, dtype=np.float64)

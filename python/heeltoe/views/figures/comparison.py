@@ -1,0 +1,53 @@
+"""Both models side by side on the same ground motion."""
+
+from __future__ import annotations
+
+from matplotlib.figure import Figure
+
+from heeltoe.study.comparison import Comparison
+from heeltoe.units.systems import unit_system
+from heeltoe.views.figures.panels import draw_ground, largest, panels, shown_rotation
+from heeltoe.views.figures.style import COLOURS, heading, styled, time_axis
+
+_PANELS = (
+    ("slip_m", "displacement", "slip [{}]\n(+ downstream)"),
+    ("rotation_rad", "rotation", "rotation [{}]\n(+ about heel)"),
+    ("gap_heel_m", "displacement", "opening at\nthe heel [{}]"),
+    ("gap_toe_m", "displacement", "opening at\nthe toe [{}]"),
+)
+
+
+@styled
+def comparison_figure(both: Comparison, units: str = "si") -> Figure:
+    """Draw slip, rotation and openings of both models."""
+    system = unit_system(units)
+    models = ((both.rigid, COLOURS["rotation"], "--"), (both.flexible, COLOURS["slip"], "-"))
+    figure, (ground, *rest) = panels([1.0] * (1 + len(_PANELS)), 1.5)
+    flexible = both.flexible
+    peak = flexible.motion.pga / flexible.gravity
+    heading(figure, both.title or "Untitled case", f"{flexible.motion.name}, peak {peak:.3g} g")
+    draw_ground(ground, flexible)
+    for axes, (key, quantity, label) in zip(rest, _PANELS, strict=True):
+        most = largest(*(response.histories[key] for response, *_ in models))
+        # A rigid block that overturns leaves the axes; before that it is compared.
+        cut = shown_rotation(both.rigid)
+        if cut is not None and key != "slip_m":
+            limit = cut if quantity == "rotation" else cut * both.rigid.crack_width_m
+            most = max(limit, largest(both.flexible.histories[key]))
+        scale = system.scale(quantity, most)
+        if cut is not None and key != "slip_m":
+            axes.set_ylim(-1.1 * scale(most) if quantity == "rotation" else 0.0, 1.1 * scale(most))
+        for response, colour, dash in models:
+            axes.plot(
+                response.histories["time_s"],
+                scale(response.histories[key]),
+                color=colour,
+                linestyle=dash,
+                linewidth=1.1,
+                label=f"{response.model} model",
+            )
+        axes.set_ylabel(label.format(scale.unit))
+    time_axis(rest[-1], max(response.histories["time_s"][-1] for response, *_ in models))
+    figure.legend(*rest[-1].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    figure.align_ylabels([ground, *rest])
+    return figure

@@ -1,0 +1,155 @@
+"""What each node of an elastic dam's crack does over time, and how hard the faces press on each other."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import BoundaryNorm, ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from numpy.typing import NDArray
+
+from heeltoe import _kernel
+from heeltoe.models.flexible.history import CrackHistory
+from heeltoe.result.response import Response
+from heeltoe.units.systems import Scale, unit_system
+from heeltoe.views.figures.panels import draw_slip, panels
+from heeltoe.views.figures.style import describe, styled, time_axis
+
+Floats = NDArray[np.float64]
+
+# From light to dark in black and white: nothing, open, stick, slip one way, slip the other way.
+STATUS_COLOURS = {
+    "absent": "#FFFFFF",
+    "open": "#F7EE90",
+    "stick": "#B8B8B8",
+    "slip downstream": "#0072B2",
+    "slip upstream": "#4A1500",
+}
+# The largest pressures are blows of single nodes; the colours end before them, at this share of all [%].
+_SHOWN = 98.0
+_COLUMNS = 1500
+
+
+@styled
+def crack_figure(response: Response, units: str = "si") -> Figure:
+    """Draw which part of an elastic dam's crack sticks, slips and opens over time, with the slip above it."""
+    record = _record(response)
+    system = unit_system(units)
+    figure, (slip, crack) = panels([1.0, 1.8], 1.55)
+    describe(figure, response)
+    draw_slip(slip, response, system)
+    seen = _status_map(crack, record, system.scale("length"))
+    time_axis(crack, response.histories["time_s"][-1])
+    names = {"absent": "nothing opposite"}
+    handles = [
+        Patch(facecolor=STATUS_COLOURS[name], edgecolor="#888888", label=names.get(name, name), linewidth=0.5)
+        for name in seen
+    ]
+    figure.legend(handles=handles, loc="outside lower center", ncols=len(seen))
+    figure.align_ylabels([slip, crack])
+    return figure
+
+
+def _record(response: Response) -> CrackHistory:
+    assert response.crack is not None
+    return response.crack
+
+
+def _status_map(axes: Axes, record: CrackHistory, scale: Scale) -> list[str]:
+    """Colour every watched node of one whole face at every moment by its status; return which there are."""
+    names = _kernel.CONTACT_STATUSES
+    along = record.upper_position[0, 0]
+    # The nodes of a face that is watched as a whole come first; those of its ends that follow say nothing new.
+    status = record.status[:, : along.size]
+    if status.shape[1] < along.size:
+        assert record.lower_position is not None
+        along = record.lower_position[0, 0, : status.shape[1]]
+    axes.pcolormesh(
+        borders(record.time),
+        scale(borders(along)),
+        status.T,
+        cmap=ListedColormap([STATUS_COLOURS[name] for name in names]),
+        norm=BoundaryNorm(np.arange(len(names) + 1) - 0.5, len(names)),
+        # Hundreds of thousands of rectangles would make a drawing of many megabytes.
+        rasterized=True,
+    )
+    _label_crack(axes, scale)
+    return [name for k, name in enumerate(names) if (status == k).any()]
+
+
+@styled
+def pressure_figure(response: Response, units: str = "si") -> Figure:
+    """Draw the contact pressure along an elastic dam's crack over time; where nothing presses it is white, hatched.
+
+    Pressures are the nodes' forces over the lengths that belong to them, mean from frame to frame. Single blows may
+    lie beyond the end of the colours.
+    """
+    record = _record(response)
+    system = unit_system(units)
+    time, pressure = contact_pressure(record)
+    length = system.scale("length")
+    figure, (slip, crack) = panels([1.0, 2.2], 1.55)
+    describe(figure, response)
+    draw_slip(slip, response, system)
+    pressed = pressure > 0.0
+    # Both ends are corners, under which the concrete's stress has no bound.
+    inner = pressure[:, 1:-1][pressed[:, 1:-1]]
+    most = float(np.percentile(inner, _SHOWN)) if inner.size else 1.0
+    scale = system.scale("pressure", most)
+    crack.set_facecolor("white")
+    heel, toe = length(borders(record.upper_position[0, 0])[[0, -1]])
+    # Behind the map, which leaves out what does not press.
+    crack.fill_between(
+        [0.0, float(time[-1])], heel, toe, facecolor="white", edgecolor="#999999", hatch="////", linewidth=0.0
+    )
+    image = crack.pcolormesh(
+        borders(time),
+        length(borders(record.upper_position[0, 0])),
+        np.ma.masked_where(~pressed, scale(pressure)).T,
+        cmap="YlGnBu",
+        vmin=0.0,
+        vmax=scale(most),
+        rasterized=True,
+    )
+    beyond = "max" if pressure.max() > most else "neither"
+    bar = figure.colorbar(image, ax=crack, extend=beyond, pad=0.01, aspect=18)
+    bar.set_label(f"contact pressure [{scale.unit}]")
+    _label_crack(crack, length)
+    time_axis(crack, response.histories["time_s"][-1])
+    handle = Patch(facecolor="white", edgecolor="#999999", hatch="////", label="open: no contact pressure")
+    figure.legend(handles=[handle], loc="outside lower center")
+    figure.align_ylabels([slip, crack])
+    return figure
+
+
+def contact_pressure(record: CrackHistory) -> tuple[Floats, Floats]:
+    """Return moments (f,) [s] and the pressure (f, k) [Pa] on the nodes of the upper face, compression positive.
+
+    A node's length is that over which an even pressure gives it its force: on an element of length L with a node in
+    the middle, L/6 at the ends and 2 L/3 in between. Where there are more frames than a picture shows, neighbours are
+    averaged.
+    """
+    along = record.upper_position[0, 0]
+    sizes = along[2::2] - along[:-2:2]
+    tributary = np.zeros(along.size)
+    np.add.at(tributary, np.arange(0, along.size - 2, 2), sizes / 6.0)
+    np.add.at(tributary, np.arange(1, along.size - 1, 2), 2.0 * sizes / 3.0)
+    np.add.at(tributary, np.arange(2, along.size, 2), sizes / 6.0)
+    pressure = record.forces()[:, 1] / tributary
+    several = -(-len(record.time) // _COLUMNS)
+    if several == 1:
+        return record.time, pressure
+    starts = np.arange(0, len(record.time), several)
+    counts = np.diff(starts, append=len(record.time))
+    return record.time[starts], np.add.reduceat(pressure, starts, axis=0) / counts[:, None]
+
+
+def _label_crack(axes: Axes, scale: Scale) -> None:
+    axes.set_ylabel(f"along the crack [{scale.unit}]\nheel below, toe above")
+    axes.grid(visible=False)
+
+
+def borders(places: Floats) -> Floats:
+    """Return the borders half-way between places, and the first and the last of these."""
+    return np.concatenate([places[:1], (places[1:] + places[:-1]) / 2.0, places[-1:]])

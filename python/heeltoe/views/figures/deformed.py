@@ -1,0 +1,151 @@
+"""The deformed dam with its principal stresses, tension and compression apart."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+from matplotlib.tri import Triangulation, TriContourSet
+from numpy.typing import NDArray
+
+from heeltoe.models.flexible.elastic import principal
+from heeltoe.models.flexible.history import CrackHistory
+from heeltoe.models.flexible.mesh.checks import boundary_edges
+from heeltoe.result.response import Response
+from heeltoe.units.systems import Scale, unit_system
+from heeltoe.views.figures.dam import dam_axes, extent
+from heeltoe.views.figures.style import WIDTH, describe, styled
+
+Floats = NDArray[np.float64]
+
+# The largest displacement as it is drawn, over the size of the dam.
+_DRAWN = 0.06
+# The triangles of an element of eight nodes: its corners cut off, the rest in two.
+_TRIANGLES = [(0, 4, 7), (4, 1, 5), (5, 2, 6), (6, 3, 7), (4, 5, 7), (5, 6, 7)]
+# Frames among which the one with the largest tension is looked for.
+_LOOKED_AT = 100
+# A crack that slips by less [m] does not slide; its dam is then shown at its largest tension.
+_SLIDES = 1e-4
+# Stresses at the ends of the crack are singular; the colours end at what nearly all nodes are below.
+_SHOWN = 99.0
+_LEVELS = 8
+
+
+@styled
+def deformed_figure(response: Response, time: float | None = None, units: str = "si") -> Figure:
+    """Draw the deformed dam with its principal stresses, on the left those in tension, on the right in compression.
+
+    Short lines show their directions. Colours end where 99 of 100 nodes are; the largest value of all is stated.
+
+    Parameters
+    ----------
+    response
+        Of the flexible model.
+    time
+        Moment [s]; that of the fastest slip where not given, or of the largest tension where the dam does not slide.
+    units
+        ``"si"`` or ``"us"``.
+    """
+    record = response.crack
+    assert record is not None
+    system = unit_system(units)
+    frame, why = _chosen(response, record) if time is None else (record.frame_at(time), "")
+    moved = record.displacements(frame)
+    major, minor, angle = zip(*(principal(each) for each in record.stresses(frame)), strict=True)
+    low, high = extent(record.dam)
+    exaggeration = _round(_DRAWN * max(high - low) / max(float(np.hypot(*each.T).max()) for each in moved))
+    length = system.scale("length")
+    places = [
+        length(body.mesh.nodes + exaggeration * each) for body, each in zip(record.dam.bodies, moved, strict=True)
+    ]
+    ratio = (high - low)[1] / (high - low)[0]
+    figure = Figure(figsize=(WIDTH, float(np.clip(2.9 * ratio + 1.7, 3.2, 7.5))), layout="constrained")
+    describe(figure, response)
+    panels = figure.subplots(1, 2, sharex=True, sharey=True)
+    turned = tuple(each + math.pi / 2.0 for each in angle)
+    both = (
+        (major, angle, "Oranges", "tension"),
+        (tuple(-each for each in minor), turned, "Blues", "compression"),
+    )
+    tops = [max(float(np.percentile(np.concatenate(values), _SHOWN)), 1e-9) for values, *_ in both]
+    stress = system.scale("pressure", max(tops))
+    for axes, most, (values, direction, colours, name) in zip(panels, tops, both, strict=True):
+        image = _stress_map(axes, record, places, tuple(stress(each) for each in values), stress(most), colours)
+        _crosses(axes, record, places, values, direction, 0.1 * most)
+        _outlines(axes, record, places, length)
+        bar = figure.colorbar(image, ax=axes, location="bottom", aspect=30, pad=0.02)
+        bar.set_label(f"{name} [{stress.unit}]; largest {stress.text(max(float(each.max()) for each in values))}")
+        dam_axes(axes, length)
+    panels[1].set_ylabel("")
+    moment = f"t = {record.time[frame]:.2f} s{why}; displacements exaggerated {exaggeration:g} times"
+    key = "short lines: direction of the stress; dashed line: where it is zero; dotted outline: undeformed"
+    figure.supxlabel(f"{moment}\n{key}", fontsize=9)
+    return figure
+
+
+def _chosen(response: Response, record: CrackHistory) -> tuple[int, str]:
+    h = response.histories
+    if float(np.ptp(h["slip_m"])) > _SLIDES:
+        return int(np.argmax(np.abs(h["slip_velocity_m_s"]))), ", the fastest slip"
+    frames = np.unique(np.linspace(0, len(record.time) - 1, _LOOKED_AT).astype(int))
+    tension = [max(float(principal(each)[0].max()) for each in record.stresses(int(frame))) for frame in frames]
+    return int(frames[int(np.argmax(tension))]), ", the largest tension"
+
+
+def _round(value: float) -> float:
+    """Return the next lower of 1, 2, 5, 10, 20 and so on."""
+    power = 10.0 ** math.floor(math.log10(value))
+    return power * max(step for step in (1.0, 2.0, 5.0) if step * power <= value * (1.0 + 1e-12))
+
+
+def _stress_map(
+    axes: Axes, record: CrackHistory, places: list[Floats], values: tuple[Floats, ...], most: float, colours: str
+) -> TriContourSet:
+    """Fill contours of the positive part; what is not positive stays white."""
+    # Round numbers up to the last one below the largest that is shown.
+    ticks = MaxNLocator(_LEVELS, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, most)
+    levels = np.asarray(ticks)[np.asarray(ticks) <= most * (1.0 + 1e-9)]
+    for body, place, each in zip(record.dam.bodies, places, values, strict=True):
+        triangles = np.vstack([body.mesh.elements[:, corners] for corners in _TRIANGLES])
+        net = Triangulation(place[:, 0], place[:, 1], triangles)
+        image = axes.tricontourf(net, np.maximum(each, -1e-12), levels=levels, cmap=colours, extend="max")
+        axes.tricontour(net, each, levels=[0.0], colors="#555555", linewidths=0.7, linestyles="--")
+    return image
+
+
+def _crosses(
+    axes: Axes,
+    record: CrackHistory,
+    places: list[Floats],
+    values: tuple[Floats, ...],
+    direction: tuple[Floats, ...],
+    least: float,
+) -> None:
+    """Draw the direction of the stress in each element where it is more than next to nothing."""
+    for body, place, value, angle in zip(record.dam.bodies, places, values, direction, strict=True):
+        elements = body.mesh.elements
+        # Directions are averaged by the double angle, since they have no sense.
+        turn = np.arctan2(np.sin(2.0 * angle)[elements].mean(axis=1), np.cos(2.0 * angle)[elements].mean(axis=1)) / 2.0
+        centre = place[elements[:, 4:]].mean(axis=1)
+        sides = place[elements[:, [5, 6]]] - place[elements[:, [7, 4]]]
+        size = 0.3 * np.hypot(sides[..., 0], sides[..., 1]).min(axis=1)
+        shown = value[elements].mean(axis=1) > least
+        step = (np.column_stack([np.cos(turn), np.sin(turn)]) * size[:, None])[shown]
+        lines = np.stack([centre[shown] - step, centre[shown] + step], axis=1)
+        axes.add_collection(LineCollection(list(lines), colors="#000000", linewidths=0.6), autolim=False)
+
+
+def _outlines(axes: Axes, record: CrackHistory, places: list[Floats], length: Scale) -> None:
+    for body, place in zip(record.dam.bodies, places, strict=True):
+        outline = boundary_edges(body.mesh.elements)
+        still = length(body.mesh.nodes)[outline]
+        axes.add_collection(LineCollection(list(still), colors="#777777", linewidths=0.6, linestyles=":"))
+        axes.add_collection(LineCollection(list(place[outline]), colors="#000000", linewidths=1.0))
+    corners = np.vstack([*places, *(length(body.mesh.nodes) for body in record.dam.bodies)])
+    room = 0.03 * np.ptp(corners, axis=0).max()
+    axes.set_xlim(corners[:, 0].min() - room, corners[:, 0].max() + room)
+    axes.set_ylim(corners[:, 1].min() - room, corners[:, 1].max() + room)

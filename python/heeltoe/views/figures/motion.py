@@ -1,0 +1,84 @@
+"""The figure of a ground motion: histories, Fourier amplitudes, response spectrum."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.motion.measures import fourier_amplitudes, velocity_displacement
+from heeltoe.motion.spectrum import response_spectrum
+from heeltoe.units.systems import number, unit_system
+from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled
+from heeltoe.views.figures.write import save
+
+
+def write_motion_figure(motion: GroundMotion, gravity: float, path: Path, units: str = "si") -> Path:
+    """Write the figure of a motion to `path` (its ending says the format) and return the path."""
+    save(motion_figure(motion, gravity, units), path)
+    return path
+
+
+@styled
+def motion_figure(motion: GroundMotion, gravity: float, units: str = "si") -> Figure:
+    """Draw acceleration, velocity and displacement over time, Fourier amplitudes and the 5 % response spectrum."""
+    system = unit_system(units)
+    velocity_scale, length = system.scale("velocity"), system.scale("length")
+    figure = Figure(figsize=(WIDTH, 8.0), layout="constrained")
+    grid = figure.add_gridspec(4, 2, height_ratios=[1.0, 0.8, 0.8, 1.7])
+    about = ", ".join(part for part in (motion.event, motion.station, motion.component, motion.date) if part)
+    heading(figure, motion.name, about or "no origin stated")
+    velocity, displacement = velocity_displacement(motion)
+    top = figure.add_subplot(grid[0, :])
+    peaks = (motion.pga / gravity, velocity_scale(motion.pgv), length(motion.pgd))
+    said = [number(peak) for peak in peaks]
+    panels = (
+        (top, motion.acceleration / gravity, f"acceleration [g]\nPGA {said[0]} g"),
+        (
+            figure.add_subplot(grid[1, :], sharex=top),
+            velocity_scale(velocity),
+            f"velocity [{velocity_scale.unit}]\nPGV {said[1]} {velocity_scale.unit}",
+        ),
+        (
+            figure.add_subplot(grid[2, :], sharex=top),
+            length(displacement),
+            f"displacement [{length.unit}]\nPGD {said[2]} {length.unit}",
+        ),
+    )
+    for axes, values, label in panels:
+        axes.plot(motion.time, values, color=COLOURS["ground"], linewidth=0.7)
+        axes.set_ylabel(label, fontsize=8)
+        axes.set_xlim(0.0, motion.duration)
+    panels[-1][0].set_xlabel("time [s]")
+
+    frequency, amplitude = fourier_amplitudes(motion)
+    fourier = figure.add_subplot(grid[3, 0])
+    shown = (frequency >= 0.05) & (amplitude > 0.0)
+    fourier.loglog(frequency[shown], velocity_scale(amplitude[shown]), color=COLOURS["slip"], linewidth=0.6)
+    fourier.set_xlabel("frequency [Hz]")
+    fourier.set_ylabel(f"Fourier amplitude [{velocity_scale.unit}]")
+    if shown.any():
+        largest = velocity_scale(amplitude[shown].max())
+        fourier.set_ylim(largest * 1e-4, largest * 2.0)
+
+    spectrum = response_spectrum(motion)
+    response = figure.add_subplot(grid[3, 1])
+    response.semilogx(spectrum.period, spectrum.pseudo_acceleration / gravity, color=COLOURS["rotation"])
+    response.axhline(motion.pga / gravity, color=COLOURS["limit"], linestyle="--", linewidth=0.9)
+    response.annotate(
+        f"PGA {said[0]} g",
+        (spectrum.period[-1], motion.pga / gravity),
+        xytext=(0, 3),
+        textcoords="offset points",
+        ha="right",
+        fontsize=7,
+    )
+    response.set_xlabel("period [s]")
+    response.set_ylabel("pseudo-acceleration [g], 5 %")
+    response.set_ylim(bottom=0.0)
+    response.set_xlim(spectrum.period[0], spectrum.period[-1])
+    for axes in (fourier, response):
+        axes.xaxis.set_major_formatter(lambda value, _: np.format_float_positional(value, trim="-"))
+    return figure

@@ -1,0 +1,86 @@
+"""A table of runs as curves."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from heeltoe.result.verdict import length
+from heeltoe.units.systems import unit_system
+from heeltoe.views.figures.crack_level import crack_level_figure
+from heeltoe.views.figures.panels import largest
+from heeltoe.views.figures.style import heading, styled
+from heeltoe.views.figures.write import save_all
+
+if TYPE_CHECKING:
+    from heeltoe.study.grid import Grid
+
+# Okabe and Ito's colours with dashes beside them, so that lines differ in print as well.
+_LINES = (
+    ("#0072B2", "-"),
+    ("#D55E00", "--"),
+    ("#009E73", "-."),
+    ("#CC79A7", ":"),
+    ("#E69F00", "-"),
+    ("#56B4E9", "--"),
+    ("#000000", "-."),
+    ("#999999", ":"),
+)
+
+
+def write_grid_figures(grid: Grid, directory: Path, units: str = "si") -> list[Path]:
+    """Write the figure ``slips`` of a table of runs, and ``crack-level`` of its first run that has one."""
+    figures = {}
+    if any(each.histories for each in grid.responses):
+        figures["slips"] = slips_figure(grid, units)
+    for response in grid.responses:
+        if response.model == "decoupled" and response.summary:
+            figures["crack-level"] = crack_level_figure(response)
+            break
+    return save_all(figures, directory)
+
+
+@styled
+def slips_figure(grid: Grid, units: str = "si") -> Figure:
+    """Draw the slip of every run over time: a line for each value of the first varied field, a panel for each
+    combination of the others."""
+    first, *others = grid.variations
+    slips = [each.histories["slip_m"] for each in grid.responses if each.histories]
+    scale = unit_system(units).scale("displacement", largest(*slips))
+    panels = list(dict.fromkeys(cell[1:] for cell in grid.cells))
+    columns = min(2, len(panels))
+    rows = math.ceil(len(panels) / columns)
+    figure = Figure(figsize=(7.5, 0.9 + 2.4 * rows), layout="constrained")
+    axes = np.atleast_1d(figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)).reshape(-1)
+    motion = grid.responses[0].motion
+    shaking = f"{motion.name}, peak {motion.pga / grid.responses[0].gravity:.3g} g; {grid.model} model"
+    heading(figure, grid.title or "Untitled case", shaking)
+    for place, (panel, values) in enumerate(zip(axes, panels, strict=False)):
+        names = (f"{each.path} {value}" for each, value in zip(others, values, strict=True))
+        panel.set_title(", ".join(names), fontsize=9, loc="left")
+        for cell, response in zip(grid.cells, grid.responses, strict=True):
+            if cell[1:] != values:
+                continue
+            colour, dash = _line(first.values.index(cell[0]))
+            label = f"{cell[0]}: {length(response.residual_slip_m, units) if response.ok else response.outcome}"
+            h = response.histories
+            time, slip = (h["time_s"], scale(h["slip_m"])) if h else ([], [])
+            panel.plot(time, slip, color=colour, linestyle=dash, linewidth=1.2, label=label)
+        panel.legend(title=first.path, fontsize=8, title_fontsize=8, loc="best")
+        if place % columns == 0:
+            panel.set_ylabel(f"slip [{scale.unit}]\n(+ downstream)")
+        if place + columns >= len(panels):
+            panel.set_xlabel("time [s]")
+    for unused in axes[len(panels) :]:
+        unused.set_visible(False)
+    return figure
+
+
+def _line(number: int) -> tuple[str, str]:
+    """Return colour and dash of a line; with the colours used up, the same with other dashes."""
+    turn, place = divmod(number, len(_LINES))
+    return _LINES[place][0], _LINES[(place + turn) % len(_LINES)][1]

@@ -1,0 +1,231 @@
+"""The section with its crack, water, silt, ice, anchors, uplift and forces."""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from heeltoe.case.read import Case
+from heeltoe.geometry.section import CutSection, cut, section_polygon
+from heeltoe.mechanics.loads import uplift_profile
+from heeltoe.units.systems import Units, unit_system
+from heeltoe.views.figures.canvas import Canvas
+from heeltoe.views.figures.section_forces import draw_forces, draw_uplift
+from heeltoe.views.figures.style import COLOURS, WIDTH, styled
+
+Floats = NDArray[np.float64]
+
+# A part above the crack that is lower than this part of the dam gets a panel of its own.
+_LOW = 0.55
+# Margins of the picture [in].
+_LEFT, _BOTTOM, _EDGE = 0.62, 0.5, 0.18
+_TALLEST = 5.8
+
+
+@styled
+def section_figure(case: Case, units: str = "si") -> Figure:
+    """Draw the section of a dam with both parts, crack, water, silt, ice and anchors, the uplift diagram below the
+    crack, and the static forces on the part above it as arrows to scale.
+
+    Where the crack is near the crest, the part above it is shown once more, larger, and the forces there.
+
+    Raises
+    ------
+    InputError
+        Where the crack does not cut the section in two, or the units are unknown.
+    """
+    system = unit_system(units)
+    section = cut(case)
+    whole = section_polygon(case.section)
+    left, base, right, crest = whole.bounds
+    size = max(right - left, crest - base)
+    one = section.height > _LOW * (crest - base)
+    pressed = one and section.crack_elevation == base and float(uplift_profile(case, section)[:, 1].max()) > 0.0
+    low, high = _corners(case, whole, size, below=0.34 if pressed else 0.22 if one else 0.16)
+    views = [(low, high)]
+    widths = [WIDTH - _LEFT - _EDGE]
+    if not one:
+        near = max(section.crack_width, section.height)
+        bottom, top = section.polygon.min(axis=0), section.polygon.max(axis=0)
+        views.append((bottom - np.array([1.2, 0.55]) * near, top + np.array([0.5, 0.12]) * near))
+        widths = [3.1, WIDTH - 3.1 - 2.0 * _LEFT - _EDGE]
+    asked = max(w * (top[1] - low[1]) / (top[0] - low[0]) for w, (low, top) in zip(widths, views, strict=True))
+    tall = float(np.clip(asked, 2.5, _TALLEST))
+    figure = Figure(figsize=(WIDTH, tall + _BOTTOM + _EDGE))
+    height = tall + _BOTTOM + _EDGE
+    length = system.scale("length")
+    canvases = []
+    for place, (wide, view) in enumerate(zip(widths, views, strict=True)):
+        start = _LEFT + place * (widths[0] + _LEFT)
+        axes = figure.add_axes((start / WIDTH, _BOTTOM / height, wide / WIDTH, tall / height))
+        canvases.append(Canvas(axes, length, size if place == 0 else near))
+        canvases[-1].look_at(*view)
+    for canvas in canvases:
+        _draw_bodies(canvas, case, section, whole)
+        canvas.axes.set_xlabel(f"x, downstream [{length.unit}]")
+        canvas.axes.set_ylabel(f"z, up [{length.unit}]", labelpad=2)
+        canvas.axes.grid(visible=False)
+    depth = draw_uplift(canvases[-1], case, section, system)
+    _draw_dimensions(canvases[0], case, section, whole, system, depth if one else 0.0)
+    _draw_crack(canvases[-1], section, small=False)
+    if not one:
+        _draw_crack(canvases[0], section, small=True)
+    _draw_anchors(canvases[-1], case, section, whole)
+    draw_forces(canvases[-1], case, section, system)
+    return figure
+
+
+def _corners(case: Case, whole: shapely.Polygon, size: float, *, below: float) -> tuple[Floats, Floats]:
+    """Return the corners of what the first panel shows [m]."""
+    left, base, right, crest = whole.bounds
+    upstream = 0.54 if case.reservoir else 0.16
+    downstream = 0.46 if case.tailwater else 0.24
+    return (
+        np.array([left - upstream * size, base - below * size]),
+        np.array([right + downstream * size, crest + 0.155 * size]),
+    )
+
+
+def _draw_bodies(canvas: Canvas, case: Case, section: CutSection, whole: shapely.Polygon) -> None:
+    """Draw water, silt, ice and both parts of the dam on the ground."""
+    left, base, right, crest = whole.bounds
+    far = 10.0 * max(right - left, crest - base)
+    for water, side in ((case.reservoir, "left"), (case.tailwater, "right")):
+        if water is None or water.depth == 0.0:
+            continue
+        level = base + water.depth
+        canvas.fill(_beside(whole, level, far, side), facecolor=COLOURS["water"], linewidth=0.0, zorder=1)
+        _draw_surface(canvas, whole, level, side)
+    if case.silt is not None and case.silt.depth > 0.0:
+        silt = _beside(whole, base + case.silt.depth, far, "left")
+        canvas.fill(silt, facecolor=COLOURS["silt"], edgecolor="#8A6D1B", hatch="...", linewidth=0.5, zorder=1.2)
+        if canvas.length(base + 0.5 * case.silt.depth) > canvas.axes.get_ylim()[0]:
+            place = [left - 0.25 * canvas.size, base + 0.5 * case.silt.depth]
+            canvas.label("silt", place, "#6B5310", first=(0, 0))
+    if case.ice is not None and case.reservoir is not None:
+        ice = _beside(whole, base + case.reservoir.depth, far, "left") - shapely.box(
+            left - 3.0 * far, base - far, right + far, base + case.reservoir.depth - 2.0 * case.ice.depth
+        )
+        canvas.fill(ice, facecolor="white", edgecolor="#6A4C93", hatch="xxxx", linewidth=0.5, zorder=1.3)
+    ground = shapely.box(left - far, base - 0.03 * canvas.size, right + far, base)
+    canvas.fill(ground, facecolor="white", edgecolor="#777777", hatch="////", linewidth=0.0, zorder=1)
+    canvas.line([[left - far, base], [right + far, base]], color="#555555", linewidth=0.8, zorder=1.5)
+    outline = {"edgecolor": "#222222", "linewidth": 1.1, "zorder": 2}
+    canvas.fill(whole, facecolor=COLOURS["concrete below"], **outline)
+    canvas.fill(section.polygon, facecolor=COLOURS["concrete"], **outline)
+    for ring in (shapely.get_coordinates(whole.exterior), np.vstack([section.polygon, section.polygon[:1]])):
+        canvas.keep_off(ring)
+
+
+def _beside(whole: shapely.Polygon, level: float, far: float, side: str) -> shapely.Geometry:
+    """Return what is beside the dam, up to a level."""
+    left, base, right, _ = whole.bounds
+    around = shapely.box(left - far, base, right + far, level)
+    edge = shapely.box(left - 2.0 * far, base, left - 0.5 * far, level)
+    if side == "right":
+        edge = shapely.box(right + 0.5 * far, base, right + 2.0 * far, level)
+    parts = [part for part in shapely.get_parts(around - whole) if part.intersects(edge)]
+    return shapely.union_all(parts)
+
+
+def _draw_surface(canvas: Canvas, whole: shapely.Polygon, level: float, side: str) -> None:
+    """Draw the surface of water with the triangle that marks it."""
+    left, _, right, _ = whole.bounds
+    low, high = (edge / canvas.length.factor for edge in canvas.axes.get_xlim())
+    if canvas.length(level) <= canvas.axes.get_ylim()[0]:
+        return
+    # Within the water that is seen, beside its dimension.
+    at = low + 0.45 * (left - low) if side == "left" else high - 0.12 * (high - right)
+    size = 0.022 * canvas.size
+    canvas.fill(
+        [[at, level], [at - size, level + 1.7 * size], [at + size, level + 1.7 * size]],
+        facecolor="white",
+        edgecolor="#0072B2",
+        linewidth=0.9,
+        zorder=4,
+    )
+    canvas.keep_off([[at - size, level - size], [at + size, level + 1.7 * size]])
+    canvas.keep_off([[at - size, level + 1.7 * size], [at + size, level - size]])
+    for step, part in ((0.6, 0.9), (1.2, 0.5)):
+        z = level - step * size
+        canvas.line([[at - part * size, z], [at + part * size, z]], color="#0072B2", linewidth=0.8, zorder=4)
+
+
+def _draw_crack(canvas: Canvas, section: CutSection, *, small: bool) -> None:
+    """Draw the crack, its two ends and the centroid of what is above it."""
+    ends = [section.heel, section.toe]
+    canvas.line(ends, keep_off=True, color="white", linewidth=3.6, zorder=4.5)
+    canvas.line(ends, color=COLOURS["crack"], linewidth=2.0, zorder=4.6)
+    if small:
+        canvas.label("crack", section.toe, COLOURS["crack"], first=(1, 1))
+        return
+    canvas.label("heel", section.heel, first=(-1, -1))
+    canvas.label("toe", section.toe, first=(1, -1))
+    canvas.line([section.centroid], color="#000000", marker="o", markersize=7, markerfacecolor="white", zorder=6.5)
+    canvas.line([section.centroid], color="#000000", marker="+", markersize=7, zorder=6.6)
+    canvas.label("centroid", section.centroid, first=(-1, 1))
+
+
+def _draw_anchors(canvas: Canvas, case: Case, section: CutSection, whole: shapely.Polygon) -> None:
+    """Draw the anchors across the crack, up to where they leave the section."""
+    upper = shapely.Polygon(section.polygon)
+    reach = 2.0 * max(whole.bounds[2] - whole.bounds[0], whole.bounds[3] - whole.bounds[1])
+    for place, anchor in enumerate(case.anchors):
+        along = np.array(section.from_crack_frame(anchor.distance, 0.0))
+        axis = np.array(section.from_crack_frame(np.sin(anchor.inclination), np.cos(anchor.inclination)))
+        start = np.array(section.heel) + along
+        inside = shapely.intersection(upper, shapely.LineString([start, start + reach * axis]))
+        end = max(shapely.get_coordinates(inside), key=lambda point: float((point - start) @ axis))
+        deep = start - 0.22 * canvas.size * axis
+        canvas.line([deep, end], color="#B22222", linewidth=1.2, linestyle="-.", zorder=5)
+        canvas.line([end], color="#B22222", marker="s", markersize=4, zorder=5)
+        canvas.line([deep], color="#B22222", marker="v", markersize=4, zorder=5)
+        if place == 0:
+            canvas.label("anchors" if len(case.anchors) > 1 else "anchor", end, "#B22222", first=(1, 1))
+
+
+def _draw_dimensions(
+    canvas: Canvas, case: Case, section: CutSection, whole: shapely.Polygon, units: Units, below: float
+) -> None:
+    """Draw heights, widths and depths of water; `below` is how deep the uplift diagram is [m]."""
+    left, base, right, crest = whole.bounds
+    size, length = canvas.size, units.scale("length")
+
+    def said(value: float) -> str:
+        return f"{length(value):.4g} {length.unit}"
+
+    corners = shapely.get_coordinates(whole.exterior)[:-1]
+    top = corners[corners[:, 1] == crest]
+    canvas.dimension(
+        [top[:, 0].max(), crest],
+        [top[:, 0].max(), base],
+        said(crest - base),
+        shift=[right - top[:, 0].max() + 0.16 * size, 0.0],
+    )
+    if np.ptp(top[:, 0]) > 0.0:
+        canvas.dimension(
+            [top[:, 0].min(), crest], [top[:, 0].max(), crest], said(float(np.ptp(top[:, 0]))), shift=[0.0, 0.07 * size]
+        )
+    foot = corners[corners[:, 1] == base]
+    if np.ptp(foot[:, 0]) > 0.0:
+        # Below the uplift diagram, as far as that comes out of the dam.
+        lowest = min(section.heel[1], section.toe[1]) - base
+        drop = -(0.1 * size + max(0.0, below - lowest))
+        canvas.dimension(
+            [foot[:, 0].min(), base], [foot[:, 0].max(), base], said(float(np.ptp(foot[:, 0]))), shift=[0.0, drop]
+        )
+    if section.crack_elevation > base:
+        canvas.dimension(
+            [section.toe[0], base],
+            section.toe,
+            said(section.toe[1] - base),
+            shift=[right - section.toe[0] + 0.07 * size, 0.0],
+        )
+    if case.reservoir is not None and case.reservoir.depth:
+        at = left - 0.45 * size
+        canvas.dimension([at, base], [at, base + case.reservoir.depth], said(case.reservoir.depth))
+    if case.tailwater is not None and case.tailwater.depth:
+        at = right + 0.28 * size
+        canvas.dimension([at, base], [at, base + case.tailwater.depth], said(case.tailwater.depth))

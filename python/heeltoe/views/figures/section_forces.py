@@ -1,0 +1,130 @@
+"""Uplift diagram and forces on the part above the crack, to scale."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe.case.read import Case
+from heeltoe.geometry.section import CutSection
+from heeltoe.mechanics.loads import Resultant, static_forces, uplift_profile
+from heeltoe.units.systems import Units, number
+from heeltoe.views.figures.canvas import Canvas
+
+Floats = NDArray[np.float64]
+
+FORCE_COLOURS = {
+    "weight": "#000000",
+    "reservoir": "#0072B2",
+    "tailwater": "#0072B2",
+    "uplift": "#0072B2",
+    "ice": "#6A4C93",
+    "silt": "#8A6D1B",
+    "anchors": "#B22222",
+}
+# Of the size of what is shown: the longest arrow, the deepest uplift diagram.
+_LONGEST, _DEEPEST = 0.28, 0.15
+# A force of less than this part of the largest is no arrow that anyone could see; it is listed all the same.
+_LITTLE = 1e-9
+
+
+def draw_uplift(canvas: Canvas, case: Case, section: CutSection, units: Units) -> float:
+    """Draw the pressure in the crack, downwards from it; return how deep the diagram is [m]."""
+    distance, pressure = uplift_profile(case, section).T
+    most = float(pressure.max())
+    if most <= 0.0:
+        return 0.0
+    depth = _DEEPEST * canvas.size
+    heel = np.array(section.heel)
+    along = np.array(section.from_crack_frame(1.0, 0.0))
+    down = np.array(section.from_crack_frame(0.0, -1.0))
+    top = heel + np.outer(distance, along)
+    bottom = top + np.outer(depth * pressure / most, down)
+    canvas.fill(
+        np.vstack([top[[0, -1]], bottom[::-1]]),
+        facecolor="#E8F3FB",
+        edgecolor="#0072B2",
+        linewidth=0.9,
+        hatch="|||",
+        zorder=3,
+    )
+    canvas.line(bottom, keep_off=True, color="#0072B2", linewidth=1.0, zorder=3.1)
+    scale = units.scale("pressure", most)
+    said: set[tuple[float, float]] = set()
+    for place, end, value in zip(distance, bottom, pressure, strict=True):
+        key = (round(float(place), 6), round(float(value), 3))
+        if value > 1e-6 * most and key not in said:
+            said.add(key)
+            text = f"pressure {scale.text(value)}" if len(said) == 1 else scale.text(value)
+            first = (-1, -1) if place <= 0.0 else (1, -1)
+            canvas.label(text, end, "#0072B2", first=first)
+    return depth
+
+
+def draw_forces(canvas: Canvas, case: Case, section: CutSection, units: Units) -> None:
+    """Draw weight, water, uplift and the rest as arrows to one scale, with their values, and the scale."""
+    forces = static_forces(case, section)
+    sizes = [math.hypot(force.horizontal, force.vertical) for force in forces]
+    most = max(sizes)
+    scale = units.scale("force", most)
+    per_force = _LONGEST * canvas.size / most
+    # The weight's arrow, which starts at the centroid, ends above the crack.
+    _, above = section.in_crack_frame(*np.subtract(section.centroid, section.heel))
+    per_force = min(per_force, 0.8 * above / sizes[0])
+    shown = [
+        (force, size, *_ends(force, section, per_force))
+        for force, size in zip(forces, sizes, strict=True)
+        if size > _LITTLE * most
+    ]
+    for force, _, tail, tip in shown:
+        canvas.arrow(tail, tip, FORCE_COLOURS[force.name])
+    _draw_scale(canvas, per_force, most, scale.factor, scale.unit)
+    # Those on the faces first: beside them is less room.
+    for force, size, tail, tip in sorted(shown, key=lambda each: abs(each[0].horizontal) < abs(each[0].vertical)):
+        # Next to the end that stands free.
+        place, towards = (tip, tip - tail) if force.name == "weight" else (tail, tail - tip)
+        across = 1 if abs(towards[0]) < 0.5 * abs(towards[1]) else 0
+        first = (across, int(np.sign(towards[1])) if across else 1)
+        canvas.label(f"{force.name} {scale.text(size)}", place, FORCE_COLOURS[force.name], first=first)
+
+
+def _ends(force: Resultant, section: CutSection, per_force: float) -> tuple[Floats, Floats]:
+    """Return tail and tip of an arrow on the line along which a force acts [m]."""
+    vector = np.array([force.horizontal, force.vertical]) * per_force
+    if force.name == "weight":
+        tail = np.array(section.centroid)
+        return tail, tail + vector
+    tip = _meets(force, section)
+    return tip - vector, tip
+
+
+def _meets(force: Resultant, section: CutSection) -> Floats:
+    """Return where the line along which a force acts meets the face, or the crack, that it acts on [m]."""
+    heel = np.array(section.heel)
+    faces = {"reservoir": section.upstream_face, "ice": section.upstream_face, "silt": section.upstream_face}
+    crack = np.array([section.heel, section.toe])
+    face = faces.get(force.name, section.downstream_face if force.name == "tailwater" else crack) - heel
+    # On the line x v - z h = moment about the heel.
+    off = face @ np.array([force.vertical, -force.horizontal]) - force.moment
+    for start, end, a, b in zip(face[:-1], face[1:], off[:-1], off[1:], strict=True):
+        if a != b and a * b <= 0.0:
+            found: Floats = heel + start + (end - start) * (a / (a - b))
+            return found
+    # A line that misses its face passes somewhere near it.
+    square = force.horizontal**2 + force.vertical**2
+    nearest: Floats = heel + np.array([force.vertical, -force.horizontal]) * (force.moment / square)
+    return nearest
+
+
+def _draw_scale(canvas: Canvas, per_force: float, most: float, factor: float, unit: str) -> None:
+    """Draw an arrow of a round force in the lower left corner."""
+    size = 0.6 * most * factor
+    power = 10.0 ** math.floor(math.log10(size))
+    value = power * max(step for step in (1.0, 2.0, 5.0) if step * power <= size * (1.0 + 1e-9))
+    (left, right), (bottom, top) = canvas.axes.get_xlim(), canvas.axes.get_ylim()
+    corner = np.array([left + 0.03 * (right - left), bottom + 0.035 * (top - bottom)]) / canvas.length.factor
+    end = corner + np.array([value / factor * per_force, 0.0])
+    canvas.arrow(corner, end, "#444444", width=1.4)
+    canvas.label(f"{number(value, 1)} {unit}", end, "#444444", first=(1, 0))

@@ -1,0 +1,124 @@
+"""The one visual language of all figures: colours, hatches, headings, axes that every figure shares.
+
+Colours are those of Okabe and Ito, which readers with colour-blindness can tell apart. In black and white what they
+mean is also told by line style, hatch, place or lightness.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import wraps
+from typing import Any, ParamSpec
+
+import matplotlib as mpl
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from heeltoe.result.response import Response
+from heeltoe.views.figures.fonts import PLAIN, readable, wrapped
+
+COLOURS = {
+    "ground": "#000000",
+    "slip": "#0072B2",
+    "rotation": "#D55E00",
+    "heel": "#CC79A7",
+    "toe": "#009E73",
+    "limit": "#777777",
+    "concrete": "#D0D0D0",
+    "concrete below": "#ECECEC",
+    "water": "#CFE6F5",
+    "silt": "#E3D3B0",
+    "crack": "#B22222",
+}
+MODE_COLOURS = {
+    "rest": "#BBBBBB",
+    "slide": "#56B4E9",
+    "rock": "#E69F00",
+    "slide-rock": "#D55E00",
+    "drift": "#000000",
+}
+"""Of the kinds of motion; each has its own row in the ribbon, which tells them apart in black and white."""
+MODE_DASHES = {"slide": "-", "rock": ":", "slide-rock": "--", "drift": "-."}
+MODE_HATCHES = {"rest": "", "slide": "", "rock": "...", "slide-rock": "///", "drift": "xxx"}
+
+WIDTH = 7.5
+"""Of every figure [in]: the text of a page of A4 or Letter."""
+# A run that ends this near to a round number of seconds is drawn to that.
+_NEARLY = 1.005
+# A line of a heading, in sizes of its letters: 10 points.
+_LINE = 51.0
+
+STYLE: dict[Any, Any] = {
+    "font.size": 9,
+    "font.family": [PLAIN],
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#E6E6E6",
+    "grid.linewidth": 0.6,
+    "axes.axisbelow": True,
+    "legend.frameon": False,
+    "hatch.linewidth": 0.5,
+    "svg.fonttype": "none",
+    # The same figure makes the same file.
+    "svg.hashsalt": "heeltoe",
+}
+
+_P = ParamSpec("_P")
+
+
+def styled(draw: Callable[_P, Figure]) -> Callable[_P, Figure]:
+    """Let a function draw in this style, whoever calls it."""
+
+    @wraps(draw)
+    def drawn(*args: _P.args, **kwargs: _P.kwargs) -> Figure:
+        with mpl.rc_context(STYLE):
+            return draw(*args, **kwargs)
+
+    return drawn
+
+
+def heading(figure: Figure, *lines: str) -> None:
+    """Write lines above a figure, from the left; they may say anything, at any length."""
+    parts = [readable(line) for line in lines if line]
+    families = list(dict.fromkeys(family for _, found in parts for family in found))
+    text = "\n".join(wrapped(line, _LINE) for line, _ in parts)
+    # A dollar in a title is a dollar, no formula.
+    figure.suptitle(text, fontsize=10, x=0.01, ha="left", fontfamily=families, parse_math=False)
+
+
+def describe(figure: Figure, response: Response) -> None:
+    """Write above a figure which case, motion and model it shows."""
+    peak = response.motion.pga / response.gravity
+    damping = response.summary.get("damping")
+    model = f"{response.model} model" + (f", {damping} damping" if damping else "")
+    heading(figure, response.title or "Untitled case", f"{response.motion.name}, peak {peak:.3g} g; {model}")
+
+
+def without_heading(figure: Figure) -> Figure:
+    """Take the heading off a figure, for a page that has a caption below it."""
+    figure.suptitle("")
+    return figure
+
+
+def laid_out(figure: Figure) -> Figure:
+    """Lay a figure out once and for all; it would be done, with a drawing for nothing, for every file otherwise."""
+    engine = figure.get_layout_engine()
+    if engine is not None:
+        with mpl.rc_context(STYLE | {"figure.constrained_layout.use": False, "figure.autolayout": False}):
+            engine.execute(figure)
+            figure.set_layout_engine(None)
+    return figure
+
+
+def time_axis(axes: Axes, end: float) -> None:
+    """Label the axis of time, from zero to the end of the run [s]."""
+    axes.set_xlabel("time [s]")
+    # The last frame of 30 s may stand at 29.99 s.
+    round_end = float(f"{end:.2g}")
+    axes.set_xlim(0.0, round_end if end < round_end < end * _NEARLY else end)
+
+
+def legend_below(axes: Axes, columns: int, offset: float) -> None:
+    """Put the legend of an axes below its label of time; `offset` is in heights of the axes."""
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -offset), ncols=columns)

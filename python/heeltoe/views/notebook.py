@@ -1,0 +1,130 @@
+"""What a notebook shows of a case, a motion and a response: small tables with units, and one drawing."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from heeltoe.case.read import Case
+    from heeltoe.motion.ground_motion import GroundMotion
+    from heeltoe.result.response import Response
+
+_WIDTH, _HEIGHT = 420, 90
+# A column of pixels shows no more than the least and the most in it.
+_COLUMNS = 420
+_TABLE = '<table style="border-collapse:collapse;text-align:left">'
+_CELL = '<td style="text-align:left;vertical-align:top;padding:1px 14px 1px 0{}">{}</td>'
+
+
+def case_html(case: Case) -> str:
+    """Return a case: what it gives, with units, and its section."""
+    from heeltoe.views.report.build_input import fields
+
+    rows = [
+        (path, value)
+        for path, value, given, _ in fields(case, case.model_dump(mode="json"))
+        if given and path != "title"
+    ]
+    return _page(case.title or "Untitled case", rows, _section(case))
+
+
+def motion_html(motion: GroundMotion) -> str:
+    """Return a ground motion: its peaks, and its acceleration over time."""
+    from heeltoe.units.parse import STANDARD_GRAVITY
+    from heeltoe.views.words.numbers import digits
+
+    rows = [
+        ("peak acceleration", f"{digits(motion.pga / STANDARD_GRAVITY, 4)} g"),
+        ("peak velocity", f"{digits(motion.pgv, 3)} m/s"),
+        ("peak displacement", f"{digits(motion.pgd, 3)} m"),
+        ("duration", f"{digits(motion.duration, 4)} s, {motion.time.size} samples"),
+        ("origin", ", ".join(part for part in (motion.event, motion.station, motion.component) if part)),
+        ("processing", "; ".join(motion.processing)),
+    ]
+    label = f"acceleration over {digits(motion.duration, 4)} s"
+    return _page(motion.name, [row for row in rows if row[1]], line(motion.time, motion.acceleration, label))
+
+
+def response_html(response: Response) -> str:
+    """Return a response: verdict, warnings, key numbers, and the slip over time."""
+    from heeltoe.result.verdict import verdict
+    from heeltoe.views.report.build_question import ROWS
+    from heeltoe.views.report.content import Value
+    from heeltoe.views.words.numbers import Numbers, digits
+
+    numbers = Numbers(response.to_json())
+    rows = [("model", response.model), ("verdict", verdict(response))]
+    rows += [("warning", text) for text in response.warnings]
+    for label, key, sign in ROWS:
+        cell = numbers(key, sign=sign)
+        if isinstance(cell, Value):
+            rows.append((label, cell.text))
+    drawing = ""
+    if response.histories:
+        time = response.histories["time_s"]
+        drawing = line(time, response.histories["slip_m"], f"slip, + downstream, over {digits(float(time[-1]), 2)} s")
+    return _page(response.title or "Untitled case", rows, drawing)
+
+
+def line(x: NDArray[np.float64], y: NDArray[np.float64], label: str) -> str:
+    """Return a curve as an inline SVG with its zero line; the label says what it is."""
+    from html import escape
+
+    if len(x) < 2 or not np.ptp(x) > 0.0 or not np.isfinite(y).all():
+        return ""
+    if len(x) > 4 * _COLUMNS:
+        parts = np.array_split(np.arange(len(x)), _COLUMNS)
+        keep = np.unique([k for part in parts for k in (part[np.argmin(y[part])], part[np.argmax(y[part])])])
+        x, y = x[keep], y[keep]
+    low, high = min(0.0, float(y.min())), max(0.0, float(y.max()))
+    height = (high - low) or 1.0
+    across = (x - x[0]) / np.ptp(x) * _WIDTH
+    down = 2.0 + (high - y) / height * (_HEIGHT - 4.0)
+    zero = 2.0 + high / height * (_HEIGHT - 4.0)
+    points = " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(across, down, strict=True))
+    return (
+        f'<figure style="margin:6px 0"><svg width="{_WIDTH}" height="{_HEIGHT}" viewBox="0 0 {_WIDTH} {_HEIGHT}" '
+        f'role="img" aria-label="{escape(label)}"><line x1="0" x2="{_WIDTH}" y1="{zero:.1f}" y2="{zero:.1f}" '
+        f'stroke="#999" stroke-width="0.7"/><polyline points="{points}" fill="none" stroke="#0072B2"/></svg>'
+        f"<figcaption>{escape(label)}</figcaption></figure>"
+    )
+
+
+def _section(case: Case) -> str:
+    """Return the outline of the dam, its crack and its water as an inline SVG."""
+    from heeltoe.geometry.section import cut
+
+    section = cut(case)
+    corners = np.array(case.section.vertices())
+    left, low = corners.min(axis=0)
+    size = float(max(corners.max(axis=0) - corners.min(axis=0))) or 1.0
+    scale = 160.0 / size
+
+    def place(points: NDArray[np.float64]) -> str:
+        return " ".join(f"{60 + (x - left) * scale:.1f},{165 - (z - low) * scale:.1f}" for x, z in points)
+
+    water = ""
+    if case.reservoir is not None and case.reservoir.depth:
+        deep = case.reservoir.depth * scale
+        water = f'<rect x="0" y="{165 - deep:.1f}" width="60" height="{deep:.1f}" fill="#CFE6F5"/>'
+    crack = place(np.array([section.heel, section.toe]))
+    return (
+        f'<svg style="display:block" width="240" height="172" viewBox="0 0 240 172" role="img" '
+        f'aria-label="section of the dam">{water}'
+        f'<polygon points="{place(corners)}" fill="#D0D0D0" stroke="#000"/>'
+        f'<polyline points="{crack}" fill="none" stroke="#B22222" stroke-width="2"/></svg>'
+    )
+
+
+def _page(title: str, rows: list[tuple[str, str]], drawing: str) -> str:
+    from html import escape
+
+    cells = "".join(
+        f"<tr>{_CELL.format(';white-space:nowrap', escape(name))}{_CELL.format('', escape(value))}</tr>"
+        for name, value in rows
+    )
+    return f"<div><strong>{escape(title)}</strong>{drawing}{_TABLE}{cells}</table></div>"

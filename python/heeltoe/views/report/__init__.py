@@ -1,0 +1,120 @@
+"""Reports: PDF by typst and self-contained HTML, from one content model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from importlib.util import find_spec
+from pathlib import Path
+from shutil import rmtree
+from tempfile import TemporaryDirectory
+from typing import TYPE_CHECKING
+
+from heeltoe.errors import InputError
+
+if TYPE_CHECKING:
+    from heeltoe.case.read import Case
+    from heeltoe.models.statics.model import Statics
+    from heeltoe.result.response import Response
+    from heeltoe.study.comparison import Comparison
+    from heeltoe.views.report.content import Document
+
+#: What each kind of report needs that heeltoe itself does not.
+KINDS = {"pdf": "typst", "html": "jinja2"}
+
+
+def check_packages(kinds: Sequence[str] = ("pdf", "html"), field: str = "--report") -> None:
+    """Refuse a kind of report that is not known, or whose package is not installed.
+
+    Raises
+    ------
+    InputError
+        Then; before anything is computed, if it is called first.
+    """
+    for kind in kinds:
+        if kind not in KINDS:
+            raise InputError("report-kind", field, repr(kind))
+        if find_spec(KINDS[kind]) is None:
+            raise InputError("report-package", field, KINDS[kind])
+
+
+def build_report(
+    case: Case, result: Response | Comparison, *, statics: Statics | None = None, units: str = "si", command: str = ""
+) -> Document:
+    """Return what a report says, apart from how it looks; parameters as of :func:`write_report`."""
+    from heeltoe.views.report.build import document
+    from heeltoe.views.report.build_statics import judged
+    from heeltoe.views.report.drawings import drawings
+    from heeltoe.views.report.subject import Subject
+    from heeltoe.views.words.numbers import Numbers
+
+    found = judged(case, result) if statics is None else statics
+    numbers = Numbers({**result.to_json(), "statics": found.to_json()}, units)
+    return document(Subject(case, result, numbers, drawings(case, result, units), found, command))
+
+
+def write_report(
+    case: Case,
+    result: Response | Comparison,
+    directory: Path | str,
+    *,
+    statics: Statics | None = None,
+    units: str = "si",
+    kinds: Sequence[str] = ("pdf", "html"),
+    command: str = "",
+) -> list[Path]:
+    """Write the report of a result as ``report.pdf`` and ``report.html``.
+
+    Both are made aside first, so that a failure leaves nothing half-done; reports of an earlier run are replaced.
+
+    Parameters
+    ----------
+    case
+        What was asked.
+    result
+        What came out: of one model, or of two. A run that failed makes a report that says what failed.
+    directory
+        Where; it is made if it is not there.
+    statics
+        Result of :func:`heeltoe.statics`; computed with the residual slip of the result where it is not given.
+    units
+        ``"si"`` or ``"us"``: of input, numbers, sentences and figures. The JSON stays SI.
+    kinds
+        Which of ``"pdf"`` and ``"html"``.
+    command
+        What was typed to get the report, for the section on how to run it again.
+
+    Returns
+    -------
+    list of Path
+        What was written.
+
+    Raises
+    ------
+    InputError
+        Where the directory cannot be written, or a package is not installed (``pip install heeltoe[report]``).
+    """
+    check_packages(kinds, "kinds")
+    directory = Path(directory)
+    document = build_report(case, result, statics=statics, units=units, command=command)
+    made = next((place for place in (*reversed(directory.parents), directory) if not place.exists()), None)
+    try:
+        directory.mkdir(parents=True, exist_ok=True)
+        with TemporaryDirectory(dir=directory) as name:
+            fresh = Path(name)
+            for kind in kinds:
+                (fresh / f"report.{kind}").write_bytes(_rendered(document, kind))
+            return [(fresh / f"report.{kind}").replace(directory / f"report.{kind}") for kind in kinds]
+    except OSError as error:
+        if made is not None:
+            rmtree(made, ignore_errors=True)
+        raise InputError("cannot-write", "--report", directory, reason=error.strerror or error) from None
+
+
+def _rendered(document: Document, kind: str) -> bytes:
+    if kind == "pdf":
+        from heeltoe.views.report.typst_pdf import pdf
+
+        return pdf(document)
+    from heeltoe.views.report.html import html
+
+    return html(document).encode("utf-8")

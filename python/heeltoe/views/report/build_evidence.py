@@ -1,0 +1,142 @@
+"""How far to trust the numbers: spread, convergence, energy ledger, contact."""
+
+from __future__ import annotations
+
+from heeltoe.models.rigid.varying import varies
+from heeltoe.views.report.content import Block, Code, Inline, Section, Table, paragraph
+from heeltoe.views.report.subject import Run, Subject
+from heeltoe.views.words.numbers import NOTHING
+
+_SPREAD = (
+    ("Residual slip", "residual_slip_m", 1.0),
+    ("Largest slip downstream", "peak_slip_downstream_m", 1.0),
+    ("Largest slip upstream", "peak_slip_upstream_m", -1.0),
+    ("Rotation downstream", "rocking_downstream_rad", 1.0),
+    ("Rotation upstream", "rocking_upstream_rad", 1.0),
+    ("Opening, upstream face", "opening_upstream_m", 1.0),
+    ("Opening, downstream face", "opening_downstream_m", 1.0),
+)
+_ENERGY = (
+    ("Put in", "input_j"),
+    ("Friction", "friction_j"),
+    ("Impacts", "impact_j"),
+    ("Damping of the concrete", "damping_j"),
+    ("Lost by the time stepping", "numerical_j"),
+    ("Left in the dam", "kinetic_j"),
+    ("Made by contact, which should be none", "gained_j"),
+    ("What the ledger leaves unexplained, over the turnover", "residual"),
+)
+_FLEXIBLE = (
+    ("Time step", "time_step_s", None),
+    ("Steps", "steps", None),
+    ("Slip with this step", "convergence.residual_slip_m", None),
+    ("Step of the run beside it", "convergence.coarser_step_s", None),
+    ("Slip with that step", "convergence.coarser_residual_slip_m", None),
+    ("Difference", "convergence.change", "share"),
+    ("Difference that is allowed", "convergence.allowed", "share"),
+    ("Tries per step until contact is found", "contact_iterations_per_step", None),
+    ("Worst violation of the contact conditions, over the impulse", "contact_residual", None),
+)
+
+_WALK = {
+    False: "The rigid block is computed exactly from event to event: there is no time step to converge in.",
+    True: "The rigid block is integrated to a relative error of 10⁻¹² a step: no time step is left to choose.",
+}
+
+
+def evidence(subject: Subject) -> Section:
+    """Return the section that says how far to trust the numbers."""
+    blocks: list[Block] = []
+    for run in subject.runs:
+        blocks += _spread(subject, run)
+    if any(run.response.energy is not None for run in subject.runs):
+        rows = tuple(_energy_row(subject, label, name) for label, name in _ENERGY)
+        blocks.append(Table(subject.head(), _seen(rows), "Energy ledger, per metre of dam.", subject.align()))
+        blocks += subject.figure("energy")[-1:]
+    for run in subject.runs:
+        if run.response.model == "flexible" and run.response.summary:
+            blocks += _convergence(subject, run)
+        elif run.response.model == "rigid" and run.response.summary:
+            blocks.append(paragraph(_WALK[varies(subject.case)]))
+    return Section("How far to trust it", tuple(blocks))
+
+
+def _energy_row(subject: Subject, label: str, name: str) -> tuple[Inline, ...]:
+    return subject.row(label, f"energy.{name}")
+
+
+def _seen(rows: tuple[tuple[Inline, ...], ...]) -> tuple[tuple[Inline, ...], ...]:
+    """Leave out rows in which no run has anything but zero."""
+
+    def counts(cell: Inline) -> bool:
+        return not isinstance(cell, str) and getattr(cell, "number", 1) != 0
+
+    return tuple(row for row in rows if any(map(counts, row[1:])))
+
+
+def _spread(subject: Subject, run: Run) -> list[Block]:
+    if not run.response.summary:
+        return []
+    if run.response.spread is None and not run.response.ok:
+        return []
+    if run.response.spread is None:
+        whose = "" if len(subject.runs) == 1 else f" of the {run.name}"
+        return [
+            paragraph(
+                f"How much the result{whose} hangs on the exact strength of the shaking was not asked; ",
+                Code("--spread"),
+                " runs it 11 more times, scaled by 0.99 to 1.01. The slip of a dam that strikes means little without.",
+            )
+        ]
+    n, prefix = subject.numbers, f"{run.prefix}spread."
+    rows: list[tuple[Inline, ...]] = []
+    for label, name, sign in _SPREAD:
+        if not n.raw(prefix + name):
+            continue
+        low, high = ("min", "max") if sign > 0.0 else ("max", "min")
+        cells = [n(run.prefix + name, sign=sign), n(f"{prefix}{name}.mean", sign=sign), n(f"{prefix}{name}.std")]
+        cells += [n(f"{prefix}{name}.{end}", sign=sign) for end in (low, high)]
+        if any(cell != NOTHING and getattr(cell, "number", 0) for cell in cells):
+            rows.append((label, *cells))
+    found = run.response.spread
+    scales = found["scales"]
+    failed = f"; {found['failed']} of them without a result" if found["failed"] else ""
+    caption = f"Spread over {found['runs']} runs, the shaking scaled by {scales[0]:g} to {scales[-1]:g}{failed}."
+    if len(subject.runs) > 1:
+        caption = f"{run.name.capitalize()}. {caption}"
+    if not rows:
+        return [paragraph(caption.removesuffix("."), ": nothing moves in any of them.")]
+    return [Table(("", "this run", "mean", "std. deviation", "least", "most"), tuple(rows), caption, "lrrrrr")]
+
+
+def _convergence(subject: Subject, run: Run) -> list[Block]:
+    n = subject.numbers
+    rows = [(label, n(run.prefix + key, quantity)) for label, key, quantity in _FLEXIBLE]
+    shown: list[tuple[Inline, ...]] = [row for row in rows if row[1] != NOTHING]
+    tables = [Table(("", "value"), tuple(shown), "Time step and contact of the flexible model.", "lr")]
+    shown = []
+    mesh = run.response.summary["mesh"]
+    parts = ["above", "below"]
+    for place in range(len(mesh["elements"])):
+        where = parts[place] + " the crack"
+        for label, name in (("Elements", "elements"), ("Nodes", "nodes"), ("Modes kept", "modes")):
+            shown.append((f"{label} {where}", n(f"{run.prefix}mesh.{name}.{place}")))
+    shown.append(("Nodes along the crack", n(f"{run.prefix}mesh.crack_nodes")))
+    shown.append(("Error left by modes that are not kept", n(f"{run.prefix}mesh.basis_error", "share")))
+    for place in range(len(run.response.summary["periods_s"])):
+        label = f"Period {place + 1} of the intact dam, with its water"
+        shown.append((label, n(f"{run.prefix}periods_s.{place}", "time")))
+    for label, key in (
+        ("Rayleigh damping, mass term a₀", "rayleigh_mass_1_s"),
+        ("Rayleigh damping, stiffness term a₁", "rayleigh_stiffness_s"),
+    ):
+        cell = n(run.prefix + key)
+        if cell != NOTHING:
+            shown.append((label, cell))
+    blocks: list[Block] = []
+    if run.response.summary["convergence"] is None:
+        blocks.append(
+            paragraph("Whether the time step is short enough was not asked (", Code("flexible.convergence_check"), ").")
+        )
+    tables.append(Table(("", "value"), tuple(shown), "Mesh, modes and damping of the flexible model.", "lr"))
+    return [*blocks, *tables]

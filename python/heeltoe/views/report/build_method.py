@@ -1,0 +1,278 @@
+"""The method in words, with numbered equations for exactly the options of this case."""
+
+from __future__ import annotations
+
+from heeltoe.models.rigid.varying import varies
+from heeltoe.views.report.content import Block, Equation, Section, Symbol, paragraph
+from heeltoe.views.report.equations import EQUATIONS
+from heeltoe.views.report.subject import Subject
+
+_PATTERNS = {
+    "none": "There is no water pressure in the crack.",
+    "uniform": "The pressure in the crack is that of the heel over its whole width",
+    "triangular": "The pressure in the crack falls in a straight line from that of the reservoir at the heel to "
+    "that of "
+    "the tailwater at the toe",
+    "cut-off": "The pressure in the crack falls in a straight line from that of the reservoir at the heel to "
+    "that of the "
+    "tailwater at a part of its width, and stays there",
+    "drained": "The pressure in the crack falls in straight lines from that of the reservoir at the heel to "
+    "that at the "
+    "drains, and on to that of the tailwater at the toe",
+    "profile": "The pressure in the crack is the profile of the case",
+}
+_SHAKING = {
+    "zero while open": ("opening zero", "Where the crack opens by $g$, it falls and vanishes at the opening $w$:"),
+    "full while open": (
+        "opening full",
+        "Where the crack opens by $g$, it rises to the reservoir’s at the opening $w$:",
+    ),
+    "follows opening": (
+        "opening follows",
+        "Where the crack opens by $g$, the water that is there fills the wider crack, and the pressure falls; "
+        "it is halved "
+        "at the opening $w$:",
+    ),
+}
+_ROTATION = {
+    "small": "Rotations are small: the moment of the weight about a corner does not change with the rotation.",
+    "p-delta": "Rotations are small, but the moment of the weight that changes with the rotation counts (P-Delta), so "
+    "that the block can overturn.",
+}
+_DAMPING = {
+    "deformation": "on deformation alone, at all times; rigid-body motion is not damped",
+    "thesis": "on all motion while any node of the crack sticks, and below the crack alone while none does, as in Zhu "
+    "(2004)",
+}
+
+
+def _symbol(text: str) -> Symbol:
+    letter, _, index = text.partition("_")
+    return Symbol(letter, index)
+
+
+class _Writer:
+    """Collects paragraphs, and equations with their numbers."""
+
+    def __init__(self) -> None:
+        self.blocks: list[Block] = []
+        self.count = 0
+
+    def say(self, *sentences: str) -> None:
+        text = " ".join(sentence for sentence in sentences if sentence)
+        # Letters of the equations stand between dollars.
+        parts = [_symbol(part) if place % 2 else part for place, part in enumerate(text.split("$"))]
+        self.blocks.append(paragraph(*(part for part in parts if part)))
+
+    def show(self, name: str) -> None:
+        self.count += 1
+        self.blocks.append(Equation(self.count, *EQUATIONS[name]))
+
+    def section(self, title: str, start: int) -> Section:
+        """Put all blocks from `start` on under a heading of their own."""
+        found = tuple(self.blocks[start:])
+        del self.blocks[start:]
+        return Section(title, found)
+
+
+def integrated(subject: Subject) -> bool:
+    """Whether a block of this report is integrated between events; rotations of the ground reach it through a crack."""
+    return varies(subject.case) or (subject.ran("decoupled") and subject.case.decoupled.rotation)
+
+
+def method(subject: Subject) -> Section:
+    """Return the section that says how the numbers came about."""
+    writer = _Writer()
+    parts: list[Block] = []
+    _loads(writer, subject)
+    parts.append(writer.section("Loads", 0))
+    if subject.ran("decoupled"):
+        _decoupled(writer, subject)
+        parts.append(writer.section("Motion of the crack", 0))
+    if subject.ran("rigid") or subject.ran("decoupled"):
+        _rigid(writer, subject)
+        parts.append(writer.section("Rigid block", 0))
+    if subject.ran("flexible"):
+        _flexible(writer, subject)
+        parts.append(writer.section("Flexible dam", 0))
+    return Section("Method", (*parts, *subject.figure("mesh", "modes")))
+
+
+def _loads(writer: _Writer, subject: Subject) -> None:
+    case = subject.case
+    loads = ["the weight of the concrete"]
+    loads += ["the reservoir"] if case.reservoir else []
+    loads += ["the tailwater"] if case.tailwater else []
+    loads += ["ice"] if case.ice else []
+    loads += ["silt"] if case.silt else []
+    loads += ["anchors"] if case.anchors else []
+    listed = loads[0] if len(loads) == 1 else f"{', '.join(loads[:-1])} and {loads[-1]}"
+    uplift = case.uplift
+    pattern = _PATTERNS[uplift.pattern]
+    if uplift.pattern != "none":
+        pattern += "." if uplift.intensity == 1.0 else f", all of it times {uplift.intensity:g}."
+        if case.reservoir is None and case.tailwater is None and uplift.pattern != "profile":
+            pattern = "There is no water, and hence no pressure in the crack."
+    changes = uplift.during_shaking == "constant" and uplift.pattern != "none" and bool(case.reservoir)
+    writer.say(
+        f"Static loads are {listed}.",
+        pattern,
+        "It does not change while the crack opens and closes." if changes else "",
+    )
+    if uplift.during_shaking in _SHAKING:
+        name, words = _SHAKING[uplift.during_shaking]
+        writer.say(words)
+        writer.show(name)
+    if case.anchors:
+        writer.say(
+            "An anchor with prestress $F_0$ and axis $a$ pulls the block as its upper end moves by $u$, never "
+            "with compression, "
+            "and resists slip as a dowel:"
+        )
+        writer.show("anchors")
+    if subject.numbers.raw(subject.first.prefix + "static.virtual_mass_kg"):
+        if any(run.response.model != "flexible" for run in subject.runs):
+            writer.say(
+                "Water moves with the upstream face as Westergaard’s virtual mass, horizontally; $D$ is the "
+                "depth of the "
+                "reservoir, $h$ that above the crack:"
+            )
+            writer.show("virtual mass")
+        if subject.ran("flexible"):
+            _virtual_mass_along_face(writer, subject)
+
+
+def _virtual_mass_along_face(writer: _Writer, subject: Subject) -> None:
+    where = {
+        "complete": "with $η$ from the bottom of a reservoir of depth $D$, on both parts of the dam",
+        "thesis": "above the crack alone, with $η$ and the depth $D$ counted from the crack, as in Zhu (2004)",
+    }[subject.case.flexible.virtual_mass]
+    writer.say(f"On the elastic dam the virtual mass is spread along the upstream face, {where}:")
+    writer.show("virtual mass along face")
+
+
+def _rigid(writer: _Writer, subject: Subject) -> None:
+    case = subject.case
+    finite, inclined = case.analysis.rotation == "finite", bool(case.crack.inclination)
+    writer.say(
+        "The part above the crack is one rigid block on a plane. With $y$, $z$ and $θ$ the motion of its "
+        "reference point "
+        "downstream, upward and counter-clockwise, $s$ its slip and $g_h$ and $g_t$ the gaps at heel and toe:"
+        if not inclined
+        else "The part above the crack is one rigid block on an inclined plane. With $y$ and $z$ its motion "
+        "along and across "
+        "the crack, $θ$ its rotation counter-clockwise, $s$ its slip and $g_h$ and $g_t$ the gaps at heel and toe:"
+    )
+    writer.show("contact")
+    forces = (
+        "$T$ is the friction, $N_h$ and $N_t$ the normal forces at heel and toe, $P$ the horizontal load, $N_0$ "
+        "what weight, uplift "
+        "and vertical motion press on the crack, $M_0$ the moment of the static loads, $B_h$ and $B_t$ the "
+        "distances of the "
+        "centroid from heel and toe:"
+    )
+    if finite:
+        writer.say(
+            "Rotations may be of any size. $M$ is the mass about one corner, $p$ the lever of the centroid as "
+            "the block has "
+            "turned by $θ$, $r$ that of the virtual water, $R$ the rotation, $Q$ the loads; $G$ leads to slip and gaps:"
+        )
+        writer.show("finite")
+    elif inclined:
+        writer.say(
+            "Virtual water moves horizontally with the block and so couples its motion along and across the "
+            "crack; $M$ is "
+            "the mass, $f$ the loads and the ground’s inertia forces, $G$ leads to slip and gaps:"
+        )
+        writer.show("inclined")
+    else:
+        writer.say(forces)
+        writer.show("block")
+    writer.say(_ROTATION.get(case.analysis.rotation, ""), "Friction is Coulomb’s:")
+    writer.show("friction")
+    writer.say(
+        "A corner $i$ that strikes leaves with Newton’s restitution $e$; $j$ is the other corner, which stays "
+        "down if it can. "
+        "Where that would create energy, $e$ is lowered for this one impact to the largest value that does not:"
+    )
+    writer.show("impact")
+    writer.say(
+        "Between events the motion is integrated with a method of order 8, to a relative error of 10⁻¹² a step, "
+        "and the "
+        "next event is found on it."
+        if integrated(subject)
+        else "The ground acceleration is linear between samples, so that every motion is a cubic in time and "
+        "the response "
+        "is computed exactly from event to event, without a time step.",
+        "The energy $E$ is checked by a ledger of the work done:",
+    )
+    writer.show("rigid energy")
+
+
+def _decoupled(writer: _Writer, subject: Subject) -> None:
+    case = subject.case
+    more = [
+        name for name, on in (("vertical motion", case.decoupled.vertical), ("rotation", case.decoupled.rotation)) if on
+    ]
+    felt = f"The block feels the {' and the '.join(more)} of the crack too." if more else ""
+    writer.say(
+        "The part below the crack is elastic and carries the part above as a rigid body that does not slip. Its "
+        "motion at "
+        "the crack, summed over the modes $k$, shakes the block; what the block does does not act back.",
+        felt,
+    )
+    writer.show("crack motion")
+
+
+def _flexible(writer: _Writer, subject: Subject) -> None:
+    options, concrete = subject.case.flexible, subject.case.concrete
+    bodies = (
+        "parts above and below the crack are linear elastic bodies"
+        if subject.case.crack.elevation
+        else ("dam is a linear elastic body, standing with its crack on a rigid plane,")
+    )
+    writer.say(
+        f"The {bodies} in plane {options.plane}, made of eight-node quadrilaterals with consistent mass. Before the "
+        "earthquake the dam is in static equilibrium with its crack bonded; at time zero the crack is let go. "
+        "In the modes "
+        "of each part, with $p$ the forces on the nodes of the crack:"
+    )
+    writer.show("modes")
+    if options.damping == "modal":
+        writer.say(f"Every mode of deformation has the same damping ratio, $ξ$ = {100 * concrete.damping:g} %:")
+        writer.show("modal")
+    else:
+        writer.say(
+            f"Damping is Rayleigh’s, {100 * concrete.damping:g} % at the first and third period of the intact "
+            f"dam, and acts "
+            f"{_DAMPING[options.damping]}:"
+        )
+        writer.show("rayleigh")
+    if options.contact == "coulomb":
+        writer.say(
+            f"Velocities are stepped with exact contact (Moreau-Jean) and $θ$ = {options.theta:g}; $h$ is the "
+            f"step, Δ$V$ the "
+            "exact change of the ground’s velocity in it:"
+        )
+        writer.show("step")
+        writer.say("At every node of the crack, with $b$ what the gap leaves:")
+        writer.show("signorini")
+    else:
+        writer.say(
+            f"Contact is by penalties, as in Zhu (2004): Newmark’s scheme with $γ$ = {options.newmark_gamma:g}, "
+            f"and a spring "
+            f"of {options.penalty_factor:g} times the largest diagonal term of the stiffness at every closed contact. "
+            "This is meant for comparison; penalties can create energy."
+        )
+        writer.show("penalty")
+    watched = {
+        1: "those of the upper face",
+        2: "those of the lower face",
+        3: "those of the upper face and the two ends of the lower",
+        4: "those of the lower face and the two ends of the upper",
+        5: "those of both faces",
+    }[options.contactors]
+    writer.say(
+        f"Nodes that are watched for contact are {watched}. The energy $E$ is checked by a ledger of the work done:"
+    )
+    writer.show("flexible energy")

@@ -1,0 +1,145 @@
+"""Page one: the question, the answer, what failed, what to be warned of, the numbers that matter."""
+
+from __future__ import annotations
+
+import re
+
+from heeltoe.result.verdict import comes_to_rest, verdict
+from heeltoe.study.comparison import Comparison
+from heeltoe.views.report.content import (
+    Block,
+    Code,
+    Inline,
+    Notes,
+    Own,
+    Section,
+    Strong,
+    Table,
+    paragraph,
+    without_gaps,
+)
+from heeltoe.views.report.subject import Run, Subject
+from heeltoe.views.words.numbers import NOTHING, digits
+
+
+def question(subject: Subject) -> Section:
+    """Return the first section: question, answer, warnings and key numbers."""
+    answers: list[Block] = [_question(subject)]
+    for run in subject.runs:
+        label = "Answer. " if len(subject.runs) == 1 else f"{run.name.capitalize()}. "
+        if run.response.ok:
+            answers.append(paragraph(Strong(label), glued(verdict(run.response, subject.units))))
+    both = subject.result
+    if isinstance(both, Comparison) and both.ok:
+        answers.append(paragraph(Strong("Difference. "), glued(both.meaning())))
+    if not any(run.response.limits for run in subject.runs) and any(run.response.ok for run in subject.runs):
+        answers.append(
+            paragraph(
+                "Whether that is safe enough is not judged: the case sets no limits under ", Code("[limits]"), "."
+            )
+        )
+    blocks = (_failures(subject), *answers, _warnings(subject), _numbers(subject))
+    return Section("Question and answer", without_gaps(*blocks))
+
+
+def glued(text: str) -> str:
+    """Keep numbers and their units on one line."""
+    return re.sub(r"(?<=\d) (?=(?:%|(?!and|to|or|of|at|in the|on)[a-zA-Z/]{1,4}\b))", "\u00a0", text)
+
+
+def _question(subject: Subject) -> Block:
+    motion = subject.first.prefix + "motion."
+    n = subject.numbers
+    return paragraph(
+        Strong("Question. "),
+        "What does the part of “",
+        Own(subject.title),
+        "” above its crack do in the ground motion ",
+        Code(subject.first.response.motion.name),
+        ", ",
+        n(motion + "pga_g"),
+        " at its peak and ",
+        n(motion + "duration_s"),
+        " long: does it slide, rock about its heel or its toe, lift off, and where does it come to rest?",
+    )
+
+
+def _failures(subject: Subject) -> Block | None:
+    """Say what failed, and why."""
+    failed = [run.response for run in subject.runs if not run.response.ok]
+    if not failed:
+        return None
+    items: list[tuple[Inline, ...]] = [
+        (
+            Strong(f"{run.model[0].upper()}{run.model[1:]}, outcome “{run.response.outcome}”: "),
+            f"{run.response.advice}.",
+        )
+        for run in subject.runs
+        if not run.response.ok
+    ]
+    rest = [run for run in subject.runs if run.response.ok]
+    if rest:
+        items.append((f"There is nothing to compare; what {rest[0].model} found stands below.",))
+    elif failed[0].summary:
+        items.append(("Numbers below are those of the moment at which the run stopped; they are no result.",))
+    return Notes("failure", "No result to trust", tuple(items))
+
+
+def warnings(subject: Subject) -> tuple[str, ...]:
+    """Return every warning once; those of one of two models say whose they are."""
+    runs = [run.response for run in subject.runs]
+    shared = [text for text in runs[0].warnings if all(text in each.warnings for each in runs)]
+    own = [f"{each.model}: {text}" for each in runs for text in each.warnings if text not in shared]
+    return (*shared, *own) if len(runs) > 1 else tuple(dict.fromkeys(runs[0].warnings))
+
+
+def _warnings(subject: Subject) -> Block | None:
+    said = warnings(subject)
+    return Notes("warning", "Before using these numbers", tuple((glued(text),) for text in said)) if said else None
+
+
+#: Labels of the key numbers, their names in the JSON, and whether they are shown the other way round.
+ROWS = (
+    ("Residual slip, positive downstream", "residual_slip_m", 1.0),
+    ("Largest slip downstream on the way", "peak_slip_downstream_m", 1.0),
+    ("Largest slip upstream on the way", "peak_slip_upstream_m", -1.0),
+    ("Largest rotation downstream, about the toe", "rocking_downstream_rad", 1.0),
+    ("Largest rotation upstream, about the heel", "rocking_upstream_rad", 1.0),
+    ("Largest opening of the crack, upstream face", "opening_upstream_m", 1.0),
+    ("Largest opening of the crack, downstream face", "opening_downstream_m", 1.0),
+)
+
+
+def _numbers(subject: Subject) -> Block:
+    both = isinstance(subject.result, Comparison)
+    rows: list[tuple[Inline, ...]] = []
+    if any(run.response.summary for run in subject.runs):
+        for label, key, sign in ROWS:
+            rows.append(subject.row(label, key, sign=sign) + ((_ratio(subject, key),) if both else ()))
+        rows.append(("At the end of the run", *map(_end, subject.runs), *([""] if both else [])))
+    static = subject.row("Sliding safety factor under static loads", "static.sliding_safety_factor")
+    rows.append(static + (("",) if both else ()))
+    more = ("flexible / rigid",) if both else ()
+    if both and not subject.ran("rigid"):
+        more = ("flexible / block",)
+    return Table(
+        subject.head(*more),
+        tuple(rows),
+        "Key numbers, per metre of dam. Openings and rotations are magnitudes.",
+        subject.align(len(more)),
+    )
+
+
+def _ratio(subject: Subject, key: str) -> Inline:
+    return subject.numbers(f"ratio.{key}", "ratio")
+
+
+def _end(run: Run) -> str:
+    if not run.response.summary:
+        return NOTHING
+    seconds = digits(run.response.end_time_s, 4)
+    if not run.response.ok:
+        return f"stopped at {seconds} s"
+    if run.response.outcome == "overturned":
+        return f"overturned at {seconds} s"
+    return "at rest" if comes_to_rest(run.response) else f"still moving at {seconds} s"

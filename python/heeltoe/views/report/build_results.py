@@ -1,0 +1,130 @@
+"""The results in full: how it slides, how long, how it strikes, and all figures of it."""
+
+from __future__ import annotations
+
+from heeltoe.views.report.content import Block, Inline, Section, Table, Value, paragraph
+from heeltoe.views.report.subject import Subject
+
+_ROWS: tuple[tuple[str, str, str | None], ...] = (
+    ("Slip while sliding", "slip_by_mode_m.sliding", "displacement"),
+    ("Slip while slide-rocking", "slip_by_mode_m.slide_rocking", "displacement"),
+    ("Slip while drifting", "slip_by_mode_m.drifting", "displacement"),
+    ("Time at rest", "time_by_mode_s.rest", "time"),
+    ("Time sliding", "time_by_mode_s.sliding", "time"),
+    ("Time rocking", "time_by_mode_s.rocking", "time"),
+    ("Time slide-rocking", "time_by_mode_s.slide_rocking", "time"),
+    ("Time drifting, in touch with nothing", "time_by_mode_s.drifting", "time"),
+    ("Strikes (of corners; of nodes of the crack)", "impacts", None),
+    ("Fastest strike", "largest_impact_velocity_m_s", None),
+    ("Events of the walk", "events", None),
+    ("Largest normal force on the crack", "peak_normal_force_n", None),
+    ("Slip velocity at the end", "final_slip_velocity_m_s", None),
+    ("End of the run", "end_time_s", None),
+    ("Width of the crack", "crack_width_m", "length"),
+)
+_ALWAYS = ("impacts", "final_slip_velocity_m_s", "end_time_s")
+_STATIC: tuple[tuple[str, str, str | None], ...] = (
+    ("Sliding safety factor", "static.sliding_safety_factor", None),
+    ("Normal force on the crack", "static.normal_force_n", None),
+    ("Force along the crack, + downstream", "static.horizontal_force_n", None),
+    ("Resultant from the heel", "static.resultant_from_heel_m", "length"),
+    ("Mass of the concrete above the crack", "static.concrete_mass_kg", None),
+    ("Virtual mass of the water", "static.virtual_mass_kg", None),
+    ("Sliding downstream starts at", "critical_acceleration_g.sliding_downstream", "g"),
+    ("Sliding upstream starts at", "critical_acceleration_g.sliding_upstream", "g"),
+    ("Rocking downstream, about the toe, starts at", "critical_acceleration_g.rocking_downstream", "g"),
+    ("Rocking upstream, about the heel, starts at", "critical_acceleration_g.rocking_upstream", "g"),
+)
+_CRACK_LEVEL: tuple[tuple[str, str, str | None], ...] = (
+    ("Peak of the ground", "ground_peak_g", "g"),
+    ("Peak at the crack, horizontal", "peak_horizontal_g", "g"),
+    ("Peak at the crack, over that of the ground", "amplification", None),
+    ("Peak at the crack, upward", "peak_vertical_g", "g"),
+    ("Peak rotational acceleration of the crack", "peak_rotation_rad_s2", None),
+    ("First period of the part below with the part above attached", "periods_s.0", "time"),
+    ("First period of the dam without a crack, all of it elastic", "bonded.periods_s.0", "time"),
+    ("Peak in that dam at the place of the crack", "bonded.peak_horizontal_g", "g"),
+    ("Spacing of the motion of the crack", "convergence.step_s", "time"),
+    ("Residual slip with twice that", "convergence.coarser_residual_slip_m", "displacement"),
+)
+_FIGURES = (
+    "comparison",
+    "response",
+    "slip-by-mode",
+    "crack-level",
+    "accelerations",
+    "forces",
+    "path",
+    "crack",
+    "pressure",
+    "deformed",
+)
+
+
+def results(subject: Subject) -> Section:
+    """Return the section with all numbers and figures of what happens."""
+    n, prefix = subject.numbers, subject.first.prefix
+    static = tuple((label, n(prefix + key, quantity)) for label, key, quantity in _STATIC)
+    blocks: list[Block] = [
+        Table(
+            ("", "value"),
+            static,
+            "Before the earthquake, per metre of dam; accelerations at which a rigid part above the crack starts to "
+            "move.",
+            "lr",
+        )
+    ]
+    if any(run.response.summary for run in subject.runs):
+        rows: list[tuple[Inline, ...]] = []
+        for label, key, quantity in _ROWS:
+            row = subject.row(label, key, quantity)
+            if key in _ALWAYS or any(isinstance(cell, Value) and cell.number for cell in row[1:]):
+                rows.append(row)
+        blocks.append(
+            Table(
+                subject.head(),
+                tuple(rows),
+                "How it moves, per metre of dam; modes that do not happen are left out.",
+                subject.align(),
+            )
+        )
+        blocks += [*_at_the_crack(subject), *_anchors(subject)]
+    else:
+        blocks.append(paragraph("The run never started, so that there are no results and no figures of it."))
+    return Section("Results", (*blocks, *subject.figure(*_FIGURES)))
+
+
+def _at_the_crack(subject: Subject) -> list[Block]:
+    """Return how the crack moves that shakes a decoupled block."""
+    return [
+        Table(
+            ("", "value"),
+            tuple(
+                (label, subject.numbers(f"{run.prefix}crack_level.{key}", quantity))
+                for label, key, quantity in _CRACK_LEVEL
+            ),
+            "The motion of the crack, which shakes the block.",
+            "lr",
+        )
+        for run in subject.runs
+        if "crack_level" in run.response.summary
+    ]
+
+
+def _anchors(subject: Subject) -> list[Block]:
+    """Return how the anchors are pulled."""
+    if not subject.case.anchors:
+        return []
+    runs = [run for run in subject.runs if run.response.summary.get("anchors")]
+    head = ("anchor", "from the heel", *(f"largest tension, {run.name}" for run in runs), "capacity")
+    rows = tuple(
+        (
+            f"{place + 1}",
+            subject.numbers(f"{runs[0].prefix}anchors.{place}.distance_m", "length"),
+            *(subject.numbers(f"{run.prefix}anchors.{place}.peak_tension_n") for run in runs),
+            subject.numbers(f"{runs[0].prefix}anchors.{place}.capacity_n"),
+        )
+        for place in range(len(subject.case.anchors))
+        if runs
+    )
+    return [Table(head, rows, "Tension of the anchors, per metre of dam.", "l" + "r" * (2 + len(runs)))] if rows else []

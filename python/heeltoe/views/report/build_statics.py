@@ -1,0 +1,164 @@
+"""Static, pseudo-static and post-seismic checks."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from heeltoe.views.report.content import Block, Inline, Notes, Section, Table, Value, paragraph
+from heeltoe.views.report.subject import Subject
+from heeltoe.views.words.numbers import NOTHING
+
+if TYPE_CHECKING:
+    from heeltoe.case.read import Case
+    from heeltoe.models.statics.model import Statics
+    from heeltoe.result.response import Response
+    from heeltoe.study.comparison import Comparison
+
+_CASES: tuple[tuple[str, str, str | None], ...] = (
+    ("Normal force", "normal_force_n", None),
+    ("Force along the crack, + downstream", "shear_force_n", None),
+    ("Coefficient of friction", "friction", None),
+    ("Cohesive force", "cohesive_force_n", None),
+    ("Sliding factor", "sliding_factor", None),
+    ("Overturning factor", "overturning_factor", None),
+    ("Flotation factor", "flotation_factor", None),
+    ("Resultant from the heel", "resultant_from_heel_m", "length"),
+    ("Stress at the heel, compression +", "heel_stress_pa", None),
+    ("Stress at the toe, compression +", "toe_stress_pa", None),
+    ("Crack open", "cracked_length_m", "length"),
+    ("Width in compression", "compressed_length_m", "length"),
+)
+_LEVELS = {
+    "sliding": "sliding factor 1",
+    "sliding_required": "sliding factor that is required",
+    "overturning": "crack opens through",
+    "flotation": "block floats",
+}
+# Tables for each have so many columns at most; there are five load cases at most.
+_SHARES = "lrrrrr"
+
+
+def judged(case: Case, result: Response | Comparison) -> Statics:
+    """Return the static checks of a case, with the slip that a result leaves, if it is one to trust."""
+    from heeltoe.models.statics.model import statics
+    from heeltoe.result.response import Response
+
+    runs = (result,) if isinstance(result, Response) else (result.flexible, result.rigid)
+    trusted = next((run for run in runs if run.outcome == "ok"), None)
+    overturned = next((run for run in runs if run.outcome == "overturned"), None)
+    if trusted is None and overturned is not None:
+        return statics(case, overturned_about=overturned.overturned_about)
+    if trusted is None or case.statics.residual_slip is not None:
+        return statics(case)
+    peak = trusted.motion.pga / trusted.gravity
+    source = f"{trusted.model} model, {trusted.motion.name}, PGA {peak:.4g} g"
+    return statics(case, trusted.residual_slip_m, slip_source=source)
+
+
+def static_checks(subject: Subject) -> Section | None:
+    """Return the section of the static checks; None where there are none."""
+    found = subject.statics
+    if found is None or not found.checks:
+        return None
+    blocks: list[Block] = [
+        paragraph(
+            f"Judged by {found.criteria}: {found.structure} structure, {found.site_information} site information.",
+            *(
+                (" Slip of the post-seismic case: ", _slip(subject), f" ({found.slip_source}).")
+                if found.slip_source
+                else ()
+            ),
+        )
+    ]
+    if found.warnings:
+        own = [text for text in found.warnings if all(text not in run.response.warnings for run in subject.runs)]
+        blocks += [Notes("warning", "About the static checks", tuple((text,) for text in own))] if own else []
+    blocks += [
+        _cases(subject, found),
+        _checks(subject, found),
+        _missed(found),
+        _remarks(subject, found),
+        _levels(subject),
+    ]
+    return Section("Static checks", tuple(blocks))
+
+
+def source_number(subject: Subject, source: str) -> str:
+    """Return the number of a source in the list of references."""
+    references = subject.references
+    return f"[{references.index(source) + 1}]" if source in references else NOTHING
+
+
+def _slip(subject: Subject) -> Inline:
+    return subject.numbers("statics.slip_m")
+
+
+def _cases(subject: Subject, found: Statics) -> Table:
+    n = subject.numbers
+    rows: list[tuple[Inline, ...]] = [("Outcome", *(each.outcome for each in found.cases))]
+    for label, key, quantity in _CASES:
+        cells = [n(f"statics.cases.{place}.{key}", quantity) for place in range(len(found.cases))]
+        if any(isinstance(cell, Value) and cell.number for cell in cells):
+            rows.append((label, *cells))
+    rows.append(("Resultant in", *(each.resultant_zone or NOTHING for each in found.cases)))
+    head = ("", *(each.name for each in found.cases))
+    return Table(head, tuple(rows), "Load cases, per metre of dam.", _SHARES[: len(head)])
+
+
+def _checks(subject: Subject, found: Statics) -> Table:
+    n = subject.numbers
+    rows: list[tuple[Inline, ...]] = []
+    for place, check in enumerate(found.checks):
+        key = f"statics.checks.{place}."
+        unit = {"resultant": " of width", "compression": " of strength"}.get(check.name, "")
+        value, required = (_with(n(key + name), unit) for name in ("value", "required"))
+        sign = "≥ " if check.at_least else "≤ "
+        bound = _with(required, "", sign)
+        rows.append(
+            (
+                check.load_case,
+                check.name,
+                value,
+                bound,
+                "yes" if check.met else "NO",
+                source_number(subject, check.source),
+            )
+        )
+    head = ("load case", "check", "value", "required", "met", "source")
+    return Table(head, tuple(rows), "Static checks; factors have no unit.", "llrrlr")
+
+
+def _with(cell: Inline, unit: str, sign: str = "") -> Inline:
+    return Value(cell.key, cell.number, f"{sign}{cell.text}{unit}") if isinstance(cell, Value) else cell
+
+
+def _missed(found: Statics) -> Block:
+    """Say in words which checks are not met, and by how much."""
+    items: list[tuple[Inline, ...]] = [(f"{check.sentence}.",) for check in found.checks if not check.met]
+    if not items:
+        return paragraph("All static checks are met.")
+    return Notes("warning", f"Not met: {len(items)} of {len(found.checks)} static checks", tuple(items))
+
+
+def _remarks(subject: Subject, found: Statics) -> Notes:
+    """Gather what the load cases take for granted, and what there is to say about the required values."""
+    notes: dict[str, list[str]] = {}
+    for check in found.checks:
+        number = source_number(subject, check.source)
+        for text in filter(None, check.note.split("; ")):
+            if number not in notes.setdefault(text, []):
+                notes[text].append(number)
+    remarks = [f"{each.name}: {text}." for each in found.cases for text in each.assumptions]
+    remarks += [f"{', '.join(sorted(numbers))}: {note}." for note, numbers in notes.items()]
+    return Notes("note", "Taken for granted", tuple((text,) for text in dict.fromkeys(remarks)))
+
+
+def _levels(subject: Subject) -> Table:
+    n = subject.numbers
+    rows: list[tuple[Inline, ...]] = []
+    for name, label in _LEVELS.items():
+        cell = n(f"statics.critical_water_level_m.{name}", "length")
+        rows.append((label, "no depth up to the crest" if cell == NOTHING else cell))
+    return Table(
+        ("", "depth of the reservoir"), tuple(rows), "Water levels at which the usual loads get critical.", "lr"
+    )

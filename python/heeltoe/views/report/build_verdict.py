@@ -1,0 +1,54 @@
+"""The verdict: results beside what the user allows, and static checks that are not met."""
+
+from __future__ import annotations
+
+from heeltoe.views.report.content import Block, Code, Inline, Section, Table, paragraph
+from heeltoe.views.report.subject import Subject
+
+_LIMITS = {
+    "residual_slip": "Residual slip, either way",
+    "peak_slip": "Largest slip, either way",
+    "opening_upstream": "Opening at the upstream face",
+    "opening_downstream": "Opening at the downstream face",
+}
+
+
+_EXAMPLE = {"si": "100 mm", "us": "4 in"}
+
+
+def limits(subject: Subject) -> Section:
+    """Return the verdict against the limits that the user has set."""
+    n = subject.numbers
+    rows: list[tuple[Inline, ...]] = []
+    for run in subject.runs:
+        for place, check in enumerate(run.response.limits):
+            key = f"{run.prefix}limits.{place}."
+            label = _LIMITS.get(check.name, check.name)
+            rows.append(
+                (
+                    label if len(subject.runs) == 1 else f"{label}, {run.name}",
+                    n(key + "value_m"),
+                    n(key + "allowed_m"),
+                    "yes" if check.met else "NO",
+                )
+            )
+    blocks: list[Block] = []
+    if rows:
+        blocks.append(Table(("", "result", "allowed", "met"), tuple(rows), "Results beside the limits.", "lrrl"))
+    elif any(run.response.ok for run in subject.runs):
+        blocks.append(
+            paragraph(
+                "The case sets no limits. To have the results judged, add for example ",
+                Code(f'residual_slip = "{_EXAMPLE[subject.units]}"'),
+                " under ",
+                Code("[limits]"),
+                ".",
+            )
+        )
+    else:
+        blocks.append(paragraph("There is no result to compare with limits."))
+    checks = () if subject.statics is None else subject.statics.checks
+    failed = "; ".join(f"{check.name} ({check.load_case})" for check in checks if not check.met)
+    if checks:
+        blocks.append(paragraph(f"Static checks not met: {failed}." if failed else "All static checks are met."))
+    return Section("Verdict against limits", tuple(blocks))

@@ -1,0 +1,90 @@
+"""Figures of a report: as SVG, with the captions that say what is in them."""
+
+from __future__ import annotations
+
+import io
+from typing import TYPE_CHECKING
+
+from heeltoe.views.report.content import FigureBlock
+from heeltoe.views.report.subject import NAMES
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from heeltoe.case.read import Case
+    from heeltoe.result.response import Response
+    from heeltoe.study.comparison import Comparison
+
+CAPTIONS = {
+    "section": "Section of the dam with its crack, water levels and the pressure in the crack.",
+    "comparison": "Both models side by side, shaken by the same ground motion.",
+    "response": "Ground acceleration, slip (positive downstream), rotation and openings if there are any, the mode.",
+    "slip-by-mode": "Slip gathered in each mode of motion.",
+    "accelerations": "Acceleration of the ground, acceleration of the slip, and the forces at heel and toe.",
+    "forces": "Forces across the crack.",
+    "energy": "Where the energy put in by the earthquake goes.",
+    "path": "Path of the part above the crack.",
+    "spectrum": "Response spectrum of the ground motion, 5 % of critical damping.",
+    "crack-level": "Acceleration of ground and crack, their response spectra, and the amplification; dotted: periods.",
+    "crack": "What each place of the crack does over time.",
+    "deformed": "Deformed dam with its principal stresses, tension on the left, compression on the right.",
+    "pressure": "Contact pressure along the crack over time.",
+    "mesh": "The mesh, and the nodes of the crack.",
+    "modes": "Lowest vibration modes of the intact dam.",
+}
+# Simple figures need not be as wide as the page.
+_SHARES = {"section": 0.7, "spectrum": 0.7, "slip-by-mode": 0.8, "energy": 0.8, "mesh": 0.6}
+# Histories are drawn lower than on a page of their own, so that two of them share one, or one and a table; letters stay
+# as large as they are.
+_LOWER = {"comparison": 0.8, "response": 0.75, "accelerations": 0.75, "forces": 0.9, "crack-level": 0.75}
+_LOWER |= {"crack": 0.9, "pressure": 0.75}
+_LEAST_HEIGHT = 4.5
+# Flatter ones have panels side by side, with no room to spare.
+_FLAT = 0.47
+# Of two models only so many figures: those of one alone are in its own report.
+_OF_BOTH = {
+    "flexible": ("response", "energy", "spectrum", "crack", "pressure", "deformed", "mesh", "modes"),
+    "decoupled": ("crack-level",),
+}
+
+
+def drawings(case: Case, result: Response | Comparison, units: str) -> dict[str, FigureBlock]:
+    """Return the figures of a result by name, ``flexible/response`` where it is one of two models."""
+    from heeltoe.views.figures import all_figures
+
+    return {name: _block(name, figure) for name, figure in all_figures(case, result, units, only=_wanted).items()}
+
+
+def _wanted(name: str) -> bool:
+    model, slash, own = name.partition("/")
+    return own in _OF_BOTH.get(model, ()) if slash else True
+
+
+def caption(name: str) -> str:
+    """Return what a figure shows; unknown ones are called by their name."""
+    model, slash, own = name.rpartition("/")
+    text = CAPTIONS.get(own, f"{own.replace('-', ' ').replace('_', ' ').capitalize()}.")
+    return (
+        f"{NAMES.get(model, model).capitalize()}. {text}"
+        if slash and own not in ("spectrum", "mesh", "modes")
+        else text
+    )
+
+
+def _block(name: str, figure: Figure) -> FigureBlock:
+    import matplotlib as mpl
+
+    from heeltoe.views.figures.style import laid_out
+
+    own = name.rpartition("/")[2]
+    width, height = figure.get_size_inches()
+    if own in _LOWER and height > _LEAST_HEIGHT:
+        height = max(_LEAST_HEIGHT, _LOWER[own] * height)
+        figure.set_size_inches(width, height)
+    laid_out(figure)
+    # Letters as outlines look the same wherever the report is read.
+    with mpl.rc_context({"svg.fonttype": "path", "svg.hashsalt": "heeltoe"}):
+        file = io.BytesIO()
+        figure.savefig(file, format="svg", metadata={"Date": None})
+    share = _SHARES.get(own, 1.0) if height > _FLAT * width else 1.0
+    return FigureBlock(name, caption(name), file.getvalue(), (float(width), float(height)), share)

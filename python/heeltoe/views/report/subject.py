@@ -1,0 +1,119 @@
+"""What a report is about: the case, its result, and the numbers in the result's JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from heeltoe.case.read import Case
+from heeltoe.result.response import Response
+from heeltoe.study.comparison import Comparison
+from heeltoe.views.report.content import FigureBlock, Inline
+from heeltoe.views.words.numbers import Numbers
+
+if TYPE_CHECKING:
+    from heeltoe.models.statics.model import Statics
+
+NAMES = {"rigid": "rigid block", "flexible": "flexible dam", "decoupled": "decoupled block"}
+MODELS = {
+    "rigid": "the rigid model",
+    "flexible": "the flexible model",
+    "decoupled": "the decoupled chain",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """One response, and where it stands in the JSON: the prefix is empty, or for example ``flexible.``."""
+
+    response: Response
+    prefix: str
+
+    @property
+    def name(self) -> str:
+        """What a column of it is headed by."""
+        return NAMES.get(self.response.model, self.response.model)
+
+    @property
+    def model(self) -> str:
+        """What computed it, in a sentence."""
+        return MODELS.get(self.response.model, f"the {self.response.model} model")
+
+
+@dataclass(frozen=True, eq=False)
+class Subject:
+    """All that the builders need to know.
+
+    Attributes
+    ----------
+    case, result
+        What was asked, and what came out.
+    numbers
+        Writes the numbers of the result's JSON.
+    figures
+        By name, as :func:`heeltoe.views.figures.all_figures` calls them.
+    statics
+        Result of :func:`heeltoe.statics`, if there is one.
+    command
+        What was typed to get this report; empty if it was not typed.
+    """
+
+    case: Case
+    result: Response | Comparison
+    numbers: Numbers
+    figures: Mapping[str, FigureBlock]
+    statics: Statics | None = None
+    command: str = ""
+
+    @cached_property
+    def runs(self) -> tuple[Run, ...]:
+        """Return the one response, or both."""
+        if isinstance(self.result, Response):
+            return (Run(self.result, ""),)
+        both = (self.result.rigid, self.result.flexible)
+        return tuple(Run(each, f"{each.model}.") for each in both)
+
+    @cached_property
+    def references(self) -> tuple[str, ...]:
+        """Return the sources for exactly what was used, in the order of their numbers."""
+        cited = [text for run in self.runs for text in run.response.citation()]
+        return tuple(dict.fromkeys([*cited, *(() if self.statics is None else self.statics.references)]))
+
+    @property
+    def first(self) -> Run:
+        """Return the run that stands for what all have in common: case, motion, static loads."""
+        return self.runs[0]
+
+    @property
+    def units(self) -> str:
+        """The name of the units, ``"si"`` or ``"us"``."""
+        return self.numbers.units.name
+
+    @property
+    def title(self) -> str:
+        """What the case is called."""
+        return self.case.title.strip() or "Untitled case"
+
+    def ran(self, model: str) -> bool:
+        """Whether a model is part of the report."""
+        return any(run.response.model == model for run in self.runs)
+
+    def row(self, label: Inline, key: str, quantity: str | None = None, *, sign: float = 1.0) -> tuple[Inline, ...]:
+        """Return a row of a table: the same number of every run."""
+        return (label, *(self.numbers(run.prefix + key, quantity, sign=sign) for run in self.runs))
+
+    def figure(self, *names: str) -> tuple[FigureBlock, ...]:
+        """Return those of the named figures that are there, of every run."""
+        prefixes = [""] if len(self.runs) == 1 else ["", *(f"{run.response.model}/" for run in self.runs)]
+        keys = [f"{prefix}{name}" for prefix in prefixes for name in names]
+        return tuple(self.figures[key] for key in keys if key in self.figures)
+
+    def head(self, *columns: str) -> tuple[str, ...]:
+        """Return the head of a table of :meth:`row`."""
+        return ("", *((run.name for run in self.runs) if len(self.runs) > 1 else ("value",)), *columns)
+
+    def align(self, more: int = 0) -> str:
+        """Return the alignment of a table of :meth:`row`."""
+        return "l" + "r" * (len(self.runs) + more)

@@ -1,0 +1,238 @@
+"""A document as a PDF, by typst: source and figures go into a directory of their own and are compiled there."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from importlib.resources import files
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any, Literal
+
+from heeltoe.views.report.content import (
+    Block,
+    Code,
+    Document,
+    Equation,
+    FigureBlock,
+    Inline,
+    Listing,
+    Notes,
+    Own,
+    Paragraph,
+    References,
+    Section,
+    Strong,
+    Symbol,
+    Table,
+    Value,
+)
+
+# The first comes with typst, the second with matplotlib; of the others whatever the machine has.
+_FONTS = (
+    "Libertinus Serif",
+    "DejaVu Sans",
+    "Noto Serif CJK SC",
+    "Noto Serif",
+    "Noto Naskh Arabic",
+    "Source Han Serif",
+    "SimSun",
+    "Arial Unicode MS",
+)
+# Words of more letters than this may be broken: in narrow cells and in the title, and elsewhere.
+_NARROW, _WIDE = 26, 70
+_SQUARE = "\N{WHITE SQUARE}"
+_NO_FONT = Notes(
+    "note",
+    "Letters without a font",
+    (("For some letters no font was found here; they may show as boxes. In the HTML report a browser shows them.",),),
+)
+_SHORT = 12
+"""Rows of a table that is kept on one page; longer ones are broken, so that no page stays half empty."""
+_HELD = 3
+"""Rows at the head and the foot of a longer table that stay together."""
+_WIDTH_MM, _HEIGHT_MM = 170.0, 225.0
+"""Room for a figure on a page, its caption left out."""
+
+
+def pdf(document: Document) -> bytes:
+    """Return the document as PDF; the same document gives the same bytes with the same fonts."""
+    (found,) = compiled(document, "pdf")
+    return found
+
+
+def pages(document: Document, ppi: float = 100.0) -> list[bytes]:
+    """Return the pages as PNG, to look at them."""
+    return compiled(document, "png", ppi)
+
+
+def compiled(document: Document, kind: Literal["pdf", "png"], ppi: float | None = None) -> list[bytes]:
+    """Compile a document to ``"pdf"``, one file, or ``"png"``, one for each page."""
+    import typst
+    from matplotlib import get_data_path
+
+    with TemporaryDirectory() as name:
+        directory = Path(name)
+        for number, figure in enumerate(_figures(document.blocks)):
+            (directory / f"{number}.svg").write_bytes(figure.svg)
+        (directory / "report.typ").write_text(source(document), encoding="utf-8")
+        # Its types know one page only.
+        made: Any = typst.compile(
+            str(directory / "report.typ"),
+            root=name,
+            format=kind,
+            ppi=ppi,
+            timestamp=0,
+            font_paths=[str(Path(get_data_path()) / "fonts" / "ttf")],
+        )
+    return [made] if isinstance(made, bytes) else list(made)
+
+
+def source(document: Document) -> str:
+    """Return the source in typst."""
+    look = files("heeltoe.views.report").joinpath("report.typ").read_text(encoding="utf-8")
+    fonts = ", ".join(map(_string, _FONTS))
+    head = f"#let footer-text = {_string(document.footer)}\n#let fonts = ({fonts})\n"
+    title = (
+        f"#set document(title: {_string(document.title)})\n"
+        f'#block(below: 0.7em, text(19pt, weight: "bold", {_words(document.title, _NARROW)}))\n'
+        f"#block(below: 1.4em, text(11pt, fill: luma(70), {_words(document.subtitle)}))\n"
+    )
+    body = "\n".join(_Writer().write(document.blocks))
+    if _unreadable(title + body):
+        title += _plain(_NO_FONT) + "\n"
+    return head + look + title + body
+
+
+def _unreadable(text: str) -> bool:
+    """Whether there are letters for which this machine has no font, as far as matplotlib knows; typst draws boxes."""
+    from heeltoe.views.figures.fonts import readable
+
+    return not text.isascii() and readable(text)[0].count(_SQUARE) > text.count(_SQUARE)
+
+
+def _figures(blocks: tuple[Block, ...]) -> Iterator[FigureBlock]:
+    for block in blocks:
+        if isinstance(block, FigureBlock):
+            yield block
+        elif isinstance(block, Section):
+            yield from _figures(block.blocks)
+
+
+class _Writer:
+    """Writes blocks; counts figures, which are files by their number."""
+
+    def __init__(self) -> None:
+        self.figures = 0
+
+    def write(self, blocks: tuple[Block, ...], level: int = 1) -> Iterator[str]:
+        last = max((place for place, block in enumerate(blocks) if any(_figures((block,)))), default=-1)
+        for place, block in enumerate(blocks):
+            if isinstance(block, Section):
+                # Figures that wait for a page with room for them come before what follows the last of their sections.
+                if level == 1 and place == last + 1:
+                    yield "#place.flush()"
+                yield f"#heading(level: {level}, {_words(block.title)})"
+                yield from self.write(block.blocks, level + 1)
+            elif isinstance(block, FigureBlock):
+                yield self._figure(block)
+            else:
+                yield _plain(block)
+
+    def _figure(self, block: FigureBlock) -> str:
+        width, height = block.size
+        shown = min(block.share * _WIDTH_MM, width / height * _HEIGHT_MM)
+        name = f'"{self.figures}.svg"'
+        self.figures += 1
+        caption = _words(block.caption)
+        picture = f"image({name}, width: {shown:.1f}mm, alt: {_string(block.caption)})"
+        # Text flows on until there is a page with room for it.
+        return f"#figure(placement: auto, {picture}, caption: {caption})"
+
+
+def _plain(block: Block) -> str:
+    if isinstance(block, Paragraph):
+        # What leads to an equation or a table stays with it.
+        leads = isinstance(block.parts[-1], str) and block.parts[-1].endswith(":")
+        return f"#block(sticky: {'true' if leads else 'false'}, {_inline(block.parts)})"
+    if isinstance(block, Notes):
+        items = "".join(f"{_inline(item)}, " for item in block.items)
+        return f"#notes({_string(block.kind)}, {_words(block.title)}, ({items}))"
+    if isinstance(block, Table):
+        return _table(block)
+    if isinstance(block, Equation):
+        return f"#numbered({block.number}, $ {block.typst} $)"
+    if isinstance(block, References):
+        items = "".join(f"{_words(item)}, " for item in block.items)
+        return f'#enum(numbering: "[1]", {items})' if items else ""
+    assert isinstance(block, Listing)
+    return f"#listing({_string(_breakable(block.text, _WIDE))})"
+
+
+def _table(table: Table) -> str:
+    count = len(table.head)
+    widths = [f"{share:g}fr" for share in table.widths] or ["auto"] * count
+    letters = table.align.ljust(count, "l")
+    if len(table.rows) > _SHORT:
+        widths, letters = ["0pt", *widths], "l" + letters
+    columns = ", ".join(widths)
+    align = ", ".join("right" if letter == "r" else "left" for letter in letters)
+    # Short tables stay in one piece; long ones keep their first and their last rows together by cells without width.
+    broken = len(table.rows) > _SHORT
+    held = f"table.cell(rowspan: {_HELD}, breakable: false, inset: 0pt, [])"
+    cells = [
+        "table.hline(stroke: 0.8pt)",
+        f"table.header({'[], ' * broken}{', '.join(f'strong({_words(name)})' for name in table.head)}, "
+        "table.hline(stroke: 0.4pt))",
+    ]
+    for place, row in enumerate(table.rows):
+        if broken and place in (0, len(table.rows) - _HELD):
+            cells.append(held)
+        elif broken and _HELD <= place < len(table.rows) - _HELD:
+            cells.append("[]")
+        cells += [_inline((cell,), _NARROW if table.widths else _WIDE) for cell in row]
+    cells.append("table.hline(stroke: 0.8pt)")
+    size = "8.5pt" if table.widths else "9.5pt"
+    body = f"text({size}, table(columns: ({columns}), align: ({align},), {', '.join(cells)}))"
+    figure = f"figure(kind: table, supplement: [Table], caption: {_words(table.caption)}, {body})"
+    return f"#{{ show figure: set block(breakable: {str(broken).lower()}); {figure} }}"
+
+
+def _inline(parts: tuple[Inline, ...], most: int = _WIDE) -> str:
+    return "[" + "".join(f"#{_part(part, most)};" for part in parts) + "]"
+
+
+def _part(part: Inline, most: int) -> str:
+    if isinstance(part, Value):
+        return f"box({_words(part.text)})"
+    if isinstance(part, Code):
+        return f"code({_string(_breakable(part.text, most))})"
+    if isinstance(part, Strong):
+        return f"strong({_words(part.text)})"
+    if isinstance(part, Symbol):
+        index = f"#sub({_words(part.index)})" if part.index else ""
+        return f"[#emph({_words(part.letter)}){index}]"
+    return _words(part.text if isinstance(part, Own) else part, most)
+
+
+def _words(text: str, most: int = _WIDE) -> str:
+    """Return people's words as a call that typst takes as they are."""
+    return f"words({_string(_breakable(text, most))})"
+
+
+def _breakable(text: str, most: int) -> str:
+    """Let words of more letters than `most` be broken, after a mark if there is one; others stay whole."""
+
+    def broken(match: re.Match[str]) -> str:
+        parts = re.findall(rf".{{1,{most // 2}}}[._/,=-]|.{{1,{most // 2}}}", match[0])
+        return "\u200b".join(parts)
+
+    # Nor is a unit broken at its stroke.
+    text = re.sub(r"(\d[ \u00a0][A-Za-z-]{1,7}/)(?=[a-z])", "\\1\u2060", text)
+    return re.sub(rf"\S{{{most + 1},}}", broken, text)
+
+
+def _string(text: str) -> str:
+    """Return a string of typst's: nothing in it is markup."""
+    plain = "".join(c if c.isprintable() or c in "\u200b\u2060" else " " for c in text)
+    return '"' + plain.replace("\\", "\\\\").replace('"', '\\"') + '"'

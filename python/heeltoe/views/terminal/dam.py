@@ -1,0 +1,72 @@
+"""What the terminal shows of a dam without an earthquake: its periods, and which pulses overturn it."""
+
+from __future__ import annotations
+
+from itertools import zip_longest
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.markup import escape
+
+from heeltoe.views.terminal.common import label_grid, quiet_table
+from heeltoe.views.terminal.response import damping_line, mesh_line
+
+# Not at run time: neither waits for the other's parts.
+if TYPE_CHECKING:
+    from heeltoe.models.flexible.periods import DamPeriods
+    from heeltoe.study.overturning import OverturningMap
+
+
+def print_periods(periods: DamPeriods, console: Console) -> None:
+    """Print the periods of a dam and of its parts."""
+    console.print(f"[bold]{escape(periods.title or 'Untitled case')}[/bold]  (periods)", soft_wrap=True)
+    console.print()
+    columns = {
+        "intact, dry": periods.intact_dry,
+        "intact, with water": periods.intact,
+        "above the crack": periods.above,
+        "below the crack": periods.below,
+    }
+    shown = {name: values for name, values in columns.items() if values is not None}
+    table = quiet_table()
+    table.add_column("")
+    for name in shown:
+        table.add_column(name, justify="right")
+    for number, row in enumerate(zip_longest(*shown.values()), start=1):
+        table.add_row(str(number), *("-" if value is None else f"{value:.4f} s" for value in row))
+    console.print(table)
+    console.print()
+    grid = label_grid()
+    below = "" if periods.below is None else "; the part below is held at its base"
+    grid.add_row("parts", f"each by itself, with its water; the part above is free, rigid-body motion left out{below}")
+    grid.add_row("mesh", mesh_line(periods.elements, periods.nodes))
+    grid.add_row("damping", damping_line(periods.damping, periods.damping_ratio, periods.rayleigh))
+    console.print(grid)
+
+
+def print_overturning(found: OverturningMap, console: Console) -> None:
+    """Print which pulses overturn a block."""
+    console.print(f"[bold]{escape(found.title or 'Untitled case')}[/bold]  (overturning)", soft_wrap=True)
+    console.print()
+    grid = label_grid()
+    p, slenderness = found.frequency_parameter_1_s, found.slenderness_rad
+    grid.add_row("block", f"slenderness {slenderness:.4g} rad, p = {p:.4g} 1/s")
+    low, high = found.frequency_hz[0], found.frequency_hz[-1]
+    sizes = f"{found.amplitude_g[0]:.3g} to {found.amplitude_g[-1]:.3g} g"
+    grid.add_row("pulses", f"one {found.pulse}, {low:.3g} to {high:.3g} Hz, {sizes}: {found.end.size} runs")
+    least = [(size, hertz) for size, hertz in zip(found.least_g(), found.frequency_hz, strict=True) if size is not None]
+    if not least:
+        grid.add_row("overturning", "by none of them")
+    else:
+        size, hertz = min(least)
+        grid.add_row("overturning", f"from {size:.3g} g on, at {hertz:.3g} Hz")
+        gaps = found.safe_gap()
+        widest = max(gaps, key=lambda gap: gap[2] - gap[1], default=None)
+        text = (
+            "none: what overturns it is weaker than all it stands"
+            if widest is None
+            else f"widest at {widest[0]:.3g} Hz: it stands {widest[1]:.3g} to {widest[2]:.3g} g, though weaker ones "
+            "overturn it"
+        )
+        grid.add_row("safe gap", text)
+    console.print(grid)

@@ -1,0 +1,142 @@
+"""What the terminal shows of a table of runs (rich)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from rich import box
+from rich.console import Console
+from rich.markup import escape
+from rich.measure import Measurement
+from rich.table import Table
+
+from heeltoe.result.response import Response
+from heeltoe.result.verdict import comes_to_rest
+from heeltoe.study.grid import Grid
+
+
+def _mm(metres: float) -> str:
+    size = abs(1e3 * metres)
+    return f"{1e3 * metres:.{0 if size >= 1e3 else 1 if size >= 1.0 else 2}f}"
+
+
+def _mrad(value: float) -> str:
+    return f"{1e3 * value:.3g}" if value >= 1e-5 else f"{1e3 * value:.2f}"
+
+
+# Heading, name in the rows, sign, how to write it.
+_Column = tuple[str, str, float, Callable[[Any], str]]
+_SLIP: tuple[_Column, ...] = (
+    ("residual", "residual_slip_m", 1.0, _mm),
+    ("peak\ndown", "peak_slip_downstream_m", 1.0, _mm),
+    ("peak\nup", "peak_slip_upstream_m", -1.0, _mm),
+    ("sliding", "slip_sliding_m", 1.0, _mm),
+    ("slide-\nrocking", "slip_slide_rocking_m", 1.0, _mm),
+    ("drifting", "slip_drifting_m", 1.0, _mm),
+)
+_ROCKING: tuple[_Column, ...] = (
+    ("rotation\ndown", "rocking_downstream_rad", 1.0, _mrad),
+    ("rotation\nup", "rocking_upstream_rad", 1.0, _mrad),
+    ("opening\nupstream", "opening_upstream_m", 1.0, _mm),
+    ("opening\ndownstr.", "opening_downstream_m", 1.0, _mm),
+    ("impacts", "impacts", 1.0, str),
+)
+
+
+def print_grid(grid: Grid, console: Console) -> None:
+    """Print the table: lengths in mm, rotations in mrad, slip positive downstream."""
+    first = grid.responses[0]
+    peak = first.motion.pga / first.gravity
+    console.print(f"[bold]{escape(grid.title or 'Untitled case')}[/bold]  ({grid.model} model)", soft_wrap=True)
+    runs = f"{first.motion.name}, peak {peak:.3g} g; {len(grid.cells)} runs"
+    console.print(escape(runs), style="dim", soft_wrap=True)
+    _print_crack_level(grid, console)
+    # One table where there is room for it, else one of the slips and one of the rocking, in parts if need be.
+    whole = _SLIP + _ROCKING
+    groups = (
+        [whole] if _fits(grid, whole, console) else [*_parts(grid, _SLIP, console), *_parts(grid, _ROCKING, console)]
+    )
+    for columns in groups:
+        console.print()
+        console.print(_table(grid, columns))
+    console.print("slips and openings in mm, slip positive downstream; rotations in mrad", style="dim")
+    for text in _remarks(grid):
+        console.print(f"[yellow]warning[/yellow]  {escape(text)}")
+
+
+def _fits(grid: Grid, columns: tuple[_Column, ...], console: Console) -> bool:
+    wide = console.options.update(max_width=10_000)
+    return Measurement.get(console, wide, _table(grid, columns)).maximum <= console.width
+
+
+def _parts(grid: Grid, columns: tuple[_Column, ...], console: Console) -> list[tuple[_Column, ...]]:
+    """Divide columns so that no number has to be cut, as far as at least one fits beside the varied fields."""
+    parts: list[tuple[_Column, ...]] = [columns[:1]]
+    for column in columns[1:]:
+        if _fits(grid, (*parts[-1], column), console):
+            parts[-1] = (*parts[-1], column)
+        else:
+            parts.append((column,))
+    return parts
+
+
+def _remarks(grid: Grid) -> list[str]:
+    """Return all warnings, once each; what belongs to some of the runs says to which."""
+    runs: dict[str, list[str]] = {}
+    for cell, response in zip(grid.cells, grid.responses, strict=True):
+        said = response.warnings if response.ok else (f"{response.outcome}: {response.advice}", *response.warnings)
+        for text in dict.fromkeys(said):
+            runs.setdefault(text, []).append(", ".join(cell))
+    return [text if len(which) == len(grid.cells) else f"{'; '.join(which)}: {text}" for text, which in runs.items()]
+
+
+def _table(grid: Grid, columns: tuple[_Column, ...]) -> Table:
+    table = Table(
+        box=box.SIMPLE_HEAD,
+        show_edge=False,
+        pad_edge=False,
+        padding=(0, 1, 0, 0),
+        header_style="dim",
+        border_style="dim",
+    )
+    for each in grid.variations:
+        table.add_column(escape(each.path.replace(".", "\n")), no_wrap=True)
+    for heading, *_ in columns:
+        table.add_column(heading, justify="right", no_wrap=True)
+    table.add_column("in the\nend", no_wrap=True)
+    for cell, row, response in zip(grid.cells, grid.rows(), grid.responses, strict=True):
+        table.add_row(*map(escape, cell), *(_written(row, column) for column in columns), _end(response))
+    return table
+
+
+def _written(row: Mapping[str, Any], column: _Column) -> str:
+    _, name, sign, write = column
+    value = row[name]
+    if value is None:
+        return "-"
+    # A zero is no amount, of either sign.
+    return write(-value if sign < 0.0 else value) if value else "0"
+
+
+def _end(response: Response) -> str:
+    if response.outcome != "ok":
+        return response.outcome
+    return "at rest" if comes_to_rest(response) else "moving"
+
+
+def _print_crack_level(grid: Grid, console: Console) -> None:
+    """Say how much stronger the crack is shaken than the ground, over all runs."""
+    levels = [each.crack_level for each in grid.responses if each.model == "decoupled" and each.summary]
+    factors = sorted(level["amplification"] for level in levels if level["amplification"] is not None)
+    if not factors:
+        return
+    peaks = sorted(level["peak_horizontal_g"] for level in levels)
+
+    def span(values: list[float], unit: str = "") -> str:
+        low, high = f"{values[0]:.3g}", f"{values[-1]:.3g}"
+        return f"{low}{unit}" if low == high else f"{low} to {high}{unit}"
+
+    periods = span(sorted(level["periods_s"][0] for level in levels if level["periods_s"]) or [0.0], " s")
+    text = f"crack level: peak {span(peaks, ' g')}, {span(factors)} times the ground's; first period below {periods}"
+    console.print(text, style="dim", soft_wrap=True)

@@ -1,0 +1,137 @@
+"""Numbers of the JSON as people read them: the names of the contract say what they are and in which unit."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from heeltoe.result.verdict import FOOT, POUND, angle, length
+from heeltoe.units.systems import unit_system
+from heeltoe.views.report.content import Inline, Value
+
+NOTHING = "–"
+"""Stands where there is no number to show."""
+
+# Endings of names, the longest first, and what they mean.
+_ENDINGS = {
+    "_rad_s2": "angular acceleration",
+    "_rad_s": "angular velocity",
+    "_pa": "pressure",
+    "_m_s2": "acceleration",
+    "_m_s": "velocity",
+    "_1_s": "rate",
+    "_rad": "rotation",
+    "_kg": "mass",
+    "_m": "displacement",
+    "_s": "time",
+    "_g": "g",
+    "_j": "energy",
+    "_n": "force",
+}
+# Less than this [Pa] is what rounding leaves of no stress.
+_NO_PRESSURE = 1e-3
+
+
+class Numbers:
+    """Writes the numbers of one result.
+
+    Parameters
+    ----------
+    data
+        The JSON of the result.
+    units
+        ``"si"`` or ``"us"``.
+    """
+
+    def __init__(self, data: Mapping[str, Any], units: str = "si") -> None:
+        self.data = data
+        self.units = unit_system(units)
+
+    def raw(self, key: str) -> Any:
+        """Return what stands in the JSON under a path; None where there is nothing."""
+        found: Any = self.data
+        for name in key.split("."):
+            if isinstance(found, list) and name.isdigit():
+                found = found[int(name)] if int(name) < len(found) else None
+            else:
+                found = found.get(name) if isinstance(found, Mapping) else None
+        return found
+
+    def __call__(self, key: str, quantity: str | None = None, *, sign: float = 1.0) -> Inline:
+        """Return a number with its unit; a dash where there is none.
+
+        Parameters
+        ----------
+        key
+            Path in the JSON.
+        quantity
+            What it is, where its name does not say so.
+        sign
+            Minus one shows it the other way round.
+        """
+        number = self.raw(key)
+        if number is None or isinstance(number, bool) or not math.isfinite(number):
+            return NOTHING
+        shown = number if sign > 0.0 else 0.0 - number
+        number = number if isinstance(number, int) else float(number)
+        return Value(key, number, self.text(shown, quantity or kind(key)))
+
+    def text(self, number: float, quantity: str) -> str:
+        """Write a number in SI as people read it, in the report's units."""
+        if quantity in ("displacement", "length", "velocity", "force", "pressure", "energy"):
+            return self._scaled(number, quantity)
+        if quantity == "mass":
+            if self.units.name == "us":
+                return f"{digits(number * FOOT / POUND / 2e3, 4)} ton/ft"
+            return f"{digits(number / 1e3, 4)} t/m"
+        if quantity == "acceleration" and self.units.name == "us":
+            return f"{digits(number / FOOT, 4)} ft/s²"
+        unit = {
+            "rotation": "",
+            "angular velocity": " rad/s",
+            "angular acceleration": " rad/s²",
+            "acceleration": " m/s²",
+            "rate": " 1/s",
+            "time": " s",
+            "g": " g",
+            "share": " %",
+        }.get(quantity, "")
+        if quantity == "rotation":
+            return angle(number)
+        return digits(100.0 * number if quantity == "share" else number, 3 if quantity == "share" else 4) + unit
+
+    def _scaled(self, number: float, quantity: str) -> str:
+        if quantity == "displacement":
+            return length(number, self.units.name)
+        if quantity == "pressure" and abs(number) < _NO_PRESSURE:
+            number = 0.0
+        scale = self.units.scale(quantity, abs(number))
+        return f"{digits(scale(number), 3 if quantity == 'velocity' else 4)} {scale.unit}"
+
+
+def kind(key: str) -> str:
+    """Return what kind of quantity a name of the contract ends in; ``"number"`` where it says nothing."""
+    last = key.rpartition(".")[2]
+    if last.isdigit() or last in ("mean", "std", "min", "max"):
+        last = key.split(".")[-2]
+    return next((meaning for ending, meaning in _ENDINGS.items() if last.endswith(ending)), "number")
+
+
+def digits(value: float, count: int) -> str:
+    """Write a number to so many digits, without an exponent where people would write none."""
+    if isinstance(value, int):
+        return str(value)
+    if value == 0.0 or not math.isfinite(value):
+        return "0" if value == 0.0 else NOTHING
+    if not 1e-4 <= abs(value) < 1e7:
+        mantissa, _, exponent = f"{value:.{max(0, count - 2)}e}".partition("e")
+        return f"{mantissa}·10{_raised(int(exponent))}"
+    rounded = float(f"{value:.{count}g}")
+    decimals = max(0, count - 1 - math.floor(math.log10(abs(rounded))))
+    text = f"{rounded:.{decimals}f}"
+    return text.rstrip("0").removesuffix(".") if decimals else text
+
+
+def _raised(exponent: int) -> str:
+    return str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
