@@ -10,8 +10,8 @@ from hypothesis import HealthCheck, settings
 
 from heeltoe.errors import CATALOGUE, InputError
 
-ROOT = Path(__file__).parent.parent
-_BESIDE = ROOT.parent / "shared" / "records"
+pytest.register_assert_rewrite("shared")
+_BESIDE = Path(__file__).parents[2] / "shared" / "records"
 if "HEELTOE_RECORDS" not in os.environ and _BESIDE.is_dir():
     os.environ["HEELTOE_RECORDS"] = str(_BESIDE)
 
@@ -52,7 +52,9 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
     if hasattr(config, "workeroutput"):
         config.workeroutput["raised"] = sorted(_RAISED)
         return
-    complete = config.option.markexpr in ("", "not slow") and not config.option.keyword
+    complete = (
+        config.option.markexpr in ("", "not slow") and not config.option.keyword and not config.option.collectonly
+    )
     if complete and config.args == config.getini("testpaths") and session.exitstatus == 0:
         untested = sorted(set(CATALOGUE) - _RAISED)
         if untested:

@@ -1,0 +1,199 @@
+"""The case: what is read, defaults, overrides, warnings, examples, schema."""
+
+import copy
+import json
+import pickle
+from pathlib import Path
+
+import pytest
+
+from heeltoe.case.read import case_schema, case_warnings, read_case
+from heeltoe.errors import InputError
+from heeltoe.units.parse import Acceleration
+from shared.cases import DAM, PULSE, dam, write
+from shared.dams import ROOT
+
+NAMES = ["anchored", "block", "koyna", "koyna-top", "slender", "triangular", "typical-base", "typical-height"]
+EXAMPLES = [ROOT / "examples" / f"{name}.toml" for name in NAMES]
+
+
+def test_fields_arrive_in_si():
+    case = read_case(
+        dam(
+            title="T",
+            gravity="32.174 ft/s^2",
+            concrete={"density": "2.65 t/m^3", "modulus": "20 GPa", "poisson": 0.143, "damping": "5 %"},
+            motion={
+                "file": "taft.txt",
+                "pga": "0.4 g",
+                "duration": "30s",
+                "unit": "cm/s^2",
+                "time_step": "20 ms",
+            },
+        )
+    )
+    assert case.gravity == pytest.approx(9.80665, rel=1e-5)
+    assert (case.concrete.density, case.concrete.modulus, case.concrete.damping) == (2650.0, 20e9, 0.05)
+    assert case.reservoir.depth == 95.0
+    assert case.motion.pga == Acceleration(0.4, in_g=True)
+    assert (case.motion.duration, case.motion.time_step, case.motion.unit) == (30.0, 0.02, "cm/s^2")
+    assert case.section.vertices() == ((0, 0), (80, 0), (8, 90), (8, 100), (0, 100))
+
+
+def test_defaults():
+    case = read_case({"section": DAM["section"], "crack": {"friction": 1}})
+    assert (case.title, case.gravity, case.concrete.density) == ("", 9.80665, 2400.0)
+    assert (case.reservoir, case.tailwater, case.motion) == (None, None, None)
+    assert (case.uplift.pattern, case.uplift.intensity) == ("triangular", 1.0)
+    assert (case.crack.elevation, case.crack.restitution) == (0.0, 0.5)
+    assert (case.analysis.paradox, case.analysis.event_limit) == ("stop", 1_000_000)
+    flexible = case.flexible
+    assert (flexible.plane, flexible.damping, flexible.virtual_mass, flexible.contact) == (
+        "stress",
+        "deformation",
+        "complete",
+        "coulomb",
+    )
+
+
+def test_friction_in_either_form():
+    one = read_case(dam(crack={"friction": 0.8})).crack
+    assert (one.mu_static, one.mu_kinetic) == (0.8, 0.8)
+    two = read_case(dam(crack={"static_friction": 0.9, "kinetic_friction": 0})).crack
+    assert (two.mu_static, two.mu_kinetic) == (0.9, 0.0)
+
+
+def test_section_without_neck_is_a_trapezoid():
+    section = read_case(dam(section={"height": "100 m", "crest_width": "8 m", "base_width": "80 m"})).section
+    assert section.vertices() == ((0, 0), (80, 0), (8, 100), (0, 100))
+
+
+def test_motion_by_points_with_a_vertical_one():
+    motion = read_case(dam(motion=PULSE | {"vertical": {"file": "up.txt", "reverse": True}})).motion
+    assert motion.points[2] == (0.1, Acceleration(0.0, in_g=True))
+    assert (motion.vertical.file, motion.vertical.reverse) == ("up.txt", True)
+
+
+def test_overrides():
+    overrides = [
+        "crack.friction = 0.8",
+        "reservoir.depth=90m",
+        "tailwater.depth=5 m",
+        "title=Other dam",
+        "motion.reverse=true",
+        'motion.vertical={file = "up.txt"}',
+        "analysis.event_limit=10",
+    ]
+    fields = dam()
+    before = copy.deepcopy(fields)
+    case = read_case(fields, overrides)
+    assert (case.crack.friction, case.reservoir.depth, case.tailwater.depth) == (0.8, 90.0, 5.0)
+    assert (case.title, case.motion.reverse, case.motion.vertical.file) == ("Other dam", True, "up.txt")
+    assert case.analysis.event_limit == 10
+    assert fields == before
+
+
+def test_override_displaces_the_other_form():
+    points = 'motion.points=[["0 s", "0 g"], ["1 s", "1 g"]]'
+    record = dam(motion={"file": "a.txt", "unit": "g", "time_step": "0.01 s", "pga": "1 g"})
+    drawn = read_case(record, [points]).motion
+    other = read_case(record, ["motion.file=b.txt"]).motion
+    assert (other.file, other.unit, other.time_step) == ("b.txt", None, None)
+    assert read_case(record, ["motion.unit=m/s^2", "motion.file=b.txt"]).motion.unit == "m/s^2"
+    assert (drawn.file, drawn.unit, drawn.time_step, drawn.pga) == (
+        None,
+        None,
+        None,
+        Acceleration(1.0, in_g=True),
+    )
+    assert read_case(dam(motion=PULSE), ["motion.file=a.txt"]).motion.points is None
+    pair = dam(crack={"static_friction": 1, "kinetic_friction": 1})
+    assert read_case(pair, ["crack.friction=0.5"]).crack.mu_static == 0.5
+    cut_off = dam(uplift={"pattern": "cut-off", "extent": 0.5})
+    assert read_case(cut_off, ["uplift.pattern=uniform"]).uplift.extent is None
+    # Two overrides do not displace one another, in whatever order.
+    drained = ["uplift.extent=0.4", "uplift.pattern=cut-off"]
+    assert read_case(cut_off, drained).uplift.extent == 0.4
+    with pytest.raises(InputError, match="cannot stand beside"):
+        read_case(DAM, [points, "motion.file=a.txt"])
+
+
+def test_json_and_toml_and_byte_order_mark(tmp_path):
+    expected = read_case(DAM)
+    as_json = write(tmp_path / "case.txt", "\ufeff  " + json.dumps(DAM))
+    assert read_case(as_json).model_dump() == expected.model_dump()
+    text = '\ufefftitle = "x"\r\n[crack]\r\nfriction = 1.0\r\n[section]\r\nheight = "9 m"\r\n'
+    text += 'crest_width = "1 m"\r\nbase_width = "5 m"'
+    assert read_case(str(write(tmp_path / "case", text))).title == "x"
+
+
+def test_case_knows_its_directory(tmp_path):
+    case = read_case(write(tmp_path / "case.json", json.dumps(DAM)))
+    assert case.base_directory == tmp_path
+    assert read_case(DAM).base_directory == Path()
+    assert pickle.loads(pickle.dumps(case)).base_directory == tmp_path
+    assert case.based_in(Path("x")).base_directory == Path("x")
+    assert case.base_directory == tmp_path
+
+
+def test_case_cannot_be_changed():
+    case = read_case(DAM)
+    with pytest.raises(ValueError, match="frozen"):
+        case.crack.friction = 2.0
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        ({"crack": {"friction": 2.5}}, "coefficient of friction of 2.5"),
+        ({"uplift": {"intensity": 1.5}}, "uplift.intensity: 1.5"),
+        ({"concrete": {"density": "150 kg/m^3"}}, "150 kg/m^3 is unusual"),
+        ({"tailwater": {"depth": "96 m"}}, "deeper downstream"),
+        ({"crack": {"friction": 1.0, "elevation": "96 m"}}, "reservoir: it ends below the crack"),
+        ({"silt": {"depth": "96 m"}}, "silt is higher than the water"),
+        # 85 and 120 lb/ft^3, the fluids of USBR for silt and water together.
+        ({"silt": {"depth": "20 m", "horizontal_density": "85 lb/ft^3"}}, "as if the water were in them"),
+        ({"silt": {"depth": "20 m", "vertical_density": "120 lb/ft^3"}}, "as if the water were in them"),
+    ],
+)
+def test_warnings(changes, words):
+    assert case_warnings(read_case(DAM)) == ()
+    (warning,) = case_warnings(read_case(dam(**changes)))
+    assert words in warning
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_examples_are_sound_and_survive_json(path):
+    case = read_case(path)
+    assert case_warnings(case) == ()
+    assert case.title
+    again = read_case(json.loads(case.model_dump_json(exclude_none=True)))
+    assert again.model_dump() == case.model_dump()
+
+
+def test_examples_hold_the_dams_of_the_thesis():
+    cases = {path.stem: read_case(path) for path in EXAMPLES}
+    base, top = cases["typical-base"], cases["typical-height"]
+    assert base.section == top.section
+    assert (base.concrete.density, base.concrete.modulus, base.reservoir.depth) == (2650.0, 20e9, 100.0)
+    assert (base.flexible.damping, top.flexible.virtual_mass, top.crack.elevation) == (
+        "thesis",
+        "thesis",
+        90.0,
+    )
+    triangle = cases["triangular"]
+    assert triangle.section.vertices()[1][0] == pytest.approx(0.8 * triangle.reservoir.depth)
+    assert triangle.uplift.intensity == 0.5
+    assert cases["koyna-top"].crack.elevation == cases["koyna-top"].section.neck_height
+    assert cases["block"].reservoir is None
+
+
+def test_schema_describes_every_field():
+    schema = case_schema()
+    json.dumps(schema)
+    for block in [schema, *schema["$defs"].values()]:
+        assert block["additionalProperties"] is False
+        for name, field in block["properties"].items():
+            assert field.get("description"), name
+    assert schema["$defs"]["Concrete"]["properties"]["density"]["default"] == "2400 kg/m^3"
+    assert schema["required"] == ["section", "crack"]

@@ -1,0 +1,316 @@
+"""The command line as a user meets it: a process with arguments, output, exit code."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import pty
+import re
+import subprocess
+import sys
+
+import pyarrow.parquet as pq
+import pytest
+
+from shared.command import EXAMPLES, heeltoe
+
+COARSE = ("--set", "flexible.elements_across=2")
+FAST = ("--set", "flexible.convergence_check=false", "--set", "motion.duration=3s")
+
+
+def test_run_says_what_the_dam_does():
+    result = heeltoe("run", EXAMPLES / "typical-base.toml")
+    assert result.returncode == 0, result.stderr
+    for words in ("PGA 0.4 g", "sliding safety factor", "residual slip", "Verdict", "downstream"):
+        assert words in result.stdout
+
+
+def test_figures_in_us_units(tmp_path):
+    run = ("run", EXAMPLES / "block.toml", "--out", tmp_path)
+    assert heeltoe(*run, "--units", "us").returncode == 0
+    assert "slip [in]" in (tmp_path / "response.svg").read_text(encoding="utf-8")
+    assert "kip/ft" in (tmp_path / "section.svg").read_text(encoding="utf-8")
+    said = heeltoe(
+        "run", EXAMPLES / "typical-base.toml", "--units", "us", "--set", "title=Dam of 100 m", "--duration", "5s"
+    )
+    for words in ("Dam of 100 m", "ft/s", "residual slip", " in "):
+        assert words in said.stdout
+    assert not re.search(r"\d\s(mm|m/s|m)\b", said.stdout.replace("Dam of 100 m", ""))
+    refused = heeltoe(*run, "--units", "imperial")
+    assert refused.returncode == 2
+    assert "--units" in refused.stderr
+
+
+def test_json_on_standard_output_is_only_json():
+    result = heeltoe("run", EXAMPLES / "block.toml", "--json", "-")
+    assert result.returncode == 0
+    data = json.loads(result.stdout)
+    assert "Verdict" in result.stderr
+    assert data["model"] == "rigid"
+    assert data["outcome"] == "ok"
+    assert data["residual_slip_m"] == pytest.approx(-0.012 * 9.80665, rel=1e-12)
+
+
+def test_the_contract_of_the_json():
+    data = json.loads(heeltoe("run", EXAMPLES / "typical-base.toml", "--json", "-").stdout)
+    for key in [
+        "model",
+        "title",
+        "outcome",
+        "advice",
+        "warnings",
+        "residual_slip_m",
+        "peak_slip_downstream_m",
+        "peak_slip_upstream_m",
+        "rocking_downstream_rad",
+        "rocking_upstream_rad",
+        "opening_upstream_m",
+        "opening_downstream_m",
+        "slip_by_mode_m",
+        "impacts",
+        "events",
+        "final_mode",
+        "critical_acceleration_g",
+        "energy",
+        "motion",
+        "build",
+    ]:
+        assert key in data, key
+    assert set(data["slip_by_mode_m"]) == {"sliding", "slide_rocking", "drifting"}
+    assert set(data["energy"]) >= {"input_j", "friction_j", "impact_j", "residual"}
+    assert set(data["motion"]) >= {"name", "pga_g", "pgv_m_s", "dt_s", "duration_s"}
+    assert set(data["critical_acceleration_g"]) >= {"sliding", "rocking"}
+    assert sum(data["slip_by_mode_m"].values()) == pytest.approx(data["residual_slip_m"], rel=1e-12)
+
+
+def test_out_writes_everything(tmp_path):
+    out = tmp_path / "deep" / "result"
+    result = heeltoe("run", EXAMPLES / "typical-base.toml", "--out", out)
+    assert result.returncode == 0, result.stderr
+    names = {path.name for path in out.iterdir()}
+    assert names >= {"result.json", "histories.parquet", "events.parquet", "response.png", "response.svg"}
+    table = pq.read_table(out / "histories.parquet")
+    data = json.loads((out / "result.json").read_text())
+    assert table["slip_m"][-1].as_py() == pytest.approx(data["residual_slip_m"], rel=1e-12)
+    assert {"time_s", "mode", "rotation_rad", "gap_heel_m"} <= set(table.column_names)
+
+
+def test_csv_and_output_step(tmp_path):
+    result = heeltoe("run", EXAMPLES / "block.toml", "--out", tmp_path, "--csv", "--output-step", "0.01s")
+    assert result.returncode == 0, result.stderr
+    lines = (tmp_path / "histories.csv").read_text().splitlines()
+    assert len(lines) == 42
+
+
+def test_set_motion_pga_reverse_duration():
+    def slip(*more: str) -> float:
+        result = heeltoe("run", EXAMPLES / "typical-base.toml", "--json", "-", *more)
+        assert result.returncode == 0, result.stderr
+        return float(json.loads(result.stdout)["residual_slip_m"])
+
+    plain = slip()
+    assert slip("--pga", "0.3g") < plain
+    assert slip("--set", "reservoir.depth=90m") < plain
+    assert slip("--set", "crack.friction=1.2", "--set", "reservoir.depth=90m") < slip("--set", "reservoir.depth=90m")
+    assert slip("--reverse") != plain
+    assert slip("--duration", "2s") != plain
+    assert slip("--motion", "pacoima-1971-164-nga") != plain
+
+
+def test_a_motion_on_the_command_line_is_relative_to_where_the_user_stands(tmp_path):
+    (tmp_path / "pulse.txt").write_text("# units: time [s], acceleration [g]\n0 -0.5\n0.4 -0.5\n0.41 0\n2 0\n")
+    result = heeltoe("run", EXAMPLES / "typical-base.toml", "--motion", "pulse.txt", "--json", "-", cwd=tmp_path)
+    assert result.returncode == 0, result.stderr
+    assert json.loads(result.stdout)["motion"]["name"] == "pulse"
+
+
+def test_a_dam_that_cannot_stand_is_not_shaken():
+    result = heeltoe("run", EXAMPLES / "typical-base.toml", "--set", "crack.friction=0.3", "--json", "-")
+    assert result.returncode == 3
+    data = json.loads(result.stdout)
+    assert data["outcome"] == "unstable"
+    assert "sliding safety factor 0." in data["advice"]
+    assert data["static"]["sliding_safety_factor"] < 1.0
+    assert "residual_slip_m" not in data or data["residual_slip_m"] is None
+
+
+def test_flexible_says_what_its_result_rests_on(tmp_path):
+    short = ("--model", "flexible", *COARSE, "--duration", "4s")
+    result = heeltoe("run", EXAMPLES / "typical-base.toml", *short, "--out", tmp_path)
+    assert result.returncode == 0, result.stderr
+    for words in [
+        "(flexible model)",
+        "s, of the intact dam with its water",
+        "6 elements, 29 nodes; 5 nodes along the crack",
+        "thesis: 5 % in the 1st and 3rd mode",
+        "coulomb: exact, with Coulomb friction",
+        "time step",
+        "% apart (3 % allowed)",
+        "damping ",
+        "node strikes",
+        "Verdict  The dam slides",
+    ]:
+        assert words in result.stdout, words
+    data = json.loads((tmp_path / "result.json").read_text())
+    assert data["model"] == "flexible"
+    assert data["damping"] == "thesis"
+    assert len(data["periods_s"]) == 5
+    assert data["convergence"]["coarser_step_s"] == pytest.approx(2.0 * data["time_step_s"])
+    energy = data["energy"]
+    parts = ("friction_j", "impact_j", "damping_j", "numerical_j", "kinetic_j")
+    assert sum(energy[name] for name in parts) == pytest.approx(energy["input_j"], rel=1e-6)
+    assert (tmp_path / "crack.parquet").exists()
+
+
+def test_both_models_side_by_side(tmp_path):
+    arguments = ("--model", "both", *COARSE, *FAST, "--spread", "3", "--out", tmp_path, "--json", "-")
+    result = heeltoe("run", EXAMPLES / "typical-base.toml", *arguments)
+    assert result.returncode == 0, result.stderr
+    data = json.loads(result.stdout)
+    assert data["model"] == "both"
+    assert data == json.loads((tmp_path / "result.json").read_text())
+    assert data["rigid"]["spread"]["runs"] == data["flexible"]["spread"]["runs"] == 3
+    for words in (
+        "flexible/rigid",
+        "with the shaking varied by 1 %",
+        "computed in",
+        "Rigid ",
+        "Flexible ",
+        "Difference ",
+    ):
+        assert words in result.stderr, words
+    assert f"{data['ratio']['residual_slip_m']:.3g}" in result.stderr
+    assert (tmp_path / "flexible" / "crack.png").exists()
+
+
+def test_both_end_with_3_where_one_has_no_result():
+    weak = ("--set", "crack.friction=0.3", "--model", "both", *COARSE, *FAST, "--json", "-")
+    result = heeltoe("run", EXAMPLES / "typical-base.toml", *weak)
+    assert result.returncode == 3
+    data = json.loads(result.stdout)
+    assert data["rigid"]["outcome"] == "unstable"
+    assert data["flexible"]["outcome"] == "unstable"
+    assert set(data["ratio"].values()) == {None}
+    assert "slides under its static loads alone" in result.stderr
+
+
+def test_a_dam_that_is_lost_is_no_result(tmp_path):
+    (tmp_path / "slide.toml").write_text(
+        'section = { polygon = [["0 m", "0 m"], ["0.2 m", "0 m"], ["0.2 m", "0.2 m"], ["0 m", "0.2 m"]] }\n'
+        'concrete = { modulus = "20 GPa" }\ncrack = { friction = 0.01 }\nreservoir = { depth = "0.2 m" }\n'
+        "flexible = { elements_across = 1, convergence_check = false }\n"
+        'motion = { points = [["0 s", "-3 g"], ["3 s", "-3 g"]] }\n'
+    )
+    result = heeltoe("run", "slide.toml", "--model", "flexible", "--json", "-", "--spread", "2", cwd=tmp_path)
+    assert result.returncode == 3, result.stderr
+    data = json.loads(result.stdout)
+    assert data["outcome"] == "lost"
+    assert data["spread"]["failed"] == 2
+    assert "No result to trust (lost)" in result.stderr
+    assert "the dam has failed" in data["advice"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "runs"),
+    [
+        (("--spread", "block.toml"), 11),
+        (("block.toml", "--spread"), 11),
+        (("--spread", "--pga", "0.3g", "block.toml"), 11),
+        (("block.toml", "--spread", "3"), 3),
+        (("block.toml", "--spread=4"), 4),
+    ],
+)
+def test_spread_with_and_without_a_number(arguments, runs):
+    result = heeltoe("run", *arguments, "--json", "-", cwd=EXAMPLES)
+    assert result.returncode == 0, result.stderr
+    spread = json.loads(result.stdout)["spread"]
+    assert spread["runs"] == len(spread["scales"]) == runs
+    assert (spread["scales"][0], spread["scales"][-1]) == (0.99, 1.01)
+    assert set(spread["residual_slip_m"]) == {"mean", "std", "min", "max"}
+    assert f"spread over {runs} runs" in result.stderr
+
+
+def test_periods():
+    result = heeltoe("periods", EXAMPLES / "typical-height.toml", *COARSE, "--count", "3")
+    assert result.returncode == 0, result.stderr
+    for words in ("intact, dry", "intact, with water", "above the crack", "below the crack", "held at its base"):
+        assert words in result.stdout
+    result = heeltoe("periods", EXAMPLES / "typical-height.toml", *COARSE, "--count", "3", "--json", "-")
+    periods = json.loads(result.stdout)["periods_s"]
+    assert {len(values) for values in periods.values()} == {3}
+    assert f"{periods['intact'][0]:.4f} s" in result.stderr
+
+
+def test_vtk_files_go_beside_the_rest(tmp_path):
+    arguments = ("--model", "both", *COARSE, *FAST, "--out", tmp_path, "--vtk")
+    folder = tmp_path / "flexible" / "vtk"
+    folder.mkdir(parents=True)
+    (folder / "dam-9999.vtu").write_text("of an earlier run")
+    result = heeltoe("run", EXAMPLES / "typical-base.toml", *arguments)
+    assert result.returncode == 0, result.stderr
+    assert "vtk/dam.pvd" in result.stdout
+    # Not one line for each of hundreds of frames.
+    assert ".vtu" not in result.stdout
+    assert len(list(folder.glob("dam-*.vtu"))) > 100
+    assert not (folder / "dam-9999.vtu").exists()
+
+
+def test_a_terminal_sees_what_goes_on_and_a_pipe_does_not():
+    command = [sys.executable, "-m", "heeltoe", "run", str(EXAMPLES / "typical-base.toml"), "--spread", "--json", "-"]
+    ours, theirs = pty.openpty()
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=theirs)
+    os.close(theirs)
+    seen = b""
+    # The end of a pseudo-terminal is an error on Linux, and no data elsewhere.
+    with contextlib.suppress(OSError):
+        while part := os.read(ours, 65536):
+            seen += part
+    assert process.stdout is not None
+    json.loads(process.stdout.read())
+    process.stdout.close()
+    assert process.wait() == 0
+    os.close(ours)
+    assert b"rigid model" in seen
+    assert b"0:00:0" in seen
+    piped = subprocess.run(command, capture_output=True, check=True)
+    assert b"0:00:0" not in piped.stderr
+
+
+def test_new_writes_a_case_that_runs(tmp_path):
+    assert heeltoe("new", "mydam", cwd=tmp_path).returncode == 0
+    result = heeltoe("run", "mydam.toml", cwd=tmp_path)
+    assert result.returncode == 0, result.stderr
+    again = heeltoe("new", "mydam", cwd=tmp_path)
+    assert again.returncode == 2
+    assert "there already" in again.stderr
+
+
+def test_version_and_help():
+    assert "heeltoe 0.1" in heeltoe("--version").stdout
+    text = heeltoe("run", "--help").stdout
+    for option in [
+        "--model",
+        "--motion",
+        "--pga",
+        "--reverse",
+        "--duration",
+        "--set",
+        "--spread",
+        "--json",
+        "--out",
+        "--vtk",
+        "--report",
+    ]:
+        assert option in text
+    assert "periods" in heeltoe("--help").stdout
+
+
+def test_motion_echo_and_list():
+    listing = heeltoe("motion", "--list")
+    assert listing.returncode == 0
+    assert "elcentro-1940-180-nga" in listing.stdout
+    echo = heeltoe("motion", "elcentro-1940-180-nga")
+    assert echo.returncode == 0, echo.stderr
+    assert "0.2808 g" in echo.stdout
+    assert "El Centro" in echo.stdout

@@ -1,0 +1,353 @@
+"""The decoupled chain: ground, crack, block; on the command line, beside the flexible model, as a table of runs."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+from rich.console import Console
+
+from heeltoe import GroundMotion, InputError, compare, decoupled, read_case, rigid, verdict, with_spread
+from heeltoe.models.decoupled.model import crack_motions
+from heeltoe.result.response import json_text
+from heeltoe.study.comparison import Comparison
+from heeltoe.study.grid import MOST, parse_variations, run_grid
+from heeltoe.views.files.write import write_all
+from heeltoe.views.terminal.grid import print_grid
+from shared.dams import ROOT
+
+KOYNA = ROOT / "examples" / "koyna.toml"
+COARSE = ["flexible.elements_across=3"]
+SHORT = [*COARSE, "motion.duration=4s"]
+STIFF = [*SHORT, "concrete.modulus=1e15 Pa"]
+
+
+def heeltoe(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-c", "from heeltoe.cli.main import main; main()", *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        env={**os.environ, "COLUMNS": "80"},
+        timeout=120,
+        check=False,
+    )
+
+
+def options(changes: list[str]) -> list[str]:
+    return [part for change in changes for part in ("--set", change)]
+
+
+@pytest.fixture(scope="module")
+def koyna():
+    return decoupled(read_case(KOYNA, SHORT))
+
+
+def test_the_crack_is_shaken_more_than_the_ground(koyna):
+    assert koyna.ok
+    assert koyna.model == "decoupled"
+    level = koyna.crack_level
+    assert level["ground_peak_g"] == pytest.approx(0.49)
+    assert level["amplification"] == pytest.approx(level["peak_horizontal_g"] / 0.49)
+    # El Centro on Koyna's first period, 5 % damping: response spectra of records amplify 2 to 3 times there.
+    assert 1.5 < level["amplification"] < 3.5
+    assert level["periods_s"][0] == pytest.approx(0.355, rel=0.02)
+    # The dam without a crack, its top elastic: close, a little slower.
+    assert level["bonded"]["amplification"] == pytest.approx(level["amplification"], rel=0.25)
+    assert 0.9 < level["periods_s"][0] / level["bonded"]["periods_s"][0] < 1.0
+    assert koyna.residual_slip_m > 5.0 * abs(rigid(read_case(KOYNA, SHORT)).residual_slip_m)
+    evidence = level["convergence"]
+    assert evidence["step_s"] == pytest.approx(0.5 * evidence["coarser_step_s"])
+    assert evidence["straightness"] < 2e-3
+    assert evidence["half_the_modes"] < 0.01
+    assert evidence["change"] < 0.02
+
+
+def test_spectrum_and_histories(koyna):
+    spectrum = koyna.crack_level["spectrum"]
+    assert set(koyna.crack_level["periods_s"]) <= set(spectrum["periods_s"])
+    assert len({len(spectrum[name]) for name in spectrum if name != "damping_ratio"}) == 1
+    # A stiff oscillator feels the peak, a slow one what the ground does.
+    assert spectrum["ground_g"][0] == pytest.approx(0.49, rel=0.05)
+    assert spectrum["crack_g"][0] == pytest.approx(koyna.crack_level["peak_horizontal_g"], rel=0.05)
+    assert spectrum["crack_g"][-1] == pytest.approx(spectrum["ground_g"][-1], rel=0.05)
+    assert spectrum["transfer"][-1] == pytest.approx(1.0, abs=0.02)
+    h = koyna.histories
+    motion = koyna.motion
+    assert np.diff(h["time_s"]) == pytest.approx(0.005)
+    expected = np.interp(h["time_s"], motion.time, motion.acceleration)
+    assert h["ground_acceleration_m_s2"] == pytest.approx(expected)
+    peak = np.abs(h["crack_acceleration_m_s2"]).max() / koyna.gravity
+    assert peak == pytest.approx(koyna.crack_level["peak_horizontal_g"], rel=0.02)
+    assert len({len(column) for column in h.values()}) == 1
+    assert json.loads(json_text(koyna.to_json()))["crack_level"]["amplification"] > 1.0
+    assert "The dam slides" in verdict(koyna)
+    assert any("5.5" in reference for reference in koyna.citation())
+
+
+def test_on_a_stiff_dam_it_is_the_rigid_model():
+    case = read_case(KOYNA, [*STIFF, "motion.pga=0.9 g"])
+    chained, plain = decoupled(case), rigid(case)
+    assert plain.residual_slip_m > 1e-3
+    for name in ("residual_slip_m", "peak_slip_upstream_m", "rocking_upstream_rad", "rocking_downstream_rad"):
+        assert chained.summary[name] == pytest.approx(plain.summary[name], rel=1e-6), name
+    assert chained.crack_level["amplification"] == pytest.approx(1.0, rel=1e-12)
+
+
+def test_what_drives_the_block_is_the_motion_of_the_crack(koyna):
+    case = read_case(KOYNA, SHORT)
+    horizontal, vertical, _ = crack_motions(case, koyna.motion, None)
+    assert vertical is None
+    assert "at the crack" in horizontal.name
+    assert "through the part of the dam below the crack" in horizontal.processing[-1]
+    assert rigid(case, horizontal).residual_slip_m == koyna.residual_slip_m
+    assert koyna.motion.name == "elcentro-1940-180-nga"
+
+
+def test_the_vertical_motion_on_request_and_with_a_vertical_ground_motion(koyna):
+    felt = decoupled(read_case(KOYNA, [*SHORT, "decoupled.vertical=true"]))
+    assert felt.crack_level["felt"] == ["horizontal", "vertical"]
+    assert koyna.crack_level["felt"] == ["horizontal"]
+    assert felt.residual_slip_m != koyna.residual_slip_m
+    assert felt.vertical is None
+    assert "vertical_ground_acceleration_m_s2" not in felt.histories
+    up = read_case(KOYNA, [*SHORT, "motion.vertical.file=elcentro-1940-up-nga", "motion.vertical.pga=0.3 g"])
+    shaken = decoupled(up)
+    assert shaken.crack_level["felt"] == ["horizontal", "vertical"]
+    assert np.abs(shaken.histories["vertical_ground_acceleration_m_s2"]).max() / shaken.gravity == pytest.approx(
+        0.3, rel=0.02
+    )
+    assert shaken.crack_level["peak_vertical_g"] > 0.3
+
+
+def test_a_motion_of_points_with_a_jump_and_a_longer_run():
+    points = "motion.points=[['0 s','0 g'],['0.2 s','0 g'],['0.2 s','0.6 g'],['0.5 s','0.6 g'],['0.5 s','0 g']]"
+    response = decoupled(read_case(KOYNA, [*COARSE, points, "motion.pga=0.6 g", "motion.duration=2 s"]))
+    assert response.ok
+    assert response.end_time_s == 2.0
+    assert response.residual_slip_m != 0.0
+
+
+def test_output_step_changes_no_number(koyna):
+    coarse = decoupled(read_case(KOYNA, SHORT), output_step=0.1)
+    assert coarse.histories["time_s"].size == 41
+    assert coarse.residual_slip_m == koyna.residual_slip_m
+
+
+def test_a_block_that_feels_the_rotation_of_its_crack(koyna):
+    turned = decoupled(read_case(KOYNA, [*SHORT, "decoupled.rotation=true"]))
+    assert turned.crack_level["felt"] == ["horizontal", "rotation"]
+    felt = turned.histories["ground_rotation_rad_s2"]
+    assert np.abs(felt).max() == pytest.approx(turned.crack_level["peak_rotation_rad_s2"], rel=0.05)
+    assert turned.residual_slip_m != koyna.residual_slip_m
+    # A stiff dam turns as little as its foundation.
+    stiff, level = (
+        decoupled(read_case(KOYNA, [*STIFF, f"decoupled.rotation={felt}"])).residual_slip_m
+        for felt in ("true", "false")
+    )
+    assert stiff == pytest.approx(level, rel=1e-3)
+    varied = with_spread(turned, read_case(KOYNA, [*SHORT, "decoupled.rotation=true"]), 3)
+    assert varied.spread["residual_slips_m"][1] == pytest.approx(turned.residual_slip_m, rel=1e-6)
+
+
+def test_refusals():
+    for changes, code in (
+        (["crack.elevation=0 m"], "crack-at-base"),
+        (["concrete.modulus=1 Pa"], "modulus-range"),
+    ):
+        with pytest.raises(InputError) as refused:
+            decoupled(read_case(KOYNA, [*SHORT, *changes]))
+        assert refused.value.code == code
+    dry = {"section": {"polygon": [["0 m", "0 m"], ["9 m", "0 m"], ["0 m", "9 m"]]}, "crack": {"friction": 1.0}}
+    with pytest.raises(InputError) as refused:
+        decoupled(read_case(dry))
+    assert refused.value.code == "motion-missing"
+
+
+def test_a_dam_that_cannot_stand_is_not_shaken():
+    response = decoupled(read_case(KOYNA, [*SHORT, "crack.friction=0.1"]))
+    assert (response.outcome, response.model) == ("unstable", "decoupled")
+    assert not response.summary
+    assert response.to_json()["motion"]["name"] == "elcentro-1940-180-nga"
+
+
+def test_spread_is_that_of_the_scaled_ground():
+    case = read_case(KOYNA, SHORT)
+    response = with_spread(decoupled(case), case, 3)
+    by_hand = [decoupled(case, response.motion.scaled(factor)).residual_slip_m for factor in (0.99, 1.0, 1.01)]
+    assert response.spread["residual_slips_m"] == pytest.approx(by_hand, rel=1e-6)
+
+
+def test_a_motion_made_by_hand_is_used_as_it_is():
+    time = np.arange(0.0, 3.0, 0.02)
+    motion = GroundMotion.from_points(time, 6.0 * np.sin(2.0 * np.pi * time / 0.355), name="resonant")
+    response = decoupled(read_case(KOYNA, COARSE), motion)
+    assert response.motion is motion
+    # Eight cycles at its own period with 5 %: most of the way to 1/(2 * 0.05) times the share of the mode.
+    assert response.crack_level["amplification"] > 5.0
+
+
+@pytest.fixture(scope="module")
+def both() -> Comparison:
+    case = read_case(KOYNA, [*SHORT, "flexible.convergence_check=false"])
+    return compare(case, block="decoupled")
+
+
+def test_beside_the_flexible_model(both, tmp_path):
+    assert both.rigid.model == "decoupled"
+    data = json.loads(json_text(both.to_json()))
+    assert set(data["seconds"]) == {"decoupled", "flexible"}
+    assert data["decoupled"]["model"] == "decoupled"
+    assert "rigid" not in data
+    ratio = data["flexible"]["residual_slip_m"] / data["decoupled"]["residual_slip_m"]
+    assert data["ratio"]["residual_slip_m"] == pytest.approx(ratio)
+    assert "the top does not vibrate itself" in both.meaning()
+    written = {str(path.relative_to(tmp_path)) for path in write_all(both, tmp_path)}
+    assert written >= {"comparison.png", "decoupled/crack-level.png", "decoupled/result.json", "flexible/crack.parquet"}
+
+
+@pytest.mark.parametrize(
+    ("block", "dam", "words"),
+    [
+        (0.1, 0.3, "3 times as far"),
+        (0.1, -0.3, "opposite ways"),
+        (0.1, 0.11, "They agree"),
+        (0.0, 0.1, "decoupled top slides less than a hundredth"),
+        (1.0, 0.001, "flexible dam slides less than a hundredth"),
+    ],
+)
+def test_what_the_difference_means(both, block, dam, words):
+    from dataclasses import replace
+
+    one, other = (
+        replace(each, summary={**each.summary, "residual_slip_m": slip})
+        for each, slip in ((both.rigid, block), (both.flexible, dam))
+    )
+    assert words in replace(both, rigid=one, flexible=other).meaning()
+
+
+def test_on_the_command_line(tmp_path):
+    result = heeltoe("run", KOYNA, "--model", "decoupled", *options(SHORT), "--out", tmp_path)
+    assert result.returncode == 0, result.stderr
+    for words in ("(decoupled model)", "crack level", "times the ground's", "periods below", "dam without a crack"):
+        assert words in result.stdout, words
+    names = {path.name for path in tmp_path.iterdir()}
+    assert names >= {"crack-level.png", "crack-level.svg", "response.png", "events.parquet", "result.json"}
+
+
+def test_both_on_the_command_line():
+    fast = [*SHORT, "flexible.convergence_check=false"]
+    result = heeltoe("run", KOYNA, "--model", "decoupled,flexible", *options(fast), "--json", "-")
+    assert result.returncode == 0, result.stderr
+    assert set(json.loads(result.stdout)) >= {"decoupled", "flexible", "ratio"}
+    for words in ("decoupled top", "flexible dam", "flexible/decoupled", "crack level"):
+        assert words in result.stderr, words
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("--model", "rigid,decoupled"), "rigid,decoupled is no model"),
+        (("--model", "both", "--vary", "crack.friction=1,2"), "--model: goes with one run"),
+        (("--spread", "3", "--vary", "crack.friction=1,2"), "--spread: goes with one run"),
+        (("--vary", "crack.frictoin=1,2"), "crack.frictoin"),
+        (("--model", "decoupled", "--vtk", "--out", "x"), "--vtk: shows elastic parts"),
+    ],
+)
+def test_what_the_command_line_refuses(arguments, words):
+    result = heeltoe("run", KOYNA, *arguments)
+    assert result.returncode == 2, result.stdout
+    assert words in result.stderr
+
+
+def test_a_table_of_runs_on_the_command_line(tmp_path):
+    vary = ("--vary", "crack.friction=0.8,1.0,1.2", "--vary", "uplift.pattern=uniform,triangular")
+    result = heeltoe("run", KOYNA, "--model", "decoupled", *options(SHORT), *vary, "--out", tmp_path, "--reverse")
+    assert result.returncode == 0, result.stderr
+    assert max(map(len, (line for line in result.stdout.splitlines() if "wrote" not in line))) <= 80
+    for words in ("residual", "drifting", "rotation", "impacts", "triangular", "crack level: peak"):
+        assert words in result.stdout, words
+    names = {path.name for path in tmp_path.iterdir()}
+    assert names == {
+        "result.json",
+        "table.csv",
+        "table.parquet",
+        *(f"{name}.{kind}" for name in ("slips", "crack-level") for kind in ("png", "svg")),
+    }
+    rows = list(csv.DictReader((tmp_path / "table.csv").read_text().splitlines()))
+    assert [(row["crack.friction"], row["uplift.pattern"]) for row in rows[:3]] == [
+        ("0.8", "uniform"),
+        ("0.8", "triangular"),
+        ("1.0", "uniform"),
+    ]
+    runs = json.loads((tmp_path / "result.json").read_text())["runs"]
+    assert [run["residual_slip_m"] for run in runs] == [float(row["residual_slip_m"]) for row in rows]
+    one = decoupled(
+        read_case(KOYNA, [*SHORT, "motion.reverse=true", "crack.friction=0.8", "uplift.pattern=triangular"])
+    )
+    assert float(rows[1]["residual_slip_m"]) == one.residual_slip_m
+    assert float(rows[1]["slip_sliding_m"]) == one.slip_by_mode_m["sliding"]
+    assert pq.read_table(tmp_path / "table.parquet").num_rows == 6
+
+
+def test_a_run_without_a_result_has_its_row():
+    grid = run_grid(KOYNA, SHORT, parse_variations(["crack.friction=0.1,1.0"]), rigid)
+    rows = grid.rows()
+    assert [row["outcome"] for row in rows] == ["unstable", "ok"]
+    assert rows[0]["residual_slip_m"] is None
+    assert rows[1]["residual_slip_m"] is not None
+    assert grid.ok
+    assert (grid.model, grid.title) == ("rigid", "Koyna Dam cracked at 66.5 m")
+    assert not run_grid(KOYNA, SHORT, parse_variations(["crack.friction=0.1"]), rigid).ok
+
+
+def test_a_narrow_terminal_cuts_no_number():
+    texts = ["crack.friction=0.1,1.0", "reservoir.depth=85 m,91.75 m", "uplift.pattern=none,triangular"]
+    grid = run_grid(KOYNA, SHORT, parse_variations(texts), rigid)
+    tables = []
+    for width in (60, 80, 160):
+        console = Console(file=io.StringIO(), width=width)
+        print_grid(grid, console)
+        text = console.file.getvalue()
+        assert "…" not in text
+        assert text.count("impacts") == 1
+        assert max(map(len, text.splitlines()[3:])) <= width
+        tables.append(sum(line.startswith("friction ") for line in text.splitlines()))
+        # What belongs to some runs says to which; what belongs to all is said once.
+        assert "0.1, 91.75 m, none: unstable" in " ".join(text.split())
+        assert text.count("baseline") == 1
+    # As many as it takes, and one where there is room.
+    assert tables[0] > tables[1] > tables[2] == 1
+
+
+@pytest.mark.parametrize(
+    ("texts", "code"),
+    [
+        (["crack.friction"], "vary-form"),
+        (["crack.friction="], "vary-form"),
+        (["=1,2"], "vary-form"),
+        (["crack.friction=1,,2"], "vary-form"),
+        (["crack.friction=1", "crack.friction=2"], "vary-twice"),
+        (["crack.friction=1,1"], "vary-twice"),
+        ([f"crack.friction={','.join(map(str, range(MOST + 1)))}"], "vary-many"),
+    ],
+)
+def test_variations_that_are_none(texts, code):
+    with pytest.raises(InputError) as refused:
+        parse_variations(texts)
+    assert refused.value.code == code
+
+
+def test_the_option_of_one_run_is_refused_in_process():
+    from heeltoe.cli.run import run
+
+    with pytest.raises(InputError) as refused:
+        run(str(KOYNA), vary=["crack.friction=1,2"], model="both")
+    assert refused.value.code == "vary-option"

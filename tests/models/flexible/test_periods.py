@@ -1,0 +1,76 @@
+"""Periods against beam theory, and among each other."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+
+from heeltoe import InputError, dam_periods, read_case
+from shared.dams import ROOT
+
+EXAMPLES = ROOT / "examples"
+# Slender enough for Euler and Bernoulli: 2 m wide, 60 m high.
+TOWER = {
+    "section": {"polygon": [["0 m", "0 m"], ["2 m", "0 m"], ["2 m", "60 m"], ["0 m", "60 m"]]},
+    "concrete": {"density": "2400 kg/m^3", "modulus": "20 GPa", "poisson": 0.0},
+    "crack": {"friction": 1.0},
+    "flexible": {"elements_across": 2},
+}
+
+
+def beam(number: float, height: float) -> float:
+    """Period of a beam 2 m wide by its root of the frequency equation."""
+    return 2.0 * math.pi * height**2 / number**2 * math.sqrt(2400.0 / (20e9 * 2.0**2 / 12.0))
+
+
+def test_beams():
+    found = dam_periods(read_case(TOWER), 2)
+    assert found.intact == pytest.approx([beam(1.87510, 60.0), beam(4.69409, 60.0)], rel=0.01)
+    # Cut off at its base it is free at both ends.
+    assert found.above == pytest.approx([beam(4.73004, 60.0), beam(7.85320, 60.0)], rel=0.01)
+    assert found.below is None
+    assert found.intact_dry == found.intact
+
+
+def test_a_crack_in_the_middle():
+    found = dam_periods(read_case({**TOWER, "crack": {"friction": 1.0, "elevation": "40 m"}}), 2)
+    assert found.intact == pytest.approx([beam(1.87510, 60.0), beam(4.69409, 60.0)], rel=0.01)
+    assert found.above[0] == pytest.approx(beam(4.73004, 20.0), rel=0.03)
+    assert found.below[0] == pytest.approx(beam(1.87510, 40.0), rel=0.01)
+
+
+def test_water_makes_a_dam_slower():
+    found = dam_periods(read_case(EXAMPLES / "typical-base.toml", ["flexible.elements_across=3"]))
+    assert all(wet > dry for wet, dry in zip(found.intact, found.intact_dry, strict=True))
+    assert list(found.intact) == sorted(found.intact, reverse=True)
+    assert len(found.intact) == len(found.above) == 5
+
+
+def test_json_and_damping():
+    case = read_case(EXAMPLES / "typical-height.toml", ["flexible.elements_across=2"])
+    found = dam_periods(case, 3)
+    data = json.loads(json.dumps(found.to_json(), allow_nan=False))
+    assert {len(values) for values in data["periods_s"].values()} == {3}
+    mass, stiffness = data["rayleigh"]["mass_1_s"], data["rayleigh"]["stiffness_s"]
+    for period in (found.intact[0], found.intact[2]):
+        omega = 2.0 * math.pi / period
+        assert mass / (2.0 * omega) + stiffness * omega / 2.0 == pytest.approx(0.05)
+    modal = dam_periods(
+        read_case(EXAMPLES / "typical-height.toml", ["flexible.elements_across=2", "flexible.damping=modal"]), 1
+    )
+    assert modal.to_json()["rayleigh"] is None
+
+
+@pytest.mark.parametrize("count", [0, -1, 51])
+def test_counts_that_are_none(count):
+    with pytest.raises(InputError) as refused:
+        dam_periods(read_case(TOWER), count)
+    assert refused.value.code == "period-count"
+
+
+def test_a_dam_without_a_modulus():
+    with pytest.raises(InputError) as refused:
+        dam_periods(read_case(EXAMPLES / "block.toml"))
+    assert refused.value.code == "modulus-missing"

@@ -1,0 +1,478 @@
+"""The static checks of a triangular dam against arithmetic by hand; closed forms and limits.
+
+The dam: base 80 m, height 100 m, vertical upstream face, concrete of 2400 kg/m^3, water of 1000 kg/m^3, one g of
+10 m/s^2. Forces in MN, lengths in m, stresses in MPa, per metre of dam.
+
+    weight                W = 0.024 x 80 x 100 / 2 = 96 at 80/3 from the heel
+    90 m of water         P = 0.01 x 90^2 / 2 = 40.5 at 30 above the heel
+    uplift, triangular    U = 0.9 x 80 / 2 = 36 at 80/3 from the heel
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+import heeltoe
+from heeltoe.geometry.section import cut
+from heeltoe.mechanics.block import build_block
+from heeltoe.mechanics.loads import total, uplift_profile
+from heeltoe.models.statics.cases import pseudo_static, usual
+from shared.statics import CLOSE, dam, only
+
+M = 1e6
+
+
+# Hand calculations
+
+
+def test_usual_loads():
+    found = only(heeltoe.statics(dam()), "usual")
+    assert found.outcome == "stands"
+    # N = W - U = 96 - 36, T = P
+    assert found.normal_force_n == pytest.approx(60.0 * M, **CLOSE)
+    assert found.shear_force_n == pytest.approx(40.5 * M, **CLOSE)
+    # 0.9 x 60 / 40.5
+    assert found.sliding_factor == pytest.approx(54.0 / 40.5, **CLOSE)
+    # About the toe: W x 160/3 = 5120 against P x 30 + U x 160/3 = 1215 + 1920
+    assert found.overturning_about == "toe"
+    assert found.overturning_factor == pytest.approx(5120.0 / 3135.0, **CLOSE)
+    assert found.flotation_factor == pytest.approx(96.0 / 36.0, **CLOSE)
+    # Moments about the heel: (96 - 36) x 80/3 + 40.5 x 30 = 1600 + 1215 = 2815; over N = 60
+    assert found.resultant_from_heel_m == pytest.approx(2815.0 / 60.0, **CLOSE)
+    assert found.eccentricity_m == pytest.approx(2815.0 / 60.0 - 40.0, **CLOSE)
+    assert found.resultant_zone == "middle third"
+    # N/B (1 -+ 6 e/B) with e = 6.91667: 0.75 x (1 -+ 0.51875)
+    assert found.heel_stress_pa == pytest.approx(0.75 * (1.0 - 0.51875) * M, **CLOSE)
+    assert found.toe_stress_pa == pytest.approx(0.75 * (1.0 + 0.51875) * M, **CLOSE)
+    assert (found.cracked_length_m, found.compressed_length_m, found.iterations) == (0.0, 80.0, 0)
+
+
+def test_forces_one_by_one():
+    forces = {force.name: force for force in only(heeltoe.statics(dam()), "usual").forces}
+    assert forces["weight"].vertical == pytest.approx(-96.0 * M)
+    assert forces["weight"].moment == pytest.approx(-96.0 * 80.0 / 3.0 * M)
+    assert forces["reservoir"].horizontal == pytest.approx(40.5 * M)
+    assert forces["reservoir"].moment == pytest.approx(-40.5 * 30.0 * M)
+    assert forces["uplift"].vertical == pytest.approx(36.0 * M)
+    assert forces["uplift"].moment == pytest.approx(36.0 * 80.0 / 3.0 * M)
+
+
+def test_cohesion_counts_where_the_crack_is_bonded():
+    # The half from the toe is bonded with 0.5 MPa: 0.5 x 40 = 20; (20 + 54) / 40.5
+    result = heeltoe.statics(dam(statics={"bonded": 0.5, "cohesion": "0.5 MPa"}))
+    found = only(result, "usual")
+    assert found.cohesive_force_n == pytest.approx(20.0 * M, **CLOSE)
+    assert found.sliding_factor == pytest.approx(74.0 / 40.5, **CLOSE)
+    after = only(heeltoe.statics(dam(statics={"bonded": 0.5, "cohesion": "0.5 MPa"}), 0.0), "post-seismic")
+    assert after.cohesive_force_n == 0.0
+    assert after.sliding_factor == pytest.approx(54.0 / 40.5, **CLOSE)
+
+
+def test_cracked_length_with_uplift_in_the_crack():
+    """A full reservoir cracks the dam. With the full pressure p = 1 in the crack and a straight line from its tip to
+    the toe, moments about the toe give the length L that is left: the normal force
+
+        N = W - p (B - L) - p L / 2   acts at L/3 from the toe:
+        M - p (B^2 - L^2)/2 - p L^2/3 = N L / 3,    M = W x 160/3 - P x 100/3 = 5120 - 50 x 100/3
+
+    in which L^2 cancels: L = 3 (M - p B^2/2) / (W - p B) = 3 x (3453.3333 - 3200) / 16 = 47.5.
+    """
+    found = only(heeltoe.statics(dam("100 m")), "usual")
+    assert found.outcome == "stands"
+    assert found.cracked_from == "heel"
+    assert found.cracked_length_m == pytest.approx(80.0 - 47.5, **CLOSE)
+    assert found.compressed_length_m == pytest.approx(47.5, **CLOSE)
+    # N = 96 - 32.5 - 23.75 = 39.75, stress at the toe 2 N / L
+    assert found.normal_force_n == pytest.approx(39.75 * M, **CLOSE)
+    assert found.heel_stress_pa == pytest.approx(0.0, abs=1e-6 * M)
+    assert found.toe_stress_pa == pytest.approx(2.0 * 39.75 / 47.5 * M, **CLOSE)
+    assert found.resultant_from_heel_m == pytest.approx(80.0 - 47.5 / 3.0, **CLOSE)
+    assert found.sliding_factor == pytest.approx(0.9 * 39.75 / 50.0, **CLOSE)
+    # Uplift about the toe: 32.5 x (47.5 + 16.25) + 23.75 x 2/3 x 47.5
+    uplift = 32.5 * 63.75 + 23.75 * 2.0 / 3.0 * 47.5
+    assert found.overturning_factor == pytest.approx(5120.0 / (5000.0 / 3.0 + uplift), **CLOSE)
+    assert found.flotation_factor == pytest.approx(96.0 / 56.25, **CLOSE)
+    assert 0 < found.iterations < 30
+
+
+def test_cracked_length_with_tensile_strength():
+    """Bonded with f = 0.1: the stress at the tip, 6 M_toe/L^2 - 2 N/L, is -f; the last equation becomes
+    f L^2/6 - (W - p B) L/3 + M - p B^2/2 = 0: L = (16/3 - sqrt(256/9 - 4 x 0.1/6 x 253.3333)) / (0.1/3)."""
+    strong = {"bonded": 1.0, "tensile_strength": "0.1 MPa", "cohesion": "1 MPa"}
+    found = only(heeltoe.statics(dam("100 m", statics=strong)), "usual")
+    left = (16.0 / 3.0 - math.sqrt(256.0 / 9.0 - 4.0 * 0.1 / 6.0 * 760.0 / 3.0)) / (0.1 / 3.0)
+    assert found.cracked_length_m == pytest.approx(80.0 - left, **CLOSE)
+    assert found.heel_stress_pa == pytest.approx(-0.1 * M, **CLOSE)
+    # N = 96 - (80 - L) - L/2; the toe has 2 N/L + 0.1; the stress passes zero at 0.1 / (toe + 0.1) of L from the tip
+    normal = 96.0 - (80.0 - left) - left / 2.0
+    toe = 2.0 * normal / left + 0.1
+    assert found.toe_stress_pa == pytest.approx(toe * M, **CLOSE)
+    pressed = left * toe / (toe + 0.1)
+    assert found.compressed_length_m == pytest.approx(pressed, **CLOSE)
+    assert found.cohesive_force_n == pytest.approx(1.0 * pressed * M, **CLOSE)
+    assert found.sliding_factor == pytest.approx((pressed + 0.9 * normal) / 50.0, **CLOSE)
+    # Enough strength for the 0.1625 MPa of the dam that is whole: nothing opens.
+    strong |= {"tensile_strength": "0.2 MPa"}
+    whole = only(heeltoe.statics(dam("100 m", statics=strong)), "usual")
+    # N = 56; moment about the heel 56 x 80/3 + 50 x 100/3 = 3160; e = 16.428571
+    assert whole.cracked_length_m == 0.0
+    assert whole.heel_stress_pa == pytest.approx(0.7 * (1.0 - 6.0 * (3160.0 / 56.0 - 40.0) / 80.0) * M, **CLOSE)
+
+
+def test_a_crack_stops_where_the_bond_begins():
+    # Bonded from 80 x 0.3 = 24 on, where the crack of 32.5 would come to: strong enough, it stops there.
+    found = only(heeltoe.statics(dam("100 m", statics={"bonded": 0.7, "tensile_strength": "1 MPa"})), "usual")
+    assert found.cracked_length_m == pytest.approx(24.0, **CLOSE)
+    # N = 96 - 24 - 28 = 44, about the toe 3453.3333 - 24 x 68 - 28 x 2/3 x 56 = 776; tip 6 x 776/56^2 - 2 x 44/56
+    about_toe = 10360.0 / 3.0 - 24.0 * 68.0 - 28.0 * 2.0 / 3.0 * 56.0
+    assert found.heel_stress_pa == pytest.approx((6.0 * about_toe / 56.0**2 - 88.0 / 56.0) * M, **CLOSE)
+    assert found.heel_stress_pa < 0.0
+
+
+def test_flood():
+    choice = {"flood_depth": "95 m", "flood_tailwater": "8 m"}
+    found = only(heeltoe.statics(dam(statics=choice, ice={"force": "150 kN/m"})), "flood")
+    # The tailwater, 8 m on a face of 0.8 : 1: 0.32 upstream, 0.32 x 0.8 = 0.256 down; the ice is gone.
+    # P = 0.01 x 95^2/2 = 45.125; U = (0.95 + 0.08)/2 x 80 = 41.2
+    normal = 96.0 + 0.256 - 41.2
+    assert found.normal_force_n == pytest.approx(normal * M, **CLOSE)
+    assert found.shear_force_n == pytest.approx((45.125 - 0.32) * M, **CLOSE)
+    assert found.sliding_factor == pytest.approx(0.9 * normal / 44.805, **CLOSE)
+    # About the heel: W 2560; P x 95/3; tailwater -0.32 x 8/3 and 0.256 x (80 - 0.8 x 8/3);
+    # uplift 0.08 x 80 at 40 and 0.87 x 40 at 80/3
+    moment = 2560.0 + 45.125 * 95.0 / 3.0 - 0.32 * 8.0 / 3.0 + 0.256 * (80.0 - 6.4 / 3.0) - 256.0 - 34.8 * 80.0 / 3.0
+    assert found.resultant_from_heel_m == pytest.approx(moment / normal, **CLOSE)
+    eccentricity = moment / normal - 40.0
+    assert found.heel_stress_pa == pytest.approx(normal / 80.0 * (1.0 - 6.0 * eccentricity / 80.0) * M, **CLOSE)
+    assert found.toe_stress_pa == pytest.approx(normal / 80.0 * (1.0 + 6.0 * eccentricity / 80.0) * M, **CLOSE)
+    # About the toe the tailwater stabilises: 0.32 x 8/3 + 0.256 x 6.4/3
+    stabilising = 5120.0 + 0.32 * 8.0 / 3.0 + 0.256 * 6.4 / 3.0
+    overturning = 45.125 * 95.0 / 3.0 + 256.0 + 34.8 * 160.0 / 3.0
+    assert found.overturning_factor == pytest.approx(stabilising / overturning, **CLOSE)
+    assert found.flotation_factor == pytest.approx(96.256 / 41.2, **CLOSE)
+
+
+# The seismic coefficient: inertia 0.1 x 96 = 9.6 at 100/3; Westergaard 7/12 x 0.01 x 90^2 x 0.1 = 4.725 at 0.4 x 90;
+# upward 0.05 x 96 = 4.8 at 80/3 from the heel.
+SHAKEN = {"seismic_coefficient": 0.1, "vertical_seismic_coefficient": 0.05}
+
+
+def test_pseudo_static_downstream():
+    found = only(heeltoe.statics(dam(statics=SHAKEN)), "pseudo-static downstream")
+    assert found.normal_force_n == pytest.approx((60.0 - 4.8) * M, **CLOSE)
+    assert found.shear_force_n == pytest.approx((40.5 + 9.6 + 4.725) * M, **CLOSE)
+    assert found.sliding_factor == pytest.approx(0.9 * 55.2 / 54.825, **CLOSE)
+    # About the heel: 2815 + 9.6 x 100/3 + 4.725 x 36 - 4.8 x 80/3 = 2815 + 320 + 170.1 - 128
+    assert found.resultant_from_heel_m == pytest.approx(3177.1 / 55.2, **CLOSE)
+    # Beyond the middle third: it opens, the uplift unchanged, to three times the distance from the toe.
+    left = 3.0 * (80.0 - 3177.1 / 55.2)
+    assert found.cracked_length_m == pytest.approx(80.0 - left, **CLOSE)
+    assert found.toe_stress_pa == pytest.approx(2.0 * 55.2 / left * M, **CLOSE)
+    # About the toe: W 5120 against P 1215, U 1920, hydrodynamic 170.1, and inertia as a whole 320 + 4.8 x 160/3
+    assert found.overturning_factor == pytest.approx(5120.0 / (1215.0 + 1920.0 + 170.1 + 320.0 + 256.0), **CLOSE)
+
+
+def test_pseudo_static_upstream():
+    found = only(heeltoe.statics(dam(statics=SHAKEN)), "pseudo-static upstream")
+    assert found.shear_force_n == pytest.approx((40.5 - 9.6 - 4.725) * M, **CLOSE)
+    assert found.sliding_factor == pytest.approx(0.9 * 55.2 / 26.175, **CLOSE)
+    # 2815 - 320 - 170.1 - 128
+    assert found.resultant_from_heel_m == pytest.approx(2196.9 / 55.2, **CLOSE)
+
+
+def test_pseudo_static_without_water_pushes_both_ways_alike():
+    result = heeltoe.statics(dam(reservoir=None, statics={"seismic_coefficient": 0.1}))
+    down, up = only(result, "pseudo-static downstream"), only(result, "pseudo-static upstream")
+    assert down.sliding_factor == up.sliding_factor == pytest.approx(9.0, **CLOSE)
+    # About the heel, W x 80/3 = 2560 against inertia 320; about the toe 5120 against 320
+    assert (up.overturning_about, up.overturning_factor) == ("heel", pytest.approx(8.0, **CLOSE))
+    assert (down.overturning_about, down.overturning_factor) == ("toe", pytest.approx(16.0, **CLOSE))
+    # (2560 - 320) / 96 = 23.3333 from the heel, beyond the middle third: the toe opens to 3 x 23.3333.
+    assert up.cracked_from == "toe"
+    assert up.cracked_length_m == pytest.approx(10.0, **CLOSE)
+    assert up.heel_stress_pa == pytest.approx(2.0 * 96.0 / 70.0 * M, **CLOSE)
+
+
+def test_usbr_takes_the_uplift_from_the_crack_of_the_earthquake():
+    """On the length L left the uplift is p L/B at its tip: L/B x L/2 = p L^2/(2 B) at 2 L/3 from the toe. With
+    W' = 96 - 4.8 = 91.2 and M' = 91.2 x 160/3 - 1215 - 320 - 170.1 = 3158.9 about the toe,
+    M' - p L^3/(3 B) = (W' - p L^2/(2 B)) L/3: p L^3/(6 B) + W' L/3 - M' = 0, p = 0.9."""
+    result = heeltoe.statics(dam(statics=SHAKEN | {"criteria": "USBR"}))
+    found = only(result, "pseudo-static downstream")
+    roots = np.roots([0.9 / 480.0, 0.0, 91.2 / 3.0, -3158.9])
+    left = float(roots[np.argmin(abs(roots.imag))].real)
+    assert found.cracked_length_m == pytest.approx(80.0 - left, **CLOSE)
+    assert found.normal_force_n == pytest.approx((91.2 - 0.9 * left**2 / 160.0) * M, **CLOSE)
+    assert "zero where the earthquake opens" in found.assumptions[0]
+
+
+def test_the_earthquake_starts_from_the_crack_of_the_usual_loads():
+    # Nearly no shaking: the crack of 32.5 with its water stays, though the bond would have held it now.
+    result = heeltoe.statics(dam("100 m", statics={"seismic_coefficient": 1e-9}))
+    assert only(result, "pseudo-static downstream").cracked_length_m == pytest.approx(32.5, **CLOSE)
+
+
+AFTER = {"residual_friction": 0.8, "residual_slip": "2 m"}
+
+
+def test_post_seismic():
+    # The toe overhangs by 2: U = 0.9 x 78/2 = 35.1 at 26; N = 60.9
+    result = heeltoe.statics(dam(statics=AFTER))
+    found = only(result, "post-seismic")
+    assert (result.slip_m, result.slip_source) == (2.0, "statics.residual_slip")
+    assert (found.contact_from_m, found.contact_to_m) == (0.0, 78.0)
+    assert found.normal_force_n == pytest.approx(60.9 * M, **CLOSE)
+    assert found.sliding_factor == pytest.approx(0.8 * 60.9 / 40.5, **CLOSE)
+    # About the heel: 2560 + 1215 - 35.1 x 26 = 2862.4
+    position = 2862.4 / 60.9
+    assert found.resultant_from_heel_m == pytest.approx(position, **CLOSE)
+    assert found.heel_stress_pa == pytest.approx(60.9 / 78.0 * (1.0 - 6.0 * (position - 39.0) / 78.0) * M, **CLOSE)
+    # About the new toe: 96 x (78 - 80/3) against 1215 + 35.1 x 52
+    assert found.overturning_factor == pytest.approx(96.0 * (78.0 - 80.0 / 3.0) / (1215.0 + 35.1 * 52.0), **CLOSE)
+
+
+def test_post_seismic_upstream():
+    # The heel overhangs by 2, over full pressure: 1.8 at 1, and 35.1 at 2 + 26; N = 59.1
+    found = only(heeltoe.statics(dam(statics={"residual_friction": 0.8}), -2.0), "post-seismic")
+    assert (found.contact_from_m, found.contact_to_m) == (2.0, 80.0)
+    assert found.normal_force_n == pytest.approx(59.1 * M, **CLOSE)
+    position = (2560.0 + 1215.0 - 1.8 * 1.0 - 35.1 * 28.0) / 59.1
+    assert found.resultant_from_heel_m == pytest.approx(position, **CLOSE)
+    assert found.eccentricity_m == pytest.approx(position - 41.0, **CLOSE)
+
+
+def test_slip_closes_drains():
+    drained = {"pattern": "drained", "drain_position": 0.1, "drain_efficiency": 2.0 / 3.0}
+    case = dam(uplift=drained, statics={"drain_diameter": "75 mm"})
+    result = heeltoe.statics(case, 0.03)
+    # Before: 0.9 to 0.3 over 8, to 0 over 72: 4.8 + 10.8
+    assert only(result, "usual").normal_force_n == pytest.approx((96.0 - 15.6) * M, **CLOSE)
+    # 30 of 75 mm leave 0.6 of the efficiency, 0.4: 0.9 to 0.54 at 7.997, to 0 at 79.97
+    uplift = (0.9 + 0.54) / 2.0 * 7.997 + 0.54 / 2.0 * 71.973
+    assert only(result, "post-seismic").normal_force_n == pytest.approx((96.0 - uplift) * M, **CLOSE)
+    # From a diameter on the reservoir's pressure reaches them: 0.9 over 7.992, to 0 over 71.928
+    closed = only(heeltoe.statics(case, 0.08), "post-seismic")
+    assert closed.normal_force_n == pytest.approx((96.0 - 0.9 * 7.992 - 0.45 * 71.928) * M, **CLOSE)
+    # Without a diameter they stay as they are.
+    kept = only(heeltoe.statics(dam(uplift=drained), 0.03), "post-seismic")
+    assert kept.normal_force_n == pytest.approx((96.0 - 15.6 * 79.97 / 80.0) * M, **CLOSE)
+    assert any("drains as before" in text for text in kept.assumptions)
+
+
+def test_a_crack_beyond_the_drains_drains_no_more():
+    drained = {"pattern": "drained", "drain_position": 0.1, "drain_efficiency": 0.05}
+    # Short of these weak drains it opens further; from them on it is the crack without drains.
+    found = only(heeltoe.statics(dam("100 m", uplift=drained)), "usual")
+    assert found.cracked_length_m == pytest.approx(32.5, **CLOSE)
+
+
+def test_drains_stop_a_crack_that_would_go_through_without_them():
+    """Base 73, W = 87.6 at 73/3: without drains there is no length left. Drains at 21.9 that leave 0.2 keep the crack,
+    of length c, short of them: pressure 1 to c, straight to 0.2 at 21.9, straight to 0 at 73."""
+    slim = {"polygon": [["0 m", "0 m"], ["73 m", "0 m"], ["0 m", "100 m"]]}
+    assert only(heeltoe.statics(dam("100 m", section=slim)), "usual").outcome == "cracks through"
+    drained = {"pattern": "drained", "drain_position": 0.3, "drain_efficiency": 0.8}
+    found = only(heeltoe.statics(dam("100 m", section=slim, uplift=drained)), "usual")
+    crack = found.cracked_length_m
+    assert found.outcome == "stands"
+    assert 0.0 < crack < 21.9
+    # Four rectangles and triangles of uplift, each with its distance from the toe.
+    way = 21.9 - crack
+    parts = [
+        (1.0 * crack, 73.0 - crack / 2.0),
+        (0.2 * way, 51.1 + way / 2.0),
+        (0.8 * way / 2.0, 51.1 + 2.0 / 3.0 * way),
+        (0.2 * 51.1 / 2.0, 2.0 / 3.0 * 51.1),
+    ]
+    normal = 87.6 - sum(force for force, _ in parts)
+    about_toe = 87.6 * 146.0 / 3.0 - 50.0 * 100.0 / 3.0 - sum(force * distance for force, distance in parts)
+    assert found.normal_force_n == pytest.approx(normal * M, **CLOSE)
+    # No tension at the tip: the resultant is a third of what is left from the toe.
+    assert about_toe / normal == pytest.approx((73.0 - crack) / 3.0, **CLOSE)
+
+
+# Closed forms and limits
+
+
+def test_critical_water_level():
+    """With a friction of 0.7 the factor is 1 at 0.7 (96 - 0.4 h) = 0.005 h^2: h = -28 + sqrt(784 + 13440), and
+    2.0, what USACE requires, at h = -14 + sqrt(196 + 6720), both with all of the base in compression."""
+    levels = heeltoe.statics(dam(crack={"friction": 0.7})).critical_water_level_m
+    assert levels["sliding"] == pytest.approx(-28.0 + math.sqrt(14224.0), **CLOSE)
+    assert levels["sliding_required"] == pytest.approx(-14.0 + math.sqrt(6916.0), **CLOSE)
+    assert levels["overturning"] is levels["flotation"] is None
+
+
+def test_critical_water_level_of_overturning_is_where_the_crack_goes_through():
+    # On the light dam, L = 3 (M - p B^2/2) / (W - p B) comes to nothing at M = p B^2/2:
+    # 80 x 160/3 - h^3/600 = 0.01 h x 3200
+    light = dam("60 m", concrete={"density": "2000 kg/m^3"})
+    roots = np.roots([1.0 / 600.0, 0.0, 32.0, -12800.0 / 3.0])
+    level = float(roots[np.argmin(abs(roots.imag))].real)
+    assert heeltoe.statics(light).critical_water_level_m["overturning"] == pytest.approx(level, rel=1e-6)
+
+
+def test_critical_acceleration_is_that_of_the_block():
+    critical = heeltoe.statics(dam()).critical_acceleration_g
+    # Sliding: (0.9 x 60 - 40.5) / (96 + 47.25); rocking about the toe: (5120 - 3135) / (96 x 100/3 + 47.25 x 36)
+    assert critical["sliding_downstream"] == pytest.approx(13.5 / 143.25, **CLOSE)
+    assert critical["rocking_downstream"] == pytest.approx(1985.0 / (3200.0 + 1701.0), **CLOSE)
+
+
+def test_a_dry_dam_is_pushed_by_nothing():
+    result = heeltoe.statics(dam(reservoir=None))
+    found = only(result, "usual")
+    assert found.sliding_factor is found.flotation_factor is found.overturning_factor is None
+    assert found.resultant_from_heel_m == pytest.approx(80.0 / 3.0)
+    assert found.heel_stress_pa == pytest.approx(2.4 * M)
+    assert found.toe_stress_pa == pytest.approx(0.0, abs=1e-6)
+    assert result.ok, [each.sentence for each in result.checks]
+    assert len(result.cases) == 1
+
+
+@pytest.mark.parametrize(("depth", "density"), [(5.0, 2400), (9.0, 2400), (9.0, 1700)])
+def test_mirror(depth, density):
+    """A rectangle does not know upstream from downstream, nor whether it is cracked from heel or toe."""
+    block = {"polygon": [["0 m", "0 m"], ["6 m", "0 m"], ["6 m", "9 m"], ["0 m", "9 m"]]}
+    water = {"depth": f"{depth} m"}
+    concrete = {"density": f"{density} kg/m^3"}
+    up = only(heeltoe.statics(dam(section=block, concrete=concrete, reservoir=water)), "usual")
+    down = only(heeltoe.statics(dam(section=block, concrete=concrete, reservoir=None, tailwater=water)), "usual")
+    assert up.outcome == down.outcome == ("cracks through" if density == 1700 else "stands")
+    assert bool(up.cracked_length_m) == (depth == 9.0)
+    assert up.cracked_length_m == pytest.approx(down.cracked_length_m)
+    if up.cracked_length_m:
+        assert (up.cracked_from, down.cracked_from) == ("heel", "toe")
+    assert up.eccentricity_m == pytest.approx(-down.eccentricity_m)
+    assert up.sliding_factor == pytest.approx(down.sliding_factor)
+    assert up.overturning_factor == pytest.approx(down.overturning_factor)
+    assert (up.overturning_about, down.overturning_about) == ("toe", "heel")
+    if up.outcome == "stands":
+        assert up.heel_stress_pa == pytest.approx(down.toe_stress_pa)
+
+
+@pytest.mark.parametrize("degrees", [10.0, -10.0])
+def test_an_inclined_crack(degrees):
+    # A dry column slides down its crack: mu N / T = mu / tan(alpha), upstream where the crack rises downstream.
+    column = {"polygon": [["0 m", "0 m"], ["6 m", "0 m"], ["6 m", "20 m"], ["0 m", "20 m"]]}
+    crack = {"friction": 0.9, "elevation": "5 m", "inclination": f"{degrees} deg"}
+    found = only(heeltoe.statics(dam(section=column, reservoir=None, crack=crack)), "usual")
+    assert found.sliding_factor == pytest.approx(0.9 / math.tan(math.radians(10.0)), **CLOSE)
+    assert math.copysign(1.0, found.shear_force_n) == -math.copysign(1.0, degrees)
+
+
+def test_a_crack_nearly_level_opens_as_a_level_one():
+    level = only(heeltoe.statics(dam("100 m")), "usual")
+    for degrees in (1e-7, -1e-7):
+        crack = {"friction": 0.9, "elevation": "0.001 m", "inclination": f"{degrees} deg"}
+        found = only(heeltoe.statics(dam("100 m", crack=crack), 1.0), "usual")
+        assert found.cracked_length_m == pytest.approx(level.cracked_length_m, rel=1e-3)
+        assert found.sliding_factor == pytest.approx(level.sliding_factor, rel=1e-3)
+
+
+def test_water_above_an_inclined_crack():
+    # The crack rises by 5 deg from 30 m; 20 m of water stand above its heel, none at the toe. It is open where the slip
+    # upstream has left the heel, and there the pressure falls with the height: 0.2 - 0.01 x sin(5 deg).
+    crack = {"friction": 0.9, "elevation": "30 m", "inclination": "5 deg"}
+    case = dam("50 m", crack=crack)
+    section = cut(case)
+    width, rise = section.crack_width, math.sin(math.radians(5.0))
+    found = only(heeltoe.statics(case, -1.0), "post-seismic")
+    uplift = next(force for force in found.forces if force.name == "uplift")
+    # The toe opens a little, dry.
+    assert found.cracked_from == "toe"
+    assert 0.0 < found.cracked_length_m < 3.0
+    expected = 0.2 - 0.01 * rise / 2.0 + 0.2 / 2.0 * (width - 1.0 - found.cracked_length_m)
+    assert math.hypot(uplift.horizontal, uplift.vertical) == pytest.approx(expected * M, **CLOSE)
+
+
+def test_an_anchor_holds():
+    # 10 MN/m at 10 from the heel, leaning upstream by 30 deg: N + 8.66, T - ... pulled towards the part below
+    anchor = {"distance": "10 m", "prestress": "10 MN/m", "inclination": "30 deg"}
+    found = only(heeltoe.statics(dam(anchors=[anchor])), "usual")
+    assert found.normal_force_n == pytest.approx((60.0 + 10.0 * math.cos(math.pi / 6.0)) * M, **CLOSE)
+    assert found.shear_force_n == pytest.approx((40.5 - 5.0) * M, **CLOSE)
+
+
+def test_seismic_forces_are_those_of_the_block():
+    """The same forces one by one as the rigid model has per unit of acceleration."""
+    case = dam(
+        crack={"friction": 0.9, "elevation": "10 m", "inclination": "5 deg"},
+        reservoir={"depth": "90 m", "follows_vertical_motion": True},
+        statics=SHAKEN,
+    )
+    section, block = cut(case), build_block(case)
+    found = pseudo_static(case, section, usual(case, section))[0].load_case
+    sums = total("all", (force for force in found.forces if force.name != "uplift"))
+    still = total("still", (force for force in block.forces if force.name != "uplift"))
+    extra = total("extra", (sums, type(sums)("", -still.horizontal, -still.vertical, -still.moment)))
+    along, across = section.in_crack_frame(extra.horizontal, extra.vertical)
+    a, v = -1.0, -0.5
+    rates = [a * h + v * u for h, u in zip(block.per_horizontal, block.per_vertical, strict=True)]
+    moment = extra.moment - block.heel_distance * across + block.height * along
+    assert [along, across, moment] == pytest.approx(rates, rel=1e-9)
+
+
+@settings(max_examples=150)
+@given(
+    pattern=st.sampled_from(["uniform", "triangular", "cut-off", "drained", "profile"]),
+    base=st.floats(68.0, 80.0),
+    depth=st.floats(88.0, 100.0),
+    tail=st.floats(0.0, 5.0),
+    density=st.integers(2150, 2700),
+    bonded=st.floats(0.0, 1.0),
+    strength=st.floats(0.0, 0.1),
+    intensity=st.floats(0.4, 1.0),
+)
+def test_the_crack_stops_at_the_first_place_that_holds(
+    pattern, base, depth, tail, density, bonded, strength, intensity
+):
+    """Against stresses by plain sums: at the length found the tip just holds, and nowhere before."""
+    options = {
+        "cut-off": {"extent": 0.4},
+        "drained": {"drain_position": 0.15, "drain_efficiency": 0.5},
+        "profile": {"points": [[0.0, "90 m"], [0.2, "40 m"], [0.2, "30 m"], [1.0, "5 m"]]},
+    }
+    case = dam(
+        f"{depth} m",
+        section={"polygon": [["0 m", "0 m"], [f"{base} m", "0 m"], ["0 m", "100 m"]]},
+        tailwater={"depth": f"{tail} m"},
+        concrete={"density": f"{density} kg/m^3"},
+        uplift={"pattern": pattern, "intensity": intensity, **options.get(pattern, {})},
+        statics={"bonded": bonded, **({"tensile_strength": f"{strength} MPa"} if bonded else {})},
+    )
+    section = cut(case)
+    found = usual(case, section).load_case
+    load = total("", (force for force in found.forces if force.name != "uplift"))
+    knots = uplift_profile(case, section)
+
+    def tip(length):
+        """Stress at the tip and strength there, times the square of what is left, all by sums."""
+        points = knots[knots[:, 0] > length]
+        if length > 0.0 and pattern != "profile":
+            points = np.vstack([[length, intensity * 1e4 * depth], points])
+        else:
+            points = knots
+        # Strips that end where the pressure bends or jumps.
+        ends = np.unique(np.concatenate([np.linspace(0.0, base, 20001), knots[:, 0], [length]]))
+        x, wide = (ends[1:] + ends[:-1]) / 2.0, np.diff(ends)
+        p = np.where(x < length, 1e4 * depth, np.interp(x, *points.T))
+        normal = -load.vertical - (p * wide).sum()
+        moment = -load.moment - (p * x * wide).sum()
+        left = base - length
+        stress = 4.0 * normal / left - 6.0 * (moment - normal * length) / left**2
+        holds = strength * M if bonded and length >= (1.0 - bonded) * base else 0.0
+        return (stress + holds) * left**2
+
+    assume(found.cracked_from == "heel")
+    scale = 1e-5 * base * 96.0 * M
+    crack = found.cracked_length_m
+    if found.outcome == "stands":
+        assert tip(crack + 1e-9 if crack else 0.0) >= -scale
+    if crack and found.outcome != "floats":
+        assert all(tip(length) < scale for length in np.linspace(0.0, crack, 7)[:-1])

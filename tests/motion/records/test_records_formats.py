@@ -1,0 +1,406 @@
+"""Formats with a header of their own, files of several channels, and what may be assumed for a look at a file."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from heeltoe import InputError, read_record
+from heeltoe.case.model import Motion
+from heeltoe.case.shaking import resolve
+from heeltoe.motion.records import read_channels, read_text, read_text_channels
+from shared.record_samples import GAL, WAVE, G, cosmos, csmip, knet, smc
+
+THREE = csmip({" 90 DEG": GAL, "UP": -0.5 * GAL, "  0 DEG": 0.8 * GAL})
+TOUCHING = 100.123456 + np.linspace(0.0, 50.0, 16)
+
+
+def read(text: str, name: str = "a.V2", **hints):
+    return read_text(text.encode(), name, **hints)
+
+
+def channels(text: str, **hints):
+    return read_text_channels(text.encode(), "a.V2", **hints)
+
+
+# What the headers say
+
+
+def test_csmip():
+    motion = read(csmip({" 90 DEG": GAL}))
+    assert motion.acceleration == pytest.approx(G * WAVE, abs=6e-6)
+    assert motion.dt == pytest.approx(0.01)
+    assert (motion.name, motion.format, motion.units_as_read, motion.channel) == ("a", "CSMIP V2", "cm/s^2", "1")
+    assert (motion.event, motion.station) == ("NOWHERE EARTHQUAKE", "EMPTY VALLEY - DAM")
+    assert (motion.component, motion.date) == ("90 DEG", "JANUARY 1, 1980 12:00 PST")
+    assert motion.processing[0] == "PROCESSED: 1/02/80, XY QC00A000"
+    assert "FILTERED WITH RAMPS AT .050- .100" in motion.processing[1]
+    assert motion.warnings == ()
+
+
+def test_csmip_of_the_new_century():
+    text = csmip({"UP": TOUCHING}, form="10.6f").replace("NOWHERE EARTHQUAKE", "Rcrd of Tue Jan 1, 1980 12:00 PST")
+    text = text.replace("SEC.  (UNITS: CM/SEC/SEC)", "sec, in cm/sec2. (8f10.6)").replace("  XYZ\n", "\n")
+    assert "100.123456103.456789" in text  # nothing parts them but their width
+    motion = read(text)
+    assert motion.acceleration == pytest.approx(TOUCHING / 100.0, abs=6e-9)
+    assert (motion.event, motion.date) == ("", "Tue Jan 1, 1980 12:00 PST")
+
+
+def test_cosmos():
+    motion = read(cosmos())
+    assert motion.acceleration == pytest.approx(G * WAVE, abs=6e-8)
+    # Not the recorder's step, which disagrees with the duration.
+    assert motion.dt == pytest.approx(0.01)
+    assert (motion.format, motion.units_as_read, motion.channel) == ("COSMOS V2", "cm/s^2", "1")
+    assert (motion.event, motion.station) == ("Nowhere earthquake", "Empty Valley - Dam & Spillway")
+    assert (motion.component, motion.date) == ("360 deg", "Tue Jan 1, 1980 20:00 UTC")
+    assert motion.processing[0] == "Processed:1980-01-02 00:00:00 GMT, XYZ"
+    assert motion.processing[1].startswith("Record filtered below 0.03 Hz")
+    assert motion.warnings == ()
+
+
+@pytest.mark.parametrize(
+    ("said", "step"),
+    [
+        ({}, 0.01),
+        ({"step": 1e5, "recorder_step": 0.01}, 0.01),
+        ({"step": -999.0, "recorder_step": 0.02, "seconds": 3}, 0.02),
+    ],
+)
+def test_the_step_of_a_cosmos_file_is_the_one_its_duration_agrees_with(said, step):
+    motion = read(cosmos(**said))
+    assert motion.dt == pytest.approx(step)
+    assert motion.warnings == ()
+
+
+def test_a_cosmos_file_whose_step_disagrees_with_its_duration_is_doubted():
+    motion = read(cosmos(seconds=60))
+    assert motion.dt == pytest.approx(0.01)
+    assert "160 values and 60 s: check it" in motion.warnings[0]
+    with pytest.raises(InputError, match=r"say so in motion\.time_step"):
+        read(cosmos(step=-999.0, recorder_step=-999.0))
+
+
+def test_a_cosmos_direction_that_is_missing_is_the_code_of_the_channel():
+    motion = read(cosmos(direction="Other", number="?"))
+    assert (motion.component, motion.channel) == ("HNE", "")
+    assert read(cosmos(event="Earthquake of Tue Jan 1 1980")).date == "Tue Jan 1 1980"
+
+
+def test_smc():
+    motion = read(smc())
+    assert "E+0-" in smc()  # columns that touch
+    assert motion.acceleration == pytest.approx(G * WAVE, rel=1e-4, abs=1e-9)
+    assert motion.dt == pytest.approx(0.01)
+    assert (motion.format, motion.units_as_read, motion.component) == ("USGS SMC", "cm/s^2", "up")
+    assert (motion.event, motion.station) == ("Nowhere, XY", "Empty Valley, Dam, F")
+    assert motion.date == "1980-01-01 2000"
+    assert motion.warnings == ()
+
+
+@pytest.mark.parametrize(
+    ("direction", "component"), [((0, -32768), "up"), ((180, -32768), "down"), ((90, 133), "133"), ((90, -32768), "")]
+)
+def test_an_smc_direction_that_is_missing_in_words_stands_in_the_integers(direction, component):
+    assert read(smc(component="", direction=direction)).component == component
+
+
+def test_an_smc_file_may_flag_a_problem_and_not_know_its_rate():
+    assert "flags a problem" in read(smc(flag=1)).warnings[0]
+    with pytest.raises(InputError, match=r"say so in motion\.time_step"):
+        read(smc(rate=1.7e38))
+    assert read(smc(rate=1.7e38), time_step=0.005).dt == pytest.approx(0.005)
+
+
+def test_knet():
+    motion = read(knet(), "ABC0018001012000.NS")
+    assert motion.acceleration == pytest.approx(G * WAVE, abs=7e-6)
+    assert motion.dt == pytest.approx(0.01)
+    assert (motion.name, motion.format, motion.units_as_read) == ("ABC0018001012000", "K-NET", "gal")
+    assert (motion.event, motion.date) == ("magnitude 6.5 at 35.0, 140.0", "1980/01/01 20:00:00")
+    assert (motion.station, motion.component) == ("ABC001", "N-S")
+    assert motion.processing == ("mean of 8.4483 gal taken out",)
+    assert motion.warnings == ()
+    assert read(knet(direction="6")).component == "U-D surface"
+    assert read(knet(offset=-70_000)).acceleration == pytest.approx(motion.acceleration, abs=1e-9)
+
+
+@pytest.mark.parametrize("text", [csmip({"UP": GAL}), cosmos(), smc(), knet()])
+def test_a_count_or_a_peak_that_is_not_the_stated_one_is_said(text):
+    lines = text.rstrip("\n").split("\n")
+    if lines[-1][:1] in "/E":
+        # The accelerations end where the velocities begin, or the file.
+        last = next((k for k, line in enumerate(lines) if "VELOC DATA" in line), len(lines) - 1) - 1
+    else:
+        last = len(lines) - 1
+    short = read("\n".join(lines[:last] + lines[last + 1 :]))
+    assert short.time.size == 152
+    assert "states 160 values and has 152" in short.warnings[0]
+    peak = f"{GAL[np.abs(GAL).argmax()]:.3f}"
+    stated = next(each for each in (peak, peak.lstrip("-"), peak[:-2], f"{float(peak):.1f}") if each in text)
+    other = read(text.replace(stated, stated.replace("2", "9", 1), 1))
+    assert "states a peak of 9" in other.warnings[0]
+
+
+# Complaints
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (cosmos("velocity"), "is a velocity record; give the acceleration record"),
+        (cosmos("displacement"), "is a displacement record"),
+        (smc(first="3 VELOCITY"), "is a velocity record"),
+        (cosmos().replace("Real-header", "Real header"), "states no real header that can be used"),
+        (cosmos().split("     160 acc")[0], "states no series of numbers"),
+        (cosmos(unit="counts"), "counts"),
+        (cosmos(unit="smoots"), "does not state its unit"),
+        (csmip({"UP": GAL}, unit="CM"), '"1 cm" is not an acceleration'),
+        ("\n".join(smc().split("\n")[:15]), "states no 48 integers and 50 reals"),
+        (knet(scale="3920(gal)/0"), "states no scale factor"),
+        (knet(scale="unknown"), "states no scale factor"),
+        (knet().split("Memo.")[0], "has 0 samples"),
+        (knet().replace("100Hz", "often"), "does not state its time step"),
+        (smc(first="1 UNCORRECTED ACCELEROGRAM"), "SMC of uncorrected data format, which is not read"),
+        (cosmos().replace("Corrected acc", "Uncorrected acc"), "COSMOS V0 or V1 (uncorrected) format, which is not"),
+        (cosmos().replace("Corrected acceleration", "Raw acceleration counts"), "COSMOS V0 or V1"),
+        ("UNCORRECTED ACCELEROGRAM DATA\n0 1\n2 3\n", "CSMIP V1 (uncorrected)"),
+    ],
+)
+def test_complaints(text, words):
+    with pytest.raises(InputError) as caught:
+        read(text)
+    assert words in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_number_that_overflowed_its_column_is_no_number():
+    text = csmip({"UP": GAL})
+    with pytest.raises(InputError, match=r"line \d+: '\*+' is not a number"):
+        read(text.replace(f"{GAL[80]:10.3f}", "*" * 10))
+
+
+# Several channels
+
+
+def test_all_channels_are_read_for_a_look():
+    three = channels(THREE)
+    assert [motion.channel for motion in three] == ["1", "2", "3"]
+    assert [motion.component for motion in three] == ["90 DEG", "UP", "0 DEG"]
+    assert [motion.name for motion in three] == ["a-chan1", "a-chan2", "a-chan3"]
+    for motion, factor in zip(three, (1.0, -0.5, 0.8), strict=True):
+        assert motion.acceleration == pytest.approx(factor * G * WAVE, abs=6e-6)
+        assert motion.warnings == ()
+    both = channels(cosmos() + cosmos("velocity") + cosmos(values=0.5 * GAL, number=2, direction="Up"))
+    assert [(motion.channel, motion.component) for motion in both] == [("1", "360 deg"), ("2", "Up")]
+    assert both[1].acceleration == pytest.approx(0.5 * G * WAVE, abs=6e-8)
+
+
+def test_velocity_may_follow_without_a_header_of_its_own():
+    series = cosmos("velocity").split('"|":\n')[1].split("\n", 2)[2]
+    motion = read(cosmos().replace("End-of-data for Chan  1 acceleration\n", "") + series)
+    assert motion.time.size == 160
+    assert motion.warnings == ()
+
+
+@pytest.mark.parametrize(
+    ("channel", "factor"),
+    [
+        (1, 1.0),
+        ("1", 1.0),
+        (" 2 ", -0.5),
+        ("up", -0.5),
+        ("Up", -0.5),
+        (90, 1.0),
+        ("90", 1.0),
+        ("90deg", 1.0),
+        ("090 Degrees", 1.0),
+        ("90°", 1.0),
+        ("0", 0.8),
+        ("000", 0.8),
+    ],
+)
+def test_a_channel_is_chosen_by_number_or_direction(channel, factor):
+    assert read(THREE, channel=channel).acceleration == pytest.approx(factor * G * WAVE, abs=6e-6)
+
+
+def test_without_a_choice_the_channels_are_listed():
+    with pytest.raises(InputError) as caught:
+        read(THREE, field="motion.vertical")
+    peaks = [f"{factor * np.abs(GAL).max():.4g}" for factor in (1.0, 0.5, 0.8)]
+    assert str(caught.value) == (
+        f"a.V2: has several channels (1: 90 DEG, peak {peaks[0]} cm/s^2; 2: UP, peak {peaks[1]} cm/s^2; "
+        f"3: 0 DEG, peak {peaks[2]} cm/s^2); choose one in motion.vertical.channel"
+    )
+
+
+def test_a_choice_that_means_no_channel_or_several_is_refused():
+    with pytest.raises(InputError, match=r"motion\.channel: 'N45E' means none of the channels of a\.V2 \(1: 90 DEG"):
+        read(THREE, channel="N45E")
+    with pytest.raises(InputError, match="'UP' means 2 of the channels"):
+        read(csmip({"UP": GAL, "UP ": GAL}), channel="UP")
+    with pytest.raises(InputError, match=r"'2' means none of the channels of a\.txt"):
+        read("# units: [g]\n0 0.1\n0.01 0.2\n", "a.txt", channel=2)
+
+
+def test_a_file_of_one_channel_needs_no_choice_and_takes_the_right_one():
+    for channel in (None, 1, "n-s"):
+        assert read(knet(), channel=channel).channel == ""
+
+
+def test_channels_without_numbers_are_counted_and_long_lists_are_cut():
+    unnumbered = "".join(cosmos(number="?", direction=f"{k} deg") for k in range(40, 54))
+    assert [motion.channel for motion in channels(unnumbered)] == [str(k) for k in range(1, 15)]
+    assert read(unnumbered, channel="14").component == "53 deg"
+    assert read(unnumbered, channel="45").channel == "6"
+    with pytest.raises(InputError, match=r"12: 51 deg, peak [\d.]+ cm/s\^2; \.\.\.\)"):
+        read(unnumbered)
+    twice = cosmos() + cosmos(values=0.5 * GAL)
+    assert [motion.channel for motion in channels(twice)] == ["1", "2"]
+
+
+def test_a_channel_whose_accelerations_are_lost_is_missed():
+    first, second, third, rest = THREE.split("POINTS OF ACCEL DATA")
+    lost = f"{first}POINTS OF ACCEL DATA{second}POINTS OF DATA{third}POINTS OF ACCEL DATA{rest}"
+    assert [motion.channel for motion in channels(lost)] == ["1", "3"]
+    assert all("opens 3 channels and has accelerations of 2" in motion.warnings[-1] for motion in channels(lost))
+
+
+def test_a_case_names_its_channels(tmp_path):
+    (tmp_path / "three.V2").write_text(THREE)
+    motion = Motion(file="three.V2", channel=" 0 deg", vertical={"file": "three.V2", "channel": 2})
+    horizontal, vertical = resolve(motion, G, tmp_path)
+    assert (horizontal.name, horizontal.component) == ("three-chan3", "0 DEG")
+    assert (vertical.name, vertical.component) == ("three-chan2", "UP")
+    assert vertical.acceleration == pytest.approx(-0.5 * G * WAVE, abs=6e-6)
+    with pytest.raises(InputError, match=r"choose one in motion\.vertical\.channel"):
+        resolve(Motion(file="three.V2", channel=1, vertical={"file": "three.V2"}), G, tmp_path)
+    with pytest.raises(InputError, match=r"^motion\.vertical\.channel: '4' means none"):
+        resolve(Motion(file="three.V2", channel=1, vertical={"file": "three.V2", "channel": 4}), G, tmp_path)
+
+
+def test_a_channel_belongs_to_a_file_and_is_a_text_or_a_whole_number():
+    with pytest.raises(ValidationError, match="belongs to a motion from a file"):
+        Motion(points=[["0 s", "0 g"], ["1 s", "0.1 g"]], channel=1)
+    for value in (True, 1.5, ""):
+        with pytest.raises(ValidationError):
+            Motion(file="x", channel=value)
+    assert Motion(file="x", channel=90).model_dump(mode="json")["channel"] == "90"
+
+
+# What is assumed for a look
+
+
+def test_a_unit_and_a_step_are_assumed_only_on_request():
+    bare = "0.1\n0.2\n"
+    motion = channels(bare)[0]
+    assert (motion.units_as_read, motion.dt) == ("g (assumed)", 0.01)
+    assert motion.pga == pytest.approx(0.2 * G)
+    assert motion.warnings == (
+        "a.V2 states no time step: 0.01 s is assumed; an analysis asks for motion.time_step",
+        "a.V2 states no unit: g is assumed; an analysis asks for motion.unit",
+    )
+    assert channels("0 100\n0.01 50\n")[0].units_as_read == "cm/s^2 (assumed)"
+    assert read(bare, assume=True).pga == motion.pga
+    with pytest.raises(InputError, match=r"peaks at 3; say so in motion\.unit"):
+        channels("0 3\n0.01 0\n")  # 3 m/s2, or a grave mistake
+    for hints in ({}, {"unit": "g"}, {"time_step": 0.01}):
+        with pytest.raises(InputError, match=r"say so in motion\.(unit|time_step)"):
+            read(bare, **hints)
+    told = channels(bare, unit="m/s^2", time_step=0.02)[0]
+    assert (told.units_as_read, told.dt, told.warnings) == ("m/s^2 (as told)", 0.02, ())
+
+
+# Small print of columns
+
+
+def test_a_capital_g_is_gravity():
+    assert read("0 0.1\n0.01 0.2\n", unit="G").pga == pytest.approx(0.2 * G)
+    assert read("# units: g\n0 0.1\n0.01 0.2\n", unit="G").pga == pytest.approx(0.2 * G)
+
+
+@pytest.mark.parametrize("separator", [";", "\t", " ; "])
+def test_decimal_commas_beside_semicolons_or_tabs(separator):
+    text = "Zeit [s];acc [g]\n" + "".join(
+        f"0,{k:03d}{separator}{v}\n" for k, v in ((0, "0,123"), (10, "-1,5e-1"), (20, "0"))
+    )
+    motion = read(text)
+    assert motion.time == pytest.approx([0.0, 0.01, 0.02])
+    assert motion.acceleration == pytest.approx(G * np.array([0.123, -0.15, 0.0]))
+
+
+def test_a_comma_behind_a_leading_zero_parts_no_thousands():
+    motion = read("# units: [g]\n0,000;0,125\n0,010;0,250\n")
+    assert motion.acceleration == pytest.approx(G * np.array([0.125, 0.25]))
+
+
+@pytest.mark.parametrize(
+    ("data", "line"),
+    [
+        ("1,000;1,250\n2,000;1,500\n", 2),  # thousands, or thousandths
+        ("0,01;0,5\n0.02;0,5\n", 3),
+        ("0,01;0,5\n1.000,5;0,5\n", 3),
+    ],
+)
+def test_commas_that_can_be_read_in_two_ways_are_refused(data, line):
+    with pytest.raises(InputError, match=rf"line {line}: the commas of .* can be read in two ways"):
+        read("# units: [cm/s2]\n" + data)
+
+
+def test_commas_in_remarks_are_not_decimal():
+    assert read("# units: [g]\n0.0 0.1\n# 1,5; no more\n0.01 0.2 # 2,5;\n").time.size == 2
+    assert read("# units: [g]\n0.0,\t0.1\n0.01,\t0.2\n").pga == pytest.approx(0.2 * G)
+
+
+def test_quotes_do_not_matter():
+    motion = read('"station: X"\n"time [s]","acceleration [g]"\n"0.00","0.1"\n"0.01","0.2"\n')
+    assert (motion.pga, motion.station) == (pytest.approx(0.2 * G), "X")
+
+
+@pytest.mark.parametrize("width", [3, 8])
+def test_more_than_two_columns_are_refused_with_a_remedy(width):
+    with pytest.raises(InputError, match=f"has {width} columns of numbers; keep two of them, time and acceleration"):
+        read("# units: [g]\n" + 5 * (" 1.0E-1-2.0E-1" * (width // 2) + " 3.0" * (width % 2) + "\n"))
+    with pytest.raises(InputError, match="no format that is known"):
+        read("3 blind mice\n3 blind mice\n")
+
+
+# Records as distributed
+
+
+def test_all_records_are_read_without_options_and_are_what_they_state(records):
+    files = sorted(file for file in records.rglob("*") if file.is_file() and file.name != "README.md")
+    assert len(files) > 50
+    seen = 0
+    for file in files:
+        text = file.read_text("latin-1")
+        for motion in read_channels(file):
+            assert motion.time.size > 100
+            for warning in motion.warnings:
+                assert "is assumed" in warning
+            if motion.format == "CSMIP V2":
+                said = text.split("END OF DATA FOR CHANNEL")[int(motion.channel) - 1]
+                count, step = re.search(r"(\d+) POINTS OF ACCEL DATA EQUALLY SPACED AT +([\d.]+)", said).groups()
+                peak = re.search(r"PEAK ACCELERATION = +-?([\d.]+)", said)[1]
+                assert (motion.time.size, motion.dt) == (int(count), pytest.approx(float(step)))
+                assert 100.0 * motion.pga == pytest.approx(float(peak), abs=1e-9)
+                seen += 1
+            if motion.format == "USGS SMC":
+                lines = text.split("\n")
+                assert motion.time.size == int(lines[13][:10])
+                assert 1.0 / motion.dt == pytest.approx(float(lines[17][15:30]))
+                largest, smallest = float(lines[22][60:75]), float(lines[23][15:30])
+                assert 100.0 * motion.pga == pytest.approx(max(largest, -smallest), rel=5e-5)
+                seen += 1
+    assert seen == 5
+
+
+def test_a_record_of_several_channels_is_not_taken_without_a_choice(records):
+    file = records / "formats" / "cosmos-csmip-ce36456.V2"
+    with pytest.raises(InputError, match=r"3: 0 DEG, peak 256\.2 cm/s\^2\); choose one in motion\.channel"):
+        read_record(file)
+    assert 100.0 * read_record(file, channel="up").pga == pytest.approx(94.805)

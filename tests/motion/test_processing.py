@@ -1,0 +1,271 @@
+"""Measures and processing, against closed forms."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from heeltoe.case.processing import BandPass, Baseline
+from heeltoe.case.read import read_case
+from heeltoe.case.shaking import resolve
+from heeltoe.errors import InputError
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.motion.measures import (
+    arias_intensity,
+    cumulative_absolute_velocity,
+    fourier_amplitudes,
+    husid_time,
+    mean_period,
+    measures,
+    significant_duration,
+    uniform,
+    velocity_displacement,
+)
+from heeltoe.motion.processing import (
+    band_pass,
+    baseline,
+    cut_significant,
+    process,
+    scale_time,
+    scale_to_arias,
+    scale_to_spectrum,
+    taper,
+)
+from heeltoe.motion.spectrum import response_spectrum
+from shared.dams import PLAIN as DAM
+
+G = 9.81
+
+
+def points(*pairs):
+    return GroundMotion.from_points(*zip(*pairs, strict=True))
+
+
+def sine(frequency=2.0, duration=20.0, dt=0.01, size=1.0):
+    time = dt * np.arange(round(duration / dt) + 1)
+    return GroundMotion("sine", time, size * np.sin(2.0 * np.pi * frequency * time))
+
+
+RAMP = points((0.0, 0.0), (3.0, 3.0))
+BOX = points((0.0, 0.0), (1.0, 0.0), (1.0, 2.0), (3.0, 2.0), (3.0, 0.0), (4.0, 0.0))
+
+
+def test_arias_intensity():
+    # The integral of t^2 from 0 to 3 is 9; that of a box of 2 over 2 s is 8.
+    assert arias_intensity(RAMP, G) == pytest.approx(np.pi / (2.0 * G) * 9.0, rel=1e-14)
+    assert arias_intensity(BOX, G) == pytest.approx(np.pi / (2.0 * G) * 8.0, rel=1e-14)
+    # A piece that changes sign: t^2 from -1 to 2.
+    assert arias_intensity(points((0.0, -1.0), (3.0, 2.0)), G) == pytest.approx(np.pi / (2.0 * G) * 3.0, rel=1e-14)
+
+
+def test_significant_duration():
+    # t^3 / 27 is a share of p at 3 cbrt(p).
+    assert husid_time(RAMP, 0.05) == pytest.approx(3.0 * np.cbrt(0.05), rel=1e-14)
+    assert significant_duration(RAMP) == pytest.approx(3.0 * (np.cbrt(0.95) - np.cbrt(0.05)), rel=1e-14)
+    assert significant_duration(BOX) == pytest.approx(0.9 * 2.0, rel=1e-14)
+    assert husid_time(BOX, 1.0) == pytest.approx(3.0)
+
+
+def test_cumulative_absolute_velocity():
+    assert cumulative_absolute_velocity(RAMP) == pytest.approx(4.5)
+    assert cumulative_absolute_velocity(points((0.0, -1.0), (3.0, 2.0))) == pytest.approx(0.5 + 2.0)
+    assert cumulative_absolute_velocity(BOX) == pytest.approx(4.0)
+
+
+def test_fourier_amplitudes_and_mean_period():
+    # A sine of amplitude 1 over T whole seconds has a line of T / 2.
+    motion = sine(2.0, 20.0)
+    frequency, amplitude = fourier_amplitudes(GroundMotion("s", motion.time[:-1], motion.acceleration[:-1]))
+    assert frequency[amplitude.argmax()] == pytest.approx(2.0)
+    assert amplitude.max() == pytest.approx(10.0, rel=1e-9)
+    assert frequency[-1] == pytest.approx(50.0)
+    assert mean_period(sine(2.0, 40.0)) == pytest.approx(0.5, rel=0.01)
+    # Two sines of one amplitude: the mean of their periods; what is slower than 4 s does not count.
+    two = sine(1.0, 80.0)
+    both = two.acceleration + sine(4.0, 80.0).acceleration + 5.0 * sine(0.1, 80.0).acceleration
+    assert mean_period(GroundMotion("two", two.time, both)) == pytest.approx(0.625, rel=0.02)
+
+
+def test_uneven_steps_are_refined_exactly():
+    uneven = points((0.0, 0.0), (0.02, 1.0), (0.05, -1.0), (0.06, 0.0))
+    even = uniform(uneven)
+    assert even.dt == pytest.approx(0.01)
+    assert arias_intensity(even) == pytest.approx(arias_intensity(uneven), rel=1e-13)
+    for motion in (BOX, points((0.0, 0.0), (1.0, 1.0), (1.0 + np.pi * 1e-7, 0.0))):
+        with pytest.raises(InputError) as caught:
+            uniform(motion)
+        assert caught.value.code == "order-uniform"
+
+
+def test_all_measures():
+    found = measures(sine(), G)
+    assert all(name.rsplit("_", 1)[1] in ("s", "s2", "m") for name in found)
+    assert len(found) == 10
+    # No samples, no Fourier transform; no shaking, no duration of it.
+    assert set(found) - set(measures(BOX, G)) == {"mean_period_s"}
+    still = measures(points((0.0, 0.0), (1.0, 0.0)))
+    assert "significant_duration_s" not in still
+    assert measures(BOX)["end_velocity_m_s"] == pytest.approx(4.0)
+    assert measures(BOX)["end_displacement_m"] == pytest.approx(4.0 + 4.0)
+
+
+@st.composite
+def motions(draw):
+    pairs = draw(st.lists(st.tuples(st.floats(0.001, 1.0), st.floats(-10.0, 10.0)), min_size=6, max_size=40))
+    return GroundMotion("any", np.cumsum([dt for dt, _ in pairs]), np.array([a for _, a in pairs]))
+
+
+@given(motions(), st.integers(2, 5), st.booleans())
+def test_baseline_ends_at_rest_for_any_steps(motion, order, displacement):
+    corrected = baseline(motion, order, displacement=displacement)
+    velocity, place = velocity_displacement(corrected)
+    size = motion.pgv + motion.duration * motion.pga + 1e-12
+    assert abs(velocity[-1]) < 1e-11 * size
+    if displacement:
+        assert abs(place[-1]) < 1e-11 * size * max(1.0, motion.duration)
+
+
+def test_baseline_takes_out_a_drift_and_nothing_else():
+    clean = sine(2.0, 20.0)
+    assert abs(clean.end_velocity) < 1e-12
+    share = clean.time / clean.duration
+    # Its velocity drifts by t^2 / 2, a polynomial of degree 2; what the sine looks like to it is small.
+    drifting = GroundMotion("drift", clean.time, clean.acceleration + 0.05 * share)
+    corrected = baseline(drifting, 2)
+    assert corrected.acceleration == pytest.approx(clean.acceleration, abs=0.02)
+    assert "end velocity zero (was 0.5 m/s)" in corrected.processing[-1]
+    # Degree 1 takes the mean acceleration out, so that it can be done by hand.
+    assert baseline(RAMP, 1).acceleration == pytest.approx([-1.5, 1.5])
+
+
+def test_band_pass():
+    slow, middle, fast = (sine(f, 60.0, size=1.0).acceleration for f in (0.05, 2.0, 40.0))
+    motion = GroundMotion("three", sine(1.0, 60.0).time, slow + middle + fast)
+    inside = slice(1500, -1500)
+    passed = band_pass(motion, 0.5, 10.0)
+    assert passed.acceleration[inside] == pytest.approx(middle[inside], abs=2e-3)
+    assert "bandpass 0.5 to 10 Hz" in passed.processing[-1]
+    assert band_pass(motion, low=0.5).acceleration[inside] == pytest.approx((middle + fast)[inside], abs=2e-3)
+    assert band_pass(motion, high=10.0).acceleration[inside] == pytest.approx((slow + middle)[inside], abs=2e-3)
+    # Two passes: half at the corner, by |H|^2 of any Butterworth filter.
+    corner = band_pass(sine(2.0, 60.0), low=2.0)
+    assert np.abs(corner.acceleration[inside]).max() == pytest.approx(0.5, abs=5e-3)
+
+
+def test_taper():
+    flat = GroundMotion("flat", 0.01 * np.arange(1001), np.ones(1001))
+    both = taper(flat, 0.1)
+    assert both.acceleration[[0, 50, 100, 500, 900, 950, 1000]] == pytest.approx([0.0, 0.5, 1.0, 1.0, 1.0, 0.5, 0.0])
+    assert taper(flat, 0.1, "end").acceleration[[0, 950, 1000]] == pytest.approx([1.0, 0.5, 0.0])
+    assert taper(flat, 0.1, "start").acceleration[[0, 50, 1000]] == pytest.approx([0.0, 0.5, 1.0])
+
+
+def test_cut_to_the_significant_duration():
+    cut = cut_significant(RAMP)
+    assert cut.duration == pytest.approx(significant_duration(RAMP), rel=1e-14)
+    assert arias_intensity(cut) == pytest.approx(0.9 * arias_intensity(RAMP), rel=1e-13)
+    assert cut.acceleration == pytest.approx([3.0 * np.cbrt(0.05), 3.0 * np.cbrt(0.95)])
+    assert arias_intensity(cut_significant(BOX, 0.2, 0.7)) == pytest.approx(0.5 * arias_intensity(BOX), rel=1e-13)
+    whole = cut_significant(sine(), 0.0, 1.0)
+    assert arias_intensity(whole) == pytest.approx(arias_intensity(sine()), rel=1e-12)
+
+
+def test_scaling():
+    assert arias_intensity(scale_to_arias(RAMP, 1.2, G), G) == pytest.approx(1.2, rel=1e-14)
+    scaled = scale_to_spectrum(sine(), 0.7, 5.0, 0.02)
+    assert response_spectrum(scaled, [0.7], 0.02).pseudo_acceleration == pytest.approx(5.0, rel=1e-12)
+    slower = scale_time(sine(2.0), 2.0, allow=True)
+    assert mean_period(slower) == pytest.approx(1.0, rel=0.02)
+    assert "no earthquake was recorded so" in slower.warnings[-1]
+
+
+ZERO = points((0.0, 0.0), (1.0, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("do", "code"),
+    [
+        (lambda: baseline(RAMP, 0), "order-baseline"),
+        (lambda: baseline(RAMP, 1, displacement=True), "order-baseline"),
+        (lambda: band_pass(sine()), "order-corner-missing"),
+        (lambda: band_pass(sine(), 0.0, 10.0), "order-corner"),
+        (lambda: band_pass(sine(), 0.1, 50.0), "order-corner"),
+        (lambda: band_pass(sine(), 10.0, 0.1), "order-corners"),
+        (lambda: band_pass(sine(), 0.1, 10.0, 0), "order-filter"),
+        (lambda: band_pass(BOX, 0.1), "order-uniform"),
+        (lambda: taper(sine(), 0.6), "order-share"),
+        (lambda: cut_significant(sine(), 0.9, 0.1), "order-shares"),
+        (lambda: cut_significant(ZERO), "order-zero"),
+        (lambda: scale_to_arias(ZERO, 1.0), "order-zero"),
+        (lambda: scale_to_arias(RAMP, 0.0), "order-target"),
+        (lambda: scale_to_spectrum(ZERO, 1.0, 1.0), "order-zero"),
+        (lambda: scale_to_spectrum(RAMP, 1.0, -1.0), "order-target"),
+        (lambda: scale_time(RAMP, 1.1), "order-time"),
+        (lambda: scale_time(RAMP, 0.0, allow=True), "order-time-factor"),
+        (lambda: mean_period(sine(size=0.0)), "order-zero"),
+    ],
+)
+def test_refused(do, code):
+    with pytest.raises(InputError) as caught:
+        do()
+    assert caught.value.code == code
+
+
+WAVE = [["0 s", "0 g"], ["0.5 s", "0.2 g"], ["1 s", "0.1 g"], ["1.5 s", "-0.1 g"], ["2 s", "0 g"]]
+
+
+def test_a_case_processes_before_it_scales(tmp_path):
+    steps = [
+        {"step": "baseline", "order": 1},
+        {"step": "band-pass", "low": "0.05 Hz", "high": "900 mHz"},
+        {"step": "taper", "share": "10 %"},
+        {"step": "cut", "start": 0.01, "end": 0.99},
+        {"step": "scale-to-arias", "intensity": "1 m/s"},
+        {"step": "scale-to-spectrum", "period": "0.5 s", "acceleration": "0.5 g"},
+        {"step": "scale-time", "factor": 1.1, "allow": True},
+    ]
+    case = read_case(DAM | {"motion": {"points": WAVE, "pga": "0.3 g", "processing": steps}})
+    assert case.motion is not None
+    motion, _ = resolve(case.motion, case.gravity, tmp_path)
+    assert motion.pga == pytest.approx(0.3 * case.gravity, rel=1e-12)
+    said = ["baseline", "bandpass", "cosine taper", "cut to", "an Arias", "pseudo-acc", "time stretched", "to a peak"]
+    assert [part in line for part, line in zip(said, motion.processing, strict=True)] == [True] * 8
+    # A case written out is a case that can be read.
+    again = read_case(case.model_dump(mode="json", exclude_none=True))
+    assert again.motion == case.motion
+
+
+@pytest.mark.parametrize(
+    ("step", "said"),
+    [
+        ({"low": "1 Hz"}, 'motion.processing[1].step: is required and not there; add for example step = "baseline"'),
+        ({"step": "bandpass"}, 'motion.processing[1].step: "bandpass" is not a choice; choose "baseline", "band-pass"'),
+        ({"step": "band-pass", "lo": "1 Hz"}, 'motion.processing[1].lo: no such field; did you mean "low"?'),
+        ({"step": "band-pass", "low": "1 rad/s"}, 'motion.processing[1].low: "1 rad/s" is not a frequency'),
+        (
+            {"step": "scale-to-arias"},
+            'motion.processing[1].intensity: is required and not there; add for example intensity = "0.5 m/s"',
+        ),
+        ("taper", 'motion.processing[1]: "taper" is of the wrong type; give a block of fields'),
+    ],
+)
+def test_mistakes_in_steps_are_said_with_their_place(step, said):
+    with pytest.raises(InputError) as caught:
+        read_case(DAM | {"motion": {"points": WAVE, "processing": [{"step": "baseline"}, step]}})
+    assert str(caught.value).startswith(said)
+
+
+def test_steps_that_cannot_be_done_are_said_with_their_place():
+    steps = (Baseline(step="baseline"), BandPass(step="band-pass", low="0.1 Hz", high="80 Hz"))
+    with pytest.raises(InputError, match=r"^motion.processing\[1\].high: 80 Hz is not between 0 Hz and .* 50 Hz;"):
+        process(sine(), steps, field="motion.processing")
+    with pytest.raises(InputError, match=r"^processing\[0\]: sine is zero throughout"):
+        process(sine(size=0.0), [read_step({"step": "scale-to-arias", "intensity": "1 m/s"})])
+
+
+def read_step(fields):
+    case = read_case(DAM | {"motion": {"points": WAVE, "processing": [fields]}})
+    assert case.motion is not None
+    return case.motion.processing[0]

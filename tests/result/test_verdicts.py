@@ -1,0 +1,142 @@
+"""What the words say of an elastic dam: neither more nor less than it does."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from heeltoe import Response, flexible, read_case, verdict
+from heeltoe.result.verdict import angle, comes_to_rest, length
+from shared.dams import ROOT
+
+FAST = ["flexible.elements_across=2", "flexible.convergence_check=false"]
+BASE = ROOT / "examples" / "typical-base.toml"
+
+
+@pytest.fixture(scope="module")
+def response() -> Response:
+    return flexible(read_case(BASE, [*FAST, "motion.duration=3s"]))
+
+
+def told(response: Response, **summary: object) -> str:
+    return verdict(replace(response, summary={**response.summary, **summary}))
+
+
+def with_slip(response: Response, *slips: float) -> Response:
+    """The same with a slip that goes straight from value to value [m]."""
+    time = response.histories["time_s"]
+    slip = np.interp(time, np.linspace(0.0, time[-1], len(slips)), slips)
+    return replace(response, histories={**response.histories, "slip_m": slip})
+
+
+def with_status(response: Response, status: np.ndarray) -> Response:
+    assert response.crack is not None
+    return replace(response, crack=replace(response.crack, status=status))
+
+
+def test_slides(response):
+    assert verdict(response).startswith(f"The dam slides {1e3 * response.residual_slip_m:.1f} mm downstream.")
+    back = told(response, residual_slip_m=-0.02, peak_slip_upstream_m=-0.03)
+    assert "slides 20.0 mm upstream, after up to 30.0 mm on the way." in back
+
+
+def test_elastic_to_and_fro_is_no_sliding(response):
+    small = {"peak_slip_upstream_m": -2e-5, "peak_slip_downstream_m": 9e-5, "residual_slip_m": 5e-5}
+    assert told(response, **small).startswith("The dam does not slide. ")
+    back = {"peak_slip_upstream_m": -2e-4, "peak_slip_downstream_m": 9e-4, "residual_slip_m": 5e-5}
+    assert "does not slide: its crack shifts by up to 0.90 mm and comes back." in told(response, **back)
+
+
+def test_a_crack_that_never_lets_go_creeps(response):
+    held = np.array(response.crack.status)
+    held[:, -1] = 2
+    assert "creeps" in verdict(with_status(response, held))
+    assert "while the rest holds" in verdict(with_status(response, held))
+    # One frame of 0.01 s in which nothing sticks is no sliding yet, three are.
+    for frames, word in ((1, "creeps"), (3, "slides")):
+        loose = held.copy()
+        loose[100 : 100 + frames] = 3
+        assert word in verdict(with_status(response, loose))
+    assert "creeps" not in verdict(replace(response, crack=None))
+
+
+def test_a_quiet_dam_stays_where_it_is():
+    quiet = [*FAST, "motion.duration=3s", "motion.pga=0.05g", "reservoir.depth=20m"]
+    text = verdict(flexible(read_case(BASE, quiet)))
+    assert text.startswith("The dam does not slide.")
+    assert "It has come to rest in the end." in text
+    assert "strike" not in text
+
+
+def test_openings_and_strikes(response):
+    text = told(response, opening_upstream_m=0.012, opening_downstream_m=5e-5, impacts=1)
+    assert "opens up to 12.0 mm at the upstream face, the part above it rotates" in text
+    assert "nodes of the crack strike once at" in text
+    assert "strike 7 times, the fastest at" in told(response, impacts=7)
+    assert "strike" not in told(response, impacts=0)
+    nothing = {"opening_upstream_m": 0.0, "opening_downstream_m": 0.0}
+    assert "stays closed at both faces" in told(response, **nothing)
+    assert "less than anyone could measure" in told(response, **{**nothing, "opening_upstream_m": 9e-5})
+    times = {**response.time_by_mode_s, "drifting": 0.25}
+    assert "For 0.25 s in all it touches nothing." in told(response, time_by_mode_s=times)
+
+
+def test_at_rest_or_not(response):
+    # At rest is what does not move any more, whatever its crack looks like.
+    still = with_slip(response, 0.0, 0.1, 0.1, 0.1)
+    assert comes_to_rest(still)
+    assert "It has come to rest in the end." in verdict(still)
+    moving = with_slip(response, 0.0, 0.3)
+    assert not comes_to_rest(moving)
+    assert "in the last 1 s its slip changes by 100.0 mm" in verdict(moving)
+    away = replace(moving, static={**moving.static, "sliding_safety_factor": 0.9})
+    assert "It slides away" in verdict(away)
+
+
+@pytest.mark.parametrize(
+    ("metres", "words"),
+    [
+        (12.345, "12.35 m"),
+        (1.0, "1.00 m"),
+        (0.5782, "578.2 mm"),
+        (0.001, "1.0 mm"),
+        (-0.0015, "-1.5 mm"),
+        (0.00043, "0.43 mm"),
+        (1e-5, "0.01 mm"),
+        (1e-7, "under 0.01 mm"),
+        (0.0, "0.00 mm"),
+    ],
+)
+def test_lengths(metres, words):
+    assert length(metres) == words
+
+
+@pytest.mark.parametrize(
+    ("metres", "words"),
+    [
+        (12.345, "40.50 ft"),
+        (1.0, "39.37 in"),
+        (-0.5782, "-22.76 in"),
+        (0.001, "0.0394 in"),
+        (1e-5, "0.0004 in"),
+        (1e-7, "under 0.0004 in"),
+        (0.0, "0 in"),
+    ],
+)
+def test_lengths_in_units_of_the_united_states(metres, words):
+    assert length(metres, "us") == words
+
+
+def test_verdicts_in_units_of_the_united_states(response):
+    text = verdict(response, "us")
+    assert f"slides {length(response.residual_slip_m, 'us')} downstream" in text
+    assert "ft/s" in text
+    assert " mm" not in text
+    assert " m/s" not in text
+
+
+def test_angles():
+    assert angle(2.467e-4) == "0.247 mrad"
+    assert angle(5.95e-3) == "5.95 mrad"

@@ -1,0 +1,1 @@
+"""What several tests share: dams, motions, runs, and readers of what heeltoe writes."""

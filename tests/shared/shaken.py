@@ -1,0 +1,18 @@
+"""Short runs of the flexible model, for what is made of their frames."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from heeltoe import GroundMotion, flexible, read_case
+from shared.dams import ROOT
+
+SMALL = ["flexible.elements_across=2", "flexible.convergence_check=false", "motion.duration=2s"]
+EXAMPLES = {"base": ROOT / "examples" / "typical-base.toml", "height": ROOT / "examples" / "typical-height.toml"}
+
+
+def shaken(name, *changes, output_step=None):
+    """Run an example coarsely, with 2 s of shaking that make it slide both ways and open."""
+    time = np.linspace(0.0, 2.0, 201)
+    motion = GroundMotion("sine", time, 7.0 * np.sin(2.0 * np.pi * 2.5 * time))
+    return flexible(read_case(EXAMPLES[name], [*SMALL, *changes]), motion, output_step=output_step)

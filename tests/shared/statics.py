@@ -1,0 +1,27 @@
+"""The triangular dam of the hand calculations, and what is looked up in its checks."""
+
+from __future__ import annotations
+
+from heeltoe import read_case
+
+CLOSE = {"rel": 1e-6}
+TRIANGLE = [["0 m", "0 m"], ["80 m", "0 m"], ["0 m", "100 m"]]
+
+
+def dam(depth="90 m", **changes):
+    """Return the triangular dam with some blocks changed; a block that is None goes."""
+    fields = {
+        "gravity": "10 m/s^2",
+        "section": {"polygon": TRIANGLE},
+        "crack": {"friction": 0.9},
+        "reservoir": {"depth": depth},
+    } | changes
+    return read_case({name: value for name, value in fields.items() if value is not None})
+
+
+def only(result, name):
+    return next(each for each in result.cases if each.name == name)
+
+
+def check(result, case, name):
+    return next(each for each in result.checks if (each.load_case, each.name) == (case, name))

@@ -1,0 +1,427 @@
+"""Figures show what they say, with units, inside their canvas, for every example, in SI and US units."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import combinations
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.image import imread
+from matplotlib.text import Text
+
+from heeltoe import compare, decoupled, flexible, read_case, rigid, with_spread
+from heeltoe.errors import InputError
+from heeltoe.views.figures import (
+    NAMES,
+    all_figures,
+    crack_figure,
+    deformed_figure,
+    energy_figure,
+    mesh_figure,
+    modes_figure,
+    path_figure,
+    pressure_figure,
+    response_figure,
+    slip_by_mode_figure,
+    spectrum_figure,
+    write_comparison_figure,
+    write_figures,
+)
+from heeltoe.views.figures.crack import contact_pressure
+from heeltoe.views.figures.energy import friction_loss
+from heeltoe.views.figures.histories import slip_by_kind
+from heeltoe.views.figures.panels import draw_ribbon, ground_motion
+from heeltoe.views.files.write import write_all
+from shared.dams import ROOT
+
+FAST = ["flexible.elements_across=2", "flexible.convergence_check=false", "motion.duration=3s"]
+ROCKING = ["reservoir.depth=60m", "motion.pga=1.2g", "motion.duration=8s"]
+EXAMPLES = sorted((ROOT / "examples").glob("*.toml"))
+
+
+def example(name, *changes):
+    return read_case(ROOT / "examples" / f"{name}.toml", list(changes))
+
+
+@pytest.fixture(scope="module")
+def both():
+    return compare(example("typical-base", *FAST))
+
+
+@pytest.fixture(scope="module")
+def rocking():
+    return rigid(example("typical-base", *ROCKING))
+
+
+def texts(figure):
+    """Return all texts of a figure that are seen."""
+    found = [text for axes in figure.axes for text in axes.findobj(Text)]
+    found += list(figure.texts) + ([figure._suptitle] if figure._suptitle else [])
+    found += [text for legend in figure.legends for text in legend.get_texts()]
+    return [text for text in found if text.get_text().strip() and text.get_visible()]
+
+
+def check(figure, name):
+    """Everything has its unit and its place."""
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    figure.draw(renderer)
+    canvas = figure.bbox.padded(1.0)
+    for axes in figure.axes:
+        for label in (axes.get_xlabel(), axes.get_ylabel()):
+            assert "[" in label or label in ("", "mode"), (name, label)
+        assert axes.get_xlabel() or axes.get_ylabel() or name.endswith(("path", "deformed", "modes", "energy", "mode"))
+        # Nothing is drawn in an empty panel.
+        assert axes.lines or axes.collections or axes.patches or axes.images, name
+    for text in texts(figure):
+        box = text.get_window_extent(renderer)
+        # Ticks beyond the limits of an axis are not drawn.
+        tick = any(
+            text in (t.label1, t.label2)
+            for axes in figure.axes
+            for axis in (axes.xaxis, axes.yaxis)
+            for t in axis.get_major_ticks() + axis.get_minor_ticks()
+        )
+        if not tick:
+            assert canvas.x0 <= box.x0, (name, text.get_text())
+            assert box.x1 <= canvas.x1, (name, text.get_text())
+            assert canvas.y0 <= box.y0, (name, text.get_text())
+            assert box.y1 <= canvas.y1, (name, text.get_text())
+    boxes = [(legend, legend.get_window_extent(renderer)) for legend in figure.legends]
+    for legend, box in boxes:
+        for axes in figure.axes:
+            assert not box.overlaps(axes.get_window_extent(renderer)), (name, legend)
+            for label in (axes.xaxis.label, axes.yaxis.label):
+                assert not label.get_text() or not box.padded(-0.5).overlaps(label.get_window_extent(renderer)), name
+    labels = [axes.yaxis.label for axes in figure.axes if axes.get_ylabel()]
+    for one, other in combinations(labels, 2):
+        assert not one.get_window_extent(renderer).overlaps(other.get_window_extent(renderer)), name
+
+
+@pytest.mark.parametrize("units", ["si", "us"])
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_every_figure_of_every_example(path, units):
+    short = [] if path.stem == "block" else ["motion.duration=3s"]
+    case = read_case(path, short)
+    responses = [rigid(case)]
+    if case.concrete.modulus:
+        case = read_case(path, [*FAST, *(["flexible.elements_across_below=3"] if case.crack.elevation else [])])
+        responses.append(flexible(case))
+    for response in responses:
+        figures = all_figures(case, response, units, headings=units == "si")
+        assert set(figures) <= set(NAMES)
+        assert {"section", "response", "spectrum"} <= set(figures)
+        for name, figure in figures.items():
+            check(figure, name)
+            if units == "us":
+                seen = " ".join(text.get_text() for text in texts(figure))
+                assert not any(unit in seen for unit in (" m]", "[m]", "mm]", "MN", "MPa", "kPa", "J/m")), name
+
+
+def test_the_numbers_of_both_systems_agree(both, rocking):
+    inch, kip, psi = 0.0254, 4448.2216152605, 6894.757293168
+    si, us = (response_figure(rocking, units).axes for units in ("si", "us"))
+    assert si[1].lines[0].get_ydata() / us[1].lines[0].get_ydata().clip(1e-9) == pytest.approx(25.4) or np.allclose(
+        si[1].lines[0].get_ydata(), 25.4 * us[1].lines[0].get_ydata()
+    )
+    assert si[3].lines[0].get_ydata() == pytest.approx(1e3 * inch * us[3].lines[0].get_ydata())
+    si, us = (energy_figure(both.flexible, units).axes[0].lines[0].get_ydata() for units in ("si", "us"))
+    assert 1e6 * si == pytest.approx(kip * us)
+    maps = [pressure_figure(both.flexible, units).axes[1].collections[-1].get_array() for units in ("si", "us")]
+    assert 1e6 * maps[0].compressed() == pytest.approx(psi * maps[1].compressed())
+
+
+def test_units_that_nobody_knows(both):
+    with pytest.raises(InputError, match="no system of units") as refused:
+        response_figure(both.rigid, "imperial")
+    assert refused.value.code == "unknown-units"
+
+
+@pytest.mark.parametrize(("changes", "panels"), [(["motion.duration=8s"], 3), (ROCKING, 5)])
+def test_figures_of_a_rigid_block(tmp_path, changes, panels):
+    response = rigid(example("typical-base", *changes))
+    assert len(response_figure(response).axes) == panels
+    names = {"response", "slip-by-mode", "accelerations", "energy", "spectrum"} | ({"path"} if panels == 5 else set())
+    paths = write_figures(response, tmp_path)
+    assert {path.name for path in paths} == {f"{name}{suffix}" for name in names for suffix in (".png", ".svg")}
+    inked(paths)
+
+
+def inked(paths):
+    for path in paths:
+        assert path.stat().st_size > 5000
+        # A drawing of hundreds of thousands of rectangles is of no use.
+        assert path.stat().st_size < 2_000_000
+        if path.suffix == ".png":
+            assert imread(path).std() > 0.05
+
+
+def test_a_run_that_never_started_has_its_section_alone(tmp_path):
+    case = example("typical-base", "crack.friction=0.2")
+    response = rigid(case)
+    assert write_figures(response, tmp_path) == []
+    assert set(all_figures(case, response)) == {"section"}
+    write_all(response, tmp_path, case)
+    assert {path.name for path in tmp_path.iterdir()} == {"result.json", "section.png", "section.svg"}
+
+
+def test_a_run_without_any_motion_has_figures():
+    points = 'motion={points=[["0 s","0 g"],["1 s","0 g"]], allow_zero=true}'
+    for name, figure in all_figures(None, rigid(example("block", points))).items():
+        check(figure, name)
+
+
+def test_numbers_beyond_all_bounds_are_not_drawn(both):
+    h = {name: np.array(values) for name, values in both.flexible.histories.items()}
+    h["slip_m"][-3:] = np.inf
+    blown = replace(both.flexible, outcome="blown up", histories=h)
+    assert all_figures(None, blown) == {}
+    assert not any(
+        name.startswith(("flexible", "comparison")) for name in all_figures(None, replace(both, flexible=blown))
+    )
+
+
+@pytest.mark.parametrize(
+    ("model", "name", "changes"),
+    [
+        (rigid, "typical-base", [*ROCKING, "analysis.event_limit=20"]),
+        (rigid, "typical-base", ["motion.pga=0.01g", "motion.duration=5s"]),
+        (rigid, "typical-base", ["motion.duration=0.001s"]),
+        (rigid, "block", ['section.polygon=[["0 m","0 m"],["0.2 m","0 m"],["0.2 m","3 m"],["0 m","3 m"]]']),
+        (flexible, "typical-base", [*FAST, "crack.friction=0.4"]),
+        (flexible, "typical-base", [*FAST, "motion.pga=0.001g", "reservoir.depth=0m"]),
+        (flexible, "typical-base", [*FAST, "motion.duration=0.02s"]),
+    ],
+    ids=["stopped", "still", "one sample", "slender", "slides away", "hardly shaken", "three frames"],
+)
+def test_runs_that_end_early_or_hardly_move(model, name, changes):
+    case = example(name, *changes)
+    for label, figure in all_figures(case, model(case), headings=True).items():
+        check(figure, label)
+
+
+def test_figures_of_the_flexible_model(both, tmp_path):
+    paths = write_figures(both.flexible, tmp_path)
+    assert {"response", "forces", "energy", "crack", "pressure", "deformed", "mesh", "modes"} <= {p.stem for p in paths}
+    inked(paths)
+
+
+def test_a_crack_at_a_height_has_figures(tmp_path):
+    case = example("typical-height", *FAST, "flexible.elements_across_below=3")
+    for kind in (2, 3, 4):
+        changed = case.model_copy(update={"flexible": case.flexible.model_copy(update={"contactors": kind})})
+        response = flexible(changed.based_in(case.base_directory))
+        for draw in (crack_figure, pressure_figure):
+            check(draw(response), draw.__name__)
+    inked(write_figures(flexible(case), tmp_path))
+
+
+def test_figures_show_what_they_say(both):
+    axes = response_figure(both.flexible).axes
+    assert len(axes) == 5
+    h = both.flexible.histories
+    assert axes[1].lines[0].get_ydata() == pytest.approx(1e3 * h["slip_m"])
+    spans = sum(path.get_extents().width for collection in axes[-1].collections for path in collection.get_paths())
+    assert spans == pytest.approx(h["time_s"][-1])
+    lines = {line.get_label(): line.get_ydata() for line in energy_figure(both.flexible).axes[0].lines}
+    assert lines["put in"][-1] == pytest.approx(h["input_energy_j"][-1] / 1e6)
+    # What is put in goes somewhere, up to what the time stepping itself loses.
+    parts = sum(values[-1] for name, values in lines.items() if name != "put in")
+    assert parts == pytest.approx(lines["put in"][-1], rel=0.01)
+    colours = crack_figure(both.flexible).axes[1].collections[0].get_array()
+    assert (colours == both.flexible.crack.status.T).all()
+
+
+def test_rows_of_the_ribbon_tell_modes_apart_without_colour(rocking):
+    figure = response_figure(rocking)
+    axes = figure.axes[-1]
+    names = [label.get_text() for label in axes.get_yticklabels()]
+    assert set(names) == {"rest", "slide", "rock", "slide-rock", "drift"} & set(names)
+    heights = {path.get_extents().y0 for collection in axes.collections for path in collection.get_paths()}
+    assert len(heights) == len(names)
+
+
+def test_slip_by_mode_and_losses_end_at_the_sums_of_the_run(rocking):
+    found = slip_by_kind(rocking)
+    assert found["slide"][-1] == pytest.approx(rocking.slip_by_mode_m["sliding"], rel=1e-9)
+    assert found["drift"][-1] == pytest.approx(rocking.slip_by_mode_m["drifting"], rel=1e-9)
+    assert sum(found.values()) == pytest.approx(rocking.histories["slip_m"], abs=1e-9)
+    assert friction_loss(rocking)[-1] == pytest.approx(rocking.energy.friction_j, rel=1e-3)
+    curves = {line.get_label(): line.get_ydata() for line in energy_figure(rocking).axes[0].lines}
+    assert curves["impacts"][-1] == pytest.approx(rocking.energy.impact_j / 1e6)
+    bars = slip_by_mode_figure(rocking).axes[1].patches
+    assert bars[-1].get_height() == pytest.approx(1e3 * rocking.residual_slip_m)
+    assert sum(bar.get_height() for bar in bars[:-1]) == pytest.approx(bars[-1].get_height())
+
+
+def test_a_block_with_few_samples_is_drawn_as_it_moves():
+    response = rigid(example("block"))
+    assert len(response.histories["time_s"]) == 3
+    figures = all_figures(None, response)
+    line = figures["response"].axes[1].lines[0]
+    time, slip = line.get_xdata(), line.get_ydata() / 1e3
+    g = 9.80665
+    exact = np.where(time < 0.1, -0.3 * g * time**2, 0.1 * g * time**2 - 0.08 * g * time + 0.004 * g)
+    assert slip == pytest.approx(exact, abs=1e-12)
+    # The jump of the ground is a jump.
+    ground = figures["response"].axes[0].lines[0]
+    assert sorted(ground.get_ydata()[ground.get_xdata() == 0.1]) == pytest.approx([0.0, 0.8])
+    lost = figures["energy"].axes[0].lines[0].get_ydata()[-1]
+    assert 1e3 * lost == pytest.approx(response.energy.friction_j)
+
+
+def test_after_the_record_the_ground_stands_still():
+    response = rigid(example("block", "motion.duration=2s"))
+    time, ground = ground_motion(response)
+    assert (time[-1], ground[-1]) == (2.0, 0.0)
+    time, ground = ground_motion(rigid(example("block", "motion.duration=0.05s")))
+    assert (time[-1], ground[-1]) == (0.05, pytest.approx(0.8 * 9.80665))
+
+
+def test_contact_pressure_carries_the_load(both):
+    record = both.flexible.crack
+    time, pressure = contact_pressure(record)
+    along = record.upper_position[0, 0]
+    sizes = along[2::2] - along[:-2:2]
+    # Simpson's rule over each element gives the nodes' forces back.
+    ends, middle = pressure[:, :-2:2] + pressure[:, 2::2], pressure[:, 1:-1:2]
+    total = ((ends + 4.0 * middle) / 6.0) @ sizes
+    assert time == pytest.approx(record.time)
+    assert total == pytest.approx(record.forces()[:, 1].sum(axis=1), rel=1e-9)
+
+
+def test_shapes_of_the_intact_dam_have_its_periods(both):
+    dam = both.flexible.crack.dam
+    titles = [axes.get_title() for axes in modes_figure(dam).axes]
+    assert [float(title.split("=")[1].split("s")[0]) for title in titles] == pytest.approx(
+        list(dam.periods[:4]), rel=5e-3
+    )
+    check(mesh_figure(dam), "mesh")
+
+
+def test_deformed_dam_at_a_moment(both):
+    seen = " ".join(text.get_text() for text in texts(deformed_figure(both.flexible, 1.5)))
+    assert "t = 1.50 s;" in seen
+    assert "exaggerated" in seen
+    fastest = deformed_figure(both.flexible)
+    assert "the fastest slip" in fastest._supxlabel.get_text()
+
+
+def test_the_spectrum_marks_the_periods(both):
+    marked = [
+        line.get_xdata()[0] for line in spectrum_figure(both.flexible).axes[0].lines if len(line.get_xdata()) == 2
+    ]
+    assert set(np.round(both.flexible.periods_s[:4], 9)) <= set(np.round(marked, 9))
+    own = spectrum_figure(both.rigid, periods_s=[0.5]).axes[0]
+    assert any(list(line.get_xdata()) == [0.5, 0.5] for line in own.lines)
+
+
+def test_a_decoupled_response_shows_the_motion_at_its_crack():
+    changes = ["flexible.elements_across=3", "motion.duration=4s"]
+    response = decoupled(read_case(ROOT / "examples" / "koyna.toml", changes))
+    h = response.histories
+    axes = response_figure(response).axes[0]
+    assert axes.lines[0].get_label() == "at the crack"
+    assert axes.lines[0].get_ydata() == pytest.approx(h["crack_acceleration_m_s2"] / response.gravity)
+    figures = all_figures(None, response, headings=True)
+    assert "crack-level" in figures
+    for name, figure in figures.items():
+        check(figure, name)
+
+
+def overturned(response):
+    """A response whose block turns over in the end."""
+    h = {name: np.array(values) for name, values in response.histories.items()}
+    time = h["time_s"]
+    fall = np.clip(0.002 * np.exp(3.0 * (time - time[-1] + 2.2)) - 0.002, 0.0, np.pi / 2.0)
+    h["rotation_rad"] -= fall
+    h["gap_heel_m"] += fall * response.crack_width_m
+    changed = {"largest_gap_heel_m": float(h["gap_heel_m"].max())}
+    return replace(response, outcome="overturned", histories=h, summary={**response.summary, **changed})
+
+
+def test_a_block_that_overturns_stays_readable(rocking, both):
+    response = overturned(rocking)
+    figures = all_figures(None, response, headings=True)
+    for name, figure in figures.items():
+        check(figure, name)
+    rotation = figures["response"].axes[2]
+    before = 1e3 * abs(rocking.histories["rotation_rad"]).max()
+    assert before < rotation.get_ylim()[1] < 20.0 * before
+    assert any("overturns downstream" in text.get_text() for text in texts(figures["response"]))
+    check(all_figures(None, replace(both, rigid=response))["comparison"], "comparison")
+
+
+@pytest.mark.parametrize(
+    "title",
+    [
+        "三峡大坝 地震 " * 12,
+        "Бурейская плотина, секция 12",
+        "Barrage d'Émosson $1 & $2_x^ \\frac{<b>",
+        "سد " * 8,
+        "\U0001f30a wave\x00\n\ttab \U000e0001",
+        "W" * 400,
+        "",
+    ],
+)
+def test_titles_of_any_kind(both, tmp_path, title):
+    response = replace(both.rigid, title=title)
+    figure = response_figure(response)
+    check(figure, "response")
+    height = figure._suptitle.get_window_extent(FigureCanvasAgg(figure).get_renderer()).height
+    assert height < 0.2 * figure.bbox.height
+    write_figures(response, tmp_path)
+
+
+def test_letters_without_a_font_become_squares(both, monkeypatch):
+    monkeypatch.setattr("heeltoe.views.figures.fonts._other_fonts", lambda: ())
+    figure = response_figure(replace(both.rigid, title="大坝 5"))
+    assert figure._suptitle.get_text().startswith("□□ 5")
+    check(figure, "response")
+
+
+def test_a_crack_that_stays_closed_has_no_panel_of_openings():
+    quiet = [*FAST, "motion.pga=0.05g", "reservoir.depth=20m"]
+    response = flexible(example("typical-base", *quiet))
+    assert len(response_figure(response).axes) == 3
+    assert "path" not in all_figures(None, response)
+
+
+def test_the_spread_is_a_band():
+    case = example("typical-base")
+    plain = rigid(case)
+    response = with_spread(plain, case)
+    assert not response_figure(plain).axes[1].patches
+    (band,) = response_figure(response).axes[1].patches
+    spread = response.spread["residual_slip_m"]
+    assert (band.get_y(), band.get_y() + band.get_height()) == pytest.approx((1e3 * spread["min"], 1e3 * spread["max"]))
+
+
+def test_path_of_a_block_that_lifts_off(rocking):
+    axes = path_figure(rocking).axes
+    lifts = [max(path.get_extents().y1 for c in a.collections for path in c.get_paths()) for a in axes]
+    h = rocking.histories
+    assert lifts[0] == pytest.approx(1e3 * h["gap_heel_m"].max(), rel=1e-6)
+    assert lifts[2] == pytest.approx(1e3 * h["gap_toe_m"].max(), rel=1e-6)
+
+
+def test_a_ribbon_without_events():
+    figure = response_figure(rigid(example("typical-base", "motion.duration=1s")))
+    draw_ribbon(
+        figure.axes[0],
+        SimpleNamespace(event_log={}, histories={"time_s": np.array([1.0, 2.0])}, mode=("rest", "sliding")),
+    )
+    assert [label.get_text() for label in figure.axes[0].get_yticklabels()] == ["slide", "rest"]
+
+
+def test_comparison_figure(both, tmp_path):
+    paths = write_comparison_figure(both, tmp_path)
+    assert {path.name for path in paths} == {"comparison.png", "comparison.svg"}
+    inked(paths)
+    never = rigid(example("typical-base", "crack.friction=0.2"))
+    assert write_comparison_figure(replace(both, rigid=never), tmp_path) == []
+    figures = all_figures(None, both, "us")
+    assert next(iter(figures)) == "comparison"
+    assert {"rigid/response", "flexible/deformed"} <= set(figures)

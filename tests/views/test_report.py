@@ -1,0 +1,425 @@
+"""The report: the same numbers as the JSON in PDF and HTML, nobody's words as markup, failures that say what failed."""
+
+from __future__ import annotations
+
+import io
+import json
+import re
+from dataclasses import replace
+
+import pytest
+from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
+from pypdf import PdfReader
+
+from heeltoe import InputError, compare, decoupled, flexible, read_case, rigid, with_spread
+from heeltoe.result.response import json_text
+from heeltoe.views.report import build_report, check_packages, write_report
+from heeltoe.views.report.build_input import fields, input_hash
+from heeltoe.views.report.content import Document, FigureBlock, Section, Value, paragraph
+from heeltoe.views.report.drawings import caption
+from heeltoe.views.report.html import html
+from heeltoe.views.report.typst_pdf import pages, pdf, source
+from shared.dams import ROOT
+from shared.report_reader import BASE, FAST, Reader, lookup, pdf_text, squeezed
+
+
+@pytest.fixture(scope="module")
+def block():
+    case = read_case(
+        BASE, ["motion.duration=5s", "motion.pga=1g", 'limits.residual_slip="10 mm"', "limits.peak_slip=9m"]
+    )
+    return case, with_spread(rigid(case), case, 3)
+
+
+@pytest.fixture(scope="module")
+def both():
+    case = read_case(BASE, FAST)
+    return case, compare(case)
+
+
+def values(blocks):
+    """All numbers of a tree of blocks."""
+    for each in blocks:
+        if isinstance(each, Section):
+            yield from values(each.blocks)
+        else:
+            parts = getattr(each, "parts", ())
+            for row in getattr(each, "rows", ()):
+                parts = (*parts, *row)
+            yield from (part for part in parts if isinstance(part, Value))
+
+
+UNITS = {
+    "mm": 1e-3,
+    "mrad": 1e-3,
+    "MN/m": 1e6,
+    "kN/m": 1e3,
+    "MJ/m": 1e6,
+    "kJ/m": 1e3,
+    "t/m": 1e3,
+    "MPa": 1e6,
+    "kPa": 1e3,
+}
+UNITS |= {"%": 0.01}
+UNITS |= {"ft": 0.3048, "in": 0.0254, "ft/s": 0.3048, "ft/s²": 0.3048, "psi": 6894.757, "ksi": 6894757.0}
+UNITS |= {"kip/ft": 14593.903, "ft-kip/ft": 4448.2216, "ton/ft": 2976.3279}
+
+
+def read_back(text):
+    """The number that a text shows in SI, and half of its last digit."""
+    text = text.removeprefix("≥ ").removeprefix("≤ ")
+    number, _, unit = text.partition(" ")
+    mantissa, _, exponent = number.partition("·10")
+    power = int(exponent.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")) or 0)
+    decimals = len(mantissa.partition(".")[2])
+    factor = UNITS.get(unit, 1.0) * 10.0**power
+    return float(mantissa) * factor, 0.5 * 10.0**-decimals * factor
+
+
+def check_numbers(case, result):
+    document = build_report(case, result)
+    data = json.loads(json_text(result.to_json()))
+    reader = Reader(html(document))
+    printed = squeezed(pdf_text(pdf(document)))
+    assert len(reader.numbers) > 40
+    for key, (number, text) in reader.numbers.items():
+        if not key.startswith("statics."):
+            assert number == lookup(data, key), key
+        if text != "under 0.01 mm":
+            shown_number, half = read_back(text)
+            # Digits that are zero may be left out, angles have three digits.
+            assert abs(shown_number) == pytest.approx(abs(number), abs=half * 1.0001, rel=1e-3), (key, text)
+        assert squeezed(text) in printed, (key, text)
+    return reader, printed
+
+
+def test_numbers_of_one_run_equal_those_of_the_json(block):
+    reader, printed = check_numbers(*block)
+    for key in ("residual_slip_m", "spread.residual_slip_m.mean", "energy.input_j", "motion.pga_g", "limits.0.value_m"):
+        assert key in reader.numbers
+    assert "NO" in printed
+    assert "yes" in printed
+
+
+def test_numbers_of_both_models_equal_those_of_the_json(both):
+    reader, printed = check_numbers(*both)
+    for key in ("rigid.residual_slip_m", "flexible.residual_slip_m", "ratio.residual_slip_m", "flexible.periods_s.0"):
+        assert key in reader.numbers
+    assert squeezed(both[1].meaning()) in printed
+
+
+@pytest.mark.usefixtures("no_figures")
+def test_numbers_have_units(both):
+    document = build_report(*both)
+    plain = ("factor", "friction", "ratio.", "impacts", "events", "samples", "steps", "iterations", "elements", "nodes")
+    # The caption says that factors have no unit.
+    plain += ("modes", "residual", "statics.checks.")
+    for value in values(document.blocks):
+        length_or_time = value.key.endswith(("_m", "_rad", "_s")) and "ratio." not in value.key
+        if length_or_time or not any(word in value.key for word in plain):
+            assert re.search(r"[a-zA-Z%]", value.text), value
+
+
+@pytest.mark.usefixtures("no_figures")
+def test_a_report_holds_all_that_it_shall(block):
+    case, response = block
+    reader = Reader(html(build_report(case, response, command="heeltoe run x.toml --report")))
+    for reference in response.citation():
+        assert reference in reader.text
+    for words in (
+        "Question and answer",
+        "Input",
+        "Ground motion",
+        "Method",
+        "Results",
+        "How far to trust it",
+        "Static checks",
+        "Verdict against limits",
+        "heeltoe run x.toml --report",
+        input_hash(case, (response.motion, response.vertical)),
+        case.title,
+        "The dam slides",
+    ):
+        assert words in reader.text
+    for text in response.warnings:
+        assert squeezed(text) in squeezed(reader.text)
+    # Every field of the case, whether given or not.
+    for path, _, _, _ in fields(case, case.model_dump(mode="json")):
+        assert path in reader.text
+    assert "script" not in reader.tags
+    assert all(link.startswith(("data:image/svg+xml;base64,", "#s")) for link in reader.links)
+
+
+def test_figures_of_a_report_are_there_and_not_empty(both):
+    def figures(blocks):
+        for each in blocks:
+            if isinstance(each, Section):
+                yield from figures(each.blocks)
+            elif isinstance(each, FigureBlock):
+                yield each
+
+    found = {figure.name: figure for figure in figures(build_report(*both).blocks)}
+    assert {"section", "comparison", "flexible/response", "flexible/crack", "flexible/spectrum"} <= set(found)
+    for figure in found.values():
+        assert len(figure.svg) > 5000
+        assert figure.caption.endswith(".")
+    assert caption("flexible/some-new_one") == "Flexible dam. Some new one."
+
+
+@pytest.mark.usefixtures("no_figures")
+def test_equations_are_numbered_in_order(both):
+    def equations(blocks):
+        for each in blocks:
+            if isinstance(each, Section):
+                yield from equations(each.blocks)
+            elif hasattr(each, "typst"):
+                yield each.number
+
+    numbers = list(equations(build_report(*both).blocks))
+    assert len(numbers) > 8
+    assert numbers == list(range(1, len(numbers) + 1))
+
+
+def test_a_run_that_never_started_says_what_failed():
+    case = read_case(BASE, ["crack.friction=0.2"])
+    response = rigid(case)
+    assert response.outcome == "unstable"
+    document = build_report(case, response)
+    first = PdfReader(io.BytesIO(pdf(document))).pages[0].extract_text()
+    assert "No result to trust" in first
+    assert squeezed(response.advice) in squeezed(first)
+    assert "NaN" not in html(document)
+    assert "no results and no figures" in Reader(html(document)).text
+
+
+@pytest.mark.usefixtures("no_figures")
+def test_a_run_that_was_stopped_says_what_failed():
+    case = read_case(BASE, ["analysis.event_limit=3"])
+    response = rigid(case)
+    assert response.outcome == "event limit"
+    first = PdfReader(io.BytesIO(pdf(build_report(case, response)))).pages[0].extract_text()
+    for words in ("No result to trust", "event limit", "they are no result", "stopped at"):
+        assert words in first
+
+
+@pytest.mark.usefixtures("no_figures")
+def test_what_has_overturned_does_not_stand_after_the_earthquake():
+    case = read_case(ROOT / "examples" / "slender.toml")
+    text = Reader(html(build_report(case, rigid(case)))).text
+    assert "post-seismic: the earthquake overturns the block about its toe: nothing stands after it" in text
+    assert "Static checks not met: equilibrium (post-seismic)" in text
+
+
+@pytest.mark.usefixtures("no_figures")
+def test_a_comparison_of_which_one_failed_says_so(both):
+    case, comparison = both
+    unstable = rigid(read_case(BASE, ["crack.friction=0.2"]))
+    text = Reader(html(build_report(case, replace(comparison, rigid=unstable)))).text
+    assert "No result to trust" in text
+    assert "what the flexible model found stands below" in text
+    assert pdf(build_report(case, replace(comparison, rigid=unstable)))
+
+
+def test_parts_that_are_missing_are_left_out(tmp_path):
+    case = read_case(ROOT / "examples" / "block.toml", ['title=""'])
+    paths = write_report(case, rigid(case), str(tmp_path / "new" / "place"))
+    assert [path.name for path in paths] == ["report.pdf", "report.html"]
+    assert "Untitled case" in paths[1].read_text()
+    assert "Untitled case" in pdf_text(paths[0].read_bytes())
+    assert "virtual mass" not in paths[1].read_text().partition("Method")[2].partition("Results")[0]
+
+
+TITLES = [
+    "大坝在地震中",
+    "Плотина",
+    "سد خرساني",
+    '#import "x"; $x$ *a* _b_ `c` <d> @e \\u{41}',
+    "<script>alert(1)</script> & {{ x }}",
+]
+
+
+@pytest.mark.parametrize("title", [*TITLES, "Long" * 60, "many words " * 40])
+@pytest.mark.usefixtures("no_figures")
+def test_titles_of_any_kind(block, title):
+    case, response = block
+    document = build_report(case.model_copy(update={"title": title}), replace(response, title=title))
+    reader = Reader(html(document))
+    assert title.strip() in reader.text
+    assert "script" not in reader.tags
+    data = pdf(document)
+    if title.isascii():
+        assert squeezed(title) in squeezed(pdf_text(data))
+    assert PdfReader(io.BytesIO(data)).metadata.title == title.strip()
+
+
+def replaced(text):
+    """A document that says the same everywhere."""
+    return Document(text, text, text, (paragraph(text, Value("a", 1, text)), Section(text, (paragraph(text),))))
+
+
+@settings(max_examples=15, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
+@given(st.text(min_size=1, max_size=60))
+@example('"]#panic()[')
+@example("\\")
+@example("\u202e\x00\n")
+def test_nobodys_words_are_markup(text):
+    document = replaced(text)
+    assert pdf(document)
+    assert Reader(html(document)).tags == Reader(html(replaced("x"))).tags
+
+
+@pytest.mark.usefixtures("no_figures")
+def test_long_words_stay_on_the_page(block):
+    # Ink to the right of the margin would mean that something runs over.
+    case, response = block
+    long = replace(response, motion=replace(response.motion, name="elcentro-" * 30), warnings=("w" * 300,))
+    from PIL import Image
+
+    for data in pages(build_report(case.model_copy(update={"title": "T" * 200}), long), 40.0):
+        page = Image.open(io.BytesIO(data)).convert("L")
+        margin = page.crop((round(page.width * 192 / 210), 0, page.width, page.height))
+        assert margin.getextrema()[0] > 200
+
+
+def test_the_same_input_makes_the_same_report(block):
+    assert html(build_report(*block)) == html(build_report(*block))
+    assert pdf(build_report(*block)) == pdf(build_report(*block))
+
+
+def test_the_hash_tells_inputs_apart(block):
+    case, response = block
+    own = input_hash(case, (response.motion, None))
+    assert own == input_hash(read_case(json.loads(case.model_dump_json())), (response.motion, None))
+    assert own != input_hash(case, (response.motion.scaled(1.0 + 1e-12), None))
+    other = read_case(BASE, ["crack.restitution=0.51"])
+    assert own != input_hash(other, (response.motion, None))
+
+
+#: A number with a unit of SI that people of the United States do not use.
+
+
+SI = r"\d\s?(mm|cm|m|km|m/s|m/s²|m/s\^2|k?N/m|MN/m|[kMG]?Pa|k?J/m|MJ/m|kg/m\^3|kg/m³|t/m)(?![\w/²³^])"
+
+
+@pytest.mark.usefixtures("no_figures")
+@pytest.mark.parametrize("which", ["block", "both", "never"])
+def test_units_of_the_united_states_all_through(which, request):
+    if which == "never":
+        case = read_case(BASE, ["crack.friction=0.2"])
+        subject = (case, rigid(case))
+    else:
+        subject = request.getfixturevalue(which)
+        subject = (subject[0].model_copy(update={"title": "Dam of 100 m"}), subject[1])
+    document = build_report(*subject, units="us")
+    reader = Reader(html(document))
+    for unit in (" in", "kip/ft", "ft", "psi", "per foot of dam"):
+        assert unit in reader.text
+    for text in (reader.text, pdf_text(pdf(document))):
+        # A title, and how a scenario is written.
+        text = re.sub(r"Dam of\s100\sm|M6\.\s?5,\s?20\s?km", "", text)
+        found = re.search(f".{{30}}{SI}", text)
+        assert not found, found
+    data = {**json.loads(json_text(subject[1].to_json()))}
+    for key, (number, text) in reader.numbers.items():
+        if not key.startswith("statics."):
+            assert number == lookup(data, key), key
+        if not text.startswith("under"):
+            shown_number, half = read_back(text)
+            assert abs(shown_number) == pytest.approx(abs(number), abs=half * 1.0001, rel=1e-3), (key, text)
+
+
+def test_packages_that_are_missing_are_named(monkeypatch, tmp_path, block):
+    monkeypatch.setattr("heeltoe.views.report.find_spec", lambda name: None)
+    with pytest.raises(InputError) as found:
+        check_packages()
+    assert found.value.code == "report-package"
+    assert "heeltoe[report]" in str(found.value)
+    with pytest.raises(InputError) as found:
+        write_report(*block, tmp_path, kinds=("docx",))
+    assert found.value.code == "report-kind"
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_letters_without_a_font_are_owned_up_to(monkeypatch):
+    document = Document("x", "y", "z", (paragraph("\U00012345"),))
+    monkeypatch.setattr("heeltoe.views.figures.fonts._other_fonts", lambda: ())
+    assert "no font was found" in source(document)
+    assert "no font was found" not in source(Document("Плотина μ²", "y", "z", ()))
+    assert pdf(document)
+
+
+def test_nothing_is_left_half_written(tmp_path, block):
+    (tmp_path / "file").write_text("")
+    with pytest.raises(InputError) as found:
+        write_report(*block, tmp_path / "file" / "below", kinds=("html",))
+    assert found.value.code == "cannot-write"
+
+
+def test_notebooks_show_case_motion_and_response(block):
+    case, response = block
+    for shown_object, words in (
+        (case, ("2650 kg/m³", "reservoir.depth", "<svg")),
+        (response.motion, ("peak acceleration", "1 g", "m/s", "<polyline")),
+        (response, ("Residual slip", "mm", "The dam slides", "<polyline")),
+    ):
+        found = shown_object._repr_html_()
+        Reader(found)
+        for each in words:
+            assert each in found
+        # A page of a notebook is no place for a megabyte.
+        assert len(found) < 60_000
+    never = rigid(read_case(BASE, ["crack.friction=0.2"]))
+    assert "No result to trust" in never._repr_html_()
+    assert "<b>" not in replace(response, title="<b>")._repr_html_()
+    bare = read_case(ROOT / "examples" / "block.toml")
+    assert "Block pushed once" in bare._repr_html_()
+    assert rigid(bare)._repr_html_()
+
+
+EXAMPLES = [("typical-base", rigid), ("typical-base", flexible), ("typical-height", flexible), ("triangular", flexible)]
+EXAMPLES += [("koyna", decoupled), ("anchored", rigid), ("slender", rigid), ("typical-base", compare)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "run"), EXAMPLES)
+def test_reports_of_the_examples_at_full_length(name, run, tmp_path):
+    case = read_case(ROOT / "examples" / f"{name}.toml")
+    result = run(case)
+    check_numbers(case, result)
+    write_report(case, result, directory := ROOT / "out" / "reports" / f"{name}-{run.__name__}")
+    for number, data in enumerate(pages(build_report(case, result)), start=1):
+        (directory / f"page-{number}.png").write_bytes(data)
+
+
+@pytest.mark.parametrize(("name", "run"), EXAMPLES[:-1])
+def test_reports_of_the_examples(name, run, tmp_path):
+    case = read_case(ROOT / "examples" / f"{name}.toml", FAST)
+    for path in write_report(case, run(case), tmp_path):
+        assert path.stat().st_size > 100_000
+
+
+def pages_of(document):
+    """The room for text and figures of every page of a PDF, as shades of grey."""
+    import numpy as np
+    from PIL import Image
+
+    for data in pages(document, 30.0):
+        page = np.asarray(Image.open(io.BytesIO(data)).convert("L")).astype(int)
+        one = len(page) / 297.0
+        yield page[int(20 * one) : int(275 * one) - 2]
+
+
+def test_pages_are_full(both):
+    import numpy as np
+
+    blank = []
+    for page in pages_of(build_report(*both)):
+        inked = np.flatnonzero((page < 250).any(axis=1))
+        # Bands of less than 10 mm part what belongs apart.
+        bands = np.diff(inked) - 1
+        inner = bands[bands > 10.0 * len(page) / 255.0].sum()
+        blank.append(1.0 - (inked[-1] + 1 - inner) / len(page))
+    # The last page ends where the report does; a figure or a table that is kept whole may need the next page.
+    assert np.mean(blank[:-1]) < 0.12
+    assert max(blank[:-1]) < 0.3

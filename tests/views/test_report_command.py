@@ -1,0 +1,74 @@
+"""The command line writes a report, with the spread where it is cheap."""
+
+from __future__ import annotations
+
+import json
+import sys
+
+import pytest
+
+from shared.report_reader import BASE, FAST, Reader, lookup
+
+
+def test_the_command_line_writes_a_report(tmp_path, monkeypatch, capsys):
+    from heeltoe.cli.main import main
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(sys, "argv", ["heeltoe", "run", str(BASE), "--duration", "3s", "--report"])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert not ended.value.code
+    place = tmp_path / "typical-base-report"
+    assert {"report.pdf", "report.html", "result.json"} <= {path.name for path in place.iterdir()}
+    assert "typical-base-report" in capsys.readouterr().out
+    reader = Reader((place / "report.html").read_text())
+    data = json.loads((place / "result.json").read_text())
+    assert reader.numbers["residual_slip_m"][0] == data["residual_slip_m"]
+    assert "--duration 3s --report" in reader.text
+
+
+@pytest.mark.parametrize(
+    ("arguments", "spreads"),
+    [
+        (["--report"], {"": True}),
+        (["--report", "--spread", "none"], {"": False}),
+        (["--report", "--spread", "3"], {"": True}),
+        (["--report", "--model", "both"], {"rigid": True, "flexible": False}),
+        ([], {"": False}),
+    ],
+)
+@pytest.mark.usefixtures("no_figures")
+def test_a_report_has_the_spread_where_it_is_cheap(arguments, spreads, tmp_path, monkeypatch):
+    from heeltoe.cli.main import main
+
+    monkeypatch.setattr("heeltoe.views.files.write.write_figures", lambda *_, **__: None)
+    monkeypatch.setattr("heeltoe.views.files.write.write_comparison_figure", lambda *_, **__: None)
+    changes = [argument for change in FAST for argument in ("--set", change)]
+    monkeypatch.setattr(sys, "argv", ["heeltoe", "run", str(BASE), *changes, *arguments, "--out", str(tmp_path)])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert not ended.value.code
+    data = json.loads((tmp_path / "result.json").read_text())
+    for prefix, there in spreads.items():
+        found = (lookup(data, prefix) if prefix else data).get("spread")
+        assert (found is not None) == there
+        assert not there or found["runs"] == (3 if "3" in arguments else 11)
+        if arguments:
+            text = " ".join(Reader((tmp_path / "report.html").read_text()).text.split())
+            assert ("was not asked" in text) == (not all(spreads.values()))
+
+
+@pytest.mark.usefixtures("no_figures")
+def test_a_dam_that_cannot_stand_has_no_spread(tmp_path, monkeypatch):
+    from heeltoe.cli.main import main
+
+    monkeypatch.setattr("heeltoe.views.files.write.write_figures", lambda *_, **__: None)
+    given = ["heeltoe", "run", str(BASE), "--set", "crack.friction=0.2", "--report", "--out", str(tmp_path)]
+    monkeypatch.setattr(sys, "argv", given)
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert ended.value.code == 3
+    assert "spread" not in json.loads((tmp_path / "result.json").read_text())
+    text = Reader((tmp_path / "report.html").read_text()).text
+    assert "without a result" not in text
+    assert "was not asked" not in text
