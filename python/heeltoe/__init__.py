@@ -5,6 +5,8 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from heeltoe.shown import hand_in
+
 if TYPE_CHECKING:
     from heeltoe.case.read import Case, read_case
     from heeltoe.errors import HeeltoeError, InputError
@@ -101,6 +103,15 @@ _HOME = {
     "with_spread": "study.spread",
     "write_report": "views.report",
 }
+
+
+def _html(thing: object) -> str:
+    from heeltoe.views.notebook import html
+
+    return html(thing)
+
+
+hand_in(html=_html)
 
 
 def __getattr__(name: str) -> Any:

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from heeltoe import Response, flexible, read_case, verdict
-from heeltoe.result.verdict import angle, comes_to_rest, length
+from heeltoe.result.verdict import comes_to_rest
+from heeltoe.units.write import angle, length
 from shared.dams import ROOT
 
 FAST = ["flexible.elements_across=2", "flexible.convergence_check=false"]

@@ -16,10 +16,11 @@ from heeltoe import InputError, compare, decoupled, flexible, read_case, rigid, 
 from heeltoe.result.response import json_text
 from heeltoe.views.report import build_report, check_packages, write_report
 from heeltoe.views.report.build_input import fields, input_hash
-from heeltoe.views.report.content import Document, FigureBlock, Section, Value, paragraph
+from heeltoe.views.report.content import Document, FigureBlock, Section, paragraph
 from heeltoe.views.report.drawings import caption
 from heeltoe.views.report.html import html
 from heeltoe.views.report.typst_pdf import pages, pdf, source
+from heeltoe.views.words.numbers import Value
 from shared.dams import ROOT
 from shared.report_reader import BASE, FAST, Reader, lookup, pdf_text, squeezed
 
@@ -361,7 +362,7 @@ def test_notebooks_show_case_motion_and_response(block):
     for shown_object, words in (
         (case, ("2650 kg/m³", "reservoir.depth", "<svg")),
         (response.motion, ("peak acceleration", "1 g", "m/s", "<polyline")),
-        (response, ("Residual slip", "mm", "The dam slides", "<polyline")),
+        (response, ("residual slip", "mm", "The dam slides", "<polyline")),
     ):
         found = shown_object._repr_html_()
         Reader(found)

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import pytest
 
-from heeltoe.views.report.build_input import shown
+from heeltoe.units.sentences import us_words
+from heeltoe.units.write import digits
 from heeltoe.views.report.build_question import glued
-from heeltoe.views.report.wording import us_words
-from heeltoe.views.words.numbers import Numbers, digits, kind
+from heeltoe.views.words.fields import shown
+from heeltoe.views.words.numbers import Numbers, kind
 
 
 def test_sentences_in_units_of_the_united_states():

@@ -28,6 +28,7 @@ from heeltoe.case.options import Analysis, Decoupled, Flexible, Limits, Statics
 from heeltoe.case.processing import ProcessingStep
 from heeltoe.case.sentences import collected, shown
 from heeltoe.errors import InputError
+from heeltoe.shown import Shown
 from heeltoe.units.parse import (
     STANDARD_GRAVITY,
     AccelerationField,
@@ -325,7 +326,7 @@ class Motion(Shaking):
     """The vertical motion, positive up."""
 
 
-class Case(Block):
+class Case(Shown, Block):
     """One dam, one crack, one earthquake. Per metre of dam, SI units."""
 
     title: str = Field(default="", strict=True)
@@ -389,11 +390,6 @@ class Case(Block):
     def base_directory(self) -> Path:
         """Where relative paths of motions start: the directory of the case file, or the current one."""
         return self._base_directory
-
-    def _repr_html_(self) -> str:
-        from heeltoe.views.notebook import case_html
-
-        return case_html(self)
 
     def based_in(self, directory: Path) -> Case:
         """Return the same case with another base directory."""

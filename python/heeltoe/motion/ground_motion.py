@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from heeltoe.errors import InputError
+from heeltoe.shown import Shown
 
 Floats = NDArray[np.float64]
 
@@ -27,7 +28,7 @@ def integrals(time: Floats, acceleration: Floats) -> tuple[Floats, Floats]:
 
 
 @dataclass(frozen=True, eq=False)
-class GroundMotion:
+class GroundMotion(Shown):
     """An immutable ground acceleration.
 
     Attributes
@@ -159,11 +160,6 @@ class GroundMotion:
             at = d0[inside] + s * (v0[inside] + s * (a0[inside] / 2.0 + s * c[inside] / 3.0))
             pgd = max(pgd, float(np.abs(at).max(initial=0.0)))
         return float(pgv), pgd, float(v[-1])
-
-    def _repr_html_(self) -> str:
-        from heeltoe.views.notebook import motion_html
-
-        return motion_html(self)
 
     def scaled(self, factor: float, note: str = "") -> GroundMotion:
         """Return the motion times `factor`."""

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from heeltoe import _kernel
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import measures
+from heeltoe.shown import Shown
 
 if TYPE_CHECKING:
     from heeltoe.case.options import Limits
@@ -97,7 +98,7 @@ class Energy:
 
 
 @dataclass(frozen=True, eq=False)
-class Response:
+class Response(Shown):
     """Result of one analysis. Signs: slip is positive downstream, rotation positive counter-clockwise (upstream).
 
     Attributes
@@ -172,11 +173,6 @@ class Response:
     def ok(self) -> bool:
         """Whether the run ended with a result to trust."""
         return self.outcome in ("ok", "overturned")
-
-    def _repr_html_(self) -> str:
-        from heeltoe.views.notebook import response_html
-
-        return response_html(self)
 
     def citation(self) -> tuple[str, ...]:
         """Return the references for exactly the methods and options this result used."""

@@ -6,9 +6,8 @@ import numpy as np
 
 from heeltoe import _kernel
 from heeltoe.result.response import Response
+from heeltoe.units.write import angle, length, speed
 
-# Exact by definition (NIST Special Publication 811, appendix B.8) [m], [kg].
-FOOT, POUND = 0.3048, 0.45359237
 # Below these nobody measures anything on a dam: a hundredth of a millimetre, a thousandth of a milliradian.
 _SLIP_M = 1e-5
 _ROTATION_RAD = 1e-6
@@ -59,44 +58,6 @@ _LIMITS = {
     "opening_upstream": "opening at the upstream face",
     "opening_downstream": "opening at the downstream face",
 }
-
-
-def length(metres: float, units: str = "si") -> str:
-    """Write a length as people say it: in m from one metre, else in mm, to no less than a hundredth; in ft from ten
-    feet, else in inches."""
-    size = abs(metres)
-    if units == "us":
-        return _us_length(metres)
-    if size >= 1.0:
-        return f"{metres:.2f} m"
-    if size >= 0.9995e-3:
-        return f"{1e3 * metres:.1f} mm"
-    return f"{1e3 * metres:.2f} mm" if size >= 0.5e-5 or not size else "under 0.01 mm"
-
-
-def _us_length(metres: float) -> str:
-    size = abs(metres) / FOOT
-    if size >= 10.0:
-        return f"{metres / FOOT:.2f} ft"
-    inches = 12.0 * metres / FOOT
-    if abs(inches) >= 0.9995:
-        return f"{inches:.2f} in"
-    if abs(inches) >= 0.04:
-        return f"{inches:.3f} in"
-    if not inches:
-        return "0 in"
-    return f"{inches:.4f} in" if abs(inches) >= 2e-4 else "under 0.0004 in"
-
-
-def speed(metres_per_second: float, units: str = "si") -> str:
-    """Write a velocity to two digits."""
-    return f"{metres_per_second / FOOT:.2g} ft/s" if units == "us" else f"{metres_per_second:.2g} m/s"
-
-
-def angle(radians: float) -> str:
-    """Write a rotation in mrad: that times the width of the crack in metres is the opening in millimetres; in rad from
-    one radian."""
-    return f"{radians:.3g} rad" if abs(radians) >= 1.0 else f"{1e3 * radians:.3g} mrad"
 
 
 def last_change(response: Response) -> tuple[float, float]:

@@ -1,4 +1,4 @@
-"""Units of figures: SI, or those of the United States; one factor and one label for each quantity."""
+"""Systems of units, SI and that of the United States: one factor and one label for each quantity."""
 
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ from typing import Any
 
 from heeltoe.errors import InputError
 
-# Exact by definition (NIST Special Publication 811, appendix B.8): metres, newtons.
-_FOOT, _INCH, _POUND_FORCE = 0.3048, 0.0254, 4.4482216152605
-KIP = 1e3 * _POUND_FORCE
+# Exact by definition (NIST Special Publication 811, appendix B.8) [m], [m], [kg], [N].
+FOOT, INCH, POUND, POUND_FORCE = 0.3048, 0.0254, 0.45359237, 4.4482216152605
+KIP = 1e3 * POUND_FORCE
 """A thousand pounds of force [N]."""
 
 # A quantity has one or more scales (SI value of one unit, its name), from the largest; one is taken whose unit the
@@ -23,11 +23,11 @@ _SI: dict[str, tuple[tuple[float, str], ...]] = {
     "energy": ((1e6, "MJ/m"), (1e3, "kJ/m"), (1.0, "J/m")),
 }
 _US: dict[str, tuple[tuple[float, str], ...]] = {
-    "length": ((_FOOT, "ft"),),
-    "displacement": ((_FOOT, "ft"), (_INCH, "in")),
-    "velocity": ((_FOOT, "ft/s"),),
-    "force": ((KIP / _FOOT, "kip/ft"),),
-    "pressure": ((_POUND_FORCE / _INCH**2, "psi"),),
+    "length": ((FOOT, "ft"),),
+    "displacement": ((FOOT, "ft"), (INCH, "in")),
+    "velocity": ((FOOT, "ft/s"),),
+    "force": ((KIP / FOOT, "kip/ft"),),
+    "pressure": ((POUND_FORCE / INCH**2, "psi"),),
     "energy": ((KIP, "ft-kip/ft"),),
 }
 _BOTH: dict[str, tuple[tuple[float, str], ...]] = {
@@ -48,10 +48,6 @@ class Scale:
     def __call__(self, values: Any) -> Any:
         """Return values in SI as numbers in this unit."""
         return values * self.factor
-
-    def text(self, value: float, digits: int = 3) -> str:
-        """Write a value in SI with this unit, to so many digits, none cut off before the point."""
-        return f"{number(value * self.factor, digits)} {self.unit}"
 
 
 @dataclass(frozen=True)
@@ -82,15 +78,3 @@ def unit_system(name: str, field: str = "units") -> Units:
     if name not in _SYSTEMS:
         raise InputError("unknown-units", field, name)
     return Units(name)
-
-
-def number(value: float, digits: int = 3) -> str:
-    """Write a number to so many digits, without an exponent where people would write none."""
-    if value == 0.0:
-        return "0"
-    size = abs(value)
-    if not 1e-3 <= size < 1e6:
-        return f"{value:.{digits}g}"
-    rounded = float(f"{value:.{digits}g}")
-    decimals = max(0, digits - 1 - int(f"{abs(rounded):e}".rpartition("e")[2]))
-    return f"{rounded if decimals else value:.{decimals}f}"

@@ -1,17 +1,22 @@
-"""What a notebook shows of a case, a motion and a response: small tables with units, and one drawing."""
+"""What a notebook shows of a case, a motion and a result: small tables with units, and one drawing."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from functools import singledispatch
+from html import escape
 
 import numpy as np
+from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from heeltoe.case.read import Case
-    from heeltoe.motion.ground_motion import GroundMotion
-    from heeltoe.result.response import Response
+from heeltoe.case.read import Case
+from heeltoe.geometry.section import cut
+from heeltoe.motion.ground_motion import STANDARD_GRAVITY, GroundMotion
+from heeltoe.result.contract import HEADLINES
+from heeltoe.result.response import Response
+from heeltoe.result.verdict import verdict
+from heeltoe.units.write import digits
+from heeltoe.views.words.fields import fields
+from heeltoe.views.words.numbers import Numbers, Value
 
 _WIDTH, _HEIGHT = 420, 90
 # A column of pixels shows no more than the least and the most in it.
@@ -20,10 +25,15 @@ _TABLE = '<table style="border-collapse:collapse;text-align:left">'
 _CELL = '<td style="text-align:left;vertical-align:top;padding:1px 14px 1px 0{}">{}</td>'
 
 
-def case_html(case: Case) -> str:
-    """Return a case: what it gives, with units, and its section."""
-    from heeltoe.views.report.build_input import fields
+@singledispatch
+def html(thing: object) -> str:
+    """Return a thing as HTML: by default what Python calls it."""
+    return f"<pre>{escape(repr(thing))}</pre>"
 
+
+@html.register
+def _(case: Case) -> str:
+    """Show what a case gives, with units, and its section."""
     rows = [
         (path, value)
         for path, value, given, _ in fields(case, case.model_dump(mode="json"))
@@ -32,11 +42,9 @@ def case_html(case: Case) -> str:
     return _page(case.title or "Untitled case", rows, _section(case))
 
 
-def motion_html(motion: GroundMotion) -> str:
-    """Return a ground motion: its peaks, and its acceleration over time."""
-    from heeltoe.units.parse import STANDARD_GRAVITY
-    from heeltoe.views.words.numbers import digits
-
+@html.register
+def _(motion: GroundMotion) -> str:
+    """Show the peaks of a ground motion, and its acceleration over time."""
     rows = [
         ("peak acceleration", f"{digits(motion.pga / STANDARD_GRAVITY, 4)} g"),
         ("peak velocity", f"{digits(motion.pgv, 3)} m/s"),
@@ -49,20 +57,16 @@ def motion_html(motion: GroundMotion) -> str:
     return _page(motion.name, [row for row in rows if row[1]], line(motion.time, motion.acceleration, label))
 
 
-def response_html(response: Response) -> str:
-    """Return a response: verdict, warnings, key numbers, and the slip over time."""
-    from heeltoe.result.verdict import verdict
-    from heeltoe.views.report.build_question import ROWS
-    from heeltoe.views.report.content import Value
-    from heeltoe.views.words.numbers import Numbers, digits
-
+@html.register
+def _(response: Response) -> str:
+    """Show verdict, warnings and key numbers of a response, and the slip over time."""
     numbers = Numbers(response.to_json())
     rows = [("model", response.model), ("verdict", verdict(response))]
     rows += [("warning", text) for text in response.warnings]
-    for label, key, sign in ROWS:
-        cell = numbers(key, sign=sign)
+    for each in HEADLINES:
+        cell = numbers(each.key, sign=each.way)
         if isinstance(cell, Value):
-            rows.append((label, cell.text))
+            rows.append((each.full, cell.text))
     drawing = ""
     if response.histories:
         time = response.histories["time_s"]
@@ -72,8 +76,6 @@ def response_html(response: Response) -> str:
 
 def line(x: NDArray[np.float64], y: NDArray[np.float64], label: str) -> str:
     """Return a curve as an inline SVG with its zero line; the label says what it is."""
-    from html import escape
-
     if len(x) < 2 or not np.ptp(x) > 0.0 or not np.isfinite(y).all():
         return ""
     if len(x) > 4 * _COLUMNS:
@@ -96,8 +98,6 @@ def line(x: NDArray[np.float64], y: NDArray[np.float64], label: str) -> str:
 
 def _section(case: Case) -> str:
     """Return the outline of the dam, its crack and its water as an inline SVG."""
-    from heeltoe.geometry.section import cut
-
     section = cut(case)
     corners = np.array(case.section.vertices())
     left, low = corners.min(axis=0)
@@ -121,8 +121,6 @@ def _section(case: Case) -> str:
 
 
 def _page(title: str, rows: list[tuple[str, str]], drawing: str) -> str:
-    from html import escape
-
     cells = "".join(
         f"<tr>{_CELL.format(';white-space:nowrap', escape(name))}{_CELL.format('', escape(value))}</tr>"
         for name, value in rows

@@ -16,7 +16,8 @@ from heeltoe.models.flexible.elastic import side_by_side
 from heeltoe.models.flexible.mesh.checks import boundary_edges
 from heeltoe.models.flexible.mesh.dam import BodyMesh
 from heeltoe.models.flexible.reduced import FlexibleDam
-from heeltoe.units.systems import Scale, number, unit_system
+from heeltoe.units.systems import Scale, unit_system
+from heeltoe.units.write import number
 from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled
 
 Floats = NDArray[np.float64]

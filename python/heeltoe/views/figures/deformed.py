@@ -17,6 +17,7 @@ from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.mesh.checks import boundary_edges
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Scale, unit_system
+from heeltoe.units.write import scaled
 from heeltoe.views.figures.dam import dam_axes, extent
 from heeltoe.views.figures.style import WIDTH, describe, styled
 
@@ -78,7 +79,7 @@ def deformed_figure(response: Response, time: float | None = None, units: str = 
         _crosses(axes, record, places, values, direction, 0.1 * most)
         _outlines(axes, record, places, length)
         bar = figure.colorbar(image, ax=axes, location="bottom", aspect=30, pad=0.02)
-        bar.set_label(f"{name} [{stress.unit}]; largest {stress.text(max(float(each.max()) for each in values))}")
+        bar.set_label(f"{name} [{stress.unit}]; largest {scaled(max(float(each.max()) for each in values), stress)}")
         dam_axes(axes, length)
     panels[1].set_ylabel("")
     moment = f"t = {record.time[frame]:.2f} s{why}; displacements exaggerated {exaggeration:g} times"

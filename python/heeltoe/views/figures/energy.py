@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from heeltoe.result.response import Energy, Response
-from heeltoe.units.systems import Scale, number, unit_system
+from heeltoe.units.systems import Scale, unit_system
+from heeltoe.units.write import number
 from heeltoe.views.figures.panels import kind_of, largest
 from heeltoe.views.figures.style import WIDTH, describe, styled, time_axis
 

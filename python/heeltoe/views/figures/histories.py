@@ -7,7 +7,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from heeltoe.result.response import Response
-from heeltoe.units.systems import number, unit_system
+from heeltoe.units.systems import unit_system
+from heeltoe.units.write import number
 from heeltoe.views.figures.panels import (
     draw_ground,
     draw_openings,

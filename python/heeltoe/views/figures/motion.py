@@ -10,7 +10,8 @@ from matplotlib.figure import Figure
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import fourier_amplitudes, velocity_displacement
 from heeltoe.motion.spectrum import response_spectrum
-from heeltoe.units.systems import number, unit_system
+from heeltoe.units.systems import unit_system
+from heeltoe.units.write import number
 from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled
 from heeltoe.views.figures.write import save
 

@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
 from heeltoe.result.response import Response
-from heeltoe.result.verdict import length
-from heeltoe.units.systems import Units, number
+from heeltoe.units.systems import Units
+from heeltoe.units.write import length, number
 from heeltoe.views.figures.style import COLOURS, MODE_COLOURS, WIDTH
 
 Floats = NDArray[np.float64]

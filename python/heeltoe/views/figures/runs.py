@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from matplotlib.figure import Figure
 
-from heeltoe.result.verdict import length
 from heeltoe.units.systems import unit_system
+from heeltoe.units.write import length
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.panels import largest
 from heeltoe.views.figures.style import heading, styled

@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from heeltoe.case.read import Case
 from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.loads import Resultant, static_forces, uplift_profile
-from heeltoe.units.systems import Units, number
+from heeltoe.units.systems import Units
+from heeltoe.units.write import number, scaled
 from heeltoe.views.figures.canvas import Canvas
 
 Floats = NDArray[np.float64]
@@ -57,7 +58,7 @@ def draw_uplift(canvas: Canvas, case: Case, section: CutSection, units: Units) -
         key = (round(float(place), 6), round(float(value), 3))
         if value > 1e-6 * most and key not in said:
             said.add(key)
-            text = f"pressure {scale.text(value)}" if len(said) == 1 else scale.text(value)
+            text = f"pressure {scaled(value, scale)}" if len(said) == 1 else scaled(value, scale)
             first = (-1, -1) if place <= 0.0 else (1, -1)
             canvas.label(text, end, "#0072B2", first=first)
     return depth
@@ -87,7 +88,7 @@ def draw_forces(canvas: Canvas, case: Case, section: CutSection, units: Units) -
         place, towards = (tip, tip - tail) if force.name == "weight" else (tail, tail - tip)
         across = 1 if abs(towards[0]) < 0.5 * abs(towards[1]) else 0
         first = (across, int(np.sign(towards[1])) if across else 1)
-        canvas.label(f"{force.name} {scale.text(size)}", place, FORCE_COLOURS[force.name], first=first)
+        canvas.label(f"{force.name} {scaled(size, scale)}", place, FORCE_COLOURS[force.name], first=first)
 
 
 def _ends(force: Resultant, section: CutSection, per_force: float) -> tuple[Floats, Floats]:

@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.spectrum import PERIODS, response_spectrum
 from heeltoe.result.response import Response
-from heeltoe.units.systems import number, unit_system
+from heeltoe.units.systems import unit_system
+from heeltoe.units.write import number
 from heeltoe.views.figures.panels import BEHIND_TEXT
 from heeltoe.views.figures.style import COLOURS, WIDTH, describe, styled
 

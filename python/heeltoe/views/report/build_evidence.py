@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from heeltoe.models.rigid.varying import varies
+from heeltoe.units.write import NOTHING
 from heeltoe.views.report.content import Block, Code, Inline, Section, Table, paragraph
 from heeltoe.views.report.subject import Run, Subject
-from heeltoe.views.words.numbers import NOTHING
 
 _SPREAD = (
     ("Residual slip", "residual_slip_m", 1.0),

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.units.write import NOTHING
 from heeltoe.views.report.content import Block, Code, Inline, Notes, Own, Section, Table, paragraph, without_gaps
 from heeltoe.views.report.subject import Subject
-from heeltoe.views.words.numbers import NOTHING
 
 _WORDS = (
     ("Event", "event"),

@@ -6,6 +6,7 @@ import re
 
 from heeltoe.result.verdict import comes_to_rest, verdict
 from heeltoe.study.comparison import Comparison
+from heeltoe.units.write import NOTHING, digits
 from heeltoe.views.report.content import (
     Block,
     Code,
@@ -19,7 +20,6 @@ from heeltoe.views.report.content import (
     without_gaps,
 )
 from heeltoe.views.report.subject import Run, Subject
-from heeltoe.views.words.numbers import NOTHING, digits
 
 
 def question(subject: Subject) -> Section:

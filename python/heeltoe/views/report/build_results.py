@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from heeltoe.views.report.content import Block, Inline, Section, Table, Value, paragraph
+from heeltoe.views.report.content import Block, Inline, Section, Table, paragraph
 from heeltoe.views.report.subject import Subject
+from heeltoe.views.words.numbers import Value
 
 _ROWS: tuple[tuple[str, str, str | None], ...] = (
     ("Slip while sliding", "slip_by_mode_m.sliding", "displacement"),

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from heeltoe.views.report.content import Block, Inline, Notes, Section, Table, Value, paragraph
+from heeltoe.units.write import NOTHING
+from heeltoe.views.report.content import Block, Inline, Notes, Section, Table, paragraph
 from heeltoe.views.report.subject import Subject
-from heeltoe.views.words.numbers import NOTHING
+from heeltoe.views.words.numbers import Value
 
 if TYPE_CHECKING:
     from heeltoe.case.read import Case

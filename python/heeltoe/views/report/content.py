@@ -5,24 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-
-@dataclass(frozen=True)
-class Value:
-    """A number of the result, as people read it, that remembers where it stands in the JSON.
-
-    Attributes
-    ----------
-    key
-        Path in the JSON of the result, ``energy.input_j`` or ``flexible.residual_slip_m``.
-    number
-        What stands there.
-    text
-        The same with its unit.
-    """
-
-    key: str
-    number: float | int
-    text: str
+from heeltoe.views.words.numbers import Value
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,8 @@ import base64
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
-from heeltoe.views.report.content import Code, Document, FigureBlock, Inline, Own, Section, Strong, Symbol, Value
+from heeltoe.views.report.content import Code, Document, FigureBlock, Inline, Own, Section, Strong, Symbol
+from heeltoe.views.words.numbers import Value
 
 if TYPE_CHECKING:
     from markupsafe import Markup

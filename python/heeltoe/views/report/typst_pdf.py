@@ -25,8 +25,8 @@ from heeltoe.views.report.content import (
     Strong,
     Symbol,
     Table,
-    Value,
 )
+from heeltoe.views.words.numbers import Value
 
 # The first comes with typst, the second with matplotlib; of the others whatever the machine has.
 _FONTS = (

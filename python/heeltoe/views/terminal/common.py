@@ -37,7 +37,7 @@ class _InUnits:
         return thing
 
     def _words(self, text: str) -> str:
-        from heeltoe.views.report.wording import us_words
+        from heeltoe.units.sentences import us_words
 
         return self._own.join(map(us_words, text.split(self._own))) if self._own else us_words(text)
 

@@ -11,7 +11,8 @@ from rich.table import Table
 
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.response import Response
-from heeltoe.result.verdict import angle, comes_to_rest, length, verdict
+from heeltoe.result.verdict import comes_to_rest, verdict
+from heeltoe.units.write import angle, length
 from heeltoe.views.terminal.common import label_grid, print_warnings, quiet_table, sampling
 
 # Not at run time: a run of the rigid model need not wait for the elastic parts.

@@ -4,14 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any
 
-from heeltoe.result.verdict import FOOT, POUND, angle, length
-from heeltoe.units.systems import unit_system
-from heeltoe.views.report.content import Inline, Value
-
-NOTHING = "–"
-"""Stands where there is no number to show."""
+from heeltoe.units.systems import FOOT, POUND, unit_system
+from heeltoe.units.write import NOTHING, angle, digits, length
 
 # Endings of names, the longest first, and what they mean.
 _ENDINGS = {
@@ -31,6 +28,25 @@ _ENDINGS = {
 }
 # Less than this [Pa] is what rounding leaves of no stress.
 _NO_PRESSURE = 1e-3
+
+
+@dataclass(frozen=True)
+class Value:
+    """A number of the result, as people read it, that remembers where it stands in the JSON.
+
+    Attributes
+    ----------
+    key
+        Path in the JSON of the result, ``energy.input_j`` or ``flexible.residual_slip_m``.
+    number
+        What stands there.
+    text
+        The same with its unit.
+    """
+
+    key: str
+    number: float | int
+    text: str
 
 
 class Numbers:
@@ -58,7 +74,7 @@ class Numbers:
                 found = found.get(name) if isinstance(found, Mapping) else None
         return found
 
-    def __call__(self, key: str, quantity: str | None = None, *, sign: float = 1.0) -> Inline:
+    def __call__(self, key: str, quantity: str | None = None, *, sign: float = 1.0) -> Value | str:
         """Return a number with its unit; a dash where there is none.
 
         Parameters
@@ -116,22 +132,3 @@ def kind(key: str) -> str:
     if last.isdigit() or last in ("mean", "std", "min", "max"):
         last = key.split(".")[-2]
     return next((meaning for ending, meaning in _ENDINGS.items() if last.endswith(ending)), "number")
-
-
-def digits(value: float, count: int) -> str:
-    """Write a number to so many digits, without an exponent where people would write none."""
-    if isinstance(value, int):
-        return str(value)
-    if value == 0.0 or not math.isfinite(value):
-        return "0" if value == 0.0 else NOTHING
-    if not 1e-4 <= abs(value) < 1e7:
-        mantissa, _, exponent = f"{value:.{max(0, count - 2)}e}".partition("e")
-        return f"{mantissa}·10{_raised(int(exponent))}"
-    rounded = float(f"{value:.{count}g}")
-    decimals = max(0, count - 1 - math.floor(math.log10(abs(rounded))))
-    text = f"{rounded:.{decimals}f}"
-    return text.rstrip("0").removesuffix(".") if decimals else text
-
-
-def _raised(exponent: int) -> str:
-    return str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))

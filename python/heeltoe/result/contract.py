@@ -1,0 +1,57 @@
+"""The headline numbers of every result: what they are called, which way they count, and what is next to nothing.
+
+Terminal, report, notebook, comparison, spread and tables of runs all read them here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A headline number.
+
+    Attributes
+    ----------
+    key
+        Its name in the JSON.
+    label
+        What people call it.
+    kind
+        ``"length"`` [m] or ``"rotation"`` [rad].
+    way
+        -1 where the number is negative the way that its label says, and is shown turned round; else 1.
+    signed
+        Whether it goes both ways, positive downstream.
+    least
+        What is less than this is next to nothing, in its unit.
+    """
+
+    key: str
+    label: str
+    kind: Literal["length", "rotation"]
+    way: Literal[1, -1]
+    signed: bool
+    least: float
+
+    @property
+    def full(self) -> str:
+        """Its label, with which way is positive."""
+        return f"{self.label}, + downstream" if self.signed else self.label
+
+
+# A hundredth of a millimetre and a thousandth of a milliradian: nobody measures less on a dam.
+_LENGTH, _ROTATION = 1e-5, 1e-6
+
+HEADLINES = (
+    Quantity("residual_slip_m", "residual slip", "length", 1, True, _LENGTH),
+    Quantity("peak_slip_downstream_m", "peak slip downstream", "length", 1, False, _LENGTH),
+    Quantity("peak_slip_upstream_m", "peak slip upstream", "length", -1, False, _LENGTH),
+    Quantity("rocking_downstream_rad", "rotation downstream", "rotation", 1, False, _ROTATION),
+    Quantity("rocking_upstream_rad", "rotation upstream", "rotation", 1, False, _ROTATION),
+    Quantity("opening_upstream_m", "opening, upstream face", "length", 1, False, _LENGTH),
+    Quantity("opening_downstream_m", "opening, downstream face", "length", 1, False, _LENGTH),
+)
+"""In the order in which they are shown."""

@@ -1,0 +1,84 @@
+"""Numbers as people read them, with their units."""
+
+from __future__ import annotations
+
+import math
+
+from heeltoe.units.systems import FOOT, Scale
+
+NOTHING = "–"
+"""Stands where there is no number to show."""
+
+
+def length(metres: float, units: str = "si") -> str:
+    """Write a length as people say it: in m from one metre, else in mm, to no less than a hundredth; in ft from ten
+    feet, else in inches."""
+    size = abs(metres)
+    if units == "us":
+        return _us_length(metres)
+    if size >= 1.0:
+        return f"{metres:.2f} m"
+    if size >= 0.9995e-3:
+        return f"{1e3 * metres:.1f} mm"
+    return f"{1e3 * metres:.2f} mm" if size >= 0.5e-5 or not size else "under 0.01 mm"
+
+
+def _us_length(metres: float) -> str:
+    size = abs(metres) / FOOT
+    if size >= 10.0:
+        return f"{metres / FOOT:.2f} ft"
+    inches = 12.0 * metres / FOOT
+    if abs(inches) >= 0.9995:
+        return f"{inches:.2f} in"
+    if abs(inches) >= 0.04:
+        return f"{inches:.3f} in"
+    if not inches:
+        return "0 in"
+    return f"{inches:.4f} in" if abs(inches) >= 2e-4 else "under 0.0004 in"
+
+
+def speed(metres_per_second: float, units: str = "si") -> str:
+    """Write a velocity to two digits."""
+    return f"{metres_per_second / FOOT:.2g} ft/s" if units == "us" else f"{metres_per_second:.2g} m/s"
+
+
+def angle(radians: float) -> str:
+    """Write a rotation in mrad: that times the width of the crack in metres is the opening in millimetres; in rad from
+    one radian."""
+    return f"{radians:.3g} rad" if abs(radians) >= 1.0 else f"{1e3 * radians:.3g} mrad"
+
+
+def scaled(value: float, scale: Scale, count: int = 3) -> str:
+    """Write a value in SI with the unit of a scale, to so many digits, none cut off before the point."""
+    return f"{number(scale(value), count)} {scale.unit}"
+
+
+def number(value: float, digits: int = 3) -> str:
+    """Write a number to so many digits, without an exponent where people would write none."""
+    if value == 0.0:
+        return "0"
+    size = abs(value)
+    if not 1e-3 <= size < 1e6:
+        return f"{value:.{digits}g}"
+    rounded = float(f"{value:.{digits}g}")
+    decimals = max(0, digits - 1 - int(f"{abs(rounded):e}".rpartition("e")[2]))
+    return f"{rounded if decimals else value:.{decimals}f}"
+
+
+def digits(value: float, count: int) -> str:
+    """Write a number to so many digits, without an exponent where people would write none."""
+    if isinstance(value, int):
+        return str(value)
+    if value == 0.0 or not math.isfinite(value):
+        return "0" if value == 0.0 else NOTHING
+    if not 1e-4 <= abs(value) < 1e7:
+        mantissa, _, exponent = f"{value:.{max(0, count - 2)}e}".partition("e")
+        return f"{mantissa}·10{_raised(int(exponent))}"
+    rounded = float(f"{value:.{count}g}")
+    decimals = max(0, count - 1 - math.floor(math.log10(abs(rounded))))
+    text = f"{rounded:.{decimals}f}"
+    return text.rstrip("0").removesuffix(".") if decimals else text
+
+
+def _raised(exponent: int) -> str:
+    return str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
