@@ -14,7 +14,7 @@ from measure import heading, repeat, require, seconds, table, timed
 
 from heeltoe import Case, GroundMotion, InputError, _kernel, read_case, read_record
 from heeltoe.models.flexible import reduced as flexible_parts
-from heeltoe.models.flexible.model import Shaken
+from heeltoe.models.flexible.shaken import Shaken
 from heeltoe.motion.records.catalog import find
 
 DURATION = 20.0

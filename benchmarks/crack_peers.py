@@ -26,7 +26,7 @@ from push_and_sine import (
 )
 
 from heeltoe import GroundMotion, _kernel, build_flexible_dam, read_case
-from heeltoe.models.flexible.model import Shaken
+from heeltoe.models.flexible.shaken import Shaken
 
 COLUMNS = ["program", "settings", "step", "largest error", "relative", "time per run", "times ours at no larger error"]
 OUR_STEPS = (2e-2, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4)

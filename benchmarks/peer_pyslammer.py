@@ -17,7 +17,7 @@ from measure import repeat, require, seconds, table, timed
 from problems import DURATION, STEP, Floats, G, rectangle, taft
 
 from heeltoe import GroundMotion, _kernel, rigid_many
-from heeltoe.models.rigid.model import SETTLE
+from heeltoe.models.rigid.walk import SETTLE
 
 PEAK = 0.4 * G
 YIELD = (0.05, 0.1, 0.2)

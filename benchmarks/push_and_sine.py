@@ -15,7 +15,7 @@ from measure import NothingMeasured, Timing, repeat, require, seconds, timed
 from problems import Floats, rectangle
 
 from heeltoe import _kernel
-from heeltoe.models.rigid.model import SETTLE
+from heeltoe.models.rigid.walk import SETTLE
 
 GRAVITY, WIDTH, HEIGHT, DEPTH, MASS, FRICTION = 9.81, 4.0, 1.0, 1.0, 1000.0, 0.3
 PUSH, AMPLITUDE, FREQUENCY, DURATION = 0.15 * GRAVITY, 0.6 * GRAVITY, 2.0, 5.0

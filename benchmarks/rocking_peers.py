@@ -20,8 +20,8 @@ from scipy.integrate import quad, solve_ivp
 from heeltoe import Case, _kernel, read_case, read_record
 from heeltoe.case.shaking import resolve
 from heeltoe.mechanics.block import Block, build_block
-from heeltoe.models.rigid.model import SETTLE, GroundSeries, run_block
 from heeltoe.models.rigid.varying import Varying, varying
+from heeltoe.models.rigid.walk import SETTLE, GroundSeries, run_block
 from heeltoe.motion.records.catalog import find
 
 Floats = NDArray[np.float64]

@@ -3,7 +3,7 @@
 import pytest
 
 from heeltoe import build_block, read_case
-from heeltoe.models.rigid.model import static_state
+from heeltoe.mechanics.block import static_state
 from heeltoe.validation.plain import rectangle
 
 TYPICAL = {
@@ -57,7 +57,7 @@ def test_critical_accelerations_are_where_the_kernel_starts_to_move():
     import numpy as np
 
     from heeltoe import _kernel
-    from heeltoe.models.rigid.model import SETTLE
+    from heeltoe.models.rigid.walk import SETTLE
 
     for friction, kind in ((0.5, "sliding"), (5.0, "rocking")):
         block = build_block(read_case({**TYPICAL, "crack": {"friction": friction}, "reservoir": {"depth": "60 m"}}))

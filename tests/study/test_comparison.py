@@ -11,7 +11,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from heeltoe import Comparison, InputError, compare, flexible, read_case, rigid
-from heeltoe.result.response import json_text
+from heeltoe.result.write import json_text
 from heeltoe.views.files.write import write_all
 from shared.dams import ROOT
 

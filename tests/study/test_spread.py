@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from heeltoe import InputError, flexible, read_case, rigid, verdict, with_spread
-from heeltoe.result.response import json_text
+from heeltoe.result.write import json_text
 from heeltoe.study.spread import QUANTITIES, _step, check_runs
 from shared.dams import ROOT
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from pypdf import PdfReader
 
 from heeltoe import InputError, compare, decoupled, flexible, read_case, rigid, with_spread
-from heeltoe.result.response import json_text
+from heeltoe.result.write import json_text
 from heeltoe.views.report import build_report, check_packages, write_report
 from heeltoe.views.report.build_input import fields, input_hash
 from heeltoe.views.report.content import Document, FigureBlock, Section, paragraph

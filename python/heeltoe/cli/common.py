@@ -63,7 +63,7 @@ def check_json(json_: str | None) -> None:
 
 def finish(data: dict[str, Any], json_: str | None, written: list[Path], show: Callable[[Console], None]) -> None:
     """Write JSON where it is wanted, show the result, say what was written."""
-    from heeltoe.result.response import json_text
+    from heeltoe.result.write import json_text
 
     text = json_text(data)
     if json_ not in (None, "-"):

@@ -37,7 +37,7 @@ def main() -> None:
 
 def _version(wanted: bool) -> None:
     if wanted:
-        from heeltoe.result.response import build_info
+        from heeltoe.result.write import build_info
 
         print(" ".join(f"{name} {version}" for name, version in build_info().items()))
         raise typer.Exit

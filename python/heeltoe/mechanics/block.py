@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -255,3 +256,24 @@ def across_crack(force: Resultant, section: CutSection) -> Resultant:
     """Return a force by its components along and across the crack."""
     along, across = section.in_crack_frame(force.horizontal, force.vertical)
     return Resultant(force.name, along, across, force.moment, force.virial)
+
+
+def static_state(block: Block) -> dict[str, Any]:
+    """Return the state under the static loads, by the names of the contract."""
+    critical = block.critical_accelerations()
+    return {
+        "critical_acceleration_g": {
+            "sliding": critical.sliding / block.gravity,
+            "rocking": critical.rocking / block.gravity,
+            "sliding_downstream": critical.sliding_downstream / block.gravity,
+            "sliding_upstream": critical.sliding_upstream / block.gravity,
+            "rocking_downstream": critical.rocking_downstream / block.gravity,
+            "rocking_upstream": critical.rocking_upstream / block.gravity,
+        },
+        "sliding_safety_factor": block.sliding_safety_factor,
+        "resultant_from_heel_m": block.resultant_position,
+        "normal_force_n": block.normal_force,
+        "horizontal_force_n": block.static.horizontal,
+        "concrete_mass_kg": block.concrete_mass,
+        "virtual_mass_kg": block.water.mass,
+    }

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import json
-import math
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -12,59 +10,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.csv
-import pyarrow.parquet
 from numpy.typing import NDArray
 
-from heeltoe import _kernel
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.motion.measures import measures
+from heeltoe.result.limits import LimitCheck
+from heeltoe.result.write import build_info, motion_json, write_table
 from heeltoe.shown import Shown
 
 if TYPE_CHECKING:
-    from heeltoe.case.options import Limits
     from heeltoe.models.flexible.history import CrackHistory
 
 Floats = NDArray[np.float64]
 
-_MEASURES = ("arias_intensity_m_s", "cav_m_s", "significant_duration_s", "mean_period_s", "end_velocity_m_s")
-
 #: Outcomes of a run; only the first two come with a result to trust.
 OUTCOMES = ("ok", "overturned", "unstable", "paradox", "event limit", "cycling", "lost", "blown up")
-
-
-@dataclass(frozen=True)
-class LimitCheck:
-    """A result beside what the user allows.
-
-    Attributes
-    ----------
-    name
-        Field of ``limits`` in the case.
-    value_m, allowed_m
-        Magnitude of the result, and how much it may be [m].
-    """
-
-    name: str
-    value_m: float
-    allowed_m: float
-
-    @property
-    def met(self) -> bool:
-        """Whether the result is within the limit."""
-        return self.value_m <= self.allowed_m
-
-
-def check_limits(limits: Limits, summary: Mapping[str, Any]) -> tuple[LimitCheck, ...]:
-    """Compare the numbers of a summary with the limits that the user has set."""
-    values = {
-        "residual_slip": abs(summary["residual_slip_m"]),
-        "peak_slip": max(summary["peak_slip_downstream_m"], -summary["peak_slip_upstream_m"]),
-        "opening_upstream": summary["opening_upstream_m"],
-        "opening_downstream": summary["opening_downstream_m"],
-    }
-    allowed = {name: getattr(limits, name) for name in values}
-    return tuple(LimitCheck(name, values[name], limit) for name, limit in allowed.items() if limit is not None)
 
 
 @dataclass(frozen=True)
@@ -216,46 +175,3 @@ class Response(Shown):
     def write_events(self, path: Path) -> None:
         """Write the events to `path`: CSV if it ends so, else Parquet."""
         write_table(self.events_table(), path)
-
-
-def write_table(table: pa.Table, path: Path) -> None:
-    """Write a table to `path`: CSV if it ends so, else Parquet."""
-    if path.suffix == ".csv":
-        pa.csv.write_csv(table, path)
-    else:
-        pa.parquet.write_table(table, path)
-
-
-def json_text(data: Mapping[str, Any]) -> str:
-    """Return strict JSON: what is not finite, as only a run without a result leaves it, is null."""
-    return json.dumps(_finite(data), indent=2, ensure_ascii=False, allow_nan=False)
-
-
-def _finite(value: Any) -> Any:
-    if isinstance(value, Mapping):
-        return {name: _finite(each) for name, each in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(each) for each in value]
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def motion_json(motion: GroundMotion, gravity: float) -> dict[str, Any]:
-    """Return what the contract says about a ground motion; `gravity` is one g [m/s2]."""
-    found = measures(motion, gravity)
-    return {
-        "name": motion.name,
-        "pga_g": motion.pga / gravity,
-        "pgv_m_s": motion.pgv,
-        "pgd_m": motion.pgd,
-        "dt_s": motion.dt,
-        "duration_s": motion.duration,
-        "samples": int(motion.time.size),
-        **{name: found[name] for name in _MEASURES if name in found},
-        "source": motion.source,
-        "processing": list(motion.processing),
-    }
-
-
-def build_info() -> dict[str, str]:
-    """Return which build made a result."""
-    return {"heeltoe": _kernel.VERSION, "kernel": _kernel.PROFILE, "numpy": np.__version__}

@@ -13,7 +13,8 @@ import pyarrow as pa
 from heeltoe.case.read import Case, read_case
 from heeltoe.case.sentences import shown
 from heeltoe.errors import InputError
-from heeltoe.result.response import Response, build_info
+from heeltoe.result.response import Response
+from heeltoe.result.write import build_info
 
 #: More runs than this are a study, not a table.
 MOST = 32

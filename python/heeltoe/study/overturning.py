@@ -22,8 +22,8 @@ from heeltoe import _kernel
 from heeltoe.case.read import Case
 from heeltoe.errors import InputError
 from heeltoe.mechanics.block import Block, build_block
-from heeltoe.models.rigid.model import GroundSeries, run_block
-from heeltoe.result.response import build_info
+from heeltoe.models.rigid.walk import GroundSeries, run_block
+from heeltoe.result.write import build_info
 
 Floats = NDArray[np.float64]
 Pulse = Literal["sine", "half-sine", "cosine"]
@@ -218,7 +218,7 @@ def _end(case: Case, block: Block, time: Floats, ground: Floats) -> int:
 
 def write_overturning(found: OverturningMap, directory: Path) -> list[Path]:
     """Write the map as ``overturning.csv``, ``.png`` and ``.svg`` and return their paths."""
-    from heeltoe.result.response import write_table
+    from heeltoe.result.write import write_table
     from heeltoe.views.figures import save_all
     from heeltoe.views.figures.overturning import overturning_figure
 

@@ -16,8 +16,8 @@ from heeltoe.case.read import Case
 from heeltoe.errors import InputError
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.rigid.many import rigid_many
-from heeltoe.models.rigid.model import GroundSeries, run_block
 from heeltoe.models.rigid.varying import varies
+from heeltoe.models.rigid.walk import GroundSeries, run_block
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.moments import ground
 from heeltoe.result.response import Response
@@ -173,8 +173,8 @@ def _flexible(
     response: Response, case: Case, end: float, scales: Floats, step: float, told: Told | None
 ) -> tuple[dict[str, Floats], NDArray[np.bool_]]:
     # Here, so that the rigid model need not wait for the elastic parts.
-    from heeltoe.models.flexible.model import Shaken
     from heeltoe.models.flexible.reduced import build_flexible_dam
+    from heeltoe.models.flexible.shaken import Shaken
 
     dam = build_flexible_dam(case) if response.crack is None else response.crack.dam
     shaken = Shaken(case, dam, response.motion, response.vertical, end)

@@ -17,9 +17,9 @@ from typing import Any
 import numpy as np
 
 from heeltoe.case.read import Case, read_case
-from heeltoe.models.flexible.model import Shaken
 from heeltoe.models.flexible.modes import intact_periods
 from heeltoe.models.flexible.reduced import build_flexible_dam
+from heeltoe.models.flexible.shaken import Shaken
 from heeltoe.models.rigid.model import rigid
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.validation.flexible_runs import Runs

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe import _kernel
-from heeltoe.models.rigid.model import SETTLE
+from heeltoe.models.rigid.walk import SETTLE
 
 Floats = NDArray[np.float64]
 

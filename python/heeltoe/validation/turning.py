@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from heeltoe import _kernel
 from heeltoe.case.read import Case, read_case
 from heeltoe.mechanics.block import Block, build_block
-from heeltoe.models.rigid.model import SETTLE
 from heeltoe.models.rigid.varying import varying
+from heeltoe.models.rigid.walk import SETTLE
 from heeltoe.validation.row import Row
 
 Floats = NDArray[np.float64]

@@ -11,16 +11,8 @@ from scipy.optimize import brentq
 
 from heeltoe import GroundMotion, InputError, build_block, read_case, response_spectrum
 from heeltoe.geometry.section import cut
-from heeltoe.models.decoupled.chain import (
-    STRAIGHT,
-    Chain,
-    attached_mass,
-    bonded_chain,
-    chain,
-    crack_motion,
-    plane_fit,
-    shaken,
-)
+from heeltoe.models.decoupled.chain import Chain, attached_mass, bonded_chain, chain, plane_fit
+from heeltoe.models.decoupled.crack_motion import STRAIGHT, crack_motion, shaken
 from heeltoe.models.flexible.elastic import dofs
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from heeltoe.models.flexible.modes import intact_periods

@@ -17,7 +17,7 @@ from rich.console import Console
 
 from heeltoe import GroundMotion, InputError, compare, decoupled, read_case, rigid, verdict, with_spread
 from heeltoe.models.decoupled.model import crack_motions
-from heeltoe.result.response import json_text
+from heeltoe.result.write import json_text
 from heeltoe.study.comparison import Comparison
 from heeltoe.study.grid import MOST, parse_variations, run_grid
 from heeltoe.views.files.write import write_all

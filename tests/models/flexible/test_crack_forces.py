@@ -10,8 +10,9 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from heeltoe import GroundMotion, InputError, _kernel, flexible, read_case
-from heeltoe.models.flexible.inside import CrackWater, longest_step
+from heeltoe.models.flexible.inside import CrackWater
 from heeltoe.models.flexible.reduced import build_flexible_dam
+from heeltoe.models.flexible.step import longest_step
 from shared.dams import ROOT
 
 G = 9.80665

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from heeltoe import _kernel, build_block, read_case, rigid, verdict
-from heeltoe.models.rigid.model import SETTLE
 from heeltoe.models.rigid.varying import varies, varying
+from heeltoe.models.rigid.walk import SETTLE
 from heeltoe.motion.ground_motion import GroundMotion
 
 G = 9.80665

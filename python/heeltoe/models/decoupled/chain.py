@@ -22,35 +22,12 @@ from heeltoe.models.flexible.elastic import Sparse, dam, dofs, side_by_side
 from heeltoe.models.flexible.mesh.dam import BodyMesh, dam_mesh
 from heeltoe.models.flexible.modes import lowest
 from heeltoe.models.flexible.reduced import fingerprints
-from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.motion.moments import ground
 
 Floats = NDArray[np.float64]
 
 #: Modes that are kept: the lowest, up to so many, and none with a shorter period [s]. Nothing in an accelerogram is as
 #: fast; faster modes move with the ground, as all that is left out does.
 MOST_MODES, SHORTEST_PERIOD = 60, 0.005
-#: The first step of the motion at the crack [s]; it is halved until straight lines between the samples are within
-#: this part of the peak, or up to so often.
-FIRST_STEP, STRAIGHT, HALVINGS = 1e-3, 2e-3, 4
-
-
-@dataclass(frozen=True, eq=False)
-class CrackMotion:
-    """The motion of the crack, as motions that can shake a block.
-
-    Attributes
-    ----------
-    horizontal, vertical, rotation
-        Total acceleration at the middle of the crack: downstream, upward [m/s2], counter-clockwise [rad/s2].
-    step
-        Longest step between samples [s].
-    """
-
-    horizontal: GroundMotion
-    vertical: GroundMotion
-    rotation: GroundMotion
-    step: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,6 +97,8 @@ def bonded_chain(case: Case) -> Chain:
 
 # Chains built before, newest last: a table of runs shakes the same one again and again.
 _BUILT: dict[tuple[str, ...], Chain] = {}
+
+
 _MOST_KEPT = 8
 
 
@@ -213,153 +192,3 @@ def attached_mass(case: Case, block: Block) -> Floats:
     inertia = case.concrete.density * section.polar_inertia + concrete * (x * x + z * z) + water * height**2
     tilt = -(concrete * z + water * height)
     return np.array([[concrete + water, 0.0, tilt], [0.0, concrete, concrete * x], [tilt, concrete * x, inertia]])
-
-
-def crack_motion(
-    chain: Chain, motion: GroundMotion, vertical: GroundMotion | None, end: float
-) -> tuple[CrackMotion, float]:
-    """Return the motion of the crack, sampled so that straight lines between the samples are good enough.
-
-    Parameters
-    ----------
-    chain
-        What the ground shakes.
-    motion, vertical
-        The ground's motion, downstream and upward.
-    end
-        Length of the run [s]; where a record has ended the ground stands still.
-
-    Returns
-    -------
-    found : CrackMotion
-    straightness : float
-        What straight lines between samples twice as far apart miss of the horizontal and the vertical motion, over the
-        horizontal peak; between these samples it is a quarter of that.
-    """
-    series = ground(motion, vertical, end)
-    step = FIRST_STEP
-    coarse, rough, _ = shaken(chain, *series, step)
-    for _ in range(HALVINGS):
-        step /= 2.0
-        time, crack, _ = shaken(chain, *series, step)
-        # The ground's own moments are samples of both; among them are the jumps, which have two values.
-        between = ~np.isin(time, series[0])
-        straight = np.array([np.interp(time[between], coarse, row) for row in rough[:2]])
-        straightness = relative(straight, crack[:2, between], crack)
-        if straightness <= STRAIGHT:
-            break
-        coarse, rough = time, crack
-    return _named(chain, motion, time, crack), straightness
-
-
-def crack_motion_at(
-    chain: Chain, motion: GroundMotion, vertical: GroundMotion | None, end: float, step: float
-) -> CrackMotion:
-    """Return the motion of the crack with samples no more than `step` [s] apart."""
-    time, crack, _ = shaken(chain, *ground(motion, vertical, end), step)
-    return _named(chain, motion, time, crack)
-
-
-def relative(found: Floats, exact: Floats, crack: Floats) -> float:
-    """Return the largest difference over the peak of the crack's horizontal acceleration; 0 where nothing moves."""
-    peak = float(np.abs(crack[0]).max())
-    return float(np.abs(found - exact).max(initial=0.0)) / peak if peak else 0.0
-
-
-def _named(chain: Chain, motion: GroundMotion, time: Floats, crack: Floats) -> CrackMotion:
-    horizontal, vertical, rotation = (
-        GroundMotion(
-            name=f"{motion.name}, {what}",
-            time=time,
-            acceleration=values,
-            source=motion.source,
-            processing=(*motion.processing, f"through the part of the dam below the crack, {chain.omega.size} modes"),
-            warnings=motion.warnings,
-        )
-        for what, values in zip(("at the crack", "at the crack, upward", "rotation of the crack"), crack, strict=True)
-    )
-    # Without what the rounding of the moments adds.
-    return CrackMotion(horizontal, vertical, rotation, round(float(np.diff(time).max()), 9))
-
-
-def shaken(
-    chain: Chain, time: Floats, horizontal: Floats, up: Floats | None, step: float
-) -> tuple[Floats, Floats, Floats]:
-    """Return the acceleration of the crack under a ground acceleration that is straight between its moments.
-
-    On a piece of length h with the load p0 + p1 s of a mode, q = (p0 + p1 s)/w^2 - 2 d p1/w^3 + Re(c exp(l s)) with
-    l = -d w + i w sqrt(1 - d^2), so that the state is exact from moment to moment and the acceleration of the mode is
-    Re(c l^2 exp(l s)) anywhere between them; there is no time step (docs/koyna.md, equations 4 to 6).
-
-    Parameters
-    ----------
-    chain
-        What is shaken, at rest at the start.
-    time, horizontal, up
-        (n,) each, from :func:`heeltoe.motion.moments.ground` [s, m/s2].
-    step
-        Each piece of the ground's motion is divided into equal parts of up to this length [s].
-
-    Returns
-    -------
-    time : ndarray, shape (k,)
-        Jumps of the ground stay [s].
-    crack : ndarray, shape (3, k)
-        Total acceleration of the crack, downstream, upward [m/s2] and counter-clockwise [rad/s2].
-    ground : ndarray, shape (2, k)
-        The ground's, on the same moments.
-    """
-    pieces = np.diff(time)
-    base = np.stack([horizontal, np.zeros_like(horizontal) if up is None else up])
-    load = -(chain.participation @ base)
-    root = 1j * math.sqrt(1.0 - chain.damping**2)
-    w = chain.omega
-    eigen = (w * (root - chain.damping)).astype(np.complex128)
-    constants = _states(pieces, load, w, chain.damping, eigen)
-    response = chain.shapes * eigen**2
-    count = np.maximum(1, np.ceil(pieces / step * (1.0 - 1e-9))).astype(np.int64)
-    count[pieces == 0.0] = 0
-    starts = np.concatenate([[0], np.cumsum(count + 1)])
-    crack, moments = np.empty((3, starts[-1])), np.empty(starts[-1])
-    grounds = np.empty((2, starts[-1]))
-    # Pieces of one length and one division at a time: what happens within them is one product of matrices.
-    kinds, member = np.unique(np.column_stack([pieces.round(12), count]), axis=0, return_inverse=True)
-    for kind, (_, parts) in enumerate(kinds):
-        chosen = np.flatnonzero(member.reshape(-1) == kind)
-        share = np.linspace(0.0, 1.0, int(parts) + 1)
-        factor = np.exp(np.multiply.outer(share * pieces[chosen[0]], eigen))
-        places = starts[chosen][:, None] + np.arange(share.size)
-        # Written so that both ends are exact.
-        grounds[:, places] = base[:, chosen, None] * (1.0 - share) + base[:, chosen + 1, None] * share
-        moments[places] = time[chosen, None] * (1.0 - share) + time[chosen + 1, None] * share
-        for row in range(3):
-            crack[row, places] = ((constants[chosen] * response[row]) @ factor.T).real
-    crack[:2] += grounds
-    # The end of a piece is the start of the next, and said once, but where the ground's acceleration jumps.
-    keep = np.ones(starts[-1], dtype=bool)
-    joints = starts[1:-1]
-    keep[joints] = np.any(grounds[:, joints] != grounds[:, joints - 1], axis=0)
-    return moments[keep], crack[:, keep], grounds[:, keep]
-
-
-def _states(
-    pieces: Floats, load: Floats, w: Floats, damping: float, eigen: NDArray[np.complex128]
-) -> NDArray[np.complex128]:
-    """Return the constants c of :func:`shaken` of every piece and mode, (n - 1, m)."""
-    constants = np.empty((pieces.size, w.size), dtype=np.complex128)
-    place, velocity = np.zeros(w.size), np.zeros(w.size)
-    swing = eigen.imag
-    lengths: dict[float, NDArray[np.complex128]] = {}
-    for k, h in enumerate(pieces):
-        p0 = load[:, k]
-        p1 = (load[:, k + 1] - p0) / h if h > 0.0 else np.zeros(w.size)
-        steady = p0 / w**2 - 2.0 * damping * p1 / w**3
-        lag, rate = place - steady, velocity - p1 / w**2
-        c = lag - 1j * (rate + damping * w * lag) / swing
-        constants[k] = c
-        if h not in lengths:
-            lengths[h] = np.exp(eigen * h)
-        after = c * lengths[h]
-        place = after.real + steady + p1 * h / w**2
-        velocity = (after * eigen).real + p1 / w**2
-    return constants

@@ -12,19 +12,13 @@ from numpy.typing import NDArray
 from heeltoe.case.read import Case
 from heeltoe.case.shaking import resolve
 from heeltoe.errors import InputError
-from heeltoe.models.decoupled.chain import (
-    Chain,
-    CrackMotion,
-    bonded_chain,
-    chain,
-    crack_motion,
-    crack_motion_at,
-    relative,
-)
+from heeltoe.models.decoupled.chain import Chain, bonded_chain, chain
+from heeltoe.models.decoupled.crack_motion import CrackMotion, crack_motion, crack_motion_at, relative
 from heeltoe.models.rigid.model import rigid
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.moments import ground
 from heeltoe.motion.spectrum import response_spectrum
+from heeltoe.references import cited
 from heeltoe.result.response import Response
 
 Floats = NDArray[np.float64]
@@ -38,13 +32,6 @@ _SHOWN = 5
 _OUTPUT_STEP = 0.005
 # From which difference on a step of the crack's motion twice as long matters.
 _CHANGE, _NOTHING = 0.02, 1e-4
-
-REFERENCES = (
-    'X. Zhu, "Seismic Behavior of Cracked Concrete Gravity Dams", PhD thesis, Concordia University, Montréal, 2004, '
-    "section 5.5 (the motion at the crack drives the rigid part above it)",
-    'N. C. Nigam and P. C. Jennings, "Calculation of response spectra from strong-motion earthquake records", Bulletin '
-    "of the Seismological Society of America 59 (1969), 909-922",
-)
 
 
 def decoupled(
@@ -110,7 +97,7 @@ def decoupled(
         summary={**block.summary, "crack_level": level},
         histories=_histories(block, at_crack, motion, vertical, end),
         warnings=(*block.warnings, *_warnings(level)),
-        references=(*block.references, *REFERENCES),
+        references=(*block.references, *cited("decoupled", "piecewise exact")),
     )
 
 

@@ -9,7 +9,7 @@ from heeltoe.case.read import Case
 from heeltoe.errors import InputError
 from heeltoe.models.flexible.modes import intact_periods, part_periods
 from heeltoe.models.flexible.reduced import build_flexible_dam
-from heeltoe.result.response import build_info
+from heeltoe.result.write import build_info
 
 COUNT = 5
 _MOST = 50

@@ -12,7 +12,7 @@ from rich.progress import Progress
 
 from heeltoe import _kernel
 from heeltoe.mechanics.block import Block
-from heeltoe.models.rigid.model import SETTLE
+from heeltoe.models.rigid.walk import SETTLE
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.moments import ground
 

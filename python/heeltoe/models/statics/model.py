@@ -10,13 +10,13 @@ from scipy.optimize import brentq
 
 from heeltoe.case.read import Case, case_warnings
 from heeltoe.geometry.section import CutSection, cut
-from heeltoe.mechanics.block import build_block
-from heeltoe.models.rigid.model import REFERENCES, static_state
+from heeltoe.mechanics.block import build_block, static_state
 from heeltoe.models.statics.cases import at_depth, flood, post_seismic, pseudo_static, usual
 from heeltoe.models.statics.checks import Check, check_case, fallen
 from heeltoe.models.statics.criteria import criteria
 from heeltoe.models.statics.load_case import LoadCase
-from heeltoe.result.response import build_info
+from heeltoe.references import REFERENCES
+from heeltoe.result.write import build_info
 
 # Depths that the search for a critical water level looks at: a sign that changes twice between two of them is no level
 # that anyone could keep to.

@@ -9,7 +9,8 @@ from tempfile import TemporaryDirectory
 from heeltoe.case.read import Case
 from heeltoe.errors import InputError
 from heeltoe.models.flexible.history import crack_table
-from heeltoe.result.response import Response, json_text, write_table
+from heeltoe.result.response import Response
+from heeltoe.result.write import json_text, write_table
 from heeltoe.study.comparison import Comparison
 from heeltoe.study.grid import Grid
 from heeltoe.views.figures import NAMES, write_comparison_figure, write_figures

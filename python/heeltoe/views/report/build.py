@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from heeltoe.result.response import build_info
+from heeltoe.result.write import build_info
 from heeltoe.views.report.build_evidence import evidence
 from heeltoe.views.report.build_input import defaults, given_input, input_hash, rerun
 from heeltoe.views.report.build_method import method

@@ -9,7 +9,7 @@ import numpy as np
 
 from heeltoe.case.read import Case
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.result.response import build_info
+from heeltoe.result.write import build_info
 from heeltoe.views.report.content import Block, Code, Inline, Listing, Own, Section, Strong, Table, paragraph
 from heeltoe.views.report.subject import Subject
 from heeltoe.views.words.fields import OWN_WORDS, fields

@@ -1,0 +1,147 @@
+"""What the kernel found of an elastic dam, by the names of the contract."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe import _kernel
+from heeltoe.case.read import Case
+from heeltoe.models.flexible.history import CrackHistory
+from heeltoe.models.flexible.reduced import FlexibleDam
+from heeltoe.models.flexible.shaken import Convergence, Frames, Shaken
+from heeltoe.result.response import Energy
+
+Floats = NDArray[np.float64]
+
+FRAME = {name: place for place, name in enumerate(_kernel.FRAME_FIELDS)}
+
+
+def anchors_of(case: Case, raw: dict[str, float]) -> list[dict[str, float | None]]:
+    """Return the largest tension [N] of each anchor, and what it is good for."""
+    stiff = 0
+    found: list[dict[str, float | None]] = []
+    for anchor in case.anchors:
+        tension = anchor.prestress
+        if anchor.axial_stiffness or anchor.shear_stiffness:
+            tension = raw[f"tension_{stiff}"]
+            stiff += 1
+        found.append({"distance_m": anchor.distance, "peak_tension_n": tension, "capacity_n": anchor.capacity})
+    return found
+
+
+def history_of(frames: Frames, dam: FlexibleDam, contactors: int) -> CrackHistory:
+    rows, upper, lower, force, status, above, below = frames
+    count = len(rows)
+
+    def pairs(table: Floats) -> Floats:
+        return table.reshape(count, 2, -1)
+
+    return CrackHistory(
+        time=np.ascontiguousarray(rows[:, 0]),
+        upper_position=pairs(upper),
+        lower_position=pairs(lower) if lower.size else None,
+        force=pairs(force),
+        status=status,
+        modes=(above, below)[: len(dam.modes)],
+        dam=dam,
+        contactors=contactors,
+    )
+
+
+def summary_of(
+    raw: dict[str, float], dam: FlexibleDam, shaken: Shaken, convergence: Convergence | None
+) -> dict[str, Any]:
+    return {
+        "residual_slip_m": raw["slip"],
+        "peak_slip_downstream_m": raw["slip_max"],
+        "peak_slip_upstream_m": raw["slip_min"],
+        "rocking_downstream_rad": abs(raw["rotation_min"]),
+        "rocking_upstream_rad": abs(raw["rotation_max"]),
+        "opening_upstream_m": raw["opening_heel"],
+        "opening_downstream_m": raw["opening_toe"],
+        "largest_gap_heel_m": raw["opening_heel"],
+        "largest_gap_toe_m": raw["opening_toe"],
+        "slip_by_mode_m": {
+            "sliding": raw["slip_sliding"],
+            "slide_rocking": raw["slip_slide_rocking"],
+            "drifting": raw["slip_drifting"],
+        },
+        "time_by_mode_s": {
+            name.replace("-", "_"): raw[f"time_{name.replace('-', '_')}"] for name in _kernel.CRACK_STATES
+        },
+        "impacts": int(raw["impacts"]),
+        "largest_impact_velocity_m_s": raw["largest_impact_velocity"],
+        "peak_normal_force_n": raw["peak_normal_force"],
+        "final_mode": _kernel.CRACK_STATES[int(raw["final_state"])],
+        "final_slip_velocity_m_s": raw["slip_velocity"],
+        "end_time_s": raw["end_time"],
+        "crack_width_m": dam.section.crack_width,
+        "periods_s": dam.periods.tolist(),
+        "mesh": {
+            "elements": [len(body.mesh.elements) for body in dam.bodies],
+            "nodes": [len(body.mesh.nodes) for body in dam.bodies],
+            "modes": [int(basis.omega_squared.size) for basis in dam.modes],
+            "crack_nodes": int(dam.dam.upper.mesh.crack.size),
+            "basis_error": dam.basis_error,
+        },
+        "damping": shaken.case.flexible.damping,
+        "damping_ratio": shaken.case.concrete.damping,
+        "rayleigh_mass_1_s": dam.coefficients[0] if dam.coefficients else None,
+        "rayleigh_stiffness_s": dam.coefficients[1] if dam.coefficients else None,
+        "contact": shaken.case.flexible.contact,
+        "steps": int(raw["steps"]),
+        "time_step_s": raw["end_time"] / raw["steps"],
+        "contact_iterations_per_step": raw["iterations"] / raw["steps"],
+        "contact_residual": raw["contact_residual"],
+        "convergence": None
+        if convergence is None
+        else {
+            "time_step_s": convergence.time_step,
+            "coarser_step_s": convergence.coarser_step,
+            "residual_slip_m": convergence.slip,
+            "coarser_residual_slip_m": convergence.coarser_slip,
+            "change": convergence.change,
+            "allowed": convergence.allowed,
+        },
+    }
+
+
+def energy_of(raw: dict[str, float]) -> Energy:
+    return Energy(
+        input_j=raw["energy_input"],
+        friction_j=raw["energy_friction"],
+        impact_j=raw["energy_impact"],
+        kinetic_j=raw["energy_stored"] + raw["energy_penalty"] - raw["energy_start"],
+        residual=raw["energy_residual"],
+        damping_j=raw["energy_damping"],
+        numerical_j=raw["energy_numerical"],
+        gained_j=raw["energy_gained"],
+    )
+
+
+def histories_of(rows: Floats, shaken: Shaken) -> dict[str, Floats]:
+    def column(name: str) -> Floats:
+        return np.ascontiguousarray(rows[:, FRAME[name]])
+
+    time = column("time")
+    result = {"time_s": time, "ground_acceleration_m_s2": np.interp(time, shaken.time, shaken.horizontal)}
+    if shaken.up is not None:
+        result["vertical_ground_acceleration_m_s2"] = np.interp(time, shaken.time, shaken.up)
+    return result | {
+        "slip_m": column("slip"),
+        "slip_velocity_m_s": column("slip_velocity"),
+        "gap_heel_m": column("opening_heel"),
+        "gap_toe_m": column("opening_toe"),
+        "rotation_rad": column("rotation"),
+        "normal_force_n": column("normal_force"),
+        "friction_force_n": column("friction_force"),
+        "touching": column("touching"),
+        "stored_energy_j": column("energy_stored"),
+        "input_energy_j": column("energy_input"),
+        "damping_energy_j": column("energy_damping"),
+        "friction_energy_j": column("energy_friction"),
+        "impact_energy_j": column("energy_impact"),
+    }
