@@ -9,6 +9,7 @@ BIN    := $(VENV)/bin
 RECORDS := $(abspath ../shared/records)
 export HEELTOE_RECORDS ?= $(if $(wildcard $(RECORDS)),$(RECORDS))
 export PYO3_PYTHON := $(abspath $(BIN)/python)
+WASM := wasm32-unknown-unknown
 ELAPSED = echo "$@: done in $$(( $$(date +%s) - $$(cat $(VENV)/.started) )) s"
 
 .PHONY: demo test test-slow lint format validate bench clean help check
@@ -35,7 +36,8 @@ $(VENV)/.packages: requirements.lock | check
 	@$(BIN)/pip install --quiet --disable-pip-version-check -r requirements.lock
 	@touch $@
 
-SOURCES := $(wildcard src/*.rs src/*/*.rs) Cargo.toml Cargo.lock pyproject.toml
+# All that the kernel is made from, at any depth.
+SOURCES := $(shell find crates -type f) Cargo.toml Cargo.lock pyproject.toml
 
 $(VENV)/.built: $(VENV)/.packages $(SOURCES) | check
 	@echo "building heeltoe"
@@ -47,7 +49,7 @@ demo: check $(VENV)/.built
 	@$(ELAPSED)
 
 test: check $(VENV)/.built
-	cargo test --release --locked --quiet
+	cargo test --release --locked --quiet -p heeltoe
 	$(BIN)/pytest -q -m "not slow" -n 2
 	@$(ELAPSED)
 
@@ -57,7 +59,12 @@ test-slow: check $(VENV)/.built
 
 lint: check $(VENV)/.built
 	cargo fmt --check
-	cargo clippy --release --locked --all-targets --quiet
+	cargo clippy --workspace --release --locked --all-targets --quiet
+	@tree=$$(cargo tree --locked -p heeltoe --prefix none) || exit 1; \
+	! echo "$$tree" | grep -w pyo3 || { echo "crates/heeltoe is for users without Python: no pyo3"; exit 1; }
+	@if [ -d "$$(rustc --print target-libdir --target $(WASM))" ]; then \
+	  cargo check --locked --quiet -p heeltoe --target $(WASM) --no-default-features; \
+	else echo "skipped: the kernels in a browser (no standard library for $(WASM); rustup target add $(WASM))"; fi
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy

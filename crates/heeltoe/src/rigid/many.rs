@@ -1,11 +1,9 @@
-//! Many runs side by side. Every run depends on its own input alone, so the results are the same bits for any number
-//! of threads, any chunking and any order.
+//! Many runs of the exact walk, side by side.
 
-use rayon::prelude::*;
-
-use crate::rigid::block::{Block, FIELD_COUNT, HEEL, SLIP, TOE};
-use crate::rigid::result::Summary;
-use crate::rigid::simulate::{simulate, Motion, Options};
+use super::block::{Block, FIELD_COUNT, HEEL, SLIP, TOE};
+use super::result::Summary;
+use super::simulate::{simulate, Motion, Options};
+use crate::parallel::each;
 
 /// Names of the numbers an ensemble returns for each run, in order (SI).
 pub const SUMMARY_FIELDS: [&str; 34] = [
@@ -93,15 +91,11 @@ pub struct Case<'a> {
     pub motion: Motion<'a>,
 }
 
-/// Run `count` cases on the threads of the current rayon pool; `case` names the input of each.
-pub fn run<'a>(count: usize, options: Options, case: impl Fn(usize) -> Case<'a> + Sync) -> Vec<Row> {
-    (0..count)
-        .into_par_iter()
-        .with_min_len(16)
-        .map(|k| {
-            let case = case(k);
-            let block = Block::new(case.block);
-            row(&simulate(&block, &case.motion, None, options, None, None))
-        })
-        .collect()
+/// Run `count` cases; `case` names the input of each.
+pub fn run<'a>(count: usize, options: Options, case: impl Fn(usize) -> Case<'a> + Sync + Send) -> Vec<Row> {
+    each(count, 16, |k| {
+        let case = case(k);
+        let block = Block::new(case.block);
+        row(&simulate(&block, &case.motion, None, options, None, None))
+    })
 }

@@ -9,7 +9,7 @@
 //! period are split, so that none is missed. After the record the ground stands still and the oscillator is followed
 //! for one more period, in which a long-period peak may lie.
 
-use rayon::prelude::*;
+use crate::parallel::each;
 
 /// Largest relative displacement and largest total acceleration of one oscillator.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -274,19 +274,16 @@ pub fn peak(time: &[f64], ground: &[f64], frequency: f64, damping: f64) -> Peak 
 
 /// Peaks of many oscillators, by their periods; a period of zero is the ground itself.
 pub fn spectrum(time: &[f64], ground: &[f64], periods: &[f64], damping: f64) -> Vec<Peak> {
-    periods
-        .par_iter()
-        .map(|&period| {
-            if period == 0.0 {
-                let pga = ground.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
-                return Peak {
-                    displacement: 0.0,
-                    total_acceleration: pga,
-                };
-            }
-            peak(time, ground, std::f64::consts::TAU / period, damping)
-        })
-        .collect()
+    each(periods.len(), 1, |k| {
+        if periods[k] == 0.0 {
+            let pga = ground.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+            return Peak {
+                displacement: 0.0,
+                total_acceleration: pga,
+            };
+        }
+        peak(time, ground, std::f64::consts::TAU / periods[k], damping)
+    })
 }
 
 #[cfg(test)]

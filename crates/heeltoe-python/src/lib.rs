@@ -1,24 +1,21 @@
-//! Kernels of heeltoe, bound to Python as `heeltoe._kernel`. They know numbers only: no files, no units.
+//! Kernels of heeltoe, bound to Python as `heeltoe._kernel`.
 
-pub mod crack;
-mod crack_bindings;
-pub mod ensemble;
-pub mod rigid;
-pub mod spectrum;
+mod flexible;
 
 use numpy::ndarray::{Array1, Array2};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use rigid::block::{Block, BLOCK_FIELDS, FIELD_COUNT};
-use rigid::mode::Mode;
-use rigid::result::{Event, EventKind, Histories, Outcome};
-use rigid::simulate::{simulate, Motion, Options};
-use rigid::varying::block::{Rotation, TurningBlock, VARYING_COUNT, VARYING_FIELDS};
-use rigid::varying::ground::TurningGround;
-use rigid::varying::loads::{Anchor, Rule, Water};
-use rigid::varying::walk;
+use heeltoe::rigid::block::{Block, BLOCK_FIELDS, FIELD_COUNT};
+use heeltoe::rigid::many;
+use heeltoe::rigid::mode::Mode;
+use heeltoe::rigid::result::{Event, EventKind, Histories, Outcome};
+use heeltoe::rigid::simulate::{simulate, Motion, Options};
+use heeltoe::rigid::varying::block::{Rotation, TurningBlock, VARYING_COUNT, VARYING_FIELDS};
+use heeltoe::rigid::varying::ground::TurningGround;
+use heeltoe::rigid::varying::loads::{Anchor, Rule, Water};
+use heeltoe::rigid::varying::walk;
 
 type Numbers<'py> = PyReadonlyArray1<'py, f64>;
 type RunResult<'py> = (
@@ -139,7 +136,7 @@ mod _kernel {
     use super::*;
 
     #[pymodule_export]
-    use crate::crack_bindings::CrackedDam;
+    use crate::flexible::CrackedDam;
 
     /// Run one block; see `_kernel.pyi`.
     #[pyfunction]
@@ -175,7 +172,7 @@ mod _kernel {
         });
         let events: Vec<_> = log.iter().map(event_row).collect();
         Ok((
-            Array1::from(ensemble::row(&summary).to_vec()).into_pyarray(py),
+            Array1::from(many::row(&summary).to_vec()).into_pyarray(py),
             table(&histories.rows).into_pyarray(py),
             Array1::from(histories.modes).into_pyarray(py),
             table(&events).into_pyarray(py),
@@ -257,7 +254,7 @@ mod _kernel {
         });
         let events: Vec<_> = log.iter().map(event_row).collect();
         Ok((
-            Array1::from(ensemble::row(&summary).to_vec()).into_pyarray(py),
+            Array1::from(many::row(&summary).to_vec()).into_pyarray(py),
             table(&histories.rows).into_pyarray(py),
             Array1::from(histories.modes).into_pyarray(py),
             table(&events).into_pyarray(py),
@@ -311,7 +308,7 @@ mod _kernel {
         let options = options(settle, event_limit, jam);
         let rows = py.detach(|| {
             pool.install(|| {
-                ensemble::run(count, options, |k| ensemble::Case {
+                many::run(count, options, |k| many::Case {
                     block: &parameters[k],
                     motion: Motion {
                         scale: factors[k],
@@ -339,7 +336,7 @@ mod _kernel {
                 "damping must be in [0, 1) and periods not negative",
             ));
         }
-        let peaks = py.detach(|| crate::spectrum::spectrum(time, ground, periods, damping));
+        let peaks = py.detach(|| heeltoe::spectrum::spectrum(time, ground, periods, damping));
         let rows: Vec<_> = peaks
             .iter()
             .map(|p| [p.displacement, p.total_acceleration])
@@ -351,17 +348,26 @@ mod _kernel {
     fn init(m: &Bound<'_, PyModule>) -> PyResult<()> {
         m.add("BLOCK_FIELDS", BLOCK_FIELDS.to_vec())?;
         m.add("VARYING_FIELDS", VARYING_FIELDS.to_vec())?;
-        m.add("SUMMARY_FIELDS", ensemble::SUMMARY_FIELDS.to_vec())?;
+        m.add("SUMMARY_FIELDS", many::SUMMARY_FIELDS.to_vec())?;
         m.add("HISTORY_FIELDS", HISTORY_FIELDS.to_vec())?;
         m.add("EVENT_FIELDS", EVENT_FIELDS.to_vec())?;
         m.add("MODES", Mode::NAMES.to_vec())?;
         m.add("EVENT_KINDS", EventKind::NAMES.to_vec())?;
         m.add("OUTCOMES", Outcome::NAMES.to_vec())?;
-        m.add("CRACK_SUMMARY_FIELDS", crack::result::Summary::FIELDS.to_vec())?;
-        m.add("FRAME_FIELDS", crack::result::Frames::FIELDS.to_vec())?;
-        m.add("CRACK_OUTCOMES", crack::result::Outcome::NAMES.to_vec())?;
-        m.add("CRACK_STATES", crack::observe::STATES.to_vec())?;
-        m.add("CONTACT_STATUSES", crack::coulomb::Status::NAMES.to_vec())?;
+        m.add(
+            "CRACK_SUMMARY_FIELDS",
+            heeltoe::flexible::result::Summary::FIELDS.to_vec(),
+        )?;
+        m.add("FRAME_FIELDS", heeltoe::flexible::result::Frames::FIELDS.to_vec())?;
+        m.add(
+            "CRACK_OUTCOMES",
+            heeltoe::flexible::result::Outcome::NAMES.to_vec(),
+        )?;
+        m.add("CRACK_STATES", heeltoe::flexible::observe::STATES.to_vec())?;
+        m.add(
+            "CONTACT_STATUSES",
+            heeltoe::flexible::coulomb::Status::NAMES.to_vec(),
+        )?;
         m.add("VERSION", env!("CARGO_PKG_VERSION"))?;
         m.add(
             "PROFILE",

@@ -7,6 +7,7 @@ pub mod block;
 pub mod event;
 pub mod impact;
 pub mod ledger;
+pub mod many;
 pub mod mode;
 pub mod result;
 pub mod simulate;

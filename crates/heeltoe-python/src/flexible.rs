@@ -6,12 +6,12 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 
-use crate::crack::body::{Body, Modes, LANES};
-use crate::crack::dam::{Dam, Options};
-use crate::crack::idce::{self, Idce};
-use crate::crack::inside::{Anchor, Inside, Law, Water};
-use crate::crack::result::{Frames, Summary};
-use crate::crack::step;
+use heeltoe::flexible::body::{Body, Modes, LANES};
+use heeltoe::flexible::dam::{Dam, Options};
+use heeltoe::flexible::idce::{self, Idce};
+use heeltoe::flexible::inside::{Anchor, Inside, Law, Water};
+use heeltoe::flexible::result::{Frames, Summary};
+use heeltoe::flexible::step;
 
 type Numbers<'py> = PyReadonlyArray1<'py, f64>;
 

@@ -1,0 +1,7 @@
+//! Kernels of heeltoe: what a cracked concrete gravity dam does in an earthquake. They know numbers only: no files, no
+//! units.
+
+pub mod flexible;
+pub mod parallel;
+pub mod rigid;
+pub mod spectrum;
