@@ -8,6 +8,10 @@ is about, the value that was found, and the remedy, and renders as one line:
 
 from __future__ import annotations
 
+import json
+
+_SHOWN_LENGTH = 60
+
 # Code -> (what is wrong, what to do). The braces are filled from the context of the raiser, and {value}.
 CATALOGUE: dict[str, tuple[str, str]] = {
     # case
@@ -287,6 +291,15 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "not-a-directory": ("{value} is a file", "give a directory"),
     "cannot-write": ("{value} cannot be written ({reason})", "give a place where you may write"),
 }
+
+
+def shown(value: object) -> str:
+    """Return `value` as the user wrote it in the case file, shortened where it is long."""
+    try:
+        text = json.dumps(value, default=str, ensure_ascii=False)
+    except (ValueError, RecursionError):  # thousands of digits or brackets
+        return "what is there"
+    return text if len(text) <= _SHOWN_LENGTH else text[: _SHOWN_LENGTH - 3] + "..."
 
 
 class HeeltoeError(Exception):

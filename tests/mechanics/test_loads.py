@@ -7,7 +7,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from heeltoe.geometry.section import cut
 from heeltoe.mechanics import loads
 from shared.outlines import by_strips, dams, make
 
@@ -20,13 +19,12 @@ def deep(depth, **more):
 
 
 def solved(corners, elevation=0.0, **more):
-    case = make(corners, elevation, **more)
-    return case, cut(case)
+    return make(corners, elevation, **more)
 
 
 def test_typical_dam_by_hand():
-    case, section = solved(TYPICAL, reservoir=deep(100.0), concrete={"density": "2650 kg/m^3"})
-    weight, reservoir, tailwater, uplift = loads.static_forces(case, section)
+    case = solved(TYPICAL, reservoir=deep(100.0), concrete={"density": "2650 kg/m^3"})
+    weight, reservoir, tailwater, uplift = loads.static_forces(case)
     mass = 2650 * 4040.0
     assert (weight.horizontal, weight.vertical) == (0.0, pytest.approx(-mass * G))
     assert weight.moment == pytest.approx(-2650 * G * (800 * 4 + 3240 * 32))
@@ -41,30 +39,30 @@ def test_typical_dam_by_hand():
 
 def test_typical_dam_about_its_reference_point():
     # The reference point of the rigid model is as high as the common centre of concrete and virtual water.
-    case, section = solved(TYPICAL, reservoir=deep(100.0), concrete={"density": "2650 kg/m^3"})
-    water = loads.virtual_mass(case, section)
+    case = solved(TYPICAL, reservoir=deep(100.0), concrete={"density": "2650 kg/m^3"})
+    water = loads.virtual_mass(case)
     assert water.mass == pytest.approx(7 / 12 * 1000 * 100**2)
     assert water.height == pytest.approx(40.0)
-    mass = loads.concrete_mass(case, section)
+    mass = loads.concrete_mass(case)
     assert mass == pytest.approx(10_706_000.0)
-    height = (mass * section.centroid[1] + water.mass * water.height) / (mass + water.mass)
+    height = (mass * case.cut.centroid[1] + water.mass * water.height) / (mass + water.mass)
     assert height == pytest.approx((2650 * (800 * 50 + 3240 * 30) + 5_833_333.3333 * 40) / 16_539_333.3333)
-    inertia = case.concrete.density * section.polar_inertia
-    inertia += mass * (section.centroid[1] - height) ** 2 + water.mass * (water.height - height) ** 2
+    inertia = case.concrete.density * case.cut.polar_inertia
+    inertia += mass * (case.cut.centroid[1] - height) ** 2 + water.mass * (water.height - height) ** 2
     x = 106880 / 4040
     by_hand = 2650 * 800 * ((8**2 + 100**2) / 12 + (4 - x) ** 2 + (50 - height) ** 2)
     by_hand += 2650 * 3240 * ((72**2 + 90**2) / 18 + (32 - x) ** 2 + (30 - height) ** 2)
     by_hand += 5_833_333.3333 * (40 - height) ** 2
     assert inertia == pytest.approx(by_hand, rel=1e-9)
-    about = loads.total("all", loads.static_forces(case, section)).moment_about(section.centroid[0], height)
+    about = loads.total("all", loads.static_forces(case)).moment_about(case.cut.centroid[0], height)
     push, lift = 1000 * G * 5000, 1000 * G * 4000
     assert about == pytest.approx(push * (height - 100 / 3) + lift * (80 / 3 - x))
 
 
 def test_gravity_and_density_of_the_case():
     light = {"gravity": "1.62 m/s^2", "reservoir": deep(6.0, density="1030 kg/m^3")}
-    case, section = solved([(0.0, 0.0), (4.0, 0.0), (4.0, 8.0), (0.0, 8.0)], **light)
-    weight, reservoir, _, uplift = loads.static_forces(case, section)
+    case = solved([(0.0, 0.0), (4.0, 0.0), (4.0, 8.0), (0.0, 8.0)], **light)
+    weight, reservoir, _, uplift = loads.static_forces(case)
     assert weight.vertical == pytest.approx(-2400 * 32 * 1.62)
     assert reservoir.horizontal == pytest.approx(1030 * 1.62 * 18)
     assert uplift.vertical == pytest.approx(1030 * 1.62 * 6 * 4 / 2)
@@ -75,10 +73,10 @@ def test_archimedes(corners, part, filling):
     # The same water on both sides and in all of the crack lifts the block by the weight of what it displaces.
     top = max(z for _, z in corners)
     water = deep(filling * top)
-    case, section = solved(corners, part * top, reservoir=water, tailwater=water, uplift={"pattern": "uniform"})
-    _, reservoir, tailwater, uplift = loads.static_forces(case, section)
+    case = solved(corners, part * top, reservoir=water, tailwater=water, uplift={"pattern": "uniform"})
+    _, reservoir, tailwater, uplift = loads.static_forces(case)
     force = loads.total("water", (reservoir, tailwater, uplift))
-    level, surface = section.crack_elevation, case.reservoir.depth
+    level, surface = case.cut.crack_elevation, case.reservoir.depth
     scale = 1000 * G * top * 100
     if surface <= level:
         assert (force.horizontal, force.vertical, force.moment) == (0.0, 0.0, 0.0)
@@ -90,30 +88,30 @@ def test_archimedes(corners, part, filling):
         area -= dry
     assert force.horizontal == pytest.approx(0.0, abs=1e-12 * scale)
     assert force.vertical == pytest.approx(1000 * G * area, abs=1e-10 * scale)
-    assert force.moment == pytest.approx(1000 * G * area * (x - section.heel[0]), abs=1e-8 * scale)
+    assert force.moment == pytest.approx(1000 * G * area * (x - case.cut.heel[0]), abs=1e-8 * scale)
 
 
 @given(dams(), st.floats(0.0, 0.9), st.floats(0.0, 1.0))
 def test_push_of_the_reservoir_does_not_depend_on_the_shape_of_the_face(corners, part, filling):
     top = max(z for _, z in corners)
-    case, section = solved(corners, part * top, reservoir=deep(filling * top))
-    h = max(0.0, case.reservoir.depth - section.crack_elevation)
-    assert loads.reservoir_pressure(case, section).horizontal == pytest.approx(1000 * G * h * h / 2, abs=1e-6)
+    case = solved(corners, part * top, reservoir=deep(filling * top))
+    h = max(0.0, case.reservoir.depth - case.cut.crack_elevation)
+    assert loads.reservoir_pressure(case).horizontal == pytest.approx(1000 * G * h * h / 2, abs=1e-6)
 
 
 @given(dams(), st.floats(0.0, 0.8), st.floats(0.0, 1.0))
 def test_reservoir_against_numeric_integration(corners, part, filling):
     top = max(z for _, z in corners)
-    case, section = solved(corners, part * top, reservoir=deep(filling * top))
+    case = solved(corners, part * top, reservoir=deep(filling * top))
     expected = np.zeros(3)
-    for start, end in zip(section.upstream_face[:-1], section.upstream_face[1:], strict=True):
+    for start, end in zip(case.cut.upstream_face[:-1], case.cut.upstream_face[1:], strict=True):
         s = (np.arange(4000) + 0.5) / 4000
         x, z = (start + s[:, None] * (end - start)).T
         pressure = 1000 * G * np.maximum(0.0, case.reservoir.depth - z) / 4000
         fx, fz = pressure * (end - start)[1], -pressure * (end - start)[0]
-        moment = (x - section.heel[0]) * fz - (z - section.heel[1]) * fx
+        moment = (x - case.cut.heel[0]) * fz - (z - case.cut.heel[1]) * fx
         expected += [fx.sum(), fz.sum(), moment.sum()]
-    found = loads.reservoir_pressure(case, section)
+    found = loads.reservoir_pressure(case)
     tolerance = 1e-5 * 1000 * G * 100 * 100
     assert (found.horizontal, found.vertical) == pytest.approx(expected[:2], rel=1e-5, abs=tolerance)
     assert found.moment == pytest.approx(expected[2], rel=1e-5, abs=100 * tolerance)
@@ -123,20 +121,20 @@ def test_reservoir_against_numeric_integration(corners, part, filling):
 def test_mirror_image(corners, part, up, down):
     top = max(z for _, z in corners)
     mirrored = [(-x, z) for x, z in corners]
-    case, section = solved(corners, part * top, reservoir=deep(up * top), tailwater=deep(down * top))
-    image, other = solved(mirrored, part * top, reservoir=deep(down * top), tailwater=deep(up * top))
-    one, two = loads.static_forces(case, section), loads.static_forces(image, other)
+    case = solved(corners, part * top, reservoir=deep(up * top), tailwater=deep(down * top))
+    image = solved(mirrored, part * top, reservoir=deep(down * top), tailwater=deep(up * top))
+    one, two = loads.static_forces(case), loads.static_forces(image)
     for force, reflected in zip(one, (two[0], two[2], two[1], two[3]), strict=True):
         assert reflected.horizontal == pytest.approx(-force.horizontal, abs=1e-4)
         assert reflected.vertical == pytest.approx(force.vertical, abs=1e-4)
-        about_toe = force.moment_about(section.crack_width, 0.0)
+        about_toe = force.moment_about(case.cut.crack_width, 0.0)
         assert reflected.moment == pytest.approx(-about_toe, rel=1e-9, abs=1.0)
 
 
 def test_inclined_face_carries_the_water_above_it():
     # Upstream slope of 3 m over 6 m of water: 9 m^2 of water stand on it, their centre 1 m from the heel.
-    case, section = solved([(0.0, 0.0), (10.0, 0.0), (10.0, 6.0), (3.0, 6.0)], reservoir=deep(6.0))
-    force = loads.reservoir_pressure(case, section)
+    case = solved([(0.0, 0.0), (10.0, 0.0), (10.0, 6.0), (3.0, 6.0)], reservoir=deep(6.0))
+    force = loads.reservoir_pressure(case)
     assert (force.horizontal, force.vertical) == pytest.approx((1000 * G * 18, -1000 * G * 9))
     assert force.moment == pytest.approx(1000 * G * (-18 * 2 - 9 * 1))
 
@@ -178,10 +176,10 @@ RECTANGLE = [(0.0, 0.0), (8.0, 0.0), (8.0, 12.0), (0.0, 12.0)]
 )
 def test_uplift_patterns(uplift, tail, points):
     # The crack is 2 m above the base, 10 m of water in front: 8 m of head at the heel.
-    case, section = solved(RECTANGLE, 2.0, reservoir=deep(10.0), tailwater=deep(tail), uplift=uplift)
+    case = solved(RECTANGLE, 2.0, reservoir=deep(10.0), tailwater=deep(tail), uplift=uplift)
     expected = np.array(points) * [1.0, 1000 * G]
-    assert loads.uplift_profile(case, section) == pytest.approx(expected)
-    force = loads.uplift(case, section)
+    assert loads.uplift_profile(case) == pytest.approx(expected)
+    force = loads.uplift(case)
     x = (np.arange(80_000) + 0.5) * 1e-4
     pressure = np.interp(x, *expected.T)
     assert force.vertical == pytest.approx(pressure.sum() * 1e-4, rel=1e-6)
@@ -190,25 +188,23 @@ def test_uplift_patterns(uplift, tail, points):
 
 
 def test_water_below_the_crack_does_nothing():
-    case, section = solved(RECTANGLE, 6.0, reservoir=deep(6.0), tailwater=deep(5.0))
-    assert all(
-        force.moment == force.vertical == force.horizontal == 0.0 for force in loads.static_forces(case, section)[1:]
-    )
-    assert loads.virtual_mass(case, section) == loads.VirtualMass(0.0, 0.0)
+    case = solved(RECTANGLE, 6.0, reservoir=deep(6.0), tailwater=deep(5.0))
+    assert all(force.moment == force.vertical == force.horizontal == 0.0 for force in loads.static_forces(case)[1:])
+    assert loads.virtual_mass(case) == loads.VirtualMass(0.0, 0.0)
 
 
 def test_dry_dam():
-    case, section = solved(RECTANGLE)
-    assert loads.total("water", loads.static_forces(case, section)[1:]) == loads.Resultant("water", 0.0, 0.0, 0.0)
-    assert loads.virtual_mass(case, section) == loads.VirtualMass(0.0, 0.0)
+    case = solved(RECTANGLE)
+    assert loads.total("water", loads.static_forces(case)[1:]) == loads.Resultant("water", 0.0, 0.0, 0.0)
+    assert loads.virtual_mass(case) == loads.VirtualMass(0.0, 0.0)
 
 
 @pytest.mark.parametrize(("crack", "depth"), [(0.0, 12.0), (3.0, 10.0), (9.0, 12.0)])
 def test_virtual_mass_against_numeric_integration(crack, depth):
-    case, section = solved(RECTANGLE, crack, reservoir=deep(depth))
+    case = solved(RECTANGLE, crack, reservoir=deep(depth))
     eta = crack + (depth - crack) * (np.arange(1_000_000) + 0.5) / 1_000_000
     strip = 7 / 8 * 1000 * np.sqrt(depth * (depth - eta)) * (depth - crack) / 1_000_000
-    water = loads.virtual_mass(case, section)
+    water = loads.virtual_mass(case)
     assert water.mass == pytest.approx(math.fsum(strip), rel=1e-7)
     assert water.height == pytest.approx(math.fsum(strip * (eta - crack)) / math.fsum(strip), rel=1e-7)
 

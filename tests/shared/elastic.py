@@ -1,6 +1,5 @@
 """Elastic dams of plain sections."""
 
-from heeltoe.geometry.section import cut
 from heeltoe.models.flexible.elastic import dam
 from heeltoe.models.flexible.mesh.checks import check_elements
 from heeltoe.models.flexible.mesh.dam import dam_mesh
@@ -13,12 +12,11 @@ CONCRETE = {"density": "2650 kg/m^3", "modulus": "20 GPa", "poisson": 0.2}
 def built(corners, elevation=0.0, bend=None, concrete=CONCRETE, **more):
     """Return case, section and elastic dam; `bend` moves the nodes of the meshes first."""
     case = make(corners, elevation, concrete=concrete, **more)
-    section = cut(case)
-    mesh = dam_mesh(case, section)
+    mesh = dam_mesh(case)
     for body in bodies(mesh) if bend else ():
         body.nodes[:] = bend(body)
         check_elements(body.nodes, body.elements, "bent")
-    return case, section, dam(case, section, mesh)
+    return case, case.cut, dam(case, mesh)
 
 
 def deep(depth):

@@ -1,8 +1,9 @@
 """Meshes of plain dams, and what is measured on them."""
 
+from pathlib import Path
+
 import numpy as np
 
-from heeltoe.geometry.section import cut
 from heeltoe.models.flexible.mesh.checks import (
     jacobians,
 )
@@ -14,10 +15,9 @@ TRIANGLE = [(0.0, 0.0), (80.0, 0.0), (0.0, 100.0)]
 RECTANGLE = [(0.0, 0.0), (8.0, 0.0), (8.0, 12.0), (0.0, 12.0)]
 
 
-def meshed(corners, elevation=0.0, directory=None, **options):
+def meshed(corners, elevation=0.0, directory=".", **options):
     case = make(corners, elevation, flexible=options)
-    section = cut(case)
-    return dam_mesh(case, section, directory), section
+    return dam_mesh(case.based_in(Path(directory))), case.cut
 
 
 def bodies(mesh):

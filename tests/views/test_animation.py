@@ -18,7 +18,6 @@ from PIL import Image
 
 import heeltoe
 from heeltoe import GroundMotion, InputError, animate, read_case
-from heeltoe.geometry.section import cut, section_polygon
 from heeltoe.views.animation import look
 from heeltoe.views.animation.bodies import ACCURACY, Moments
 from heeltoe.views.animation.frames import STATUSES, automatic, build_scene, round_below
@@ -142,13 +141,13 @@ def test_outlines_go_round_the_parts(block, elastic):
             assert np.sum(sides[1:] * sides[:-1], axis=1).min() > -0.99
         # Counter-clockwise, together as large as the section.
         assert min(areas) > 0.0
-        assert areas[0] == pytest.approx(cut(case).area)
-        assert sum(areas) == pytest.approx(section_polygon(case.section).area)
+        assert areas[0] == pytest.approx(case.cut.area)
+        assert sum(areas) == pytest.approx(case.outline.area)
         upper, lower = scene.parts
-        assert upper.points[upper.upstream[0]] == pytest.approx(cut(case).heel)
-        assert upper.points[upper.downstream[0]] == pytest.approx(cut(case).toe)
-        assert lower.points[lower.upstream[-1]] == pytest.approx(cut(case).heel)
-        assert lower.points[lower.downstream[-1]] == pytest.approx(cut(case).toe)
+        assert upper.points[upper.upstream[0]] == pytest.approx(case.cut.heel)
+        assert upper.points[upper.downstream[0]] == pytest.approx(case.cut.toe)
+        assert lower.points[lower.upstream[-1]] == pytest.approx(case.cut.heel)
+        assert lower.points[lower.downstream[-1]] == pytest.approx(case.cut.toe)
         assert lower.points[lower.upstream[0], 1] == lower.points[lower.downstream[0], 1] == scene.base
 
 

@@ -106,7 +106,7 @@ def test_arrows_stand_on_the_lines_of_their_forces_and_to_scale(changes):
 def test_the_uplift_diagram_has_the_shape_of_the_pressure():
     whole = case('uplift={pattern="drained", drain_position=0.1, drain_efficiency=0.67}')
     (axes,) = section_figure(whole).axes
-    distance, pressure = uplift_profile(whole, build_block(whole).section).T
+    distance, pressure = uplift_profile(whole).T
     diagram = next(patch for patch in axes.patches if patch.get_hatch() == "|||").get_xy()
     drawn = np.array([max(-diagram[np.isclose(diagram[:, 0], x), 1]) for x in distance])
     assert drawn / drawn.max() == pytest.approx(pressure / pressure.max())

@@ -2,14 +2,17 @@
 
 All lengths, densities and so on are plain SI numbers here; the units are in the types of
 :mod:`heeltoe.units.parse`. What needs the geometry (is the crack in the section, is the water below the crest)
-is checked in :mod:`heeltoe.geometry.section`."""
+is checked by :func:`heeltoe.case.read.read_case`."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from functools import cached_property
 from itertools import pairwise
 from pathlib import Path
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
+import shapely
 from pydantic import BeforeValidator, Field, PrivateAttr, model_validator
 
 from heeltoe.case.fields import (
@@ -26,8 +29,9 @@ from heeltoe.case.fields import (
 )
 from heeltoe.case.options import Analysis, Decoupled, Flexible, Limits, Statics
 from heeltoe.case.processing import ProcessingStep
-from heeltoe.case.sentences import collected, shown
-from heeltoe.errors import InputError
+from heeltoe.case.sentences import collected
+from heeltoe.errors import InputError, shown
+from heeltoe.geometry.section import CutSection, cut, outline
 from heeltoe.shown import Shown
 from heeltoe.units.parse import (
     STANDARD_GRAVITY,
@@ -390,6 +394,36 @@ class Case(Shown, Block):
     def base_directory(self) -> Path:
         """Where relative paths of motions start: the directory of the case file, or the current one."""
         return self._base_directory
+
+    @cached_property
+    def outline(self) -> shapely.Polygon:
+        """The whole section, counter-clockwise [m].
+
+        Raises
+        ------
+        InputError
+            Where the corners are too few, or the outline crosses or touches itself.
+        """
+        return outline(self.section.vertices(), "section" if self.section.polygon is None else "section.polygon")
+
+    @cached_property
+    def cut(self) -> CutSection:
+        """The part of the section above the crack.
+
+        Raises
+        ------
+        InputError
+            Where the crack does not cut the section in two along one line.
+        """
+        return cut(self.outline, self.crack.elevation, self.crack.inclination)
+
+    def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
+        """Return a copy with other fields; a cut made before holds for the same section and crack only."""
+        copy = super().model_copy(update=update, deep=deep)
+        if update and not update.keys().isdisjoint({"section", "crack"}):
+            for made in ("outline", "cut"):
+                copy.__dict__.pop(made, None)
+        return copy
 
     def based_in(self, directory: Path) -> Case:
         """Return the same case with another base directory."""

@@ -7,8 +7,8 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from heeltoe.case.fields import Block, Count, Fraction, FrictionCoefficient, Head, TimeSpan, Truth
-from heeltoe.case.sentences import collected, shown
-from heeltoe.errors import InputError
+from heeltoe.case.sentences import collected
+from heeltoe.errors import InputError, shown
 from heeltoe.units.parse import DimensionlessNumber, Length, Pressure
 
 

@@ -18,9 +18,9 @@ from pydantic import ValidationError
 
 from heeltoe.case.model import Anchor, Case, Concrete, Crack, Ice, Motion, Section, Shaking, Silt, Uplift, Water
 from heeltoe.case.options import Analysis, Decoupled, Flexible, Limits, Statics
-from heeltoe.case.sentences import first_error, shown
-from heeltoe.errors import InputError
-from heeltoe.geometry import section
+from heeltoe.case.sentences import first_error
+from heeltoe.errors import InputError, shown
+from heeltoe.geometry.section import ON_LINE
 
 __all__ = [
     "Analysis",
@@ -87,7 +87,7 @@ def read_case(source: str | os.PathLike[str] | Mapping[str, Any], overrides: Seq
         case = Case.model_validate(fields)
     except ValidationError as found:
         raise first_error(found, Case) from None
-    section.check_loads(case, section.cut(case))
+    _check_loads(case)
     return case.based_in(directory)
 
 
@@ -126,6 +126,28 @@ def case_warnings(case: Case) -> tuple[str, ...]:
     if case.tailwater and case.tailwater.depth > upstream:
         warnings.append("tailwater.depth: the water is deeper downstream than upstream")
     return tuple(warnings)
+
+
+def _check_loads(case: Case) -> None:
+    """Refuse water and silt above the crest, as flow over a dam is another problem, and anchors beyond the toe."""
+    section = case.cut
+    height = section.crest_elevation - section.base_elevation
+    highest = height * (1.0 + ON_LINE)
+    surfaces = {
+        "reservoir.depth": case.reservoir.depth if case.reservoir else None,
+        "tailwater.depth": case.tailwater.depth if case.tailwater else None,
+        "statics.flood_depth": case.statics.flood_depth,
+        "statics.flood_tailwater": case.statics.flood_tailwater,
+    }
+    for field, depth in surfaces.items():
+        if depth is not None and depth > highest:
+            raise InputError("water-above-crest", field, f"{depth:g} m", height=f"{height:g} m")
+    if case.silt is not None and case.silt.depth > highest:
+        raise InputError("silt-above-crest", "silt.depth", f"{case.silt.depth:g} m", height=f"{height:g} m")
+    for place, anchor in enumerate(case.anchors):
+        if anchor.distance > section.crack_width * (1.0 + ON_LINE):
+            field, width = f"anchors[{place}].distance", f"{section.crack_width:g} m"
+            raise InputError("anchor-outside", field, f"{anchor.distance:g} m", width=width)
 
 
 def _parsed(path: Path) -> dict[str, Any]:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import difflib
 import functools
-import json
 import types
 import typing
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -17,12 +16,11 @@ from itertools import pairwise
 from pydantic import BaseModel, ValidationError, WithJsonSchema
 from pydantic_core import ErrorDetails, PydanticCustomError
 
-from heeltoe.errors import InputError
+from heeltoe.errors import InputError, shown
 
 P = typing.ParamSpec("P")
 R = typing.TypeVar("R")
 
-_SHOWN_LENGTH = 60
 _BOUNDS = {"gt": "above", "ge": "of at least", "lt": "below", "le": "of at most"}
 # Types that pydantic names in its error codes, as people call them.
 _EXPECTED = {
@@ -33,15 +31,6 @@ _EXPECTED = {
     "tuple": "a list",
     "model": "a block of fields",
 }
-
-
-def shown(value: object) -> str:
-    """Return `value` as the user wrote it in the case file, shortened where it is long."""
-    try:
-        text = json.dumps(value, default=str, ensure_ascii=False)
-    except (ValueError, RecursionError):  # thousands of digits or brackets
-        return "what is there"
-    return text if len(text) <= _SHOWN_LENGTH else text[: _SHOWN_LENGTH - 3] + "..."
 
 
 def collected(check: Callable[P, R]) -> Callable[P, R]:

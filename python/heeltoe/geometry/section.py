@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from heeltoe.case.model import Case, Section, Water
-from heeltoe.case.sentences import shown
-from heeltoe.errors import InputError
+from heeltoe.errors import InputError, shown
 
-# Corners this close to the crack line, as a part of the section's size, are on it: far above rounding, far
-# below any drawing.
-_ON_LINE = 1e-9
+ON_LINE = 1e-9
+"""What is so close to a line, as a part of the section's size, is on it: far above rounding, far below any drawing."""
 # A section outside these [m] has a wrong unit; far outside, areas and inertias overflow.
 _SMALLEST, _LARGEST = 1e-3, 1e4
 
@@ -89,53 +87,60 @@ class CutSection:
         down, up = math.cos(self.inclination), math.sin(self.inclination)
         return down * along - up * across, up * along + down * across
 
-    def water_above_crack(self, water: Water | None, *, toe: bool = False) -> float:
-        """Return how high the water stands above the heel, or the toe [m]; zero where it does not reach it."""
-        if water is None:
-            return 0.0
-        return max(0.0, self.base_elevation + water.depth - (self.toe if toe else self.heel)[1])
 
+def outline(corners: Sequence[tuple[float, float]], field: str = "section.polygon") -> shapely.Polygon:
+    """Return a whole section, counter-clockwise [m].
 
-def section_polygon(section: Section) -> shapely.Polygon:
-    """Return the whole section, counter-clockwise [m].
+    Parameters
+    ----------
+    corners
+        (x, z) around the section, either way [m].
+    field
+        What the user gave them by, for the error.
 
     Raises
     ------
     InputError
         Where the corners are too few, or the outline crosses or touches itself.
     """
-    corners = section.vertices()
-    field = "section.polygon" if section.polygon is not None else "section"
     if len(set(corners)) < 3:
         raise InputError("polygon-corners", field, f"{len(set(corners))}")
     spread = max(max(axis) - min(axis) for axis in zip(*corners, strict=True))
     farthest = max(max(map(abs, corner)) for corner in corners)
     if not _SMALLEST <= spread <= _LARGEST or farthest > 1e3 * _LARGEST:
         raise InputError("section-size", field, f"{spread:g} m")
-    outline = shapely.Polygon(corners)
-    if not outline.is_valid or outline.area <= _ON_LINE * outline.length**2:
+    whole = shapely.Polygon(corners)
+    if not whole.is_valid or whole.area <= ON_LINE * whole.length**2:
         raise InputError("polygon-crossing", field, shown([list(corner) for corner in corners]))
-    return shapely.geometry.polygon.orient(outline)
+    return shapely.geometry.polygon.orient(whole)
 
 
-def cut(case: Case) -> CutSection:
-    """Return the part of the section above the crack.
+def cut(whole: shapely.Polygon, elevation: float, inclination: float = 0.0) -> CutSection:
+    """Return the part of a section above a crack.
+
+    Parameters
+    ----------
+    whole
+        The section, from :func:`outline` [m].
+    elevation
+        Height of the crack at the upstream face above the lowest point of the section [m].
+    inclination
+        Angle of the crack to the horizontal, positive where it rises downstream [rad].
 
     Raises
     ------
     InputError
-        Where the section is no simple polygon, or the crack does not cut it in two along one line.
+        Where the crack does not cut the section in two along one line.
     """
-    whole = section_polygon(case.section)
     left, base, right, crest = whole.bounds
     size = max(right - left, crest - base)
-    slack = _ON_LINE * size
-    elevation = case.crack.elevation if case.crack.elevation > slack else 0.0
+    slack = ON_LINE * size
+    elevation = elevation if elevation > slack else 0.0
     if elevation >= crest - base - slack:
         raise InputError("crack-outside", "crack.elevation", f"{elevation:g} m", height=f"{crest - base:g} m")
     level = base + elevation
-    if case.crack.inclination:
-        corners = _cut_inclined(whole, level, case.crack.inclination, slack)
+    if inclination:
+        corners = _cut_inclined(whole, level, inclination, slack)
     else:
         corners = _cut_level(whole, level, slack, elevation)
     return _measured(corners, base, crest)
@@ -177,33 +182,6 @@ def _cut_level(whole: shapely.Polygon, level: float, slack: float, elevation: fl
         raise InputError("crack-pieces", "crack.elevation", f"{elevation:g} m")
     start, _, end, _ = crack.bounds
     return _ring(upper, start, end, level, slack)
-
-
-def check_loads(case: Case, section: CutSection) -> None:
-    """Refuse water and silt above the crest, as what flows over a dam is another problem, and anchors beyond the toe.
-
-    Raises
-    ------
-    InputError
-        Where a surface is above the highest point of the section, or an anchor does not cross the crack.
-    """
-    height = section.crest_elevation - section.base_elevation
-    highest = height * (1.0 + _ON_LINE)
-    surfaces = {
-        "reservoir.depth": case.reservoir.depth if case.reservoir else None,
-        "tailwater.depth": case.tailwater.depth if case.tailwater else None,
-        "statics.flood_depth": case.statics.flood_depth,
-        "statics.flood_tailwater": case.statics.flood_tailwater,
-    }
-    for field, depth in surfaces.items():
-        if depth is not None and depth > highest:
-            raise InputError("water-above-crest", field, f"{depth:g} m", height=f"{height:g} m")
-    if case.silt is not None and case.silt.depth > highest:
-        raise InputError("silt-above-crest", "silt.depth", f"{case.silt.depth:g} m", height=f"{height:g} m")
-    for place, anchor in enumerate(case.anchors):
-        if anchor.distance > section.crack_width * (1.0 + _ON_LINE):
-            field, width = f"anchors[{place}].distance", f"{section.crack_width:g} m"
-            raise InputError("anchor-outside", field, f"{anchor.distance:g} m", width=width)
 
 
 def _solid(shape: shapely.Geometry) -> shapely.Geometry:

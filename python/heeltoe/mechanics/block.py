@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from heeltoe import _kernel
 from heeltoe.case.model import Case
-from heeltoe.geometry.section import CutSection, cut
+from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.loads import Resultant, VirtualMass, concrete_mass, face_at, static_forces, total, virtual_mass
 
 #: A sum of forces that is a smaller part of them is none.
@@ -197,12 +197,12 @@ def build_block(case: Case) -> Block:
     InputError
         Where the crack does not cut the section in two.
     """
-    section = cut(case)
-    concrete = concrete_mass(case, section)
-    water = virtual_mass(case, section)
+    section = case.cut
+    concrete = concrete_mass(case)
+    water = virtual_mass(case)
     offset = section.in_crack_frame(section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1])
     inertia = case.concrete.density * section.polar_inertia
-    forces = static_forces(case, section)
+    forces = static_forces(case)
     static = across_crack(total("static loads", forces), section)
     sides = {"reservoir": case.reservoir, "tailwater": case.tailwater}
     hanging = [name for name, side in sides.items() if side is not None and side.follows_vertical_motion]

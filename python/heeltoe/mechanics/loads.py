@@ -63,67 +63,68 @@ def total(name: str, forces: Iterable[Resultant]) -> Resultant:
     )
 
 
-def static_forces(case: Case, section: CutSection) -> tuple[Resultant, ...]:
+def static_forces(case: Case) -> tuple[Resultant, ...]:
     """Return weight, reservoir, tailwater and uplift, with zeros for what is not there, then ice, silt and prestress
     of the anchors where there are any."""
     forces = [
-        weight(case, section),
-        reservoir_pressure(case, section),
-        tailwater_pressure(case, section),
-        uplift(case, section),
+        weight(case),
+        reservoir_pressure(case),
+        tailwater_pressure(case),
+        uplift(case),
     ]
     for there, force in ((case.ice, ice), (case.silt, silt), (case.anchors, prestress)):
         if there:
-            forces.append(force(case, section))
+            forces.append(force(case))
     return tuple(forces)
 
 
-def concrete_mass(case: Case, section: CutSection) -> float:
+def concrete_mass(case: Case) -> float:
     """Return the mass of the concrete above the crack [kg/m]."""
-    return case.concrete.density * section.area
+    return case.concrete.density * case.cut.area
 
 
-def weight(case: Case, section: CutSection) -> Resultant:
+def weight(case: Case) -> Resultant:
     """Return the weight of the concrete above the crack."""
-    force = -concrete_mass(case, section) * case.gravity
+    force = -concrete_mass(case) * case.gravity
+    section = case.cut
     x, z = section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1]
     return Resultant("weight", 0.0, force, force * x, force * z)
 
 
-def reservoir_pressure(case: Case, section: CutSection) -> Resultant:
+def reservoir_pressure(case: Case) -> Resultant:
     """Return the force of the reservoir on the upstream face above the crack, with its weight on a slope."""
-    # Going up the upstream face, the concrete is on the right hand.
-    return _face_pressure("reservoir", case, section, case.reservoir, section.upstream_face, 1.0)
+    return _face_pressure("reservoir", case, case.reservoir, upstream=True)
 
 
-def tailwater_pressure(case: Case, section: CutSection) -> Resultant:
+def tailwater_pressure(case: Case) -> Resultant:
     """Return the force of the tailwater on the downstream face above the crack, with its weight on slopes."""
-    return _face_pressure("tailwater", case, section, case.tailwater, section.downstream_face, -1.0)
+    return _face_pressure("tailwater", case, case.tailwater, upstream=False)
 
 
-def ice(case: Case, section: CutSection) -> Resultant:
+def ice(case: Case) -> Resultant:
     """Return the push of the ice; zero where it acts below the crack."""
     if case.ice is None or case.reservoir is None:
         return Resultant("ice", 0.0, 0.0, 0.0)
+    section = case.cut
     height = section.base_elevation + case.reservoir.depth - case.ice.depth - section.crack_elevation
     push = case.ice.force if height >= 0.0 else 0.0
     return Resultant("ice", push, 0.0, -push * max(height, 0.0), push * face_at(section, max(height, 0.0)))
 
 
-def silt(case: Case, section: CutSection) -> Resultant:
+def silt(case: Case) -> Resultant:
     """Return the force of the silt on the upstream face above the crack, beyond that of the water it stands in."""
     if case.silt is None:
         return Resultant("silt", 0.0, 0.0, 0.0)
     densities = (case.silt.horizontal_density, case.silt.vertical_density)
-    return _face_fluid("silt", case, section, case.silt.depth, densities, section.upstream_face, 1.0)
+    return _face_fluid("silt", case, case.silt.depth, densities, upstream=True)
 
 
-def prestress(case: Case, section: CutSection) -> Resultant:
+def prestress(case: Case) -> Resultant:
     """Return the prestress of all anchors on the part above the crack, which they pull towards the part below."""
     forces = []
     for anchor in case.anchors:
         along, across = -math.sin(anchor.inclination), -math.cos(anchor.inclination)
-        x, z = section.from_crack_frame(along, across)
+        x, z = case.cut.from_crack_frame(along, across)
         forces.append(
             Resultant(
                 "anchors", anchor.prestress * x, anchor.prestress * z, anchor.prestress * across * anchor.distance
@@ -132,7 +133,7 @@ def prestress(case: Case, section: CutSection) -> Resultant:
     return total("anchors", forces)
 
 
-def uplift_profile(case: Case, section: CutSection) -> NDArray[np.float64]:
+def uplift_profile(case: Case) -> NDArray[np.float64]:
     """Return the pressure in the crack, straight between its points.
 
     Heads count from the crack. At the drains the head is ``tail + (1 - efficiency) (heel - tail)``: USBR,
@@ -146,7 +147,7 @@ def uplift_profile(case: Case, section: CutSection) -> NDArray[np.float64]:
         is a jump.
     """
     pattern = case.uplift
-    heel, toe = _pressure(case, section, case.reservoir), _pressure(case, section, case.tailwater, toe=True)
+    heel, toe = _pressure(case, case.reservoir), _pressure(case, case.tailwater, toe=True)
     drains = toe + (1.0 - (pattern.drain_efficiency or 0.0)) * (heel - toe)
     own = case.gravity * (case.reservoir.density if case.reservoir else 1000.0)
     points: dict[str, list[tuple[float, float]]] = {
@@ -157,16 +158,16 @@ def uplift_profile(case: Case, section: CutSection) -> NDArray[np.float64]:
         "drained": [(0.0, heel), (pattern.drain_position or 0.0, drains), (1.0, toe)],
         "profile": [(fraction, own * head) for fraction, head in pattern.points or ()],
     }
-    return np.array(points[pattern.pattern]) * [section.crack_width, pattern.intensity]
+    return np.array(points[pattern.pattern]) * [case.cut.crack_width, pattern.intensity]
 
 
-def uplift(case: Case, section: CutSection) -> Resultant:
+def uplift(case: Case) -> Resultant:
     """Return the force of the water in the crack, which is normal to it."""
-    profile = uplift_profile(case, section)
+    profile = uplift_profile(case)
     x, pressure = profile.T
     length = np.diff(x)
     force = float(np.sum(length * (pressure[:-1] + pressure[1:]))) / 2.0
-    horizontal, vertical = section.from_crack_frame(0.0, force)
+    horizontal, vertical = case.cut.from_crack_frame(0.0, force)
     return Resultant(
         "uplift",
         horizontal,
@@ -175,7 +176,7 @@ def uplift(case: Case, section: CutSection) -> Resultant:
     )
 
 
-def virtual_mass(case: Case, section: CutSection) -> VirtualMass:
+def virtual_mass(case: Case) -> VirtualMass:
     """Return the water that Westergaard (1931) lets move with a vertical upstream face, from the crack to the
     surface.
 
@@ -183,37 +184,37 @@ def virtual_mass(case: Case, section: CutSection) -> VirtualMass:
     of water above the crack the integral is ``7/12 rho sqrt(D) h^(3/2)``, its centre 0.4 h above the crack. A
     slope of the face and the tailwater are left out."""
     water = case.reservoir
-    depth = section.water_above_crack(water)
+    depth = water_above_crack(case, water)
     if water is None or depth == 0.0:
         return VirtualMass(0.0, 0.0)
     return VirtualMass(7.0 / 12.0 * water.density * math.sqrt(water.depth) * depth**1.5, 0.4 * depth)
 
 
-def _pressure(case: Case, section: CutSection, water: Water | None, *, toe: bool = False) -> float:
+def water_above_crack(case: Case, water: Water | None, *, toe: bool = False) -> float:
+    """Return how high water of the case stands above the heel, or the toe [m]; zero where it does not reach it."""
+    if water is None:
+        return 0.0
+    section = case.cut
+    return max(0.0, section.base_elevation + water.depth - (section.toe if toe else section.heel)[1])
+
+
+def _pressure(case: Case, water: Water | None, *, toe: bool = False) -> float:
     """Return the pressure of still water at the heel, or at the toe [Pa]."""
-    return water.density * case.gravity * section.water_above_crack(water, toe=toe) if water else 0.0
+    return water.density * case.gravity * water_above_crack(case, water, toe=toe) if water else 0.0
 
 
-def _face_pressure(
-    name: str, case: Case, section: CutSection, water: Water | None, face: NDArray[np.float64], side: float
-) -> Resultant:
-    """Return the force of still water on a face; `side` as in :func:`_face_fluid`."""
+def _face_pressure(name: str, case: Case, water: Water | None, *, upstream: bool) -> Resultant:
+    """Return the force of still water on a face above the crack."""
     if water is None:
         return Resultant(name, 0.0, 0.0, 0.0)
-    return _face_fluid(name, case, section, water.depth, (water.density, water.density), face, side)
+    return _face_fluid(name, case, water.depth, (water.density, water.density), upstream=upstream)
 
 
-def _face_fluid(
-    name: str,
-    case: Case,
-    section: CutSection,
-    depth: float,
-    densities: tuple[float, float],
-    face: NDArray[np.float64],
-    side: float,
-) -> Resultant:
-    """Integrate edge by edge the pressure of a fluid that has one density sideways and one in its weight; `side` is 1
-    with the concrete on the right of the way up, -1 on the left."""
+def _face_fluid(name: str, case: Case, depth: float, densities: tuple[float, float], *, upstream: bool) -> Resultant:
+    """Integrate edge by edge the pressure of a fluid that has one density sideways and one in its weight."""
+    section = case.cut
+    # Going up the upstream face, the concrete is on the right hand.
+    face, side = (section.upstream_face, 1.0) if upstream else (section.downstream_face, -1.0)
     # Counted from the heel, also where the toe is lower.
     surface = section.base_elevation + depth - section.crack_elevation
     start, end = face[:-1] - section.heel, face[1:] - section.heel

@@ -11,8 +11,7 @@ from typing import Any
 import pyarrow as pa
 
 from heeltoe.case.read import Case, read_case
-from heeltoe.case.sentences import shown
-from heeltoe.errors import InputError
+from heeltoe.errors import InputError, shown
 from heeltoe.result.response import Response
 from heeltoe.result.write import build_info
 

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import BeforeValidator, PlainSerializer, PlainValidator, WithJsonSchema
 
-from heeltoe.case.sentences import collected, shown
-from heeltoe.errors import InputError
+from heeltoe.case.sentences import collected
+from heeltoe.errors import InputError, shown
 
 if TYPE_CHECKING:
     import pint

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.case.read import Case
-from heeltoe.geometry.section import cut
 from heeltoe.motion.ground_motion import STANDARD_GRAVITY, GroundMotion
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
@@ -98,7 +97,7 @@ def line(x: NDArray[np.float64], y: NDArray[np.float64], label: str) -> str:
 
 def _section(case: Case) -> str:
     """Return the outline of the dam, its crack and its water as an inline SVG."""
-    section = cut(case)
+    section = case.cut
     corners = np.array(case.section.vertices())
     left, low = corners.min(axis=0)
     size = float(max(corners.max(axis=0) - corners.min(axis=0))) or 1.0

@@ -10,7 +10,6 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from heeltoe import GroundMotion, InputError, build_block, read_case, response_spectrum
-from heeltoe.geometry.section import cut
 from heeltoe.models.decoupled.chain import Chain, attached_mass, bonded_chain, chain, plane_fit
 from heeltoe.models.decoupled.crack_motion import STRAIGHT, crack_motion, shaken
 from heeltoe.models.flexible.elastic import dofs
@@ -108,8 +107,8 @@ def test_the_transfer_function_is_what_a_steady_vibration_does():
 
 def test_a_rigid_motion_of_the_face_is_taken_for_what_it_is():
     case = read_case(KOYNA, ["flexible.elements_across=5"])
-    section = cut(case)
-    mesh = dam_mesh(case, section).lower
+    section = case.cut
+    mesh = dam_mesh(case).lower
     x, z = mesh.nodes.T
     moved = np.empty(mesh.nodes.size)
     middle = section.crack_width / 2.0

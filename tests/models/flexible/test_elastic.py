@@ -9,7 +9,6 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from heeltoe.errors import InputError
-from heeltoe.geometry.section import cut
 from heeltoe.mechanics import loads
 from heeltoe.models.flexible.elastic import bonded_state, dam, dofs, principal, stresses
 from heeltoe.models.flexible.mesh.checks import boundary_edges
@@ -92,7 +91,7 @@ def test_rigid_motion_takes_no_force(elevation):
 @pytest.mark.parametrize("corners", [TYPICAL, TRIANGLE])
 def test_mass_of_rigid_motion(corners, bend, accuracy):
     case, section, one = built(corners, bend=bend)
-    mass, body = loads.concrete_mass(case, section), one.upper
+    mass, body = loads.concrete_mass(case), one.upper
     x, z = (body.mesh.nodes - section.centroid).T
     motions = [np.column_stack(motion).reshape(-1) for motion in ([1 + 0 * x, 0 * x], [0 * x, 1 + 0 * x], [-z, x])]
     found = np.array([[a @ (body.mass_concrete @ b) for b in motions] for a in motions])
@@ -172,7 +171,7 @@ def test_resultants_are_those_of_the_rigid_body(corners, tenths, up, down, uplif
     options = {"elements_across": across, "elements_across_below": 3}
     case, section, one = built(corners, tenths / 10 * top, uplift=uplift, flexible=options, **water)
     scale = 2650 * G * 80.0 * top
-    for reference in loads.static_forces(case, section):
+    for reference in loads.static_forces(case):
         found = resultant(one.upper, one.upper.loads[reference.name], section)
         expected = [reference.horizontal, reference.vertical, reference.moment]
         assert found == pytest.approx(expected, rel=1e-9, abs=1e-12 * scale * top), reference.name
@@ -181,8 +180,8 @@ def test_resultants_are_those_of_the_rigid_body(corners, tenths, up, down, uplif
         return
     # Upper and lower part together are the whole dam: uplift in the crack cancels.
     whole = case.model_copy(update={"crack": make(corners).crack})
-    forces = loads.static_forces(whole, cut(whole))
-    heel = cut(whole)
+    forces = loads.static_forces(whole)
+    heel = whole.cut
     for reference in forces[:3]:
         found = sum(resultant(body, body.loads[reference.name], heel) for body in parts(one))
         expected = [reference.horizontal, reference.vertical, reference.moment]
@@ -199,12 +198,12 @@ def test_virtual_mass(corners, tenths, filling, across):
     water = deep(filling * top)
     case, section, one = built(corners, tenths / 10 * top, reservoir=water, flexible={"elements_across": across})
     found = [moving(body, section) for body in parts(one)]
-    expected = loads.virtual_mass(case, section)
+    expected = loads.virtual_mass(case)
     assert found[0] == pytest.approx([expected.mass, expected.mass * expected.height], rel=1e-9, abs=1e-6)
     if len(found) == 2:
-        base = cut(make(corners))
-        whole = loads.virtual_mass(case, base)
-        mass, moment = sum(moving(body, base) for body in parts(one))
+        at_base = make(corners, reservoir=water)
+        whole = loads.virtual_mass(at_base)
+        mass, moment = sum(moving(body, at_base.cut) for body in parts(one))
         assert (mass, moment) == pytest.approx((whole.mass, whole.mass * whole.height), rel=1e-9, abs=1e-6)
 
 
@@ -260,7 +259,7 @@ def test_pressure_on_curved_faces(depth):
         assert forces[::2].sum() == pytest.approx(sign * push, rel=1e-9)
     assert one.upper.loads["reservoir"][::2] @ z == pytest.approx(push * depth / 3, rel=1e-9)
     mass, moment = moving(one.upper, section)
-    water = loads.virtual_mass(case, section)
+    water = loads.virtual_mass(case)
     assert mass == pytest.approx(water.mass, rel=1e-9)
     assert moment == pytest.approx(water.mass * water.height, rel=1e-9)
     # Archimedes: weight of the water that the wavy face holds up or displaces, by fine strips.
@@ -286,9 +285,7 @@ def strips(body, depth):
 def test_bonded_crack_carries_what_is_above_it():
     case, section, one = built(TYPICAL, 60.0, reservoir=deep(95.0), tailwater=deep(20.0))
     upper, lower, force = bonded_state(one)
-    balance = sum(
-        np.array([force.horizontal, force.vertical, force.moment]) for force in loads.static_forces(case, section)
-    )
+    balance = sum(np.array([force.horizontal, force.vertical, force.moment]) for force in loads.static_forces(case))
     held = np.zeros(one.upper.load.size)
     held[dofs(one.upper.mesh.crack)] = force
     assert resultant(one.upper, held, section) == pytest.approx(-balance, rel=1e-7)
@@ -344,10 +341,9 @@ def test_crack_nodes_off_the_middle_of_their_sides():
         return nodes
 
     case = make(TYPICAL, 60.0, concrete=CONCRETE, flexible={"elements_across": 3, "elements_across_below": 4})
-    section = cut(case)
-    mesh = dam_mesh(case, section)
+    mesh = dam_mesh(case)
     mesh.lower.nodes[:] = off_middle(mesh.lower)
-    one = dam(case, section, mesh)
+    one = dam(case, mesh)
     free = np.setdiff1d(np.arange(mesh.lower.nodes.size), dofs(mesh.lower.fixed))
     field = (mesh.lower.nodes @ [[1.0, 3.0], [0.0, 0.0]] + [2.0, 0.5]).reshape(-1)
     loose = np.zeros(one.tie.shape[1] - free.size)

@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 from heeltoe import GroundMotion, InputError, flexible, read_case, rigid
 from heeltoe.case.read import Case
 from heeltoe.geometry.axes import along_and_across, places
-from heeltoe.geometry.section import cut
 from heeltoe.mechanics import loads
 from heeltoe.mechanics.block import build_block
 from heeltoe.models.flexible.elastic import bonded_state, dam, dofs
@@ -45,9 +44,9 @@ def case_of(corners, elevation, degrees, **more):
 
 def built(corners, elevation, degrees, **more):
     case = case_of(corners, elevation, degrees, **more)
-    section = cut(case)
-    mesh = dam_mesh(case, section)
-    return case, section, mesh, dam(case, section, mesh)
+    section = case.cut
+    mesh = dam_mesh(case)
+    return case, section, mesh, dam(case, mesh)
 
 
 def resultant(body, forces, section):
@@ -76,7 +75,7 @@ def test_both_parts_follow_the_crack(corners, tenths, degrees, across, below):
         if error.code in ("mesh-nothing", "mesh-wedge", "mesh-section", "mesh-thin", "crack-pieces", "mesh-tip"):
             return
         raise
-    whole = cut(case_of(corners, 0.0, 0.0)).area
+    whole = case_of(corners, 0.0, 0.0).cut.area
     for body, wanted, name in zip(bodies(mesh), (section.area, whole - section.area), ("upper", "lower"), strict=True):
         check_elements(body.nodes, body.elements, name)
         check_pieces(body.nodes, body.elements, name)
@@ -110,12 +109,12 @@ def test_a_base_that_slopes_is_a_rigid_plane():
     assert mesh.lower is None
     assert area(mesh.upper) == pytest.approx(section.area)
     _, _, force = bonded_state(one)
-    assert force[::2].sum() == pytest.approx(-sum(f.horizontal for f in loads.static_forces(case, section)))
+    assert force[::2].sum() == pytest.approx(-sum(f.horizontal for f in loads.static_forces(case)))
 
 
 def test_a_level_crack_is_meshed_as_before():
-    one = dam_mesh(case_of(TYPICAL, 40.0, 0.0), cut(case_of(TYPICAL, 40.0, 0.0)))
-    two = dam_mesh(case_of(TYPICAL, 40.0, 1e-6), cut(case_of(TYPICAL, 40.0, 1e-6)))
+    one = dam_mesh(case_of(TYPICAL, 40.0, 0.0))
+    two = dam_mesh(case_of(TYPICAL, 40.0, 1e-6))
     for body, other in zip(bodies(one), bodies(two), strict=True):
         assert other.nodes == pytest.approx(body.nodes, abs=1e-5)
         assert (other.elements == body.elements).all()
@@ -150,15 +149,15 @@ def test_meshes_by_file_have_the_crack_that_the_case_has(degrees, tmp_path):
 @pytest.mark.parametrize("across", [2, 5])
 def test_resultants_are_those_of_the_rigid_body(degrees, across):
     case, section, _, one = built(TYPICAL, 40.0, degrees, flexible={"elements_across": across}, **HEAVY)
-    for reference in loads.static_forces(case, section):
+    for reference in loads.static_forces(case):
         found = resultant(one.upper, one.upper.loads[reference.name], section)
         scale = np.abs(numbers(reference)).max()
         assert found == pytest.approx(numbers(reference), rel=1e-9, abs=1e-9 * scale), reference.name
     # On both parts together act the forces on the whole dam, and those in the crack cancel.
     whole = case_of(TYPICAL, 0.0, 0.0, **{k: v for k, v in HEAVY.items() if k != "anchors"})
-    there = {force.name: force for force in loads.static_forces(whole, cut(whole))}
+    there = {force.name: force for force in loads.static_forces(whole)}
     for name in ("weight", "reservoir", "tailwater", "ice", "silt"):
-        found = sum(resultant(body, body.loads[name], cut(whole)) for body in (one.upper, one.lower))
+        found = sum(resultant(body, body.loads[name], whole.cut) for body in (one.upper, one.lower))
         assert found == pytest.approx(numbers(there[name]), rel=1e-9, abs=1e-3), name
     for name in ("uplift", "anchors"):
         above, below = (resultant(body, body.loads[name], section) for body in (one.upper, one.lower))

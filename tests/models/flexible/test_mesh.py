@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 
 from heeltoe.case.read import read_case
 from heeltoe.errors import InputError
-from heeltoe.geometry.section import cut
 from heeltoe.models.flexible.mesh.checks import (
     CORNERS,
     MIDDLES,
@@ -72,7 +71,7 @@ def test_mesh_has_the_shape_of_the_section(corners, tenths, across, below):
     options = {"elements_across": across, "elements_across_below": below}
     assume(not flat(corners))
     mesh, section = meshed(corners, tenths / 10 * top, **options)
-    whole = cut(make(corners)).area
+    whole = make(corners).cut.area
     for body, wanted, name in zip(bodies(mesh), (section.area, whole - section.area), ("upper", "lower"), strict=False):
         check_elements(body.nodes, body.elements, name)
         check_pieces(body.nodes, body.elements, name)
@@ -203,7 +202,7 @@ def test_files_are_relative_to_the_case(tmp_path, own):
         make(TYPICAL, 60.0, flexible={"mesh_above": "above.vtu"}).model_dump_json(exclude_none=True)
     )
     case = read_case(tmp_path / "case.json")
-    assert len(dam_mesh(case, cut(case)).upper.nodes) == len(own.upper.nodes)
+    assert len(dam_mesh(case).upper.nodes) == len(own.upper.nodes)
 
 
 def test_mesh_in_the_plane_x_z_with_lines_beside_it(tmp_path, own):

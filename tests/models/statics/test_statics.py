@@ -18,7 +18,6 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import heeltoe
-from heeltoe.geometry.section import cut
 from heeltoe.mechanics.block import build_block
 from heeltoe.mechanics.loads import total, uplift_profile
 from heeltoe.models.statics.cases import pseudo_static, usual
@@ -380,7 +379,7 @@ def test_water_above_an_inclined_crack():
     # upstream has left the heel, and there the pressure falls with the height: 0.2 - 0.01 x sin(5 deg).
     crack = {"friction": 0.9, "elevation": "30 m", "inclination": "5 deg"}
     case = dam("50 m", crack=crack)
-    section = cut(case)
+    section = case.cut
     width, rise = section.crack_width, math.sin(math.radians(5.0))
     found = only(heeltoe.statics(case, -1.0), "post-seismic")
     uplift = next(force for force in found.forces if force.name == "uplift")
@@ -406,8 +405,8 @@ def test_seismic_forces_are_those_of_the_block():
         reservoir={"depth": "90 m", "follows_vertical_motion": True},
         statics=SHAKEN,
     )
-    section, block = cut(case), build_block(case)
-    found = pseudo_static(case, section, usual(case, section))[0].load_case
+    section, block = case.cut, build_block(case)
+    found = pseudo_static(case, usual(case))[0].load_case
     sums = total("all", (force for force in found.forces if force.name != "uplift"))
     still = total("still", (force for force in block.forces if force.name != "uplift"))
     extra = total("extra", (sums, type(sums)("", -still.horizontal, -still.vertical, -still.moment)))
@@ -446,10 +445,9 @@ def test_the_crack_stops_at_the_first_place_that_holds(
         uplift={"pattern": pattern, "intensity": intensity, **options.get(pattern, {})},
         statics={"bonded": bonded, **({"tensile_strength": f"{strength} MPa"} if bonded else {})},
     )
-    section = cut(case)
-    found = usual(case, section).load_case
+    found = usual(case).load_case
     load = total("", (force for force in found.forces if force.name != "uplift"))
-    knots = uplift_profile(case, section)
+    knots = uplift_profile(case)
 
     def tip(length):
         """Stress at the tip and strength there, times the square of what is left, all by sums."""

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
-from heeltoe.geometry.section import cut
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.flexible.elastic import Sparse, dam, dofs, side_by_side
 from heeltoe.models.flexible.mesh.dam import BodyMesh, dam_mesh
@@ -121,7 +120,7 @@ def _chain(case: Case) -> Chain:
     section = block.section
     if section.crack_elevation == section.base_elevation:
         raise InputError("crack-at-base", "crack.elevation", f"{case.crack.elevation:g} m")
-    body = dam(case, section, dam_mesh(case, section, case.base_directory)).lower
+    body = dam(case, dam_mesh(case)).lower
     assert body is not None
     plane = plane_fit(body.mesh)
     # What is attached moves as the fitted plane does.
@@ -132,8 +131,7 @@ def _chain(case: Case) -> Chain:
 
 
 def _bonded(case: Case) -> Chain:
-    section = cut(case)
-    whole = dam(case, section, dam_mesh(case, section, case.base_directory))
+    whole = dam(case, dam_mesh(case))
     if whole.lower is None:
         raise InputError("crack-at-base", "crack.elevation", f"{case.crack.elevation:g} m")
     above = sparse.csr_array((3, whole.upper.load.size))

@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
-from heeltoe.geometry.section import CutSection
 from heeltoe.models.flexible.loads import (
     anchor_forces,
     edge_shapes,
@@ -90,15 +89,13 @@ class Dam:
     tie: Sparse
 
 
-def dam(case: Case, section: CutSection, mesh: DamMesh) -> Dam:
+def dam(case: Case, mesh: DamMesh) -> Dam:
     """Return the elastic bodies of a dam.
 
     Parameters
     ----------
     case
         Concrete, water, uplift, and the block `flexible`.
-    section
-        The part above the crack, from :func:`heeltoe.geometry.section.cut`.
     mesh
         From :func:`heeltoe.models.flexible.mesh.dam.dam_mesh`.
 
@@ -107,8 +104,8 @@ def dam(case: Case, section: CutSection, mesh: DamMesh) -> Dam:
     InputError
         Where the case has no Young's modulus, or one that is no solid's.
     """
-    upper = _body(case, section, mesh.upper, above=True)
-    lower = _body(case, section, mesh.lower, above=False) if mesh.lower else None
+    upper = _body(case, mesh.upper, above=True)
+    lower = _body(case, mesh.lower, above=False) if mesh.lower else None
     return Dam(upper, lower, _tie(mesh))
 
 
@@ -195,27 +192,27 @@ def principal(
     return centre + radius, centre - radius, np.arctan2(2.0 * xz, xx - zz) / 2.0
 
 
-def _body(case: Case, section: CutSection, mesh: BodyMesh, *, above: bool) -> Body:
+def _body(case: Case, mesh: BodyMesh, *, above: bool) -> Body:
     elasticity = _elasticity(case)
     stiffness, mass, lift = _matrices(mesh, elasticity)
     concrete = case.concrete.density * mass
     loads = {
         "weight": -case.concrete.density * case.gravity * lift,
-        "reservoir": water_forces(mesh, case, section, upstream=True),
-        "tailwater": water_forces(mesh, case, section, upstream=False),
-        "uplift": uplift_forces(mesh, case, section, above=above),
+        "reservoir": water_forces(mesh, case, upstream=True),
+        "tailwater": water_forces(mesh, case, upstream=False),
+        "uplift": uplift_forces(mesh, case, above=above),
     }
     if case.ice:
-        loads["ice"] = ice_forces(mesh, case, section, above=above)
+        loads["ice"] = ice_forces(mesh, case, above=above)
     if case.silt:
-        loads["silt"] = silt_forces(mesh, case, section)
+        loads["silt"] = silt_forces(mesh, case)
     if case.anchors:
-        loads["anchors"] = anchor_forces(mesh, case, section, above=above)
+        loads["anchors"] = anchor_forces(mesh, case, above=above)
     following = np.zeros(mesh.nodes.size)
     for name, side in (("reservoir", case.reservoir), ("tailwater", case.tailwater)):
         if side is not None and side.follows_vertical_motion:
             following += loads[name] / case.gravity
-    water = virtual_masses(mesh, case, section, above=above)
+    water = virtual_masses(mesh, case, above=above)
     load = np.sum(list(loads.values()), axis=0)
     return Body(mesh, stiffness, (concrete + water).tocsc(), concrete, load, loads, following, elasticity)
 

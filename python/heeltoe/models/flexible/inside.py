@@ -9,10 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.case.model import Case
-from heeltoe.case.sentences import shown
-from heeltoe.errors import InputError
+from heeltoe.errors import InputError, shown
 from heeltoe.geometry.axes import along_and_across
-from heeltoe.geometry.section import CutSection
 from heeltoe.models.flexible.elastic import Body
 from heeltoe.models.flexible.loads import crack_point, full_head_profile, uplift_forces
 
@@ -61,25 +59,25 @@ class CrackAnchor:
     shear_stiffness: float
 
 
-def crack_water(case: Case, section: CutSection, bodies: list[Body]) -> CrackWater | None:
+def crack_water(case: Case, bodies: list[Body]) -> CrackWater | None:
     """Return the water of a case, None where its pressure is constant."""
     if case.uplift.during_shaking == "constant":
         return None
     _check_contact(case, "uplift.during_shaking", shown(case.uplift.during_shaking))
-    full = full_head_profile(case, section)
+    full = full_head_profile(case)
 
     def across(profile: Floats | None) -> tuple[Floats, ...]:
         found = []
         for place, body in enumerate(bodies):
-            forces = uplift_forces(body.mesh, case, section, above=place == 0, profile=profile)
-            turned = along_and_across(forces.reshape(-1, 2)[body.mesh.crack], section)
+            forces = uplift_forces(body.mesh, case, above=place == 0, profile=profile)
+            turned = along_and_across(forces.reshape(-1, 2)[body.mesh.crack], case.cut)
             found.append(np.ascontiguousarray(turned[:, 1]))
         return tuple(found)
 
     return CrackWater(case.uplift.during_shaking, case.uplift.opening_of_change, across(None), across(full))
 
 
-def crack_anchors(case: Case, section: CutSection, bodies: list[Body]) -> tuple[CrackAnchor, ...]:
+def crack_anchors(case: Case, bodies: list[Body]) -> tuple[CrackAnchor, ...]:
     """Return the anchors of a case that have a stiffness; prestress alone is a constant load."""
     found = []
     for place, anchor in enumerate(case.anchors):
@@ -89,7 +87,7 @@ def crack_anchors(case: Case, section: CutSection, bodies: list[Body]) -> tuple[
         _check_contact(case, f"anchors[{place}].{name}", f"{getattr(anchor, name) / 1e6:g} MN/m/m")
         points = []
         for body in bodies:
-            nodes, shares = crack_point(body.mesh, section, anchor.distance)
+            nodes, shares = crack_point(body.mesh, case.cut, anchor.distance)
             points.append(tuple(zip(nodes.tolist(), shares.tolist(), strict=True)))
         axis = (math.sin(anchor.inclination), math.cos(anchor.inclination))
         found.append(CrackAnchor(tuple(points), axis, anchor.prestress, anchor.axial_stiffness, anchor.shear_stiffness))

@@ -18,7 +18,7 @@ from scipy.sparse import coo_array
 from heeltoe.case.model import Case
 from heeltoe.geometry.axes import places
 from heeltoe.geometry.section import CutSection
-from heeltoe.mechanics.loads import uplift_profile
+from heeltoe.mechanics.loads import uplift_profile, water_above_crack
 from heeltoe.models.flexible.mesh.dam import BodyMesh
 
 Floats = NDArray[np.float64]
@@ -34,29 +34,30 @@ def edge_shapes(s: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.stack([s * (s - 1.0) / 2.0, 1.0 - s * s, s * (s + 1.0) / 2.0], axis=-1)
 
 
-def water_forces(mesh: BodyMesh, case: Case, section: CutSection, *, upstream: bool) -> Floats:
+def water_forces(mesh: BodyMesh, case: Case, *, upstream: bool) -> Floats:
     """Return the forces of reservoir or tailwater on a body, shape (2 n,) [N/m], x and z of node after node."""
     water = case.reservoir if upstream else case.tailwater
     if water is None:
         return np.zeros(mesh.nodes.size)
-    surface = section.base_elevation + water.depth
+    surface = case.cut.base_elevation + water.depth
     return _fluid(mesh, surface, case.gravity, (water.density, water.density), upstream=upstream)
 
 
-def silt_forces(mesh: BodyMesh, case: Case, section: CutSection) -> Floats:
+def silt_forces(mesh: BodyMesh, case: Case) -> Floats:
     """Return the forces of the silt on a body, shape (2 n,) [N/m]: those of a fluid that is heavier downwards."""
     silt = case.silt
     if silt is None:
         return np.zeros(mesh.nodes.size)
-    surface = section.base_elevation + silt.depth
+    surface = case.cut.base_elevation + silt.depth
     return _fluid(mesh, surface, case.gravity, (silt.horizontal_density, silt.vertical_density), upstream=True)
 
 
-def ice_forces(mesh: BodyMesh, case: Case, section: CutSection, *, above: bool) -> Floats:
+def ice_forces(mesh: BodyMesh, case: Case, *, above: bool) -> Floats:
     """Return the push of the ice on the edge of a body that is at its height, shape (2 n,) [N/m]."""
     forces = np.zeros(mesh.nodes.size)
     if case.ice is None or case.reservoir is None:
         return forces
+    section = case.cut
     level = section.base_elevation + case.reservoir.depth - case.ice.depth
     if (level >= section.crack_elevation) != above:
         return forces
@@ -69,22 +70,20 @@ def ice_forces(mesh: BodyMesh, case: Case, section: CutSection, *, above: bool) 
     return forces
 
 
-def uplift_forces(
-    mesh: BodyMesh, case: Case, section: CutSection, *, above: bool, profile: Floats | None = None
-) -> Floats:
+def uplift_forces(mesh: BodyMesh, case: Case, *, above: bool, profile: Floats | None = None) -> Floats:
     """Return the forces of the water in the crack on a body, shape (2 n,) [N/m]: apart from the other one.
 
     `profile` has distances from the heel [m] and pressures [Pa], shape (k, 2); without it it is that of the case.
     """
     forces = np.zeros(mesh.nodes.size)
-    points = uplift_profile(case, section) if profile is None else profile
+    points = uplift_profile(case) if profile is None else profile
     if not points[:, 1].any():
         return forces
     # Going downstream, the upper part is on the left hand.
     side = -1.0 if above else 1.0
     for edge in _edges(mesh.crack):
         corners = mesh.nodes[edge]
-        along = places(corners, section)[:, 0]
+        along = places(corners, case.cut)[:, 0]
         for (x0, p0), (x1, p1) in pairwise(points):
             if x1 <= x0:
                 continue
@@ -95,11 +94,11 @@ def uplift_forces(
     return forces
 
 
-def full_head_profile(case: Case, section: CutSection) -> Floats:
+def full_head_profile(case: Case) -> Floats:
     """Return the pressure of the reservoir at the heel over the whole crack, as :func:`uplift_profile` does."""
-    head = section.water_above_crack(case.reservoir)
+    head = water_above_crack(case, case.reservoir)
     density = case.reservoir.density if case.reservoir else 0.0
-    return np.array([(0.0, 1.0), (section.crack_width, 1.0)]) * [1.0, density * case.gravity * head]
+    return np.array([(0.0, 1.0), (case.cut.crack_width, 1.0)]) * [1.0, density * case.gravity * head]
 
 
 def crack_point(mesh: BodyMesh, section: CutSection, distance: float) -> tuple[NDArray[np.int64], Floats]:
@@ -111,12 +110,12 @@ def crack_point(mesh: BodyMesh, section: CutSection, distance: float) -> tuple[N
     return edge + np.arange(3), edge_shapes(s)[0]
 
 
-def anchor_forces(mesh: BodyMesh, case: Case, section: CutSection, *, above: bool) -> Floats:
+def anchor_forces(mesh: BodyMesh, case: Case, *, above: bool) -> Floats:
     """Return the prestress of all anchors on the crack face of a body, shape (2 n,) [N/m]: towards the other one."""
     forces = np.zeros(mesh.nodes.size)
     for anchor in case.anchors:
-        found, shares = crack_point(mesh, section, anchor.distance)
-        down, up = section.from_crack_frame(-math.sin(anchor.inclination), -math.cos(anchor.inclination))
+        found, shares = crack_point(mesh, case.cut, anchor.distance)
+        down, up = case.cut.from_crack_frame(-math.sin(anchor.inclination), -math.cos(anchor.inclination))
         pull = anchor.prestress if above else -anchor.prestress
         nodes = mesh.crack[found]
         forces[2 * nodes] += pull * down * shares
@@ -124,7 +123,7 @@ def anchor_forces(mesh: BodyMesh, case: Case, section: CutSection, *, above: boo
     return forces
 
 
-def virtual_masses(mesh: BodyMesh, case: Case, section: CutSection, *, above: bool) -> Any:
+def virtual_masses(mesh: BodyMesh, case: Case, *, above: bool) -> Any:
     """Return the consistent mass of the water that moves horizontally with the upstream face.
 
     Westergaard (1931): ``7/8 rho sqrt(D (D - eta))`` per unit height, see
@@ -139,8 +138,8 @@ def virtual_masses(mesh: BodyMesh, case: Case, section: CutSection, *, above: bo
     rows, columns, values = [np.empty(0, dtype=np.int64)], [np.empty(0, dtype=np.int64)], [np.empty(0)]
     water, thesis = case.reservoir, case.flexible.virtual_mass == "thesis"
     if water is not None and (above or not thesis):
-        surface = section.base_elevation + water.depth
-        depth = section.water_above_crack(water) if thesis else water.depth
+        surface = case.cut.base_elevation + water.depth
+        depth = water_above_crack(case, water) if thesis else water.depth
         factor = 7.0 / 8.0 * water.density * math.sqrt(depth)
         for edge in _edges(mesh.upstream):
             heights = mesh.nodes[edge, 1]

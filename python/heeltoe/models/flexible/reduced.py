@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from heeltoe import _kernel
 from heeltoe.case.model import Case
 from heeltoe.geometry.axes import along_and_across, places
-from heeltoe.geometry.section import CutSection, cut
+from heeltoe.geometry.section import CutSection
 from heeltoe.models.flexible.elastic import Body, Dam, bonded_state, dam
 from heeltoe.models.flexible.inside import CrackAnchor, CrackWater, crack_anchors, crack_water
 from heeltoe.models.flexible.mesh.dam import dam_mesh
@@ -128,8 +128,8 @@ def fingerprints(case: Case) -> list[str]:
 
 
 def _build(case: Case) -> FlexibleDam:
-    section = cut(case)
-    bodies = dam(case, section, dam_mesh(case, section, case.base_directory))
+    section = case.cut
+    bodies = dam(case, dam_mesh(case))
     upper, lower, crack_force = bonded_state(bodies)
     periods = intact_periods(bodies, 5)
     held = [bodies.upper] if bodies.lower is None else [bodies.upper, bodies.lower]
@@ -142,7 +142,7 @@ def _build(case: Case) -> FlexibleDam:
         damping = _damping(case, basis, coefficients, above=place == 0)
         parts.append(_part(body, basis, static, damping, section))
     friction = (case.crack.mu_static, case.crack.mu_kinetic)
-    water, anchors = crack_water(case, section, held), crack_anchors(case, section, held)
+    water, anchors = crack_water(case, held), crack_anchors(case, held)
     lower_part = parts[1] if len(parts) > 1 else None
     kernel = _kernel.CrackedDam(parts[0], lower_part, friction, case.flexible.contactors, water, anchors)
     statics = (upper, lower)[: len(parts)]

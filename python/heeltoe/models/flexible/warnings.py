@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.case.read import Case
+from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.reduced import FlexibleDam
 from heeltoe.models.flexible.shaken import NOTHING, Convergence
@@ -53,7 +54,7 @@ def warnings_of(
             f"the dam slides under its static loads alone (sliding safety factor {safety:.3f}): its slip grows as long "
             "as the run lasts"
         )
-    full = case.reservoir is not None and dam.section.water_above_crack(case.reservoir) > 0.9 * dam.section.height
+    full = case.reservoir is not None and water_above_crack(case, case.reservoir) > 0.9 * dam.section.height
     if case.concrete.damping < 0.005 and full:
         said.append(
             "concrete.damping: with hardly any damping under a full reservoir the dam creeps downstream for as long as "

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from heeltoe import _kernel
 from heeltoe.case.model import Case
 from heeltoe.mechanics.block import Block, across_crack
-from heeltoe.mechanics.loads import face_at, total, uplift_profile
+from heeltoe.mechanics.loads import face_at, total, uplift_profile, water_above_crack
 
 Floats = NDArray[np.float64]
 
@@ -59,10 +59,10 @@ def varying(case: Case, block: Block) -> Varying:
     horizontal = section.in_crack_frame(1.0, 0.0)
     following = across_crack(total("following", block.following), section)
     g = case.gravity
-    profile = uplift_profile(case, section)
+    profile = uplift_profile(case)
     full = 0.0
     if case.reservoir is not None:
-        full = case.reservoir.density * g * section.water_above_crack(case.reservoir)
+        full = case.reservoir.density * g * water_above_crack(case, case.reservoir)
     numbers = {
         "mass": case.concrete.density * section.area,
         "inertia": case.concrete.density * section.polar_inertia,

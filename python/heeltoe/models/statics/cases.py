@@ -6,7 +6,6 @@ import math
 from dataclasses import replace
 
 from heeltoe.case.model import Case, Water
-from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.loads import Resultant, concrete_mass, static_forces, virtual_mass
 from heeltoe.models.statics.contact import Contact
 from heeltoe.models.statics.criteria import UPLIFT_IN_EARTHQUAKE, Loads
@@ -14,12 +13,12 @@ from heeltoe.models.statics.load_case import Solved, solve_case
 from heeltoe.models.statics.water import still_water, water_in_earthquake
 
 
-def usual(case: Case, section: CutSection) -> Solved:
+def usual(case: Case) -> Solved:
     """Return the case of the loads that are always there."""
-    return _still("usual", "usual", case, section, ())
+    return _still("usual", "usual", case, ())
 
 
-def flood(case: Case, section: CutSection) -> Solved:
+def flood(case: Case) -> Solved:
     """Return the case of the flood; the ice is gone then."""
     choice = case.statics
     assert choice.flood_depth is not None
@@ -30,7 +29,7 @@ def flood(case: Case, section: CutSection) -> Solved:
     if case.ice is not None:
         risen = risen.model_copy(update={"ice": None})
         said.append("no ice in the flood")
-    return _still("flood", choice.flood_rarity, risen, section, tuple(said))
+    return _still("flood", choice.flood_rarity, risen, tuple(said))
 
 
 def at_depth(case: Case, depth: float) -> Case:
@@ -38,7 +37,7 @@ def at_depth(case: Case, depth: float) -> Case:
     return case.model_copy(update={"reservoir": _water(case.reservoir, depth)})
 
 
-def pseudo_static(case: Case, section: CutSection, before: Solved) -> tuple[Solved, Solved]:
+def pseudo_static(case: Case, before: Solved) -> tuple[Solved, Solved]:
     """Return the cases of a seismic coefficient that pushes the block downstream and upstream.
 
     The concrete's inertia acts at its centroid, Westergaard's water on the upstream face, both the same way; the
@@ -48,7 +47,7 @@ def pseudo_static(case: Case, section: CutSection, before: Solved) -> tuple[Solv
     horizontal = case.statics.seismic_coefficient
     assert horizontal is not None
     vanishes, source = UPLIFT_IN_EARTHQUAKE[case.statics.criteria]
-    still = _contact(case, section)
+    still = _contact(case)
     opened = before.settled.heel_crack
     contact = replace(
         still,
@@ -61,31 +60,33 @@ def pseudo_static(case: Case, section: CutSection, before: Solved) -> tuple[Solv
     for way, sign in (("downstream", -1.0), ("upstream", 1.0)):
         tried = []
         for up in (-1.0, 1.0) if vertical else (0.0,):
-            forces = (*_dry(case, section), *_inertia(case, section, sign * horizontal, up * vertical))
+            forces = (*_dry(case), *_inertia(case, sign * horizontal, up * vertical))
             said = [f"uplift: {source}"]
             if vertical:
                 said.append(f"vertical coefficient {'down' if up > 0.0 else 'up'}ward on the block, the worse way")
             strength = (case.crack.mu_static, case.statics.cohesion)
             tried.append(
-                solve_case(f"pseudo-static {way}", "earthquake", section, forces, contact, water, strength, tuple(said))
+                solve_case(
+                    f"pseudo-static {way}", "earthquake", case.cut, forces, contact, water, strength, tuple(said)
+                )
             )
         found.append(min(tried, key=lambda each: _or_infinite(each.load_case.sliding_factor)))
     return found[0], found[1]
 
 
-def post_seismic(case: Case, section: CutSection, slip: float, source: str) -> Solved | None:
+def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
     """Return the usual loads on the block where the earthquake has left it; None where it has slid off its crack.
 
     Parameters
     ----------
-    case, section
+    case
         As before the earthquake.
     slip
         Residual slip, positive downstream [m].
     source
         Where the slip comes from.
     """
-    width, size, choice = section.crack_width, abs(slip), case.statics
+    width, size, choice = case.cut.crack_width, abs(slip), case.statics
     if size >= width:
         return None
     friction = choice.residual_friction if choice.residual_friction is not None else case.crack.mu_kinetic
@@ -111,30 +112,29 @@ def post_seismic(case: Case, section: CutSection, slip: float, source: str) -> S
         said.append("prestress of the anchors as before the slip")
     start, end = (0.0, width - size) if slip >= 0.0 else (size, width)
     contact = Contact(start, end, bonded_from=end)
-    water = still_water(case, section, start, end)
+    water = still_water(case, start, end)
     strength = (friction, 0.0)
-    return solve_case(
-        "post-seismic", "post-earthquake", section, _dry(case, section), contact, water, strength, tuple(said)
-    )
+    return solve_case("post-seismic", "post-earthquake", case.cut, _dry(case), contact, water, strength, tuple(said))
 
 
 def _water(water: Water | None, depth: float) -> Water:
     return (water or Water.model_validate({"depth": "1 m"})).model_copy(update={"depth": depth})
 
 
-def _contact(case: Case, section: CutSection) -> Contact:
-    width = section.crack_width
+def _contact(case: Case) -> Contact:
+    width = case.cut.crack_width
     return Contact(0.0, width, (1.0 - case.statics.bonded) * width, case.statics.tensile_strength)
 
 
-def _dry(case: Case, section: CutSection) -> tuple[Resultant, ...]:
+def _dry(case: Case) -> tuple[Resultant, ...]:
     """Return all forces but those of the water in the crack."""
-    return tuple(force for force in static_forces(case, section) if force.name != "uplift")
+    return tuple(force for force in static_forces(case) if force.name != "uplift")
 
 
-def _inertia(case: Case, section: CutSection, horizontal: float, vertical: float) -> tuple[Resultant, ...]:
+def _inertia(case: Case, horizontal: float, vertical: float) -> tuple[Resultant, ...]:
     """Return the forces of a ground acceleration in g, downstream and upward."""
-    g, mass, moved = case.gravity, concrete_mass(case, section), virtual_mass(case, section)
+    g, mass, moved = case.gravity, concrete_mass(case), virtual_mass(case)
+    section = case.cut
     x, z = section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1]
     push, lift = -mass * g * horizontal, -mass * g * vertical
     water = -moved.mass * g * horizontal
@@ -142,7 +142,7 @@ def _inertia(case: Case, section: CutSection, horizontal: float, vertical: float
         Resultant("inertia", push, lift, x * lift - z * push),
         Resultant("hydrodynamic", water, 0.0, -moved.height * water),
     ]
-    for force, side in zip(static_forces(case, section)[1:3], (case.reservoir, case.tailwater), strict=True):
+    for force, side in zip(static_forces(case)[1:3], (case.reservoir, case.tailwater), strict=True):
         if side is not None and side.follows_vertical_motion and vertical:
             forces.append(
                 Resultant(
@@ -155,12 +155,12 @@ def _inertia(case: Case, section: CutSection, horizontal: float, vertical: float
     return tuple(forces)
 
 
-def _still(name: str, loads: Loads, case: Case, section: CutSection, said: tuple[str, ...]) -> Solved:
+def _still(name: str, loads: Loads, case: Case, said: tuple[str, ...]) -> Solved:
     """Return a case of still water on the crack as it is before the earthquake."""
-    contact = _contact(case, section)
-    water = still_water(case, section, contact.start, contact.end)
+    contact = _contact(case)
+    water = still_water(case, contact.start, contact.end)
     strength = (case.crack.mu_static, case.statics.cohesion)
-    return solve_case(name, loads, section, _dry(case, section), contact, water, strength, said)
+    return solve_case(name, loads, case.cut, _dry(case), contact, water, strength, said)
 
 
 def _or_infinite(value: float | None) -> float:

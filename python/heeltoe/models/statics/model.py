@@ -9,8 +9,8 @@ from typing import Any
 from scipy.optimize import brentq
 
 from heeltoe.case.read import Case, case_warnings
-from heeltoe.geometry.section import CutSection, cut
 from heeltoe.mechanics.block import build_block, static_state
+from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.models.statics.cases import at_depth, flood, post_seismic, pseudo_static, usual
 from heeltoe.models.statics.checks import Check, check_case, fallen
 from heeltoe.models.statics.criteria import criteria
@@ -121,14 +121,14 @@ def statics(
     InputError
         Where the crack does not cut the section in two.
     """
-    section, choice = cut(case), case.statics
+    section, choice = case.cut, case.statics
     warnings = list(case_warnings(case))
-    before = usual(case, section)
+    before = usual(case)
     solved = [before]
     if choice.flood_depth is not None:
-        solved.append(flood(case, section))
+        solved.append(flood(case))
     if choice.seismic_coefficient is not None:
-        solved += pseudo_static(case, section, before)
+        solved += pseudo_static(case, before)
     cases = [each.load_case for each in solved]
     checks = [check for each in cases for check in check_case(each, choice)]
     slip, source = _slip(case, slip_m, slip_source)
@@ -138,7 +138,7 @@ def statics(
             fallen(f"the earthquake overturns the block about its {overturned_about}: nothing stands after it")
         )
     if slip is not None and source is not None:
-        after = post_seismic(case, section, slip, source)
+        after = post_seismic(case, slip, source)
         if after is None:
             lost = (
                 f"a slip of {abs(slip):.2f} m leaves nothing of the {section.crack_width:.2f} m that the block stood on"
@@ -162,7 +162,7 @@ def statics(
     if any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors):
         warnings.append("anchors: the static checks count their prestress, not what opening and slip would add")
     references = dict.fromkeys(check.source for check in checks if check.required is not None)
-    if choice.seismic_coefficient is not None and section.water_above_crack(case.reservoir):
+    if choice.seismic_coefficient is not None and water_above_crack(case, case.reservoir):
         references[REFERENCES["water"]] = None
     return Statics(
         title=case.title,
@@ -172,7 +172,7 @@ def statics(
         cases=tuple(cases),
         checks=tuple(checks),
         critical_acceleration_g=static_state(build_block(case))["critical_acceleration_g"],
-        critical_water_level_m=critical_water_levels(case, section),
+        critical_water_level_m=critical_water_levels(case),
         slip_m=slip,
         slip_source=source,
         warnings=tuple(warnings),
@@ -194,12 +194,13 @@ def _slip(case: Case, slip: float | None, source: str) -> tuple[float | None, st
     return None, None
 
 
-def critical_water_levels(case: Case, section: CutSection) -> dict[str, float | None]:
+def critical_water_levels(case: Case) -> dict[str, float | None]:
     """Return the depths of the reservoir at which the usual loads become critical, see :class:`Statics`.
 
     The depth rises from the heel, or from the lowest point of the section where that is higher, to the crest; the
     tailwater stays, and so does the ice, pushed up with the surface.
     """
+    section = case.cut
     highest = section.crest_elevation - section.base_elevation
     lowest = section.heel[1] - section.base_elevation
     if case.ice is not None:
@@ -218,7 +219,7 @@ def critical_water_levels(case: Case, section: CutSection) -> dict[str, float | 
 
     def state(depth: float) -> LoadCase:
         if depth not in known:
-            known[depth] = usual(at_depth(case, depth), section).load_case
+            known[depth] = usual(at_depth(case, depth)).load_case
         return known[depth]
 
     def sliding(factor: float) -> Callable[[float], float]:

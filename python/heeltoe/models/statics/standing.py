@@ -35,7 +35,7 @@ def standing_warnings(case: Case) -> tuple[str, ...]:
         return ()
     from heeltoe.models.statics.cases import usual
 
-    solved = usual(case, block.section)
+    solved = usual(case)
     if solved.load_case.outcome == "stands":
         return _opened(case, block, solved)
     return (

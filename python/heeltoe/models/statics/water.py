@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from heeltoe.case.model import Case, Water
 from heeltoe.geometry.section import CutSection
-from heeltoe.mechanics.loads import uplift_profile
+from heeltoe.mechanics.loads import uplift_profile, water_above_crack
 
 Floats = NDArray[np.float64]
 
@@ -58,7 +58,7 @@ class CrackWater:
     places: tuple[float, ...]
 
 
-def still_water(case: Case, section: CutSection, start: float, end: float) -> CrackWater:
+def still_water(case: Case, start: float, end: float) -> CrackWater:
     """Return the water at rest in a crack whose contact goes from `start` to `end` of the base of the block.
 
     Over the contact it is the case's uplift, with its pattern fitted to that length. What opens from the heel has the
@@ -68,20 +68,20 @@ def still_water(case: Case, section: CutSection, start: float, end: float) -> Cr
     the tip as it is. What opens from the toe has the pressure of the tailwater, in the same way. The base outside the
     contact, left there by a slip, feels reservoir and tailwater. With the pattern "none" no water enters.
     """
-    dry = case.uplift.pattern == "none"
-    base = uplift_profile(case, section) * [(end - start) / section.crack_width, 1.0] + [start, 0.0]
+    section, dry = case.cut, case.uplift.pattern == "none"
+    base = uplift_profile(case) * [(end - start) / section.crack_width, 1.0] + [start, 0.0]
     own = case.uplift.pattern == "profile"
 
     def outside(water: Water | None, low: float, high: float) -> list[tuple[float, float]]:
         """Return the points of free water under the block; none gets in where it does not reach the crack's end."""
         if high <= low:
             return []
-        if dry or not section.water_above_crack(water, toe=water is case.tailwater):
+        if dry or not water_above_crack(case, water, toe=water is case.tailwater):
             return [(low, 0.0), (high, 0.0)]
         # Where an inclined crack rises out of the water the pressure ends.
         surface = _surface(section, water)
         places = [low, surface, high] if low < surface < high else [low, high]
-        return [(x, _pressure_at(case, section, water, x)) for x in places]
+        return [(x, _pressure_at(case, water, x)) for x in places]
 
     def pressure(heel: float, toe: float) -> Floats:
         tip, back = start + heel, end - toe
@@ -91,10 +91,10 @@ def still_water(case: Case, section: CutSection, start: float, end: float) -> Cr
         elif tip < back:
             ends = [float(base[0, 1]), float(base[-1, 1])]
             if heel > 0.0:
-                ends[0] = case.uplift.intensity * _pressure_at(case, section, case.reservoir, tip)
+                ends[0] = case.uplift.intensity * _pressure_at(case, case.reservoir, tip)
             # A uniform pressure ends at the tip as it did at the toe: it knows no tailwater.
             if toe > 0.0 and case.uplift.pattern != "uniform":
-                ends[1] = case.uplift.intensity * _pressure_at(case, section, case.tailwater, back)
+                ends[1] = case.uplift.intensity * _pressure_at(case, case.tailwater, back)
             points += [(tip, ends[0]), *((x, p) for x, p in base.tolist() if tip < x < back), (back, ends[1])]
         points += outside(case.tailwater, back, section.crack_width)
         return np.array(points)
@@ -134,10 +134,11 @@ def _level(section: CutSection, water: Water | None) -> float:
     return -math.inf if water is None else section.base_elevation + water.depth - section.heel[1]
 
 
-def _pressure_at(case: Case, section: CutSection, water: Water | None, x: float) -> float:
+def _pressure_at(case: Case, water: Water | None, x: float) -> float:
     """Return the pressure of still water at a distance from the heel along the crack [Pa]."""
     if water is None:
         return 0.0
+    section = case.cut
     return water.density * case.gravity * max(0.0, _level(section, water) - x * math.sin(section.inclination))
 
 

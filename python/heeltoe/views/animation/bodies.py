@@ -11,7 +11,6 @@ import shapely
 from numpy.typing import NDArray
 
 from heeltoe.case.read import Case
-from heeltoe.geometry.section import CutSection, section_polygon
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.mesh.checks import boundary_edges
 from heeltoe.models.flexible.mesh.dam import BodyMesh
@@ -103,7 +102,7 @@ class Part:
         return moved
 
 
-def rigid_parts(case: Case, section: CutSection, histories: Mapping[str, Floats], moments: Moments) -> tuple[Part, ...]:
+def rigid_parts(case: Case, histories: Mapping[str, Floats], moments: Moments) -> tuple[Part, ...]:
     """Return the block and what stands still below it, if the crack is not at the base.
 
     The contact coordinates are turned into the motion of a rigid body of any rotation: the corner that is lower slides
@@ -113,6 +112,7 @@ def rigid_parts(case: Case, section: CutSection, histories: Mapping[str, Floats]
     slip, heel, toe, rotation = (
         moments.between(histories[name]) for name in ("slip_m", "gap_heel_m", "gap_toe_m", "rotation_rad")
     )
+    section = case.cut
     width = section.crack_width
     sine = np.clip((toe - heel) / width, -1.0, 1.0)
     cosine = np.where(np.abs(rotation) > math.pi / 2.0, -1.0, 1.0) * np.sqrt(1.0 - sine**2)
@@ -134,13 +134,13 @@ def rigid_parts(case: Case, section: CutSection, histories: Mapping[str, Floats]
         shapes=shapes,
         amplitudes=np.column_stack([along, heel, cosine - 1.0, sine]),
     )
-    lower = _still(case, section, len(slip))
+    lower = _still(case, len(slip))
     return (upper,) if lower is None else (upper, lower)
 
 
-def _still(case: Case, section: CutSection, frames: int) -> Part | None:
+def _still(case: Case, frames: int) -> Part | None:
     """Return the part below the crack, which stands still; None where there is none to speak of."""
-    whole = section_polygon(case.section)
+    section, whole = case.cut, case.outline
     # By the line of the crack: the outline of the part above it is rounded, and would leave slivers along the faces.
     far = 10.0 * float(np.ptp(shapely.get_coordinates(whole), axis=0).max())
     along, across = np.array(section.from_crack_frame(far, 0.0)), np.array(section.from_crack_frame(0.0, far))

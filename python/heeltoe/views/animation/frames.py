@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.case.read import Case
-from heeltoe.geometry.section import CutSection, cut
+from heeltoe.geometry.section import CutSection
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.result.response import Response
 from heeltoe.views.animation.bodies import Moments, Part, elastic_parts, rigid_parts
@@ -101,11 +101,11 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
     Without an `exaggeration` it is chosen so that the largest displacement is drawn 3 to 8 % of the dam's height long,
     and no longer than a third of the crack: 1, 2, 5, 10, 20, ... An overturned dam is drawn as it is.
     """
-    section = cut(case)
+    section = case.cut
     histories = response.histories
     moments = Moments.of(histories["time_s"], times)
     if response.crack is None:
-        parts = rigid_parts(case, section, histories, moments)
+        parts = rigid_parts(case, histories, moments)
         forces, status = _corners(section, histories, response.mode, moments)
         unit, size = "MN/m", 1e6
     else:

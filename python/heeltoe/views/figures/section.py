@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from heeltoe.case.read import Case
-from heeltoe.geometry.section import CutSection, cut, section_polygon
+from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.loads import uplift_profile
 from heeltoe.units.systems import Units, unit_system
 from heeltoe.views.figures.canvas import Canvas
@@ -37,13 +37,12 @@ def section_figure(case: Case, units: str = "si") -> Figure:
         Where the crack does not cut the section in two, or the units are unknown.
     """
     system = unit_system(units)
-    section = cut(case)
-    whole = section_polygon(case.section)
+    section, whole = case.cut, case.outline
     left, base, right, crest = whole.bounds
     size = max(right - left, crest - base)
     one = section.height > _LOW * (crest - base)
-    pressed = one and section.crack_elevation == base and float(uplift_profile(case, section)[:, 1].max()) > 0.0
-    low, high = _corners(case, whole, size, below=0.34 if pressed else 0.22 if one else 0.16)
+    pressed = one and section.crack_elevation == base and float(uplift_profile(case)[:, 1].max()) > 0.0
+    low, high = _corners(case, size, below=0.34 if pressed else 0.22 if one else 0.16)
     views = [(low, high)]
     widths = [WIDTH - _LEFT - _EDGE]
     if not one:
@@ -63,23 +62,23 @@ def section_figure(case: Case, units: str = "si") -> Figure:
         canvases.append(Canvas(axes, length, size if place == 0 else near))
         canvases[-1].look_at(*view)
     for canvas in canvases:
-        _draw_bodies(canvas, case, section, whole)
+        _draw_bodies(canvas, case)
         canvas.axes.set_xlabel(f"x, downstream [{length.unit}]")
         canvas.axes.set_ylabel(f"z, up [{length.unit}]", labelpad=2)
         canvas.axes.grid(visible=False)
-    depth = draw_uplift(canvases[-1], case, section, system)
-    _draw_dimensions(canvases[0], case, section, whole, system, depth if one else 0.0)
+    depth = draw_uplift(canvases[-1], case, system)
+    _draw_dimensions(canvases[0], case, system, depth if one else 0.0)
     _draw_crack(canvases[-1], section, small=False)
     if not one:
         _draw_crack(canvases[0], section, small=True)
-    _draw_anchors(canvases[-1], case, section, whole)
-    draw_forces(canvases[-1], case, section, system)
+    _draw_anchors(canvases[-1], case)
+    draw_forces(canvases[-1], case, system)
     return figure
 
 
-def _corners(case: Case, whole: shapely.Polygon, size: float, *, below: float) -> tuple[Floats, Floats]:
+def _corners(case: Case, size: float, *, below: float) -> tuple[Floats, Floats]:
     """Return the corners of what the first panel shows [m]."""
-    left, base, right, crest = whole.bounds
+    left, base, right, crest = case.outline.bounds
     upstream = 0.54 if case.reservoir else 0.16
     downstream = 0.46 if case.tailwater else 0.24
     return (
@@ -88,8 +87,9 @@ def _corners(case: Case, whole: shapely.Polygon, size: float, *, below: float) -
     )
 
 
-def _draw_bodies(canvas: Canvas, case: Case, section: CutSection, whole: shapely.Polygon) -> None:
+def _draw_bodies(canvas: Canvas, case: Case) -> None:
     """Draw water, silt, ice and both parts of the dam on the ground."""
+    section, whole = case.cut, case.outline
     left, base, right, crest = whole.bounds
     far = 10.0 * max(right - left, crest - base)
     for water, side in ((case.reservoir, "left"), (case.tailwater, "right")):
@@ -168,8 +168,9 @@ def _draw_crack(canvas: Canvas, section: CutSection, *, small: bool) -> None:
     canvas.label("centroid", section.centroid, first=(-1, 1))
 
 
-def _draw_anchors(canvas: Canvas, case: Case, section: CutSection, whole: shapely.Polygon) -> None:
+def _draw_anchors(canvas: Canvas, case: Case) -> None:
     """Draw the anchors across the crack, up to where they leave the section."""
+    section, whole = case.cut, case.outline
     upper = shapely.Polygon(section.polygon)
     reach = 2.0 * max(whole.bounds[2] - whole.bounds[0], whole.bounds[3] - whole.bounds[1])
     for place, anchor in enumerate(case.anchors):
@@ -186,10 +187,9 @@ def _draw_anchors(canvas: Canvas, case: Case, section: CutSection, whole: shapel
             canvas.label("anchors" if len(case.anchors) > 1 else "anchor", end, "#B22222", first=(1, 1))
 
 
-def _draw_dimensions(
-    canvas: Canvas, case: Case, section: CutSection, whole: shapely.Polygon, units: Units, below: float
-) -> None:
+def _draw_dimensions(canvas: Canvas, case: Case, units: Units, below: float) -> None:
     """Draw heights, widths and depths of water; `below` is how deep the uplift diagram is [m]."""
+    section, whole = case.cut, case.outline
     left, base, right, crest = whole.bounds
     size, length = canvas.size, units.scale("length")
 

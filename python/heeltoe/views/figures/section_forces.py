@@ -31,13 +31,13 @@ _LONGEST, _DEEPEST = 0.28, 0.15
 _LITTLE = 1e-9
 
 
-def draw_uplift(canvas: Canvas, case: Case, section: CutSection, units: Units) -> float:
+def draw_uplift(canvas: Canvas, case: Case, units: Units) -> float:
     """Draw the pressure in the crack, downwards from it; return how deep the diagram is [m]."""
-    distance, pressure = uplift_profile(case, section).T
+    distance, pressure = uplift_profile(case).T
     most = float(pressure.max())
     if most <= 0.0:
         return 0.0
-    depth = _DEEPEST * canvas.size
+    depth, section = _DEEPEST * canvas.size, case.cut
     heel = np.array(section.heel)
     along = np.array(section.from_crack_frame(1.0, 0.0))
     down = np.array(section.from_crack_frame(0.0, -1.0))
@@ -64,13 +64,14 @@ def draw_uplift(canvas: Canvas, case: Case, section: CutSection, units: Units) -
     return depth
 
 
-def draw_forces(canvas: Canvas, case: Case, section: CutSection, units: Units) -> None:
+def draw_forces(canvas: Canvas, case: Case, units: Units) -> None:
     """Draw weight, water, uplift and the rest as arrows to one scale, with their values, and the scale."""
-    forces = static_forces(case, section)
+    forces = static_forces(case)
     sizes = [math.hypot(force.horizontal, force.vertical) for force in forces]
     most = max(sizes)
     scale = units.scale("force", most)
     per_force = _LONGEST * canvas.size / most
+    section = case.cut
     # The weight's arrow, which starts at the centroid, ends above the crack.
     _, above = section.in_crack_frame(*np.subtract(section.centroid, section.heel))
     per_force = min(per_force, 0.8 * above / sizes[0])

@@ -16,7 +16,7 @@ from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.geometry.axes import in_x_and_z
 from heeltoe.geometry.axes import places as locate
-from heeltoe.geometry.section import CutSection, section_polygon
+from heeltoe.geometry.section import CutSection
 from heeltoe.models.flexible.mesh.checks import boundary_edges
 from heeltoe.models.flexible.mesh.rows import meshed_rows
 
@@ -70,29 +70,24 @@ class DamMesh:
     lower: BodyMesh | None
 
 
-def dam_mesh(case: Case, section: CutSection, base_directory: Path | None = None) -> DamMesh:
+def dam_mesh(case: Case) -> DamMesh:
     """Return the mesh of the dam.
 
     Parameters
     ----------
     case
         Its block `flexible` says how fine, or names files.
-    section
-        The part above the crack, from :func:`heeltoe.geometry.section.cut`.
-    base_directory
-        Where relative paths of files start; the case's own where it is not given.
 
     Raises
     ------
     InputError
         Where rows of elements cannot follow the section or the crack, or a mesh from a file is unfit.
     """
-    options = case.flexible
-    below = section_polygon(case.section).area - section.area
+    options, section, directory = case.flexible, case.cut, case.base_directory
+    below = case.outline.area - section.area
     # At the base, or along a sloping one, there is nothing below.
     grounded = below <= _NOTHING * section.area
     _check_ends(section, grounded=grounded)
-    directory = case.base_directory if base_directory is None else base_directory
     if options.mesh_above:
         upper = _from_file(directory / options.mesh_above, section, section.area, above=True)
     else:
@@ -105,7 +100,7 @@ def dam_mesh(case: Case, section: CutSection, base_directory: Path | None = None
     if options.mesh_below:
         return DamMesh(upper, _from_file(directory / options.mesh_below, section, below, above=False))
     across = options.elements_across_below or options.elements_across
-    rows = meshed_rows(*_faces_below(case, section), across)
+    rows = meshed_rows(*_faces_below(case), across)
     return DamMesh(upper, _body(*rows, section, "section", above=False))
 
 
@@ -207,9 +202,10 @@ def _walked(edges: NDArray[np.int64], first: int) -> NDArray[np.int64]:
         edge = following[int(edge[2])]
 
 
-def _faces_below(case: Case, section: CutSection) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _faces_below(case: Case) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the two faces of the part below the crack, from the base up."""
-    corners = shapely.get_coordinates(section_polygon(case.section).exterior)[:-1]
+    corners = shapely.get_coordinates(case.outline.exterior)[:-1]
+    section = case.cut
     base, slack = section.base_elevation, 1e-9 * np.ptp(corners, axis=0).max()
     on_base = np.abs(corners[:, 1] - base) <= slack
     first = np.flatnonzero(on_base & ~np.roll(on_base, 1))
