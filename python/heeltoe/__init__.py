@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 from heeltoe.shown import hand_in
 
 if TYPE_CHECKING:
-    from heeltoe.case.read import Case, read_case
+    from heeltoe.case.model import Case
+    from heeltoe.case.read import read_case
     from heeltoe.errors import HeeltoeError, InputError
     from heeltoe.mechanics.block import Block, build_block
     from heeltoe.models.decoupled.model import decoupled
@@ -70,7 +71,7 @@ __all__ = [
 
 _HOME = {
     "Block": "mechanics.block",
-    "Case": "case.read",
+    "Case": "case.model",
     "Comparison": "study.comparison",
     "DamPeriods": "models.flexible.periods",
     "GroundMotion": "motion.ground_motion",

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from heeltoe.case.read import case_schema, case_warnings, read_case
+from heeltoe.case.read import case_schema, read_case
+from heeltoe.case.warnings import case_warnings
 from heeltoe.errors import InputError
 from heeltoe.units.parse import Acceleration
 from shared.cases import DAM, PULSE, dam, write

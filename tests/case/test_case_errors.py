@@ -4,7 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from heeltoe.case.read import Case, read_case
+from heeltoe.case.model import Case
+from heeltoe.case.read import read_case
 from heeltoe.errors import InputError
 from shared.cases import DAM, PULSE, dam, polygon, refusal, write
 

@@ -4,8 +4,9 @@ import re
 
 import pytest
 
-from heeltoe.case.read import case_schema, case_warnings, read_case
+from heeltoe.case.read import case_schema, read_case
 from heeltoe.case.template import new_case_text
+from heeltoe.case.warnings import case_warnings
 from shared.cases import refusal, write
 
 

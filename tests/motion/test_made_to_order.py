@@ -13,10 +13,10 @@ from heeltoe.case.read import read_case
 from heeltoe.case.shaking import resolve
 from heeltoe.cli.main import app
 from heeltoe.errors import InputError
-from heeltoe.motion.ground_motion import STANDARD_GRAVITY as G
 from heeltoe.motion.measures import arias_intensity, husid_time, significant_duration, velocity_displacement
 from heeltoe.motion.scenario import normal_scores, parameters_of, scenario_parameters, synthetic
 from heeltoe.motion.stochastic import Parameters, modulation, stochastic_motion
+from heeltoe.units.parse import STANDARD_GRAVITY as G
 from shared.dams import PLAIN as DAM
 
 ORDER = Parameters(arias=0.5, duration=12.0, middle=7.0, frequency=5.0, frequency_rate=-0.1, bandwidth=0.25)

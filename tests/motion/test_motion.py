@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from heeltoe import GroundMotion, InputError, read_case
 from heeltoe.case.shaking import resolve
-from heeltoe.motion.ground_motion import check
+from heeltoe.motion.check import check
 
 G = 9.80665
 

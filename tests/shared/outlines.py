@@ -5,7 +5,7 @@ from itertools import pairwise
 import numpy as np
 from hypothesis import strategies as st
 
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 
 
 def make(corners, elevation=0.0, **more):

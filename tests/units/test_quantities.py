@@ -10,14 +10,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
+from heeltoe.case.quantities import AccelerationField, DimensionlessNumber, Length
 from heeltoe.errors import InputError
 from heeltoe.units.parse import (
     DIMENSIONS,
     STANDARD_GRAVITY,
     Acceleration,
-    AccelerationField,
-    DimensionlessNumber,
-    Length,
     acceleration_unit,
     parse,
     parse_acceleration,

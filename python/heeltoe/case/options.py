@@ -6,13 +6,13 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from heeltoe.case.fields import Block, Count, Fraction, FrictionCoefficient, Head, TimeSpan, Truth
+from heeltoe.case.fields import Count, Fields, Fraction, FrictionCoefficient, Head, TimeSpan, Truth
+from heeltoe.case.quantities import DimensionlessNumber, Length, Pressure
 from heeltoe.case.sentences import collected
 from heeltoe.errors import InputError, shown
-from heeltoe.units.parse import DimensionlessNumber, Length, Pressure
 
 
-class Flexible(Block):
+class Flexible(Fields):
     """How the flexible model represents the dam, its damping and the contact in the crack."""
 
     plane: Literal["stress", "strain"] = "stress"
@@ -54,7 +54,7 @@ class Flexible(Block):
     """Of `idce`: Newmark's beta; (gamma + 1/2)^2 / 4 where it is not given."""
 
 
-class Analysis(Block):
+class Analysis(Fields):
     """What to do in rare situations."""
 
     paradox: Literal["stop", "tangential impact"] = "stop"
@@ -67,7 +67,7 @@ class Analysis(Block):
     Only with the last two can the block overturn."""
 
 
-class Limits(Block):
+class Limits(Fields):
     """What the user allows; the verdict and the report compare the results with it."""
 
     residual_slip: Annotated[Length, Field(ge=0.0)] | None = None
@@ -80,7 +80,7 @@ class Limits(Block):
     """Opening of the crack at the downstream face."""
 
 
-class Statics(Block):
+class StaticsChoice(Fields):
     """Strength and load cases of the static checks before, during and after the earthquake."""
 
     criteria: Literal["USACE", "USBR", "FERC", "CDA"] = "USACE"
@@ -133,7 +133,7 @@ class Statics(Block):
         return self
 
 
-class Decoupled(Block):
+class Decoupled(Fields):
     """Choices of the decoupled chain: the elastic part below the crack shakes the rigid part above it."""
 
     vertical: Truth = False

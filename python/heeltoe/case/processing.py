@@ -6,8 +6,10 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
+from heeltoe.case.fields import Fields, Fraction, Truth
+from heeltoe.case.quantities import AccelerationField, DimensionlessNumber, Duration, Frequency, Velocity
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.processing import (
     Ends,
@@ -19,19 +21,12 @@ from heeltoe.motion.processing import (
     scale_to_spectrum,
     taper,
 )
-from heeltoe.units.parse import AccelerationField, DimensionlessNumber, Duration, Frequency, Velocity
 
-Share = Annotated[DimensionlessNumber, Field(ge=0.0, le=1.0)]
 Corner = Annotated[Frequency, Field(gt=0.0, le=1e4)]
-Truth = Annotated[bool, Field(strict=True)]
 Order = Annotated[int, Field(strict=True, ge=1, le=10)]
 
 
-class _Step(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)
-
-
-class Baseline(_Step):
+class Baseline(Fields):
     """Take a polynomial out of the velocity, so that the motion ends at rest."""
 
     step: Literal["baseline"]
@@ -46,7 +41,7 @@ class Baseline(_Step):
         return baseline(motion, self.order, displacement=self.displacement)
 
 
-class BandPass(_Step):
+class BandPass(Fields):
     """Butterworth filter, forward and backward; with one corner alone a high-pass or a low-pass."""
 
     step: Literal["band-pass"]
@@ -63,12 +58,12 @@ class BandPass(_Step):
         return band_pass(motion, self.low, self.high, self.order)
 
 
-class Taper(_Step):
+class Taper(Fields):
     """Fade in and out with half a cosine."""
 
     step: Literal["taper"]
     """Which step this is."""
-    share: Share = 0.05
+    share: Fraction = 0.05
     """Part of the duration at each end, up to a half."""
     ends: Ends = "both"
     """Which ends."""
@@ -78,14 +73,14 @@ class Taper(_Step):
         return taper(motion, self.share, self.ends)
 
 
-class CutSignificant(_Step):
+class CutSignificant(Fields):
     """Keep the significant duration."""
 
     step: Literal["cut"]
     """Which step this is."""
-    start: Share = 0.05
+    start: Fraction = 0.05
     """Share of the Arias intensity at which the motion begins."""
-    end: Share = 0.95
+    end: Fraction = 0.95
     """Share of the Arias intensity at which it ends."""
 
     def apply(self, motion: GroundMotion, gravity: float) -> GroundMotion:
@@ -93,7 +88,7 @@ class CutSignificant(_Step):
         return cut_significant(motion, self.start, self.end)
 
 
-class ScaleToArias(_Step):
+class ScaleToArias(Fields):
     """Scale to an Arias intensity."""
 
     step: Literal["scale-to-arias"]
@@ -106,7 +101,7 @@ class ScaleToArias(_Step):
         return scale_to_arias(motion, self.intensity, gravity)
 
 
-class ScaleToSpectrum(_Step):
+class ScaleToSpectrum(Fields):
     """Scale to a spectral pseudo-acceleration at one period."""
 
     step: Literal["scale-to-spectrum"]
@@ -123,7 +118,7 @@ class ScaleToSpectrum(_Step):
         return scale_to_spectrum(motion, self.period, self.acceleration.si(gravity), self.damping)
 
 
-class ScaleTime(_Step):
+class ScaleTime(Fields):
     """Stretch time, which changes the frequency content."""
 
     step: Literal["scale-time"]

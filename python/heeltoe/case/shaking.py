@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from heeltoe.case.model import Motion, Shaking
+from heeltoe.case.motion import Motion, Source
 from heeltoe.errors import InputError
-from heeltoe.motion.ground_motion import GroundMotion, check
+from heeltoe.motion.check import check
+from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.processing import process
 from heeltoe.motion.records import read_record
 from heeltoe.motion.records.catalog import find
@@ -61,13 +62,13 @@ def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[Grou
     return horizontal.with_warnings(*check(horizontal, gravity, allow_zero=allowed)), vertical
 
 
-def _read(shaking: Shaking, gravity: float, base_directory: Path, field: str) -> GroundMotion:
+def _read(shaking: Source, gravity: float, base_directory: Path, field: str) -> GroundMotion:
     """Read, or make, the motion, and process it."""
     motion = _source(shaking, gravity, base_directory, field)
     return process(motion, shaking.processing, gravity, field=f"{field}.processing")
 
 
-def _source(shaking: Shaking, gravity: float, base_directory: Path, field: str) -> GroundMotion:
+def _source(shaking: Source, gravity: float, base_directory: Path, field: str) -> GroundMotion:
     if shaking.points is not None:
         time = [moment for moment, _ in shaking.points]
         values = [value.si(gravity) for _, value in shaking.points]
@@ -95,7 +96,7 @@ def _source(shaking: Shaking, gravity: float, base_directory: Path, field: str) 
     return replace(motion, name=Path(shaking.file).stem + motion.name.removeprefix(path.stem))
 
 
-def _finish(motion: GroundMotion, shaking: Shaking, duration: float | None) -> GroundMotion:
+def _finish(motion: GroundMotion, shaking: Source, duration: float | None) -> GroundMotion:
     if shaking.reverse:
         motion = motion.reversed()
     return motion if duration is None else motion.cut(duration)

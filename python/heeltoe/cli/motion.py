@@ -9,7 +9,8 @@ import typer
 from rich.console import Console
 
 from heeltoe.errors import InputError
-from heeltoe.motion.ground_motion import STANDARD_GRAVITY, GroundMotion
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.units.parse import STANDARD_GRAVITY
 
 
 def motion(

@@ -26,7 +26,7 @@ from heeltoe.cli.common import (
 from heeltoe.errors import InputError
 
 if TYPE_CHECKING:
-    from heeltoe.case.read import Case
+    from heeltoe.case.model import Case
     from heeltoe.result.response import Response
     from heeltoe.study.comparison import Comparison
 

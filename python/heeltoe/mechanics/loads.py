@@ -9,7 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe.case.model import Case, Water
+from heeltoe.case.dam import Water
+from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
 
 

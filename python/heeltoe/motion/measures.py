@@ -6,7 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.errors import InputError
-from heeltoe.motion.ground_motion import STANDARD_GRAVITY, GroundMotion, integrals
+from heeltoe.motion.ground_motion import GroundMotion, integrals
+from heeltoe.units.parse import STANDARD_GRAVITY
 
 Floats = NDArray[np.float64]
 

@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.errors import InputError
-from heeltoe.motion.ground_motion import STANDARD_GRAVITY, GroundMotion, integrals
+from heeltoe.motion.ground_motion import GroundMotion, integrals
 from heeltoe.motion.measures import arias_intensity, fourier_amplitudes, husid_time, measures, uniform
 from heeltoe.motion.spectrum import response_spectrum
+from heeltoe.units.parse import STANDARD_GRAVITY
 
 __all__ = [
     "Step",

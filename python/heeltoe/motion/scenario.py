@@ -19,8 +19,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.errors import InputError
-from heeltoe.motion.ground_motion import STANDARD_GRAVITY, GroundMotion
+from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.stochastic import Parameters, stochastic_motion
+from heeltoe.units.parse import STANDARD_GRAVITY
 
 Floats = NDArray[np.float64]
 

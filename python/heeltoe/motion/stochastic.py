@@ -13,8 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.errors import InputError
-from heeltoe.motion.ground_motion import STANDARD_GRAVITY, GroundMotion
+from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.processing import baseline
+from heeltoe.units.parse import STANDARD_GRAVITY
 
 Floats = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ from time import perf_counter
 from types import MappingProxyType
 from typing import Any, Literal
 
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 from heeltoe.case.shaking import resolve
 from heeltoe.errors import InputError
 from heeltoe.models.decoupled.model import decoupled

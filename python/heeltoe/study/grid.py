@@ -10,7 +10,8 @@ from typing import Any
 
 import pyarrow as pa
 
-from heeltoe.case.read import Case, read_case
+from heeltoe.case.model import Case
+from heeltoe.case.read import read_case
 from heeltoe.errors import InputError, shown
 from heeltoe.result.response import Response
 from heeltoe.result.write import build_info

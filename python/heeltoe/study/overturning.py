@@ -19,7 +19,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from heeltoe import _kernel
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.rigid.walk import GroundSeries, run_block

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe import _kernel
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.rigid.many import rigid_many

@@ -5,14 +5,10 @@ from __future__ import annotations
 import functools
 import math
 import re
-from collections.abc import Callable
 from dataclasses import dataclass
 from numbers import Real
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-from pydantic import BeforeValidator, PlainSerializer, PlainValidator, WithJsonSchema
-
-from heeltoe.case.sentences import collected
 from heeltoe.errors import InputError, shown
 
 if TYPE_CHECKING:
@@ -188,53 +184,3 @@ def _with_unit(value: object, dimension: str) -> str:
     """Return the user's own number with a unit, unless it is none that could be meant."""
     example = str(DIMENSIONS[dimension].example)
     return shown(f"{value} {example.split()[-1]}" if math.isfinite(float(str(value))) else example)
-
-
-def _validator(dimension: str) -> Callable[[object], float]:
-    return collected(lambda value: parse(value, dimension, ""))
-
-
-def _schema(dimension: str, type_: object = "string") -> WithJsonSchema:
-    return WithJsonSchema({"type": type_, "examples": [DIMENSIONS[dimension].example]})
-
-
-def _written(dimension: str) -> PlainSerializer:
-    """Write the SI value with its unit, so that a case written as JSON is a case that can be read."""
-    unit = DIMENSIONS[dimension].unit
-    return PlainSerializer(lambda value: f"{value!r} {unit}", return_type=str, when_used="json-unless-none")
-
-
-Length = Annotated[float, BeforeValidator(_validator("length")), _written("length"), _schema("length")]
-"""A length [m] for pydantic models."""
-Density = Annotated[float, BeforeValidator(_validator("density")), _written("density"), _schema("density")]
-"""A density [kg/m^3] for pydantic models."""
-Pressure = Annotated[float, BeforeValidator(_validator("pressure")), _written("pressure"), _schema("pressure")]
-"""A pressure or modulus [Pa] for pydantic models."""
-Duration = Annotated[float, BeforeValidator(_validator("duration")), _written("duration"), _schema("duration")]
-"""A time [s] for pydantic models."""
-Velocity = Annotated[float, BeforeValidator(_validator("velocity")), _written("velocity"), _schema("velocity")]
-"""A velocity, or an Arias intensity [m/s], for pydantic models."""
-Frequency = Annotated[float, BeforeValidator(_validator("frequency")), _written("frequency"), _schema("frequency")]
-"""A frequency [Hz] for pydantic models."""
-Angle = Annotated[float, BeforeValidator(_validator("angle")), _written("angle"), _schema("angle")]
-"""An angle [rad] for pydantic models."""
-LineForce = Annotated[float, BeforeValidator(_validator("line force")), _written("line force"), _schema("line force")]
-"""A force per metre of dam [N/m] for pydantic models."""
-Stiffness = Annotated[float, BeforeValidator(_validator("stiffness")), _written("stiffness"), _schema("stiffness")]
-"""A force per metre of dam and metre of displacement [N/m^2] for pydantic models."""
-Gravity = Annotated[
-    float,
-    BeforeValidator(_validator("acceleration")),
-    _written("acceleration"),
-    WithJsonSchema({"type": "string", "examples": ["9.81 m/s^2"]}),
-]
-"""The acceleration of gravity [m/s^2] for pydantic models."""
-DimensionlessNumber = Annotated[float, BeforeValidator(_validator("number")), _schema("number", ["number", "string"])]
-"""A number without unit for pydantic models; ``"5 %"`` is 0.05."""
-AccelerationField = Annotated[
-    Acceleration,
-    PlainValidator(collected(lambda value: parse_acceleration(value, ""))),
-    PlainSerializer(str, return_type=str, when_used="json-unless-none"),
-    _schema("acceleration"),
-]
-"""An :class:`Acceleration` for pydantic models."""

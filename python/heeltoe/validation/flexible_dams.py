@@ -16,7 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from heeltoe.case.read import Case, read_case
+from heeltoe.case.model import Case
+from heeltoe.case.read import read_case
 from heeltoe.models.flexible.modes import intact_periods
 from heeltoe.models.flexible.reduced import build_flexible_dam
 from heeltoe.models.flexible.shaken import Shaken

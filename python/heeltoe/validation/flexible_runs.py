@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 from heeltoe.models.flexible.model import flexible
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.response import Response

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from heeltoe.case.read import Case, read_case
+from heeltoe.case.model import Case
+from heeltoe.case.read import read_case
 from heeltoe.models.flexible.model import flexible
 from heeltoe.result.response import Response
 from heeltoe.validation.row import Row

@@ -11,7 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe import _kernel
-from heeltoe.case.read import Case, read_case
+from heeltoe.case.model import Case
+from heeltoe.case.read import read_case
 from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
 from heeltoe.validation.flexible_runs import GAINED
 from heeltoe.validation.row import Row

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe import _kernel
-from heeltoe.case.read import Case, read_case
+from heeltoe.case.model import Case
+from heeltoe.case.read import read_case
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.rigid.varying import varying
 from heeltoe.models.rigid.walk import SETTLE

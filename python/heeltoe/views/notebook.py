@@ -8,11 +8,12 @@ from html import escape
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe.case.read import Case
-from heeltoe.motion.ground_motion import STANDARD_GRAVITY, GroundMotion
+from heeltoe.case.model import Case
+from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.verdict import verdict
+from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.write import digits
 from heeltoe.views.words.fields import fields
 from heeltoe.views.words.numbers import Numbers, Value

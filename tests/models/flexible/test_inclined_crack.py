@@ -10,7 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from heeltoe import GroundMotion, InputError, flexible, read_case, rigid
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 from heeltoe.geometry.axes import along_and_across, places
 from heeltoe.mechanics import loads
 from heeltoe.mechanics.block import build_block

@@ -9,7 +9,7 @@ import pytest
 from pydantic import ValidationError
 
 from heeltoe import InputError, read_record
-from heeltoe.case.model import Motion
+from heeltoe.case.motion import Motion
 from heeltoe.case.shaking import resolve
 from heeltoe.motion.records import read_channels, read_text, read_text_channels
 from shared.record_samples import GAL, WAVE, G, cosmos, csmip, knet, smc

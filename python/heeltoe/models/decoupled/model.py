@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 from heeltoe.case.shaking import resolve
 from heeltoe.errors import InputError
 from heeltoe.models.decoupled.chain import Chain, bonded_chain, chain

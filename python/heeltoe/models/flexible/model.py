@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from heeltoe import _kernel
-from heeltoe.case.read import Case, case_warnings
+from heeltoe.case.model import Case
 from heeltoe.case.shaking import resolve
+from heeltoe.case.warnings import case_warnings
 from heeltoe.errors import InputError
 from heeltoe.mechanics.block import build_block, static_state
 from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.models.flexible.modes import intact_periods, part_periods
 from heeltoe.models.flexible.reduced import build_flexible_dam

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe import _kernel
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.models.flexible.modes import part_periods
 from heeltoe.models.flexible.reduced import FlexibleDam

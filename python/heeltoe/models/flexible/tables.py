@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe import _kernel
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.reduced import FlexibleDam
 from heeltoe.models.flexible.shaken import Convergence, Frames, Shaken

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.reduced import FlexibleDam

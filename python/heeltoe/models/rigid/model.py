@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe import _kernel
-from heeltoe.case.read import Case, case_warnings
+from heeltoe.case.model import Case
 from heeltoe.case.shaking import resolve
+from heeltoe.case.warnings import case_warnings
 from heeltoe.errors import InputError
 from heeltoe.mechanics.block import Block, build_block, static_state
 from heeltoe.models.rigid.tables import energy_of, events_of, histories_of, summary_of

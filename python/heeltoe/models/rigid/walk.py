@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe import _kernel
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 from heeltoe.mechanics.block import Block
 from heeltoe.models.rigid.varying import varies, varying
 from heeltoe.motion.ground_motion import GroundMotion

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from heeltoe.case.model import Case, Water
+from heeltoe.case.dam import Water
+from heeltoe.case.model import Case
 from heeltoe.mechanics.loads import Resultant, concrete_mass, static_forces, virtual_mass
 from heeltoe.models.statics.contact import Contact
 from heeltoe.models.statics.criteria import UPLIFT_IN_EARTHQUAKE, Loads

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from heeltoe.case.options import Statics as Choice
+from heeltoe.case.options import StaticsChoice
 from heeltoe.models.statics.criteria import Criterion, criteria
 from heeltoe.models.statics.load_case import LoadCase
 
@@ -49,7 +49,7 @@ class Check:
     sentence: str
 
 
-def check_case(found: LoadCase, choice: Choice) -> tuple[Check, ...]:
+def check_case(found: LoadCase, choice: StaticsChoice) -> tuple[Check, ...]:
     """Return the checks of a load case by the criteria chosen, equilibrium first.
 
     A sliding factor is judged by the factors for cohesion only where cohesion is in its resistance.

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from heeltoe.mechanics.loads import Resultant
-from heeltoe.models.statics.water import CrackWater, force_and_moment
+from heeltoe.models.statics.water import StillWater, force_and_moment
 
 Floats = NDArray[np.float64]
 
@@ -78,7 +78,7 @@ class Settled:
     iterations: int
 
 
-def settle(contact: Contact, load: Resultant, water: CrackWater) -> Settled:
+def settle(contact: Contact, load: Resultant, water: StillWater) -> Settled:
     """Find how far the crack opens under a load, the water in it included.
 
     On what is in contact, of length L, the stress is linear (Navier): with the normal force N and the eccentricity e
@@ -116,7 +116,7 @@ def settle(contact: Contact, load: Resultant, water: CrackWater) -> Settled:
 class _State:
     """Forces and stresses of a contact by how far it is open."""
 
-    def __init__(self, contact: Contact, load: Resultant, water: CrackWater) -> None:
+    def __init__(self, contact: Contact, load: Resultant, water: StillWater) -> None:
         self.contact, self.load, self.water = contact, load, water
 
     def at(self, heel: float, toe: float) -> tuple[float, float, float]:

@@ -12,7 +12,7 @@ from heeltoe.mechanics.block import ROUNDING_OF_FORCES
 from heeltoe.mechanics.loads import Resultant, total
 from heeltoe.models.statics.contact import Contact, Settled, settle
 from heeltoe.models.statics.criteria import Loads
-from heeltoe.models.statics.water import CrackWater, Floats, force_and_moment
+from heeltoe.models.statics.water import Floats, StillWater, force_and_moment
 
 
 @dataclass(frozen=True)
@@ -127,7 +127,7 @@ def solve_case(
     section: CutSection,
     forces: tuple[Resultant, ...],
     contact: Contact,
-    water: CrackWater,
+    water: StillWater,
     strength: tuple[float, float],
     said: tuple[str, ...],
 ) -> Solved:

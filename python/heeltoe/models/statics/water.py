@@ -13,7 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe.case.model import Case, Water
+from heeltoe.case.dam import Water
+from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.loads import uplift_profile, water_above_crack
 
@@ -41,7 +42,7 @@ def cut_out(profile: Floats, start: float, end: float) -> list[tuple[float, floa
 
 
 @dataclass(frozen=True, eq=False)
-class CrackWater:
+class StillWater:
     """The pressure in a crack as a function of how far it is open.
 
     Attributes
@@ -58,7 +59,7 @@ class CrackWater:
     places: tuple[float, ...]
 
 
-def still_water(case: Case, start: float, end: float) -> CrackWater:
+def still_water(case: Case, start: float, end: float) -> StillWater:
     """Return the water at rest in a crack whose contact goes from `start` to `end` of the base of the block.
 
     Over the contact it is the case's uplift, with its pattern fitted to that length. What opens from the heel has the
@@ -101,10 +102,10 @@ def still_water(case: Case, start: float, end: float) -> CrackWater:
 
     bends = [float(x) for x in base[:, 0]]
     bends += [x for water in (case.reservoir, case.tailwater) if math.isfinite(x := _surface(section, water))]
-    return CrackWater(pressure, tuple(bends))
+    return StillWater(pressure, tuple(bends))
 
 
-def water_in_earthquake(before: Floats, start: float, end: float, opened: float, *, vanishes: bool) -> CrackWater:
+def water_in_earthquake(before: Floats, start: float, end: float, opened: float, *, vanishes: bool) -> StillWater:
     """Return the water in a crack that the earthquake opens further.
 
     Parameters
@@ -126,7 +127,7 @@ def water_in_earthquake(before: Floats, start: float, end: float, opened: float,
         points += [(low, 0.0), (high, 0.0)]
         return np.array(points + cut_out(before, high, float(before[-1, 0])))
 
-    return CrackWater(pressure, (start + opened, *(float(x) for x in before[:, 0])))
+    return StillWater(pressure, (start + opened, *(float(x) for x in before[:, 0])))
 
 
 def _level(section: CutSection, water: Water | None) -> float:

@@ -12,11 +12,12 @@ from pathlib import Path
 from types import ModuleType
 
 from heeltoe.errors import InputError
-from heeltoe.motion.ground_motion import STANDARD_GRAVITY, GroundMotion
+from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.records.channel import choose, numbered
 from heeltoe.motion.records.formats import columns, cosmos_v2, csmip_v2, foreign, knet, peer_at2, usgs_smc
 from heeltoe.motion.records.raw import RawRecord
 from heeltoe.motion.records.to_motion import Told, to_motion
+from heeltoe.units.parse import STANDARD_GRAVITY
 
 __all__ = ["READERS", "RawRecord", "read_channels", "read_record", "read_text", "read_text_channels"]
 

@@ -10,7 +10,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.mesh.checks import boundary_edges
 from heeltoe.models.flexible.mesh.dam import BodyMesh

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.result.response import Response

@@ -8,7 +8,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.result.response import Response
 

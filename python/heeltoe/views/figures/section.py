@@ -7,7 +7,7 @@ import shapely
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.loads import uplift_profile
 from heeltoe.units.systems import Units, unit_system

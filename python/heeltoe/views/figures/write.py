@@ -28,7 +28,7 @@ from heeltoe.views.figures.spectrum import spectrum_figure
 from heeltoe.views.figures.style import STYLE, laid_out, without_heading
 
 if TYPE_CHECKING:
-    from heeltoe.case.read import Case
+    from heeltoe.case.model import Case
     from heeltoe.study.comparison import Comparison
 
 #: Every name that a figure of a result can have, in the order in which they are shown.

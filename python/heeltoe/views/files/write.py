@@ -6,7 +6,7 @@ from pathlib import Path
 from shutil import rmtree
 from tempfile import TemporaryDirectory
 
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.models.flexible.history import crack_table
 from heeltoe.result.response import Response

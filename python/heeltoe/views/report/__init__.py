@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from heeltoe.errors import InputError
 
 if TYPE_CHECKING:
-    from heeltoe.case.read import Case
+    from heeltoe.case.model import Case
     from heeltoe.models.statics.model import Statics
     from heeltoe.result.response import Response
     from heeltoe.study.comparison import Comparison

@@ -7,7 +7,7 @@ import json
 
 import numpy as np
 
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.write import build_info
 from heeltoe.views.report.content import Block, Code, Inline, Listing, Own, Section, Strong, Table, paragraph

@@ -10,7 +10,7 @@ from heeltoe.views.report.subject import Subject
 from heeltoe.views.words.numbers import Value
 
 if TYPE_CHECKING:
-    from heeltoe.case.read import Case
+    from heeltoe.case.model import Case
     from heeltoe.models.statics.model import Statics
     from heeltoe.result.response import Response
     from heeltoe.study.comparison import Comparison

@@ -11,7 +11,7 @@ from heeltoe.views.report.subject import NAMES
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from heeltoe.case.read import Case
+    from heeltoe.case.model import Case
     from heeltoe.result.response import Response
     from heeltoe.study.comparison import Comparison
 

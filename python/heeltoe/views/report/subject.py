@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from heeltoe.case.read import Case
+from heeltoe.case.model import Case
 from heeltoe.result.response import Response
 from heeltoe.study.comparison import Comparison
 from heeltoe.views.report.content import FigureBlock, Inline

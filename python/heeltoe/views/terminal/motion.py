@@ -5,7 +5,8 @@ from __future__ import annotations
 from rich.console import Console
 
 from heeltoe.errors import InputError
-from heeltoe.motion.ground_motion import GroundMotion, check
+from heeltoe.motion.check import check
+from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import measures
 from heeltoe.views.terminal.common import label_grid, print_warnings, sampling
 

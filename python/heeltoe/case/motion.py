@@ -1,0 +1,72 @@
+"""What the user says about the earthquake: where the ground motion comes from and how it is scaled."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from heeltoe.case.fields import LARGEST_ACCELERATION, Channel, Fields, Time, TimeSpan, Truth
+from heeltoe.case.processing import ProcessingStep
+from heeltoe.case.quantities import AccelerationField
+from heeltoe.case.sentences import collected
+from heeltoe.errors import InputError, shown
+from heeltoe.units.parse import STANDARD_GRAVITY, acceleration_unit
+
+
+class Source(Fields):
+    """A ground motion in one direction: from a record, or drawn by points."""
+
+    file: str | None = Field(default=None, strict=True, min_length=1)
+    """A record: its file, relative to the case file, or its name in the catalogue; or a motion made to order, such
+    as synthetic:M6.5,20km,seed=3."""
+    channel: Channel | None = None
+    """Which channel of a file of several, by number or by direction: 1, "90 deg", "up"."""
+    points: tuple[tuple[Time, AccelerationField], ...] | None = None
+    """[time, acceleration] in order of time, straight in between; twice the same time is a jump."""
+    pga: AccelerationField | None = None
+    """Scale the motion to this peak, taken without sign."""
+    reverse: Truth = False
+    """Change the sign of the motion."""
+    unit: str | None = Field(default=None, strict=True)
+    """Unit of the numbers in a file that does not state it: g, cm/s^2, m/s^2, ..."""
+    time_step: TimeSpan | None = None
+    """Time between the numbers of a file that does not state it."""
+    processing: tuple[ProcessingStep, ...] = ()
+    """Steps of processing in their order, before the motion is scaled to `pga`."""
+
+    @model_validator(mode="after")
+    @collected
+    def _one_source(self) -> Self:
+        if self.file is not None and self.points is not None:
+            raise InputError("fields-conflict", "file", other="points")
+        if self.file is None and self.points is None:
+            raise InputError("motion-source", "")
+        if self.points is not None:
+            times = [time for time, _ in self.points]
+            if len(times) < 2 or times[0] == times[-1] or any(b < a for a, b in pairwise(times)):
+                raise InputError("motion-points", "points", shown(times))
+            for place, (_, value) in enumerate(self.points):
+                if abs(value.si(STANDARD_GRAVITY)) > LARGEST_ACCELERATION:
+                    raise InputError("acceleration-range", f"points[{place}][1]", str(value))
+            for option in ("channel", "unit", "time_step"):
+                if getattr(self, option) is not None:
+                    raise InputError("motion-file-option", option)
+        if self.unit is not None:
+            acceleration_unit(self.unit, "unit")
+        # The case's own g plays no part in what is plausible.
+        if self.pga is not None and not 0.0 < self.pga.si(STANDARD_GRAVITY) <= LARGEST_ACCELERATION:
+            raise InputError("pga-range", "pga", str(self.pga))
+        return self
+
+
+class Motion(Source):
+    """The ground motion: horizontal, positive downstream, and vertical on request, positive up."""
+
+    duration: TimeSpan | None = None
+    """Length of the run; the whole record where it is not given."""
+    allow_zero: Truth = False
+    """Accept a motion that is zero throughout, which is otherwise taken for a mistake."""
+    vertical: Source | None = None
+    """The vertical motion, positive up."""

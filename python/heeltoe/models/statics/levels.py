@@ -1,0 +1,78 @@
+"""How high the reservoir may stand until the usual loads become critical."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from scipy.optimize import brentq
+
+from heeltoe.case.model import Case
+from heeltoe.models.statics.cases import at_depth, usual
+from heeltoe.models.statics.criteria import criteria
+from heeltoe.models.statics.load_case import LoadCase
+
+# Depths that the search for a critical water level looks at: a sign that changes twice between two of them is no level
+# that anyone could keep to.
+_LEVELS = 60
+
+
+def critical_water_levels(case: Case) -> dict[str, float | None]:
+    """Return the depths of the reservoir at which the usual loads become critical; None where none is.
+
+    What each means stands with :class:`heeltoe.models.statics.model.Statics`.
+
+    The depth rises from the heel, or from the lowest point of the section where that is higher, to the crest; the
+    tailwater stays, and so does the ice, pushed up with the surface.
+    """
+    section = case.cut
+    highest = section.crest_elevation - section.base_elevation
+    lowest = section.heel[1] - section.base_elevation
+    if case.ice is not None:
+        lowest = max(lowest, case.ice.depth)
+    counted = bool(case.statics.cohesion and case.statics.bonded)
+    choice = case.statics
+    rows = criteria(
+        choice.criteria,
+        "usual",
+        cohesion=counted,
+        structure=choice.structure,
+        site_information=choice.site_information,
+    )
+    required = next(row.required for row in rows if row.check == "sliding")
+    known: dict[float, LoadCase] = {}
+
+    def state(depth: float) -> LoadCase:
+        if depth not in known:
+            known[depth] = usual(at_depth(case, depth)).load_case
+        return known[depth]
+
+    def sliding(factor: float) -> Callable[[float], float]:
+        def margin(depth: float) -> float:
+            found = state(depth)
+            strength = found.cohesive_force_n + found.friction * max(0.0, found.normal_force_n)
+            return strength - factor * max(0.0, found.shear_force_n)
+
+        return margin
+
+    def overturning(depth: float) -> float:
+        # A crack that goes through has no resultant to follow: the change of sign is a jump. What an empty reservoir
+        # lets fall upstream is not overturned by water.
+        found = state(depth)
+        return 1.0 if found.outcome == "stands" or found.cracked_from == "toe" else -1.0
+
+    margins: dict[str, Callable[[float], float]] = {
+        "sliding": sliding(1.0),
+        "sliding_required": sliding(required),
+        "overturning": overturning,
+        "flotation": lambda depth: state(depth).normal_force_n,
+    }
+    depths = [lowest + (highest - lowest) * step / _LEVELS for step in range(_LEVELS + 1)]
+    return {name: _first_zero(margin, depths) for name, margin in margins.items()}
+
+
+def _first_zero(margin: Callable[[float], float], depths: list[float]) -> float | None:
+    """Return the first depth at which a margin falls below zero; the lowest where it starts there."""
+    for low, high in zip([depths[0], *depths[:-1]], depths, strict=True):
+        if margin(high) < 0.0:
+            return high if low == high else float(brentq(margin, low, high, xtol=1e-9, rtol=1e-12))
+    return None
