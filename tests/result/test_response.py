@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pyarrow.parquet as pq
@@ -11,6 +12,7 @@ import pytest
 import heeltoe
 from heeltoe import GroundMotion, read_case, rigid, rigid_many, verdict
 from heeltoe.motion.moments import ground
+from heeltoe.result.response import Of
 from shared.dams import ROOT
 
 EXAMPLES = sorted((ROOT / "examples").glob("*.toml"))
@@ -85,7 +87,7 @@ def test_results_cannot_be_changed(rocking):
         rocking.summary["residual_slip_m"] = 0.0
     with pytest.raises(AttributeError):
         rocking.title = "mine"
-    with pytest.raises(AttributeError, match="has no 'residual_slide'"):
+    with pytest.raises(AttributeError, match="no attribute 'residual_slide'"):
         _ = rocking.residual_slide
 
 
@@ -203,3 +205,15 @@ def test_slip_in_the_air_is_a_warning():
     assert any("happens in the air" in text for text in bouncing.warnings)
     assert not any("happens in the air" in text for text in still.warnings)
     assert abs(still.residual_slip_m) < 0.1 * abs(bouncing.residual_slip_m)
+
+
+def test_numbers_of_the_summary_are_attributes(rocking):
+    """Each is the number of that name, and a number that a model does not give is no attribute of its response."""
+    named = [name for name in dir(type(rocking)) if isinstance(getattr(type(rocking), name), Of)]
+    assert set(named) == set(rocking.summary)
+    for name in named:
+        assert getattr(rocking, name) == rocking.summary[name]
+    assert not hasattr(rocking, "crack_level")
+    never = replace(rocking, outcome="unstable", summary={})
+    with pytest.raises(AttributeError, match="outcome 'unstable' has no 'residual_slip_m'"):
+        _ = never.residual_slip_m

@@ -33,7 +33,6 @@ def with_slip(response: Response, *slips: float) -> Response:
 
 
 def with_status(response: Response, status: np.ndarray) -> Response:
-    assert response.crack is not None
     return replace(response, crack=replace(response.crack, status=status))
 
 
@@ -60,7 +59,6 @@ def test_a_crack_that_never_lets_go_creeps(response):
         loose = held.copy()
         loose[100 : 100 + frames] = 3
         assert word in verdict(with_status(response, loose))
-    assert "creeps" not in verdict(replace(response, crack=None))
 
 
 def test_a_quiet_dam_stays_where_it_is():

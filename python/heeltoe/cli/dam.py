@@ -57,7 +57,8 @@ def overturning(
 ) -> None:
     """Draw which pulses overturn the block: a map over their frequency and amplitude, with the safe gap."""
     from heeltoe.case.read import read_case
-    from heeltoe.study.overturning import overturning_map, write_overturning
+    from heeltoe.study.overturning import overturning_map
+    from heeltoe.views.files.write import write_overturning
     from heeltoe.views.terminal.dam import print_overturning
 
     loaded = read_case(case, list(set_ or []))

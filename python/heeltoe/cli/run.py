@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, TypeVar
 
 import typer
 from rich.console import Console
@@ -29,6 +29,8 @@ if TYPE_CHECKING:
     from heeltoe.case.model import Case
     from heeltoe.result.response import Response
     from heeltoe.study.comparison import Comparison
+
+R = TypeVar("R", bound="Response")
 
 # What --model takes; "both" is the rigid and the flexible one.
 _MODELS = ("rigid", "decoupled", "flexible", "both", "rigid,flexible", "decoupled,flexible")
@@ -234,7 +236,7 @@ def _with_spread(
     from heeltoe.study.comparison import Comparison
     from heeltoe.study.spread import with_spread
 
-    def vary(response: Response) -> Response:
+    def vary(response: R) -> R:
         if not wanted(response):
             return response
 

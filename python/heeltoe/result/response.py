@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Any, ClassVar, Generic, Self, TypeVar, overload
 
 import numpy as np
 import pyarrow as pa
@@ -17,10 +17,8 @@ from heeltoe.result.limits import LimitCheck
 from heeltoe.result.write import build_info, motion_json, write_table
 from heeltoe.shown import Shown
 
-if TYPE_CHECKING:
-    from heeltoe.models.flexible.history import CrackHistory
-
 Floats = NDArray[np.float64]
+T = TypeVar("T")
 
 #: Outcomes of a run; only the first two come with a result to trust.
 OUTCOMES = ("ok", "overturned", "unstable", "paradox", "event limit", "cycling", "lost", "blown up")
@@ -56,6 +54,30 @@ class Energy:
     gained_j: float = 0.0
 
 
+class Of(Generic[T]):
+    """A number of the summary as an attribute of its response, by the same name; none where the run never started."""
+
+    def __init__(self, doc: str) -> None:
+        self.__doc__ = doc
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    @overload
+    def __get__(self, response: None, owner: type) -> Self: ...
+    @overload
+    def __get__(self, response: Response, owner: type) -> T: ...
+    def __get__(self, response: Response | None, owner: type) -> Self | T:
+        if response is None:
+            return self
+        try:
+            found: T = response.summary[self._name]
+        except KeyError:
+            said = f"a {owner.__name__} with outcome {response.outcome!r} has no {self._name!r}"
+            raise AttributeError(said) from None
+        return found
+
+
 @dataclass(frozen=True, eq=False)
 class Response(Shown):
     """Result of one analysis. Signs: slip is positive downstream, rotation positive counter-clockwise (upstream).
@@ -88,8 +110,6 @@ class Response(Shown):
         State under the static loads: safety factors, resultant, critical accelerations.
     references
         Sources of the methods used.
-    crack
-        Of the flexible model: what crack and parts did, frame by frame.
     spread
         The same run with slightly weaker and stronger shaking, where that was asked for.
     limits
@@ -111,7 +131,6 @@ class Response(Shown):
     event_log: Mapping[str, Any]
     static: Mapping[str, Any]
     references: tuple[str, ...] = field(default=())
-    crack: CrackHistory | None = None
     spread: Mapping[str, Any] | None = None
     limits: tuple[LimitCheck, ...] = ()
 
@@ -119,19 +138,40 @@ class Response(Shown):
         for name in ("summary", "histories", "event_log", "static"):
             object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
 
-    def __getattr__(self, name: str) -> Any:
-        """Give the numbers of the summary as attributes: ``response.residual_slip_m``."""
-        if not name.startswith("_"):
-            try:
-                return self.summary[name]
-            except KeyError:
-                pass
-        raise AttributeError(f"a {type(self).__name__} with outcome {self.__dict__.get('outcome')!r} has no {name!r}")
+    residual_slip_m = Of[float]("Slip at the end, positive downstream [m].")
+    peak_slip_downstream_m = Of[float]("Largest slip on the way [m].")
+    peak_slip_upstream_m = Of[float]("Least slip on the way: negative where it is upstream of the start [m].")
+    rocking_downstream_rad = Of[float]("Largest rotation about the toe [rad].")
+    rocking_upstream_rad = Of[float]("Largest rotation about the heel [rad].")
+    opening_upstream_m = Of[float]("Largest opening of the crack at the upstream face [m].")
+    opening_downstream_m = Of[float]("Largest opening of the crack at the downstream face [m].")
+    largest_gap_heel_m = Of[float]("Largest gap at the heel, in the air included [m].")
+    largest_gap_toe_m = Of[float]("Largest gap at the toe, in the air included [m].")
+    slip_by_mode_m = Of[Mapping[str, float]]("Slip while sliding, in slide-rocking and in the air [m].")
+    time_by_mode_s = Of[Mapping[str, float]]("How long each mode of motion lasts in all [s].")
+    impacts = Of[int]("Blows; of an elastic dam those of the nodes of its crack.")
+    largest_impact_velocity_m_s = Of[float]("Of approach [m/s].")
+    final_mode = Of[str]("Mode of motion at the end.")
+    final_slip_velocity_m_s = Of[float]("Positive downstream [m/s].")
+    end_time_s = Of[float]("When the run ended [s].")
+    crack_width_m = Of[float]("Width of the crack [m].")
+    uplift_during_shaking = Of[str]("What the case says of it.")
+    anchors = Of[list[dict[str, float | None]]]("Of each anchor: place, largest tension and capacity.")
+    events = Of[int]("Changes of mode and impacts of a block.")
+    rotation = Of[str]("Geometry of a block: small, p-delta or finite.")
+    overturned_about = Of[str | None]("Corner about which a block has overturned.")
+
+    #: Whether the parts of the dam are elastic, so that both ends of a crack shift with nothing happening to the dam.
+    elastic: ClassVar[bool] = False
 
     @property
     def ok(self) -> bool:
         """Whether the run ended with a result to trust."""
         return self.outcome in ("ok", "overturned")
+
+    def lets_go(self) -> bool:
+        """Whether there are moments in which the whole dam can slide; a block slides as a whole or not at all."""
+        return True
 
     def citation(self) -> tuple[str, ...]:
         """Return the references for exactly the methods and options this result used."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from heeltoe import _kernel
 from heeltoe.result.response import Response
 from heeltoe.units.write import angle, length, speed
 
@@ -16,8 +15,6 @@ _ROTATION_RAD = 1e-6
 _ELASTIC_M = 1e-4
 # Less time in the air in all [s] is a few bounces, which the strikes tell of.
 _IN_THE_AIR_S = 0.05
-# A crack that lets go for less than this in all [s], hardly longer than a frame of the history, moves no dam.
-_LETS_GO_S = 0.02
 # Whether a dam that vibrates is still on its way is seen over this time [s].
 _LAST_S = 1.0
 
@@ -30,7 +27,7 @@ def verdict(response: Response, units: str = "si") -> str:
         about = response.overturned_about
         way = "downstream" if about == "toe" else "upstream"
         sentences = [f"The dam overturns {way}, about its {about}: it lies on its side at {response.end_time_s:.2f} s."]
-    elif response.model == "flexible":
+    elif response.elastic:
         sentences = [_elastic_slip(response, units), _openings(response, units), _elastic_end(response, units)]
     else:
         sentences = [_slip(response, units), _rocking(response, units), _end(response)]
@@ -73,21 +70,9 @@ def comes_to_rest(response: Response) -> bool:
     A rigid block says so itself. An elastic dam is never quite still, and where its crack stays open in part it is not
     in the state of rest: it has stopped where its slip changes by nothing measurable any more.
     """
-    if response.model == "flexible":
+    if response.elastic:
         return last_change(response)[1] < _ELASTIC_M
     return bool(response.final_mode == "rest")
-
-
-def lets_go(response: Response) -> bool:
-    """Whether there are moments in which no node of an elastic dam's crack sticks, as the frames show it.
-
-    Only then the whole dam can slide; otherwise the crack slips here and then there, while the rest holds.
-    """
-    if response.crack is None:
-        return True
-    stick = _kernel.CONTACT_STATUSES.index("stick")
-    loose = (response.crack.status != stick).all(axis=1)
-    return float(np.diff(response.crack.time, prepend=0.0)[loose].sum()) >= _LETS_GO_S
 
 
 def _spread(response: Response, units: str) -> str:
@@ -120,7 +105,7 @@ def _elastic_slip(response: Response, units: str) -> str:
         return "The dam does not slide."
     if abs(slip) < _ELASTIC_M:
         return f"The dam does not slide: its crack shifts by up to {length(largest, units)} and comes back."
-    if lets_go(response):
+    if response.lets_go():
         text = f"The dam slides {length(abs(slip), units)} {_way(slip)}{_spread(response, units)}"
         return text + _on_the_way(slip, down, up, _ELASTIC_M, units) + "."
     return (

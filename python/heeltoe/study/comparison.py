@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from time import perf_counter
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import Any, Literal, Protocol, TypeVar
 
 from heeltoe.case.model import Case
 from heeltoe.case.shaking import resolve
 from heeltoe.errors import InputError
 from heeltoe.models.decoupled.model import decoupled
+from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.models.flexible.model import flexible
 from heeltoe.models.flexible.reduced import build_flexible_dam
+from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.models.rigid.model import rigid
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.response import Response
@@ -36,6 +38,15 @@ _LITTLE = 1e-3
 _TABLE = "Zhu 2004, table 7.8: a dam of 20, 200, 2000 and 20000 GPa slides 218, 94, 52 and 37 mm, a rigid block 36 mm"
 
 
+R = TypeVar("R", bound=Response)
+
+
+class Change(Protocol):
+    """Makes a response of the same kind of one."""
+
+    def __call__(self, response: R, /) -> R: ...
+
+
 @dataclass(frozen=True, eq=False)
 class Comparison:
     """Two models on one case.
@@ -51,7 +62,7 @@ class Comparison:
     """
 
     rigid: Response
-    flexible: Response
+    flexible: FlexibleResponse
     seconds: Mapping[str, float]
 
     def __post_init__(self) -> None:
@@ -79,7 +90,7 @@ class Comparison:
         block, dam = (abs(each.residual_slip_m) for each in (self.rigid, self.flexible))
         if max(block, dam) < _LITTLE:
             return "Both say that the dam slides by less than a millimetre."
-        if self.rigid.model == "decoupled":
+        if isinstance(self.rigid, DecoupledResponse):
             return self._meaning_of_decoupling(block, dam)
         if block < _LITTLE:
             return (
@@ -130,7 +141,7 @@ class Comparison:
             "seconds": dict(self.seconds),
         }
 
-    def with_responses(self, change: Callable[[Response], Response]) -> Comparison:
+    def with_responses(self, change: Change) -> Comparison:
         """Return the same with both responses changed."""
         return replace(self, rigid=change(self.rigid), flexible=change(self.flexible))
 

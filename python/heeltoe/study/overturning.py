@@ -11,7 +11,6 @@ import os
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from itertools import pairwise
-from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
@@ -214,15 +213,3 @@ def _end(case: Case, block: Block, time: Floats, ground: Floats) -> int:
     if outcome != "ok":
         return 4
     return int(max(row[_ROW["largest_gap_heel"]], row[_ROW["largest_gap_toe"]]) > 0.0)
-
-
-def write_overturning(found: OverturningMap, directory: Path) -> list[Path]:
-    """Write the map as ``overturning.csv``, ``.png`` and ``.svg`` and return their paths."""
-    from heeltoe.result.write import write_table
-    from heeltoe.views.figures import save_all
-    from heeltoe.views.figures.overturning import overturning_figure
-
-    directory.mkdir(parents=True, exist_ok=True)
-    table = directory / "overturning.csv"
-    write_table(found.to_table(), table)
-    return [table, *save_all({"overturning": overturning_figure(found)}, directory)]

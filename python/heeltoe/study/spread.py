@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,8 @@ from heeltoe import _kernel
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.mechanics.block import Block, build_block
+from heeltoe.models.decoupled.response import DecoupledResponse
+from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.models.rigid.many import rigid_many
 from heeltoe.models.rigid.varying import varies
 from heeltoe.models.rigid.walk import GroundSeries, run_block
@@ -24,6 +26,7 @@ from heeltoe.result.response import Response
 
 Floats = NDArray[np.float64]
 Told = Callable[[int, int], None]
+R = TypeVar("R", bound=Response)
 
 #: Runs where no number is given: enough for a standard deviation, and one of them has the motion as it is.
 RUNS = 11
@@ -64,7 +67,7 @@ def check_runs(value: object, field: str) -> int:
     return int(text)
 
 
-def with_spread(response: Response, case: Case, runs: int = RUNS, *, told: Told | None = None) -> Response:
+def with_spread(response: R, case: Case, runs: int = RUNS, *, told: Told | None = None) -> R:
     """Run a case again with its ground motion scaled by equally spaced factors from 0.99 to 1.01.
 
     Parameters
@@ -95,16 +98,16 @@ def with_spread(response: Response, case: Case, runs: int = RUNS, *, told: Told 
     scales = np.linspace(WEAKEST, STRONGEST, runs)
     end = case.motion.duration if case.motion and case.motion.duration else response.motion.duration
     step = None
-    if response.model == "rigid":
-        found, good = _rigid(case, (response.motion, response.vertical, None), end, scales, told)
-    elif response.model == "decoupled":
+    if isinstance(response, FlexibleResponse):
+        step = _step(response)
+        found, good = _flexible(response, case, end, scales, step, told)
+    elif isinstance(response, DecoupledResponse):
         from heeltoe.models.decoupled.model import crack_motions
 
         # The part below is linear: its motion grows as the ground's does.
         found, good = _rigid(case, crack_motions(case, response.motion, response.vertical), end, scales, told)
     else:
-        step = _step(response)
-        found, good = _flexible(response, case, end, scales, step, told)
+        found, good = _rigid(case, (response.motion, response.vertical, None), end, scales, told)
     spread = {
         "runs": runs,
         "failed": int(np.sum(~good)),
@@ -170,14 +173,12 @@ def _with_openings(rows: Mapping[str, Floats], block: Block) -> tuple[dict[str, 
 
 
 def _flexible(
-    response: Response, case: Case, end: float, scales: Floats, step: float, told: Told | None
+    response: FlexibleResponse, case: Case, end: float, scales: Floats, step: float, told: Told | None
 ) -> tuple[dict[str, Floats], NDArray[np.bool_]]:
     # Here, so that the rigid model need not wait for the elastic parts.
-    from heeltoe.models.flexible.reduced import build_flexible_dam
     from heeltoe.models.flexible.shaken import Shaken
 
-    dam = build_flexible_dam(case) if response.crack is None else response.crack.dam
-    shaken = Shaken(case, dam, response.motion, response.vertical, end)
+    shaken = Shaken(case, response.crack.dam, response.motion, response.vertical, end)
     if told is None:
         rows = shaken.run_scaled(step, scales)
     else:
@@ -198,7 +199,7 @@ def _named(rows: Mapping[str, Floats]) -> dict[str, Floats]:
     return {name: factor * rows[column] + 0.0 for name, (column, factor) in _COMMON.items()}
 
 
-def _step(response: Response) -> float:
+def _step(response: FlexibleResponse) -> float:
     """Return the step of the runs: the longer of the two that the response compared where they hardly differ."""
     evidence = response.summary["convergence"]
     if evidence is not None and evidence["change"] <= _SAME:

@@ -18,6 +18,7 @@ from heeltoe import _kernel
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
 from heeltoe.models.flexible.reduced import FlexibleDam, Part, build_flexible_dam
+from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.models.rigid.model import rigid
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.response import Response
@@ -141,7 +142,7 @@ def contactors() -> Iterator[Row]:
 
 
 def _depth(response: Response) -> float:
-    assert response.crack is not None
+    assert isinstance(response, FlexibleResponse)
     return response.crack.deepest_penetration()
 
 

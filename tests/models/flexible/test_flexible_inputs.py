@@ -82,3 +82,9 @@ def test_both_treatments_of_contact_agree_where_the_penalty_is_damped():
 def test_a_dam_is_built_once():
     one, two = flexible(changed(), MOTION), flexible(changed(), MOTION.scaled(0.5))
     assert one.crack.dam is two.crack.dam
+
+
+def test_every_number_is_an_attribute_of_the_response():
+    response = flexible(read_case({**FIELDS, "anchors": [{"distance": "6 m", "prestress": "1 MN/m"}]}), MOTION)
+    for name, value in response.summary.items():
+        assert getattr(response, name) == value

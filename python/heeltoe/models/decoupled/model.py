@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from heeltoe.case.shaking import resolve
 from heeltoe.errors import InputError
 from heeltoe.models.decoupled.chain import Chain, bonded_chain, chain
 from heeltoe.models.decoupled.crack_motion import CrackMotion, crack_motion, crack_motion_at, relative
+from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.models.rigid.model import rigid
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.moments import ground
@@ -40,7 +41,7 @@ def decoupled(
     vertical: GroundMotion | None = None,
     *,
     output_step: float | None = None,
-) -> Response:
+) -> DecoupledResponse:
     """Run the decoupled chain on a case with a crack at a height.
 
     The part below the crack is elastic and carries the part above as a rigid body; the acceleration of the crack then
@@ -58,9 +59,7 @@ def decoupled(
 
     Returns
     -------
-    Response
-        That of the block, with ``crack_level`` in its summary. `motion` and `vertical` are those of the ground;
-        critical accelerations belong to the crack.
+    DecoupledResponse
 
     Raises
     ------
@@ -81,7 +80,7 @@ def decoupled(
     block = _driven(case, at_crack, vertical is not None, output_step)
     coarser = _driven(case, rough, vertical is not None, output_step)
     if not block.summary:
-        return replace(block, model="decoupled", motion=motion, vertical=vertical)
+        return _of_the_chain(block, motion=motion, vertical=vertical)
     level = _crack_level(case, part, at_crack, motion, vertical)
     level["convergence"] = {
         "step_s": at_crack.step,
@@ -89,9 +88,8 @@ def decoupled(
         "half_the_modes": _of_half_the_modes(part, at_crack, motion, vertical, end),
         **_change(block, coarser, rough.step),
     }
-    return replace(
+    return _of_the_chain(
         block,
-        model="decoupled",
         motion=motion,
         vertical=vertical,
         summary={**block.summary, "crack_level": level},
@@ -99,6 +97,12 @@ def decoupled(
         warnings=(*block.warnings, *_warnings(level)),
         references=(*block.references, *cited("decoupled", "piecewise exact")),
     )
+
+
+def _of_the_chain(block: Response, **changes: Any) -> DecoupledResponse:
+    """Return what the block has done as what the chain has done."""
+    found = {each.name: getattr(block, each.name) for each in fields(block)}
+    return DecoupledResponse(**(found | {"model": "decoupled"} | changes))
 
 
 def crack_motions(

@@ -9,13 +9,13 @@ from heeltoe.case.warnings import case_warnings
 from heeltoe.errors import InputError
 from heeltoe.mechanics.block import build_block, static_state
 from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
+from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.models.flexible.shaken import Shaken, converged
 from heeltoe.models.flexible.tables import FRAME, anchors_of, energy_of, histories_of, history_of, summary_of
 from heeltoe.models.flexible.warnings import ADVICE, last_change, warnings_of
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.references import cited
 from heeltoe.result.limits import check_limits
-from heeltoe.result.response import Response
 
 #: Frames kept: enough for an animation, few enough for memory.
 _FRAME_STEP = 0.01
@@ -31,7 +31,7 @@ def flexible(
     *,
     output_step: float | None = None,
     dam: FlexibleDam | None = None,
-) -> Response:
+) -> FlexibleResponse:
     """Run the flexible model on a case.
 
     Parameters
@@ -47,8 +47,7 @@ def flexible(
 
     Returns
     -------
-    Response
-        With a :class:`~heeltoe.models.flexible.history.CrackHistory` in ``crack``.
+    FlexibleResponse
 
     Raises
     ------
@@ -79,7 +78,7 @@ def flexible(
     if case.anchors:
         summary["anchors"] = anchors_of(case, raw)
     summary["uplift_during_shaking"] = case.uplift.during_shaking
-    return Response(
+    return FlexibleResponse(
         model="flexible",
         title=case.title,
         outcome=outcome,

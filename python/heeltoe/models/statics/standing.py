@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from heeltoe.case.model import Case
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.result.response import Response
+
+R = TypeVar("R", bound=Response)
 
 if TYPE_CHECKING:
     from heeltoe.models.statics.load_case import Solved
@@ -16,7 +18,7 @@ if TYPE_CHECKING:
 _NOTICED = 1e-3
 
 
-def with_standing(response: Response, case: Case) -> Response:
+def with_standing(response: R, case: Case) -> R:
     """Return the response with a warning where the usual loads open the crack, water following.
 
     The models of the earthquake keep the uplift of the case. A run that never started says why by itself.

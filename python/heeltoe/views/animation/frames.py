@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
 from heeltoe.models.flexible.history import CrackHistory
+from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.views.animation.bodies import Moments, Part, elastic_parts, rigid_parts
 
@@ -104,7 +105,7 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
     section = case.cut
     histories = response.histories
     moments = Moments.of(histories["time_s"], times)
-    if response.crack is None:
+    if not isinstance(response, FlexibleResponse):
         parts = rigid_parts(case, histories, moments)
         forces, status = _corners(section, histories, response.mode, moments)
         unit, size = "MN/m", 1e6

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from heeltoe import _kernel
 from heeltoe.models.flexible.history import CrackHistory
-from heeltoe.result.response import Response
+from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.views.figures.panels import draw_slip, panels
 from heeltoe.views.figures.style import describe, styled, time_axis
@@ -32,9 +32,9 @@ _COLUMNS = 1500
 
 
 @styled
-def crack_figure(response: Response, units: str = "si") -> Figure:
+def crack_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     """Draw which part of an elastic dam's crack sticks, slips and opens over time, with the slip above it."""
-    record = _record(response)
+    record = response.crack
     system = unit_system(units)
     figure, (slip, crack) = panels([1.0, 1.8], 1.55)
     describe(figure, response)
@@ -49,11 +49,6 @@ def crack_figure(response: Response, units: str = "si") -> Figure:
     figure.legend(handles=handles, loc="outside lower center", ncols=len(seen))
     figure.align_ylabels([slip, crack])
     return figure
-
-
-def _record(response: Response) -> CrackHistory:
-    assert response.crack is not None
-    return response.crack
 
 
 def _status_map(axes: Axes, record: CrackHistory, scale: Scale) -> list[str]:
@@ -79,13 +74,13 @@ def _status_map(axes: Axes, record: CrackHistory, scale: Scale) -> list[str]:
 
 
 @styled
-def pressure_figure(response: Response, units: str = "si") -> Figure:
+def pressure_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     """Draw the contact pressure along an elastic dam's crack over time; where nothing presses it is white, hatched.
 
     Pressures are the nodes' forces over the lengths that belong to them, mean from frame to frame. Single blows may
     lie beyond the end of the colours.
     """
-    record = _record(response)
+    record = response.crack
     system = unit_system(units)
     time, pressure = contact_pressure(record)
     length = system.scale("length")

@@ -9,14 +9,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, NullFormatter
 
-from heeltoe.result.response import Response
+from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.views.figures.style import COLOURS, heading, styled
 
 _CRACK = COLOURS["rotation"]
 
 
 @styled
-def crack_level_figure(response: Response) -> Figure:
+def crack_level_figure(response: DecoupledResponse) -> Figure:
     """Draw the acceleration of ground and crack over time, their response spectra and the transfer function."""
     h, level, g = response.histories, response.crack_level, response.gravity
     spectrum = level["spectrum"]

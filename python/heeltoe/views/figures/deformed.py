@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from heeltoe.models.flexible.elastic import principal
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.mesh.checks import boundary_edges
+from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import scaled
@@ -37,7 +38,7 @@ _LEVELS = 8
 
 
 @styled
-def deformed_figure(response: Response, time: float | None = None, units: str = "si") -> Figure:
+def deformed_figure(response: FlexibleResponse, time: float | None = None, units: str = "si") -> Figure:
     """Draw the deformed dam with its principal stresses, on the left those in tension, on the right in compression.
 
     Short lines show their directions. Colours end where 99 of 100 nodes are; the largest value of all is stated.
@@ -52,7 +53,6 @@ def deformed_figure(response: Response, time: float | None = None, units: str = 
         ``"si"`` or ``"us"``.
     """
     record = response.crack
-    assert record is not None
     system = unit_system(units)
     frame, why = _chosen(response, record) if time is None else (record.frame_at(time), "")
     moved = record.displacements(frame)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TypeGuard
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike, NDArray
 
+from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Units
 from heeltoe.units.write import length, number
@@ -25,9 +27,9 @@ BEHIND_TEXT = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0
 _TILTED = 0.05
 
 
-def is_elastic(response: Response) -> bool:
+def is_elastic(response: Response) -> TypeGuard[FlexibleResponse]:
     """Whether the crack of this response has nodes."""
-    return response.crack is not None
+    return isinstance(response, FlexibleResponse)
 
 
 def panels(heights: Sequence[float], height: float, *, most: float = 9.6) -> tuple[Figure, list[Axes]]:

@@ -17,7 +17,8 @@ from heeltoe.views.figures.style import heading, styled
 from heeltoe.views.figures.write import save_all
 
 if TYPE_CHECKING:
-    from heeltoe.study.grid import Grid
+    from heeltoe.models.decoupled.response import DecoupledResponse
+from heeltoe.study.grid import Grid
 
 # Okabe and Ito's colours with dashes beside them, so that lines differ in print as well.
 _LINES = (
@@ -38,7 +39,7 @@ def write_grid_figures(grid: Grid, directory: Path, units: str = "si") -> list[P
     if any(each.histories for each in grid.responses):
         figures["slips"] = slips_figure(grid, units)
     for response in grid.responses:
-        if response.model == "decoupled" and response.summary:
+        if isinstance(response, DecoupledResponse) and response.summary:
             figures["crack-level"] = crack_level_figure(response)
             break
     return save_all(figures, directory)

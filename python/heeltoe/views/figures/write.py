@@ -10,6 +10,8 @@ import matplotlib as mpl
 import numpy as np
 from matplotlib.figure import Figure
 
+from heeltoe.models.decoupled.response import DecoupledResponse
+from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.dense import filled_in
@@ -126,19 +128,19 @@ def _drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]
     if lifts_off(response, _NO_LIFT):
         found["path"] = lambda: path_figure(response, units)
     found["spectrum"] = lambda: spectrum_figure(response, units)
-    if response.model == "decoupled":
-        found["crack-level"] = lambda: crack_level_figure(response)
-    if is_elastic(response):
+    if isinstance(response, DecoupledResponse):
+        chained = response
+        found["crack-level"] = lambda: crack_level_figure(chained)
+    if isinstance(response, FlexibleResponse):
         found |= _elastic_drawings(response, units)
     return found
 
 
-def _elastic_drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]:
+def _elastic_drawings(response: FlexibleResponse, units: str) -> dict[str, Callable[[], Figure]]:
     from heeltoe.views.figures.crack import crack_figure, pressure_figure
     from heeltoe.views.figures.dam import mesh_figure, modes_figure
     from heeltoe.views.figures.deformed import deformed_figure
 
-    assert response.crack is not None
     dam = response.crack.dam
     return {
         "crack": lambda: crack_figure(response, units),

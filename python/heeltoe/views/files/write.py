@@ -9,11 +9,14 @@ from tempfile import TemporaryDirectory
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.models.flexible.history import crack_table
+from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.result.write import json_text, write_table
 from heeltoe.study.comparison import Comparison
 from heeltoe.study.grid import Grid
-from heeltoe.views.figures import NAMES, write_comparison_figure, write_figures
+from heeltoe.study.overturning import OverturningMap
+from heeltoe.views.figures import NAMES, save_all, write_comparison_figure, write_figures
+from heeltoe.views.figures.overturning import overturning_figure
 
 # Names of files that a run may leave; those of an earlier one into the same directory would not belong to this one.
 _TABLES = ("histories", "events", "crack", "table")
@@ -107,13 +110,21 @@ def _write_one(response: Response, directory: Path, suffix: str, vtk: bool) -> N
     response.write_histories(directory / f"histories{suffix}")
     if response.event_log:
         response.write_events(directory / f"events{suffix}")
-    if response.crack is None:
+    if not isinstance(response, FlexibleResponse):
         return
     write_table(crack_table(response.crack), directory / f"crack{suffix}")
     if vtk:
         from heeltoe.views.files.vtk import write_vtk_series
 
         write_vtk_series(response.crack, directory / _VTK)
+
+
+def write_overturning(found: OverturningMap, directory: Path) -> list[Path]:
+    """Write a map as ``overturning.csv``, ``.png`` and ``.svg`` and return their paths."""
+    directory.mkdir(parents=True, exist_ok=True)
+    table = directory / "overturning.csv"
+    write_table(found.to_table(), table)
+    return [table, *save_all({"overturning": overturning_figure(found)}, directory)]
 
 
 def _write_grid(grid: Grid, directory: Path, units: str) -> None:

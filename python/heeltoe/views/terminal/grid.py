@@ -11,6 +11,7 @@ from rich.markup import escape
 from rich.measure import Measurement
 from rich.table import Table
 
+from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.result.response import Response
 from heeltoe.result.verdict import comes_to_rest
 from heeltoe.study.grid import Grid
@@ -127,7 +128,7 @@ def _end(response: Response) -> str:
 
 def _print_crack_level(grid: Grid, console: Console) -> None:
     """Say how much stronger the crack is shaken than the ground, over all runs."""
-    levels = [each.crack_level for each in grid.responses if each.model == "decoupled" and each.summary]
+    levels = [each.crack_level for each in grid.responses if isinstance(each, DecoupledResponse) and each.summary]
     factors = sorted(level["amplification"] for level in levels if level["amplification"] is not None)
     if not factors:
         return

@@ -9,6 +9,8 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from heeltoe.models.decoupled.response import DecoupledResponse
+from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.response import Response
 from heeltoe.result.verdict import comes_to_rest, verdict
@@ -54,7 +56,7 @@ def print_summary(response: Response, console: Console) -> None:
 def print_comparison(both: Comparison, console: Console) -> None:
     """Print the same of both models, side by side."""
     _print_head(both.flexible, f"{both.rigid.model} and flexible model", console)
-    if both.rigid.model == "decoupled" and both.rigid.summary:
+    if isinstance(both.rigid, DecoupledResponse) and both.rigid.summary:
         lines = label_grid()
         for label, text in _crack_lines(both.rigid):
             lines.add_row(label, text)
@@ -80,10 +82,10 @@ def _print_head(response: Response, model: str, console: Console) -> None:
             grid.add_row(label, escape(_motion_line(motion, response.gravity)))
     for label, text in _static_lines(response):
         grid.add_row(label, text)
-    if response.model == "flexible":
+    if isinstance(response, FlexibleResponse):
         for label, text in _elastic_lines(response):
             grid.add_row(label, text)
-    if response.model == "decoupled" and response.summary:
+    if isinstance(response, DecoupledResponse) and response.summary:
         for label, text in _crack_lines(response):
             grid.add_row(label, text)
     console.print(grid)
@@ -135,7 +137,7 @@ def _static_lines(response: Response) -> list[tuple[str, str]]:
     return lines
 
 
-def _elastic_lines(response: Response) -> list[tuple[str, str]]:
+def _elastic_lines(response: FlexibleResponse) -> list[tuple[str, str]]:
     """Return what the result of the flexible model rests on."""
     s = response.summary
     periods = " ".join(f"{period:.4f}" for period in s["periods_s"])
@@ -145,9 +147,8 @@ def _elastic_lines(response: Response) -> list[tuple[str, str]]:
     modes = " above and ".join(map(str, mesh["modes"])) + (" below" if len(mesh["modes"]) > 1 else "")
     kept = f"{mesh['basis_error']:.1e} is what those left out take from the flexibility of the crack"
     lines.append(("modes", f"{modes}, {kept if mesh['basis_error'] else 'which is all there are'}"))
-    dam = None if response.crack is None else response.crack.dam
-    ratio, coefficients = (None, None) if dam is None else (_damping_ratio(dam), dam.coefficients)
-    lines.append(("damping", damping_line(s["damping"], ratio, coefficients)))
+    dam = response.crack.dam
+    lines.append(("damping", damping_line(s["damping"], _damping_ratio(dam), dam.coefficients)))
     lines.append(("contact", _contact_line(response)))
     step = f"{_step(s['time_step_s'])}, {s['steps']} steps; "
     evidence = s["convergence"]
@@ -179,7 +180,7 @@ def _chosen_lines(response: Response) -> list[tuple[str, str]]:
     return lines
 
 
-def _crack_lines(response: Response) -> list[tuple[str, str]]:
+def _crack_lines(response: DecoupledResponse) -> list[tuple[str, str]]:
     """Return how the crack moves that shakes the part above it."""
     level = response.crack_level
     found = level["convergence"]
@@ -235,7 +236,7 @@ def _damping_ratio(dam: FlexibleDam) -> float:
     return float(part.damping_sticking[-1] / math.sqrt(part.omega_squared[-1])) / 2.0
 
 
-def _contact_line(response: Response) -> str:
+def _contact_line(response: FlexibleResponse) -> str:
     s = response.summary
     return (
         f"{s['contact']}: {_CONTACT[s['contact']]}; {s['contact_iterations_per_step']:.3g} iterations per step, "
@@ -279,7 +280,7 @@ def _result_table(response: Response) -> Table:
     openings = (response.opening_upstream_m, response.opening_downstream_m)
     table.add_row("peak slip", *map(_length, (response.peak_slip_downstream_m, -response.peak_slip_upstream_m)))
     table.add_row("largest rotation", *map(_rotation, rotations))
-    if response.model == "flexible":
+    if response.elastic:
         table.add_row("largest opening, this face", *map(_length, reversed(openings)))
     else:
         table.add_row("opening it means, other face", *map(_length, openings))
@@ -293,7 +294,7 @@ def _result_lines(response: Response) -> list[tuple[str, str]]:
     ]
     lines.append(("time by mode", ", ".join(times)))
     lines += _chosen_lines(response)
-    if response.model == "flexible":
+    if response.elastic:
         return [*lines, ("node strikes", _strikes(response)), ("in the end", _in_the_end(response))]
     closes = f"the energy ledger closes to {response.energy.residual if response.energy else 0.0:.0e}"
     return [*lines, ("events", f"{response.events}, {response.impacts} of them impacts; {closes}")]

@@ -1,0 +1,20 @@
+"""What a run of the decoupled chain returns beside what every run of a block returns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from heeltoe.result.response import Of, Response
+
+
+@dataclass(frozen=True, eq=False)
+class DecoupledResponse(Response):
+    """Result of the decoupled chain: that of its block, with the motion that has shaken it.
+
+    Signs and attributes as in :class:`~heeltoe.result.response.Response`. `motion` and `vertical` are those of the
+    ground; critical accelerations belong to the crack.
+    """
+
+    crack_level = Of[Mapping[str, Any]]("How the crack moves that shakes the block, and how well that is known.")

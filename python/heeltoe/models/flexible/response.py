@@ -1,0 +1,56 @@
+"""What a run of the flexible model returns beside what every run returns."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+from heeltoe.result.response import Of, Response
+
+# Not at run time: who asks whether a response is one of these need not wait for the elastic parts.
+if TYPE_CHECKING:
+    from heeltoe.models.flexible.history import CrackHistory
+
+# A crack that lets go for less than this in all [s], hardly longer than a frame of the history, moves no dam.
+_LETS_GO_S = 0.02
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FlexibleResponse(Response):
+    """Result of the flexible model, signs and attributes as in :class:`~heeltoe.result.response.Response`.
+
+    Attributes
+    ----------
+    crack
+        What crack and parts did, frame by frame.
+    """
+
+    crack: CrackHistory
+
+    elastic: ClassVar[bool] = True
+
+    peak_normal_force_n = Of[float]("Largest force across the crack [N].")
+    periods_s = Of[list[float]]("Of the intact dam with its water, longest first [s].")
+    mesh = Of[Mapping[str, Any]]("Elements, nodes and modes of each part, nodes along the crack, error of the basis.")
+    damping = Of[str]("What the case says of it.")
+    damping_ratio = Of[float]("Of the concrete.")
+    rayleigh_mass_1_s = Of[float | None]("Rayleigh coefficient of mass [1/s].")
+    rayleigh_stiffness_s = Of[float | None]("Rayleigh coefficient of stiffness [s].")
+    contact = Of[str]("What the case says of it.")
+    steps = Of[int]("How many.")
+    time_step_s = Of[float]("Their length [s].")
+    contact_iterations_per_step = Of[float]("Tries until the contact forces are found.")
+    contact_residual = Of[float]("Worst violation of the contact conditions, over the impulse.")
+    convergence = Of[Mapping[str, float] | None]("Evidence that the step is short enough; None where none was wanted.")
+
+    def lets_go(self) -> bool:
+        """Whether there are moments in which no node of the crack sticks, as the frames show it.
+
+        Only then the whole dam can slide; otherwise the crack slips here and then there, while the rest holds.
+        """
+        stick = self.crack.status_names().index("stick")
+        loose = (self.crack.status != stick).all(axis=1)
+        return float(np.diff(self.crack.time, prepend=0.0)[loose].sum()) >= _LETS_GO_S
