@@ -19,7 +19,7 @@ help:
 	@echo "make demo       run the typical dam through El Centro 1940; report, figures and results in out/demo"
 	@echo "make test       all tests but the long ones"
 	@echo "make test-slow  the long ones"
-	@echo "make lint       formatting, lints and types"
+	@echo "make lint       formatting, lints, types and directions of imports"
 	@echo "make validate   the reference cases as tables"
 	@echo "make bench      ours against named peers; writes benchmarks/results.md"
 	@echo "make clean      remove what was built"
@@ -68,6 +68,7 @@ lint: check $(VENV)/.built
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
+	$(BIN)/lint-imports --no-logo --no-cache
 
 validate: check $(VENV)/.built
 	$(BIN)/heeltoe validate
