@@ -8,10 +8,11 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
+from heeltoe import Comparison, Response, compare
 from heeltoe.errors import CATALOGUE, InputError
+from shared.dams import FAST, ROOT, SHORT, example
 
-pytest.register_assert_rewrite("shared")
-_BESIDE = Path(__file__).parents[2] / "shared" / "records"
+_BESIDE = ROOT.parent / "shared" / "records"
 if "HEELTOE_RECORDS" not in os.environ and _BESIDE.is_dir():
     os.environ["HEELTOE_RECORDS"] = str(_BESIDE)
 
@@ -68,6 +69,27 @@ def records() -> Path:
     if not os.environ.get("HEELTOE_RECORDS"):
         pytest.skip("no strong-motion records here; set HEELTOE_RECORDS")
     return Path(os.environ["HEELTOE_RECORDS"])
+
+
+# Runs that several modules look at, each computed once by each process of a test run. Results cannot be changed.
+
+
+@pytest.fixture(scope="session")
+def typical_both() -> Comparison:
+    """The typical dam as a rigid block and as an elastic dam, for 3 s."""
+    return compare(example("typical-base", *FAST))
+
+
+@pytest.fixture(scope="session")
+def koyna_both() -> Comparison:
+    """Koyna by the decoupled chain and by the flexible model, for 4 s."""
+    return compare(example("koyna", *SHORT, "flexible.convergence_check=false"), block="decoupled")
+
+
+@pytest.fixture(scope="session")
+def koyna(koyna_both) -> Response:
+    """Koyna by the decoupled chain."""
+    return koyna_both.rigid
 
 
 @pytest.fixture

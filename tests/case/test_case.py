@@ -11,11 +11,12 @@ from heeltoe.case.read import case_schema, read_case
 from heeltoe.case.warnings import case_warnings
 from heeltoe.errors import InputError
 from heeltoe.units.parse import Acceleration
-from shared.cases import DAM, PULSE, dam, write
-from shared.dams import ROOT
+from shared.cases import DAM, dam, write
+from shared.dams import EXAMPLES as DIRECTORY
+from shared.dams import PULSE, TYPICAL
 
 NAMES = ["anchored", "block", "koyna", "koyna-top", "slender", "triangular", "typical-base", "typical-height"]
-EXAMPLES = [ROOT / "examples" / f"{name}.toml" for name in NAMES]
+EXAMPLES = [DIRECTORY / f"{name}.toml" for name in NAMES]
 
 
 def test_fields_arrive_in_si():
@@ -38,7 +39,7 @@ def test_fields_arrive_in_si():
     assert case.reservoir.depth == 95.0
     assert case.motion.pga == Acceleration(0.4, in_g=True)
     assert (case.motion.duration, case.motion.time_step, case.motion.unit) == (30.0, 0.02, "cm/s^2")
-    assert case.section.vertices() == ((0, 0), (80, 0), (8, 90), (8, 100), (0, 100))
+    assert case.section.vertices() == tuple(TYPICAL)
 
 
 def test_defaults():

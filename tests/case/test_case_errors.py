@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
 from heeltoe.errors import InputError
-from shared.cases import DAM, PULSE, dam, polygon, refusal, write
+from shared.cases import DAM, dam, refusal, write
+from shared.dams import PULSE, polygon
 
 CRACK, SECTION, FILE = DAM["crack"], DAM["section"], DAM["motion"]
 # One case and its whole message for each way to go wrong.
@@ -147,7 +148,7 @@ REFUSED = [
     ),
     (dam(motion={"file": ""}), 'motion.file: "" is of the wrong type; give a text that is not empty'),
     (
-        dam(section=SECTION | polygon((0, 0), (1, 0), (0, 1))),
+        dam(section=SECTION | polygon([(0, 0), (1, 0), (0, 1)])),
         'section.height: cannot stand beside "polygon"; keep one of them',
     ),
     (
@@ -164,16 +165,16 @@ REFUSED = [
         "section.neck_height: 101 m is above the crest at 100 m; give a height up to 100 m",
     ),
     (
-        dam(section=polygon((0, 0), (1, 0), (0, 0)), reservoir=None),
+        dam(section=polygon([(0, 0), (1, 0), (0, 0)]), reservoir=None),
         "section.polygon: has 2 different corners; give at least 3",
     ),
     (
-        dam(section=polygon((0, 0), (1, 1), (1, 0), (0, 1)), reservoir=None),
+        dam(section=polygon([(0, 0), (1, 1), (1, 0), (0, 1)]), reservoir=None),
         "section.polygon: the outline [[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]] "
         "crosses or touches itself; give the corners in order around the section",
     ),
     (
-        dam(section=polygon((0, 0), (1, 0), (0, "1e300"))),
+        dam(section=polygon([(0, 0), (1, 0), (0, "1e300")])),
         "section.polygon: 1e+300 m is no size of a dam; give a section of 1 mm to 10 km",
     ),
     (
@@ -182,14 +183,14 @@ REFUSED = [
     ),
     (
         dam(
-            section=polygon((0, 0), (2, 0), (5, 4), (8, 0), (10, 0), (10, 100), (0, 100)),
+            section=polygon([(0, 0), (2, 0), (5, 4), (8, 0), (10, 0), (10, 100), (0, 100)]),
             crack=CRACK | {"elevation": "2 m"},
         ),
         "crack.elevation: the line at 2 m meets the section in several pieces; "
         "give an elevation with one piece of concrete",
     ),
     (
-        dam(section=polygon((0, 0), (9, 5), (9, 100), (0, 100))),
+        dam(section=polygon([(0, 0), (9, 5), (9, 100), (0, 100)])),
         "crack.elevation: the section has no width at 0 m; give an elevation where it has one",
     ),
     (

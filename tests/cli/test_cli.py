@@ -13,37 +13,37 @@ import sys
 import pyarrow.parquet as pq
 import pytest
 
-from shared.command import EXAMPLES, heeltoe
+from shared.command import command, options, process
+from shared.dams import BASE, BLOCK, EXAMPLES, HEIGHT
+from shared.dams import FAST as SHORT
 
 COARSE = ("--set", "flexible.elements_across=2")
-FAST = ("--set", "flexible.convergence_check=false", "--set", "motion.duration=3s")
+FAST = options(SHORT)
 
 
 def test_run_says_what_the_dam_does():
-    result = heeltoe("run", EXAMPLES / "typical-base.toml")
+    result = process("run", BASE)
     assert result.returncode == 0, result.stderr
     for words in ("PGA 0.4 g", "sliding safety factor", "residual slip", "Verdict", "downstream"):
         assert words in result.stdout
 
 
 def test_figures_in_us_units(tmp_path):
-    run = ("run", EXAMPLES / "block.toml", "--out", tmp_path)
-    assert heeltoe(*run, "--units", "us").returncode == 0
+    run = ("run", BLOCK, "--out", tmp_path)
+    assert command(*run, "--units", "us").returncode == 0
     assert "slip [in]" in (tmp_path / "response.svg").read_text(encoding="utf-8")
     assert "kip/ft" in (tmp_path / "section.svg").read_text(encoding="utf-8")
-    said = heeltoe(
-        "run", EXAMPLES / "typical-base.toml", "--units", "us", "--set", "title=Dam of 100 m", "--duration", "5s"
-    )
+    said = command("run", BASE, "--units", "us", "--set", "title=Dam of 100 m", "--duration", "5s")
     for words in ("Dam of 100 m", "ft/s", "residual slip", " in "):
         assert words in said.stdout
     assert not re.search(r"\d\s(mm|m/s|m)\b", said.stdout.replace("Dam of 100 m", ""))
-    refused = heeltoe(*run, "--units", "imperial")
+    refused = command(*run, "--units", "imperial")
     assert refused.returncode == 2
     assert "--units" in refused.stderr
 
 
 def test_json_on_standard_output_is_only_json():
-    result = heeltoe("run", EXAMPLES / "block.toml", "--json", "-")
+    result = process("run", BLOCK, "--json", "-")
     assert result.returncode == 0
     data = json.loads(result.stdout)
     assert "Verdict" in result.stderr
@@ -53,7 +53,7 @@ def test_json_on_standard_output_is_only_json():
 
 
 def test_the_contract_of_the_json():
-    data = json.loads(heeltoe("run", EXAMPLES / "typical-base.toml", "--json", "-").stdout)
+    data = json.loads(command("run", BASE, "--json", "-").stdout)
     for key in [
         "model",
         "title",
@@ -86,7 +86,7 @@ def test_the_contract_of_the_json():
 
 def test_out_writes_everything(tmp_path):
     out = tmp_path / "deep" / "result"
-    result = heeltoe("run", EXAMPLES / "typical-base.toml", "--out", out)
+    result = command("run", BASE, "--out", out)
     assert result.returncode == 0, result.stderr
     names = {path.name for path in out.iterdir()}
     assert names >= {"result.json", "histories.parquet", "events.parquet", "response.png", "response.svg"}
@@ -97,7 +97,7 @@ def test_out_writes_everything(tmp_path):
 
 
 def test_csv_and_output_step(tmp_path):
-    result = heeltoe("run", EXAMPLES / "block.toml", "--out", tmp_path, "--csv", "--output-step", "0.01s")
+    result = command("run", BLOCK, "--out", tmp_path, "--csv", "--output-step", "0.01s")
     assert result.returncode == 0, result.stderr
     lines = (tmp_path / "histories.csv").read_text().splitlines()
     assert len(lines) == 42
@@ -105,7 +105,7 @@ def test_csv_and_output_step(tmp_path):
 
 def test_set_motion_pga_reverse_duration():
     def slip(*more: str) -> float:
-        result = heeltoe("run", EXAMPLES / "typical-base.toml", "--json", "-", *more)
+        result = command("run", BASE, "--json", "-", *more)
         assert result.returncode == 0, result.stderr
         return float(json.loads(result.stdout)["residual_slip_m"])
 
@@ -120,13 +120,13 @@ def test_set_motion_pga_reverse_duration():
 
 def test_a_motion_on_the_command_line_is_relative_to_where_the_user_stands(tmp_path):
     (tmp_path / "pulse.txt").write_text("# units: time [s], acceleration [g]\n0 -0.5\n0.4 -0.5\n0.41 0\n2 0\n")
-    result = heeltoe("run", EXAMPLES / "typical-base.toml", "--motion", "pulse.txt", "--json", "-", cwd=tmp_path)
+    result = command("run", BASE, "--motion", "pulse.txt", "--json", "-", cwd=tmp_path)
     assert result.returncode == 0, result.stderr
     assert json.loads(result.stdout)["motion"]["name"] == "pulse"
 
 
 def test_a_dam_that_cannot_stand_is_not_shaken():
-    result = heeltoe("run", EXAMPLES / "typical-base.toml", "--set", "crack.friction=0.3", "--json", "-")
+    result = process("run", BASE, "--set", "crack.friction=0.3", "--json", "-")
     assert result.returncode == 3
     data = json.loads(result.stdout)
     assert data["outcome"] == "unstable"
@@ -137,7 +137,7 @@ def test_a_dam_that_cannot_stand_is_not_shaken():
 
 def test_flexible_says_what_its_result_rests_on(tmp_path):
     short = ("--model", "flexible", *COARSE, "--duration", "4s")
-    result = heeltoe("run", EXAMPLES / "typical-base.toml", *short, "--out", tmp_path)
+    result = command("run", BASE, *short, "--out", tmp_path)
     assert result.returncode == 0, result.stderr
     for words in [
         "(flexible model)",
@@ -164,8 +164,8 @@ def test_flexible_says_what_its_result_rests_on(tmp_path):
 
 
 def test_both_models_side_by_side(tmp_path):
-    arguments = ("--model", "both", *COARSE, *FAST, "--spread", "3", "--out", tmp_path, "--json", "-")
-    result = heeltoe("run", EXAMPLES / "typical-base.toml", *arguments)
+    arguments = ("--model", "both", *FAST, "--spread", "3", "--out", tmp_path, "--json", "-")
+    result = command("run", BASE, *arguments)
     assert result.returncode == 0, result.stderr
     data = json.loads(result.stdout)
     assert data["model"] == "both"
@@ -185,8 +185,8 @@ def test_both_models_side_by_side(tmp_path):
 
 
 def test_both_end_with_3_where_one_has_no_result():
-    weak = ("--set", "crack.friction=0.3", "--model", "both", *COARSE, *FAST, "--json", "-")
-    result = heeltoe("run", EXAMPLES / "typical-base.toml", *weak)
+    weak = ("--set", "crack.friction=0.3", "--model", "both", *FAST, "--json", "-")
+    result = command("run", BASE, *weak)
     assert result.returncode == 3
     data = json.loads(result.stdout)
     assert data["rigid"]["outcome"] == "unstable"
@@ -202,7 +202,7 @@ def test_a_dam_that_is_lost_is_no_result(tmp_path):
         "flexible = { elements_across = 1, convergence_check = false }\n"
         'motion = { points = [["0 s", "-3 g"], ["3 s", "-3 g"]] }\n'
     )
-    result = heeltoe("run", "slide.toml", "--model", "flexible", "--json", "-", "--spread", "2", cwd=tmp_path)
+    result = command("run", "slide.toml", "--model", "flexible", "--json", "-", "--spread", "2", cwd=tmp_path)
     assert result.returncode == 3, result.stderr
     data = json.loads(result.stdout)
     assert data["outcome"] == "lost"
@@ -222,7 +222,7 @@ def test_a_dam_that_is_lost_is_no_result(tmp_path):
     ],
 )
 def test_spread_with_and_without_a_number(arguments, runs):
-    result = heeltoe("run", *arguments, "--json", "-", cwd=EXAMPLES)
+    result = command("run", *arguments, "--json", "-", cwd=EXAMPLES)
     assert result.returncode == 0, result.stderr
     spread = json.loads(result.stdout)["spread"]
     assert spread["runs"] == len(spread["scales"]) == runs
@@ -232,22 +232,22 @@ def test_spread_with_and_without_a_number(arguments, runs):
 
 
 def test_periods():
-    result = heeltoe("periods", EXAMPLES / "typical-height.toml", *COARSE, "--count", "3")
+    result = command("periods", HEIGHT, *COARSE, "--count", "3")
     assert result.returncode == 0, result.stderr
     for words in ("intact, dry", "intact, with water", "above the crack", "below the crack", "held at its base"):
         assert words in result.stdout
-    result = heeltoe("periods", EXAMPLES / "typical-height.toml", *COARSE, "--count", "3", "--json", "-")
+    result = command("periods", HEIGHT, *COARSE, "--count", "3", "--json", "-")
     periods = json.loads(result.stdout)["periods_s"]
     assert {len(values) for values in periods.values()} == {3}
     assert f"{periods['intact'][0]:.4f} s" in result.stderr
 
 
 def test_vtk_files_go_beside_the_rest(tmp_path):
-    arguments = ("--model", "both", *COARSE, *FAST, "--out", tmp_path, "--vtk")
+    arguments = ("--model", "both", *FAST, "--out", tmp_path, "--vtk")
     folder = tmp_path / "flexible" / "vtk"
     folder.mkdir(parents=True)
     (folder / "dam-9999.vtu").write_text("of an earlier run")
-    result = heeltoe("run", EXAMPLES / "typical-base.toml", *arguments)
+    result = command("run", BASE, *arguments)
     assert result.returncode == 0, result.stderr
     assert "vtk/dam.pvd" in result.stdout
     # Not one line for each of hundreds of frames.
@@ -257,7 +257,7 @@ def test_vtk_files_go_beside_the_rest(tmp_path):
 
 
 def test_a_terminal_sees_what_goes_on_and_a_pipe_does_not():
-    command = [sys.executable, "-m", "heeltoe", "run", str(EXAMPLES / "typical-base.toml"), "--spread", "--json", "-"]
+    command = [sys.executable, "-m", "heeltoe", "run", str(BASE), "--spread", "--json", "-"]
     ours, theirs = pty.openpty()
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=theirs)
     os.close(theirs)
@@ -278,17 +278,17 @@ def test_a_terminal_sees_what_goes_on_and_a_pipe_does_not():
 
 
 def test_new_writes_a_case_that_runs(tmp_path):
-    assert heeltoe("new", "mydam", cwd=tmp_path).returncode == 0
-    result = heeltoe("run", "mydam.toml", cwd=tmp_path)
+    assert command("new", "mydam", cwd=tmp_path).returncode == 0
+    result = command("run", "mydam.toml", cwd=tmp_path)
     assert result.returncode == 0, result.stderr
-    again = heeltoe("new", "mydam", cwd=tmp_path)
+    again = command("new", "mydam", cwd=tmp_path)
     assert again.returncode == 2
     assert "there already" in again.stderr
 
 
 def test_version_and_help():
-    assert "heeltoe 0.1" in heeltoe("--version").stdout
-    text = heeltoe("run", "--help").stdout
+    assert "heeltoe 0.1" in command("--version").stdout
+    text = command("run", "--help").stdout
     for option in [
         "--model",
         "--motion",
@@ -303,14 +303,14 @@ def test_version_and_help():
         "--report",
     ]:
         assert option in text
-    assert "periods" in heeltoe("--help").stdout
+    assert "periods" in command("--help").stdout
 
 
 def test_motion_echo_and_list():
-    listing = heeltoe("motion", "--list")
+    listing = command("motion", "--list")
     assert listing.returncode == 0
     assert "elcentro-1940-180-nga" in listing.stdout
-    echo = heeltoe("motion", "elcentro-1940-180-nga")
+    echo = command("motion", "elcentro-1940-180-nga")
     assert echo.returncode == 0, echo.stderr
     assert "0.2808 g" in echo.stdout
     assert "El Centro" in echo.stdout

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 
 from heeltoe.errors import InputError
 from heeltoe.geometry.section import cut, outline
+from shared.dams import TYPICAL
 from shared.outlines import by_strips, dams, make
 
 
@@ -27,7 +28,7 @@ def check_against_strips(corners, section):
 
 def test_typical_dam_by_hand():
     # A rectangle of 8 m x 100 m and a triangle of 72 m x 90 m.
-    section = make([(0, 0), (80, 0), (8, 90), (8, 100), (0, 100)]).cut
+    section = make(TYPICAL).cut
     assert section.area == pytest.approx(4040.0)
     assert section.centroid == pytest.approx((106880 / 4040, 137200 / 4040))
     x, z = section.centroid
@@ -97,7 +98,7 @@ def test_closed_repeated_and_collinear_corners_change_nothing():
 
 @pytest.mark.parametrize("off", [-1e-12, 0.0, 1e-12])
 def test_rounding_of_the_elevation_leaves_no_sliver(off):
-    section = make([(0, 0), (80, 0), (8, 90), (8, 100), (0, 100)], 90 * (1 + off)).cut
+    section = make(TYPICAL, 90 * (1 + off)).cut
     assert section.polygon == pytest.approx(np.array([(0, 90), (8, 90), (8, 100), (0, 100)]))
 
 

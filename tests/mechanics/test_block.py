@@ -5,16 +5,11 @@ import pytest
 from heeltoe import build_block, read_case
 from heeltoe.mechanics.block import static_state
 from heeltoe.validation.plain import rectangle
+from shared.dams import TYPICAL_SECTION
 
 TYPICAL = {
     "gravity": "9.81 m/s^2",
-    "section": {
-        "height": "100 m",
-        "crest_width": "8 m",
-        "neck_height": "90 m",
-        "neck_width": "8 m",
-        "base_width": "80 m",
-    },
+    "section": TYPICAL_SECTION,
     "concrete": {"density": "2650 kg/m^3"},
     "crack": {"friction": 1.0},
     "reservoir": {"depth": "100 m"},

@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from heeltoe.mechanics import loads
+from shared.dams import TYPICAL
 from shared.outlines import by_strips, dams, make
 
 G = 9.80665
-TYPICAL = [(0.0, 0.0), (80.0, 0.0), (8.0, 90.0), (8.0, 100.0), (0.0, 100.0)]
 
 
 def deep(depth, **more):

@@ -7,16 +7,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.stats import gamma
-from typer.testing import CliRunner
 
 from heeltoe.case.read import read_case
 from heeltoe.case.shaking import resolve
-from heeltoe.cli.main import app
 from heeltoe.errors import InputError
 from heeltoe.motion.measures import arias_intensity, husid_time, significant_duration, velocity_displacement
 from heeltoe.motion.scenario import normal_scores, parameters_of, scenario_parameters, synthetic
 from heeltoe.motion.stochastic import Parameters, modulation, stochastic_motion
 from heeltoe.units.parse import STANDARD_GRAVITY as G
+from shared.command import command
 from shared.dams import PLAIN as DAM
 
 ORDER = Parameters(arias=0.5, duration=12.0, middle=7.0, frequency=5.0, frequency_rate=-0.1, bandwidth=0.25)
@@ -170,6 +169,6 @@ def test_in_a_case_and_on_the_command_line(tmp_path, monkeypatch):
     assert wrong is not None
     with pytest.raises(InputError, match=r"motion.unit: has no say in a motion made to order; remove it"):
         resolve(wrong, case.gravity, tmp_path)
-    run = CliRunner().invoke(app, ["motion", "synthetic:M6.5,20km,seed=3"])
-    assert run.exit_code == 0
-    assert "synthetic-M6.5-20km-seed3" in run.output
+    run = command("motion", "synthetic:M6.5,20km,seed=3")
+    assert run.returncode == 0
+    assert "synthetic-M6.5-20km-seed3" in run.stdout

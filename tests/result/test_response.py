@@ -13,10 +13,8 @@ import heeltoe
 from heeltoe import GroundMotion, read_case, rigid, rigid_many, verdict
 from heeltoe.motion.moments import ground
 from heeltoe.result.response import Of
-from shared.dams import ROOT
-
-EXAMPLES = sorted((ROOT / "examples").glob("*.toml"))
-KOYNA = ROOT / "examples" / "koyna-top.toml"
+from shared.dams import ALL_EXAMPLES, BASE, BLOCK
+from shared.dams import KOYNA_TOP as KOYNA
 
 
 @pytest.fixture(scope="module")
@@ -25,7 +23,7 @@ def rocking():
     return rigid(read_case(KOYNA, ["motion.pga=1.2g"]))
 
 
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", ALL_EXAMPLES, ids=lambda path: path.stem)
 def test_examples_run(path):
     case = read_case(path)
     response = rigid(case)
@@ -102,19 +100,17 @@ def test_exports_agree(rocking, tmp_path):
 
 def test_references_are_those_of_the_options_used(rocking):
     assert any("Westergaard" in each for each in rocking.citation())
-    dry = rigid(read_case(ROOT / "examples" / "block.toml"))
+    dry = rigid(read_case(BLOCK))
     assert not any("Westergaard" in each for each in dry.citation())
 
 
 def test_gravity_of_the_case_scales_the_slip():
-    path = ROOT / "examples" / "block.toml"
-    one, other = rigid(read_case(path)), rigid(read_case(path, ["gravity=9.81m/s^2"]))
+    one, other = rigid(read_case(BLOCK)), rigid(read_case(BLOCK, ["gravity=9.81m/s^2"]))
     assert other.residual_slip_m / one.residual_slip_m == pytest.approx(9.81 / 9.80665, rel=1e-12)
 
 
 def test_a_reversed_record_on_a_symmetric_block_mirrors_the_result():
-    path = ROOT / "examples" / "block.toml"
-    one, other = rigid(read_case(path)), rigid(read_case(path, ["motion.reverse=true"]))
+    one, other = rigid(read_case(BLOCK)), rigid(read_case(BLOCK, ["motion.reverse=true"]))
     assert other.residual_slip_m == pytest.approx(-one.residual_slip_m, rel=1e-14)
     assert other.peak_slip_downstream_m == pytest.approx(-one.peak_slip_upstream_m, rel=1e-14)
     # It stops at the very end of the run, and is seen to.
@@ -122,7 +118,7 @@ def test_a_reversed_record_on_a_symmetric_block_mirrors_the_result():
 
 
 def test_still_moving_in_the_end_is_a_warning():
-    response = rigid(read_case(ROOT / "examples" / "typical-base.toml", ["motion.duration=2.1s"]))
+    response = rigid(read_case(BASE, ["motion.duration=2.1s"]))
     assert response.final_mode == "slide downstream"
     assert any("still moves when the run ends" in each for each in response.warnings)
     assert "still moves" in verdict(response)
@@ -146,9 +142,8 @@ def test_two_directions_share_moments_and_keep_jumps():
 
 
 def test_vertical_motion_changes_the_result():
-    base = ROOT / "examples" / "typical-base.toml"
-    plain = rigid(read_case(base))
-    shaken = rigid(read_case(base, ['motion.vertical.file="elcentro-1940-up-nga"']))
+    plain = rigid(read_case(BASE))
+    shaken = rigid(read_case(BASE, ['motion.vertical.file="elcentro-1940-up-nga"']))
     assert shaken.residual_slip_m != plain.residual_slip_m
     assert shaken.vertical is not None
     assert shaken.to_json()["vertical_motion"]["name"] == "elcentro-1940-up-nga"
@@ -189,7 +184,7 @@ def test_a_floating_and_an_overturning_dam_are_told_apart():
 def test_a_block_that_leaves_its_place_is_a_warning(friction, words):
     pushed = 'motion.points=[["0 s", "-1 g"], ["0.3 s", "-1 g"], ["0.3 s", "0 g"], ["4 s", "0 g"]]'
     case = read_case(
-        ROOT / "examples" / "block.toml",
+        BLOCK,
         [f"crack.friction={friction}", pushed, "motion.duration=4s", "crack.restitution=0"],
     )
     response = rigid(case)

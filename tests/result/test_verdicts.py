@@ -10,15 +10,12 @@ import pytest
 from heeltoe import Response, flexible, read_case, verdict
 from heeltoe.result.verdict import comes_to_rest
 from heeltoe.units.write import angle, length
-from shared.dams import ROOT
-
-FAST = ["flexible.elements_across=2", "flexible.convergence_check=false"]
-BASE = ROOT / "examples" / "typical-base.toml"
+from shared.dams import BASE, FAST
 
 
-@pytest.fixture(scope="module")
-def response() -> Response:
-    return flexible(read_case(BASE, [*FAST, "motion.duration=3s"]))
+@pytest.fixture
+def response(typical_both) -> Response:
+    return typical_both.flexible
 
 
 def told(response: Response, **summary: object) -> str:
@@ -62,7 +59,7 @@ def test_a_crack_that_never_lets_go_creeps(response):
 
 
 def test_a_quiet_dam_stays_where_it_is():
-    quiet = [*FAST, "motion.duration=3s", "motion.pga=0.05g", "reservoir.depth=20m"]
+    quiet = [*FAST, "motion.pga=0.05g", "reservoir.depth=20m"]
     text = verdict(flexible(read_case(BASE, quiet)))
     assert text.startswith("The dam does not slide.")
     assert "It has come to rest in the end." in text

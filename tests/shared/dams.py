@@ -1,10 +1,51 @@
-"""Where things are, and dams that several tests use."""
+"""Where things are, and dams, motions and short runs that several tests use."""
 
+from __future__ import annotations
+
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any
+
+from heeltoe import Case, read_case
 
 ROOT = Path(__file__).parents[2]
+EXAMPLES = ROOT / "examples"
+ALL_EXAMPLES = sorted(EXAMPLES.glob("*.toml"))
+BASE, HEIGHT, KOYNA, KOYNA_TOP, BLOCK, SLENDER = (
+    EXAMPLES / f"{name}.toml" for name in ("typical-base", "typical-height", "koyna", "koyna-top", "block", "slender")
+)
 
+# Corners [m]. The typical dam is that of the thesis, as it stands in examples/typical-base.toml.
+TYPICAL = [(0.0, 0.0), (80.0, 0.0), (8.0, 90.0), (8.0, 100.0), (0.0, 100.0)]
+TRIANGLE = [(0.0, 0.0), (80.0, 0.0), (0.0, 100.0)]
+RECTANGLE = [(0.0, 0.0), (8.0, 0.0), (8.0, 12.0), (0.0, 12.0)]
+
+# The same as a case says it, and a plainer one.
+TYPICAL_SECTION = {
+    "height": "100 m",
+    "crest_width": "8 m",
+    "neck_height": "90 m",
+    "neck_width": "8 m",
+    "base_width": "80 m",
+}
 PLAIN = {
     "section": {"height": "100 m", "crest_width": "10 m", "base_width": "80 m"},
     "crack": {"elevation": "0 m", "friction": 1.0},
 }
+PULSE = {"points": [["0 s", "0.8 g"], ["0.1 s", "0.8 g"], ["0.1 s", "0 g"], ["0.4 s", "0 g"]]}
+
+# An elastic dam of few elements, without the second run that shows convergence; and of a short earthquake.
+COARSE = ["flexible.elements_across=2", "flexible.convergence_check=false"]
+FAST = [*COARSE, "motion.duration=3s"]
+# Koyna by the decoupled chain.
+SHORT = ["flexible.elements_across=3", "motion.duration=4s"]
+
+
+def example(name: str, *changes: str) -> Case:
+    """Return an example with changes as on the command line."""
+    return read_case(EXAMPLES / f"{name}.toml", list(changes))
+
+
+def polygon(corners: Iterable[tuple[Any, Any]]) -> dict[str, Any]:
+    """Return the section of a case from its corners [m]."""
+    return {"polygon": [[f"{x} m", f"{z} m"] for x, z in corners]}

@@ -10,10 +10,6 @@ from heeltoe.models.flexible.mesh.checks import (
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from shared.outlines import make
 
-TYPICAL = [(0.0, 0.0), (80.0, 0.0), (8.0, 90.0), (8.0, 100.0), (0.0, 100.0)]
-TRIANGLE = [(0.0, 0.0), (80.0, 0.0), (0.0, 100.0)]
-RECTANGLE = [(0.0, 0.0), (8.0, 0.0), (8.0, 12.0), (0.0, 12.0)]
-
 
 def meshed(corners, elevation=0.0, directory=".", **options):
     case = make(corners, elevation, flexible=options)

@@ -6,13 +6,13 @@ import numpy as np
 from hypothesis import strategies as st
 
 from heeltoe.case.model import Case
+from shared.dams import polygon
 
 
 def make(corners, elevation=0.0, **more):
     """Return a case that has been through no check of the geometry yet."""
-    polygon = [[f"{x!r} m", f"{z!r} m"] for x, z in corners]
     crack = {"elevation": f"{elevation!r} m", "friction": 1.0}
-    return Case.model_validate({"section": {"polygon": polygon}, "crack": crack, **more})
+    return Case.model_validate({"section": polygon(corners), "crack": crack, **more})
 
 
 def by_strips(corners, level):

@@ -8,13 +8,6 @@ from html.parser import HTMLParser
 
 from pypdf import PdfReader
 
-from shared.dams import ROOT
-
-FAST = ["flexible.elements_across=2", "flexible.convergence_check=false", "motion.duration=3s"]
-
-
-BASE = ROOT / "examples" / "typical-base.toml"
-
 
 class Reader(HTMLParser):
     """Gathers the numbers with their keys, the tags, and all text."""

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from heeltoe import GroundMotion, flexible, read_case
-from shared.dams import ROOT
+from shared.dams import BASE, COARSE, HEIGHT
 
-SMALL = ["flexible.elements_across=2", "flexible.convergence_check=false", "motion.duration=2s"]
-EXAMPLES = {"base": ROOT / "examples" / "typical-base.toml", "height": ROOT / "examples" / "typical-height.toml"}
+SMALL = [*COARSE, "motion.duration=2s"]
+EXAMPLES = {"base": BASE, "height": HEIGHT}
 
 
 def shaken(name, *changes, output_step=None):

@@ -13,16 +13,12 @@ import pytest
 from heeltoe import Comparison, InputError, compare, flexible, read_case, rigid
 from heeltoe.result.write import json_text
 from heeltoe.views.files.write import write_all
-from shared.dams import ROOT
-
-BASE = ROOT / "examples" / "typical-base.toml"
-HEIGHT = ROOT / "examples" / "typical-height.toml"
-FAST = ["flexible.elements_across=2", "flexible.convergence_check=false", "motion.duration=3s"]
+from shared.dams import BASE, FAST, HEIGHT
 
 
-@pytest.fixture(scope="module")
-def both() -> Comparison:
-    return compare(read_case(BASE, FAST))
+@pytest.fixture
+def both(typical_both) -> Comparison:
+    return typical_both
 
 
 def slipping(both: Comparison, block: float, dam: float) -> Comparison:

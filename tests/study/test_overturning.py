@@ -4,11 +4,10 @@ import json
 
 import numpy as np
 import pytest
-from typer.testing import CliRunner
 
 from heeltoe import InputError, overturning_map, read_case
-from heeltoe.cli.main import app
 from heeltoe.study.overturning import ENDS
+from shared.command import command
 
 SLENDER = {
     "gravity": "9.81 m/s^2",
@@ -77,11 +76,9 @@ def test_on_the_command_line(tmp_path):
         "[crack]\nfriction = 2.0\nrestitution = 0.0\n"
     )
     out = tmp_path / "out"
-    result = CliRunner().invoke(
-        app, ["overturning", str(case), "--count", "8", "--out", str(out), "--json", str(tmp_path / "map.json")]
-    )
-    assert result.exit_code == 0, result.output
-    assert "safe gap" in result.output
+    result = command("overturning", case, "--count", "8", "--out", out, "--json", tmp_path / "map.json")
+    assert result.returncode == 0, result.stderr
+    assert "safe gap" in result.stdout
     assert sorted(path.name for path in out.iterdir()) == ["overturning.csv", "overturning.png", "overturning.svg"]
     data = json.loads((tmp_path / "map.json").read_text())
     assert np.array(data["end"]).shape == (8, 8)

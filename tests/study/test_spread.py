@@ -11,11 +11,8 @@ import pytest
 from heeltoe import InputError, flexible, read_case, rigid, verdict, with_spread
 from heeltoe.result.write import json_text
 from heeltoe.study.spread import QUANTITIES, _step, check_runs
-from shared.dams import ROOT
-
-BASE = ROOT / "examples" / "typical-base.toml"
-KOYNA = ROOT / "examples" / "koyna-top.toml"
-FAST = ["flexible.elements_across=2", "flexible.convergence_check=false", "motion.duration=3s"]
+from shared.dams import BASE, FAST
+from shared.dams import KOYNA_TOP as KOYNA
 
 
 @pytest.mark.parametrize("changes", [[], ['motion.vertical.file="elcentro-1940-up-nga"'], ["motion.duration=60s"]])
@@ -42,9 +39,9 @@ def test_rigid_runs_are_those_of_the_scaled_motion(changes):
 
 
 @pytest.mark.parametrize("more", [[], ["crack.elevation=90m", "flexible.elements_across_below=3"]])
-def test_flexible_runs_are_those_of_the_scaled_motion(more):
+def test_flexible_runs_are_those_of_the_scaled_motion(more, typical_both):
     case = read_case(BASE, [*FAST, *more])
-    plain = flexible(case)
+    plain = flexible(case) if more else typical_both.flexible
     seen = []
     response = with_spread(plain, case, 3, told=lambda done, of: seen.append((done, of)))
     spread = response.spread
@@ -58,9 +55,8 @@ def test_flexible_runs_are_those_of_the_scaled_motion(more):
     assert with_spread(plain, case, 3).spread == spread
 
 
-def test_the_longer_step_is_taken_only_where_it_gives_the_same():
-    case = read_case(BASE, FAST)
-    response = flexible(case)
+def test_the_longer_step_is_taken_only_where_it_gives_the_same(typical_both):
+    response = typical_both.flexible
     assert _step(response) == response.time_step_s
 
     def judged(change: float) -> float:

@@ -17,23 +17,23 @@ import pytest
 from PIL import Image
 
 import heeltoe
-from heeltoe import GroundMotion, InputError, animate, read_case
+from heeltoe import GroundMotion, InputError, animate
 from heeltoe.views.animation import look
 from heeltoe.views.animation.bodies import ACCURACY, Moments
 from heeltoe.views.animation.frames import STATUSES, automatic, build_scene, round_below
 from heeltoe.views.animation.picture import arrow_outlines
 from heeltoe.views.animation.video import gif_delay
-from shared.dams import ROOT
+from shared.command import command
+from shared.dams import BLOCK, COARSE, example
 
 PACKAGE = Path(heeltoe.__file__).parent / "views" / "animation"
-EXAMPLES = {name: ROOT / "examples" / f"{name}.toml" for name in ("typical-base", "typical-height", "koyna-top")}
-SMALL = ["flexible.elements_across=2", "flexible.convergence_check=false", "motion.duration=1s"]
+SMALL = [*COARSE, "motion.duration=1s"]
 TITLE = '堰堤 </script><b>$x^2$ & "é" %%SCENE%%'
 
 
 def shaken(name, model):
     """Run an example coarsely, with 1 s of shaking that make it slide both ways and open."""
-    case = read_case(EXAMPLES[name], SMALL)
+    case = example(name, *SMALL)
     time = np.linspace(0.0, 1.0, 101)
     motion = GroundMotion("sine", time, 9.0 * np.sin(2.0 * np.pi * 2.5 * time))
     return case, getattr(heeltoe, model)(case, motion)
@@ -128,7 +128,7 @@ def test_an_elastic_dam_moves_as_its_record_says(elastic):
 
 
 def test_outlines_go_round_the_parts(block, elastic):
-    inclined = read_case(EXAMPLES["typical-height"], [*SMALL, "crack.inclination=10 deg"])
+    inclined = example("typical-height", *SMALL, "crack.inclination=10 deg")
     for case, response in (block, elastic, (inclined, block[1])):
         scene = build_scene(case, response, np.array([0.0]), 1.0)
         areas = []
@@ -421,20 +421,8 @@ def test_a_failure_keeps_the_file_that_was_there(block, tmp_path, monkeypatch):
 # Command line
 
 
-def run(*arguments, cwd):
-    return subprocess.run(
-        [sys.executable, "-c", "from heeltoe.cli.main import main; main()", *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        cwd=cwd,
-        timeout=120,
-        check=False,
-    )
-
-
 def test_the_command_writes_a_page(tmp_path):
-    case = ROOT / "examples" / "block.toml"
-    result = run("animate", case, "--exaggerate", "5", "--from", "0s", "--until", "0.2 s", cwd=tmp_path)
+    result = command("animate", BLOCK, "--exaggerate", "5", "--from", "0s", "--until", "0.2 s", cwd=tmp_path)
     assert result.returncode == 0, result.stderr
     assert "block.animation.html" in result.stdout
     assert "analysis" in result.stdout
@@ -454,7 +442,7 @@ def test_the_command_writes_a_page(tmp_path):
     ],
 )
 def test_the_command_refuses_in_one_line(tmp_path, options, words):
-    result = run("animate", ROOT / "examples" / "block.toml", *options, cwd=tmp_path)
+    result = command("animate", BLOCK, *options, cwd=tmp_path)
     assert result.returncode == 2
     assert words in result.stderr
     assert result.stderr.count("\n") == 1
@@ -462,8 +450,9 @@ def test_the_command_refuses_in_one_line(tmp_path, options, words):
 
 
 def test_a_dam_that_cannot_stand_has_no_animation(tmp_path):
-    case = ROOT / "examples" / "block.toml"
-    result = run("animate", case, "--set", "crack.friction=0.01", "--set", "crack.inclination=10 deg", cwd=tmp_path)
+    result = command(
+        "animate", BLOCK, "--set", "crack.friction=0.01", "--set", "crack.inclination=10 deg", cwd=tmp_path
+    )
     assert result.returncode == 3, result.stderr
     assert "unstable" in result.stdout
     assert list(tmp_path.iterdir()) == []

@@ -12,7 +12,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.image import imread
 from matplotlib.text import Text
 
-from heeltoe import compare, decoupled, flexible, read_case, rigid, with_spread
+from heeltoe import flexible, read_case, rigid, with_spread
 from heeltoe.errors import InputError
 from heeltoe.views.figures import (
     NAMES,
@@ -35,20 +35,14 @@ from heeltoe.views.figures.energy import friction_loss
 from heeltoe.views.figures.histories import slip_by_kind
 from heeltoe.views.figures.panels import draw_ribbon, ground_motion
 from heeltoe.views.files.write import write_all
-from shared.dams import ROOT
+from shared.dams import ALL_EXAMPLES, FAST, example
 
-FAST = ["flexible.elements_across=2", "flexible.convergence_check=false", "motion.duration=3s"]
 ROCKING = ["reservoir.depth=60m", "motion.pga=1.2g", "motion.duration=8s"]
-EXAMPLES = sorted((ROOT / "examples").glob("*.toml"))
 
 
-def example(name, *changes):
-    return read_case(ROOT / "examples" / f"{name}.toml", list(changes))
-
-
-@pytest.fixture(scope="module")
-def both():
-    return compare(example("typical-base", *FAST))
+@pytest.fixture
+def both(typical_both):
+    return typical_both
 
 
 @pytest.fixture(scope="module")
@@ -101,7 +95,7 @@ def check(figure, name):
 
 
 @pytest.mark.parametrize("units", ["si", "us"])
-@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", ALL_EXAMPLES, ids=lambda path: path.stem)
 def test_every_figure_of_every_example(path, units):
     short = [] if path.stem == "block" else ["motion.duration=3s"]
     case = read_case(path, short)
@@ -318,9 +312,8 @@ def test_the_spectrum_marks_the_periods(both):
     assert any(list(line.get_xdata()) == [0.5, 0.5] for line in own.lines)
 
 
-def test_a_decoupled_response_shows_the_motion_at_its_crack():
-    changes = ["flexible.elements_across=3", "motion.duration=4s"]
-    response = decoupled(read_case(ROOT / "examples" / "koyna.toml", changes))
+def test_a_decoupled_response_shows_the_motion_at_its_crack(koyna):
+    response = koyna
     h = response.histories
     axes = response_figure(response).axes[0]
     assert axes.lines[0].get_label() == "at the crack"

@@ -8,7 +8,8 @@ import re
 from dataclasses import replace
 
 import pytest
-from hypothesis import HealthCheck, example, given, settings
+from hypothesis import HealthCheck, given, settings
+from hypothesis import example as tried
 from hypothesis import strategies as st
 from pypdf import PdfReader
 
@@ -21,8 +22,8 @@ from heeltoe.views.report.drawings import caption
 from heeltoe.views.report.html import html
 from heeltoe.views.report.typst_pdf import pages, pdf, source
 from heeltoe.views.words.numbers import Value
-from shared.dams import ROOT
-from shared.report_reader import BASE, FAST, Reader, lookup, pdf_text, squeezed
+from shared.dams import BASE, BLOCK, FAST, ROOT, SLENDER, example
+from shared.report_reader import Reader, lookup, pdf_text, squeezed
 
 
 @pytest.fixture(scope="module")
@@ -33,10 +34,9 @@ def block():
     return case, with_spread(rigid(case), case, 3)
 
 
-@pytest.fixture(scope="module")
-def both():
-    case = read_case(BASE, FAST)
-    return case, compare(case)
+@pytest.fixture
+def both(typical_both):
+    return read_case(BASE, FAST), typical_both
 
 
 def values(blocks):
@@ -206,7 +206,7 @@ def test_a_run_that_was_stopped_says_what_failed():
 
 @pytest.mark.usefixtures("no_figures")
 def test_what_has_overturned_does_not_stand_after_the_earthquake():
-    case = read_case(ROOT / "examples" / "slender.toml")
+    case = read_case(SLENDER)
     text = Reader(html(build_report(case, rigid(case)))).text
     assert "post-seismic: the earthquake overturns the block about its toe: nothing stands after it" in text
     assert "Static checks not met: equilibrium (post-seismic)" in text
@@ -223,7 +223,7 @@ def test_a_comparison_of_which_one_failed_says_so(both):
 
 
 def test_parts_that_are_missing_are_left_out(tmp_path):
-    case = read_case(ROOT / "examples" / "block.toml", ['title=""'])
+    case = read_case(BLOCK, ['title=""'])
     paths = write_report(case, rigid(case), str(tmp_path / "new" / "place"))
     assert [path.name for path in paths] == ["report.pdf", "report.html"]
     assert "Untitled case" in paths[1].read_text()
@@ -261,9 +261,9 @@ def replaced(text):
 
 @settings(max_examples=15, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 @given(st.text(min_size=1, max_size=60))
-@example('"]#panic()[')
-@example("\\")
-@example("\u202e\x00\n")
+@tried('"]#panic()[')
+@tried("\\")
+@tried("\u202e\x00\n")
 def test_nobodys_words_are_markup(text):
     document = replaced(text)
     assert pdf(document)
@@ -373,7 +373,7 @@ def test_notebooks_show_case_motion_and_response(block):
     never = rigid(read_case(BASE, ["crack.friction=0.2"]))
     assert "No result to trust" in never._repr_html_()
     assert "<b>" not in replace(response, title="<b>")._repr_html_()
-    bare = read_case(ROOT / "examples" / "block.toml")
+    bare = read_case(BLOCK)
     assert "Block pushed once" in bare._repr_html_()
     assert rigid(bare)._repr_html_()
 
@@ -385,7 +385,7 @@ EXAMPLES += [("koyna", decoupled), ("anchored", rigid), ("slender", rigid), ("ty
 @pytest.mark.slow
 @pytest.mark.parametrize(("name", "run"), EXAMPLES)
 def test_reports_of_the_examples_at_full_length(name, run, tmp_path):
-    case = read_case(ROOT / "examples" / f"{name}.toml")
+    case = example(name)
     result = run(case)
     check_numbers(case, result)
     write_report(case, result, directory := ROOT / "out" / "reports" / f"{name}-{run.__name__}")
@@ -395,7 +395,7 @@ def test_reports_of_the_examples_at_full_length(name, run, tmp_path):
 
 @pytest.mark.parametrize(("name", "run"), EXAMPLES[:-1])
 def test_reports_of_the_examples(name, run, tmp_path):
-    case = read_case(ROOT / "examples" / f"{name}.toml", FAST)
+    case = example(name, *FAST)
     for path in write_report(case, run(case), tmp_path):
         assert path.stat().st_size > 100_000
 

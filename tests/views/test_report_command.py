@@ -3,24 +3,20 @@
 from __future__ import annotations
 
 import json
-import sys
 
 import pytest
 
-from shared.report_reader import BASE, FAST, Reader, lookup
+from shared.command import command, options
+from shared.dams import BASE, FAST
+from shared.report_reader import Reader, lookup
 
 
-def test_the_command_line_writes_a_report(tmp_path, monkeypatch, capsys):
-    from heeltoe.cli.main import main
-
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(sys, "argv", ["heeltoe", "run", str(BASE), "--duration", "3s", "--report"])
-    with pytest.raises(SystemExit) as ended:
-        main()
-    assert not ended.value.code
+def test_the_command_line_writes_a_report(tmp_path):
+    result = command("run", BASE, "--duration", "3s", "--report", cwd=tmp_path)
+    assert result.returncode == 0, result.stderr
     place = tmp_path / "typical-base-report"
     assert {"report.pdf", "report.html", "result.json"} <= {path.name for path in place.iterdir()}
-    assert "typical-base-report" in capsys.readouterr().out
+    assert "typical-base-report" in result.stdout
     reader = Reader((place / "report.html").read_text())
     data = json.loads((place / "result.json").read_text())
     assert reader.numbers["residual_slip_m"][0] == data["residual_slip_m"]
@@ -39,15 +35,10 @@ def test_the_command_line_writes_a_report(tmp_path, monkeypatch, capsys):
 )
 @pytest.mark.usefixtures("no_figures")
 def test_a_report_has_the_spread_where_it_is_cheap(arguments, spreads, tmp_path, monkeypatch):
-    from heeltoe.cli.main import main
-
     monkeypatch.setattr("heeltoe.views.files.write.write_figures", lambda *_, **__: None)
     monkeypatch.setattr("heeltoe.views.files.write.write_comparison_figure", lambda *_, **__: None)
-    changes = [argument for change in FAST for argument in ("--set", change)]
-    monkeypatch.setattr(sys, "argv", ["heeltoe", "run", str(BASE), *changes, *arguments, "--out", str(tmp_path)])
-    with pytest.raises(SystemExit) as ended:
-        main()
-    assert not ended.value.code
+    result = command("run", BASE, *options(FAST), *arguments, "--out", tmp_path)
+    assert result.returncode == 0, result.stderr
     data = json.loads((tmp_path / "result.json").read_text())
     for prefix, there in spreads.items():
         found = (lookup(data, prefix) if prefix else data).get("spread")
@@ -60,14 +51,9 @@ def test_a_report_has_the_spread_where_it_is_cheap(arguments, spreads, tmp_path,
 
 @pytest.mark.usefixtures("no_figures")
 def test_a_dam_that_cannot_stand_has_no_spread(tmp_path, monkeypatch):
-    from heeltoe.cli.main import main
-
     monkeypatch.setattr("heeltoe.views.files.write.write_figures", lambda *_, **__: None)
-    given = ["heeltoe", "run", str(BASE), "--set", "crack.friction=0.2", "--report", "--out", str(tmp_path)]
-    monkeypatch.setattr(sys, "argv", given)
-    with pytest.raises(SystemExit) as ended:
-        main()
-    assert ended.value.code == 3
+    result = command("run", BASE, "--set", "crack.friction=0.2", "--report", "--out", tmp_path)
+    assert result.returncode == 3
     assert "spread" not in json.loads((tmp_path / "result.json").read_text())
     text = Reader((tmp_path / "report.html").read_text()).text
     assert "without a result" not in text

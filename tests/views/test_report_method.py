@@ -7,7 +7,8 @@ import pytest
 from heeltoe import flexible, read_case, rigid
 from heeltoe.views.report import build_report
 from heeltoe.views.report.html import html
-from shared.report_reader import BASE, FAST, Reader
+from shared.dams import BASE, FAST
+from shared.report_reader import Reader
 
 METHOD = [
     ([], ["cubic in time", "small"]),

@@ -9,12 +9,11 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-from heeltoe import read_case
 from heeltoe.mechanics.block import build_block
 from heeltoe.mechanics.loads import uplift_profile
 from heeltoe.views.figures import section_figure
 from heeltoe.views.figures.section_forces import _ends
-from shared.dams import ROOT
+from shared.dams import example
 
 EVERYTHING = [
     "tailwater.depth=12m",
@@ -38,7 +37,7 @@ SLOPED = (
 
 
 def case(*changes, name="typical-base"):
-    return read_case(ROOT / "examples" / f"{name}.toml", list(changes))
+    return example(name, *changes)
 
 
 def annotations(figure):

@@ -15,9 +15,8 @@ from heeltoe.models.decoupled.crack_motion import STRAIGHT, crack_motion, shaken
 from heeltoe.models.flexible.elastic import dofs
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from heeltoe.models.flexible.modes import intact_periods
-from shared.dams import ROOT
+from shared.dams import BASE, KOYNA
 
-KOYNA = ROOT / "examples" / "koyna.toml"
 COARSE = "flexible.elements_across=3"
 # Slender enough for Euler and Bernoulli: 2 m wide, 60 m high, cracked at 40 m.
 TOWER = {
@@ -212,7 +211,7 @@ def test_the_motion_turned_round_turns_the_crack_round():
 def test_a_crack_at_the_base_has_nothing_below():
     for build in (chain, bonded_chain):
         with pytest.raises(InputError) as refused:
-            build(read_case(ROOT / "examples" / "typical-base.toml"))
+            build(read_case(BASE))
         assert refused.value.code == "crack-at-base"
     with pytest.raises(InputError) as refused:
         chain(read_case({**TOWER, "concrete": {"density": "2400 kg/m^3"}}))

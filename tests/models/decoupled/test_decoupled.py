@@ -5,49 +5,24 @@ from __future__ import annotations
 import csv
 import io
 import json
-import os
-import subprocess
-import sys
-from pathlib import Path
+from dataclasses import replace
 
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
 from rich.console import Console
 
-from heeltoe import GroundMotion, InputError, compare, decoupled, read_case, rigid, verdict, with_spread
+from heeltoe import GroundMotion, InputError, decoupled, read_case, rigid, verdict, with_spread
 from heeltoe.models.decoupled.model import crack_motions
 from heeltoe.result.write import json_text
-from heeltoe.study.comparison import Comparison
 from heeltoe.study.grid import MOST, parse_variations, run_grid
 from heeltoe.views.files.write import write_all
 from heeltoe.views.terminal.grid import print_grid
-from shared.dams import ROOT
+from shared.command import command, options
+from shared.dams import KOYNA, SHORT
 
-KOYNA = ROOT / "examples" / "koyna.toml"
-COARSE = ["flexible.elements_across=3"]
-SHORT = [*COARSE, "motion.duration=4s"]
+COARSE = SHORT[:1]
 STIFF = [*SHORT, "concrete.modulus=1e15 Pa"]
-
-
-def heeltoe(*arguments: str | Path) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-c", "from heeltoe.cli.main import main; main()", *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        env={**os.environ, "COLUMNS": "80"},
-        timeout=120,
-        check=False,
-    )
-
-
-def options(changes: list[str]) -> list[str]:
-    return [part for change in changes for part in ("--set", change)]
-
-
-@pytest.fixture(scope="module")
-def koyna():
-    return decoupled(read_case(KOYNA, SHORT))
 
 
 def test_the_crack_is_shaken_more_than_the_ground(koyna):
@@ -194,13 +169,8 @@ def test_a_motion_made_by_hand_is_used_as_it_is():
     assert response.crack_level["amplification"] > 5.0
 
 
-@pytest.fixture(scope="module")
-def both() -> Comparison:
-    case = read_case(KOYNA, [*SHORT, "flexible.convergence_check=false"])
-    return compare(case, block="decoupled")
-
-
-def test_beside_the_flexible_model(both, tmp_path):
+def test_beside_the_flexible_model(koyna_both, tmp_path):
+    both = koyna_both
     assert both.rigid.model == "decoupled"
     data = json.loads(json_text(both.to_json()))
     assert set(data["seconds"]) == {"decoupled", "flexible"}
@@ -223,18 +193,16 @@ def test_beside_the_flexible_model(both, tmp_path):
         (1.0, 0.001, "flexible dam slides less than a hundredth"),
     ],
 )
-def test_what_the_difference_means(both, block, dam, words):
-    from dataclasses import replace
-
+def test_what_the_difference_means(koyna_both, block, dam, words):
     one, other = (
         replace(each, summary={**each.summary, "residual_slip_m": slip})
-        for each, slip in ((both.rigid, block), (both.flexible, dam))
+        for each, slip in ((koyna_both.rigid, block), (koyna_both.flexible, dam))
     )
-    assert words in replace(both, rigid=one, flexible=other).meaning()
+    assert words in replace(koyna_both, rigid=one, flexible=other).meaning()
 
 
 def test_on_the_command_line(tmp_path):
-    result = heeltoe("run", KOYNA, "--model", "decoupled", *options(SHORT), "--out", tmp_path)
+    result = command("run", KOYNA, "--model", "decoupled", *options(SHORT), "--out", tmp_path)
     assert result.returncode == 0, result.stderr
     for words in ("(decoupled model)", "crack level", "times the ground's", "periods below", "dam without a crack"):
         assert words in result.stdout, words
@@ -244,7 +212,7 @@ def test_on_the_command_line(tmp_path):
 
 def test_both_on_the_command_line():
     fast = [*SHORT, "flexible.convergence_check=false"]
-    result = heeltoe("run", KOYNA, "--model", "decoupled,flexible", *options(fast), "--json", "-")
+    result = command("run", KOYNA, "--model", "decoupled,flexible", *options(fast), "--json", "-")
     assert result.returncode == 0, result.stderr
     assert set(json.loads(result.stdout)) >= {"decoupled", "flexible", "ratio"}
     for words in ("decoupled top", "flexible dam", "flexible/decoupled", "crack level"):
@@ -262,14 +230,16 @@ def test_both_on_the_command_line():
     ],
 )
 def test_what_the_command_line_refuses(arguments, words):
-    result = heeltoe("run", KOYNA, *arguments)
+    result = command("run", KOYNA, *arguments)
     assert result.returncode == 2, result.stdout
     assert words in result.stderr
 
 
 def test_a_table_of_runs_on_the_command_line(tmp_path):
     vary = ("--vary", "crack.friction=0.8,1.0,1.2", "--vary", "uplift.pattern=uniform,triangular")
-    result = heeltoe("run", KOYNA, "--model", "decoupled", *options(SHORT), *vary, "--out", tmp_path, "--reverse")
+    result = command(
+        "run", KOYNA, "--model", "decoupled", *options(SHORT), *vary, "--out", tmp_path, "--reverse", columns=80
+    )
     assert result.returncode == 0, result.stderr
     assert max(map(len, (line for line in result.stdout.splitlines() if "wrote" not in line))) <= 80
     for words in ("residual", "drifting", "rotation", "impacts", "triangular", "crack level: peak"):

@@ -13,7 +13,7 @@ from heeltoe import GroundMotion, InputError, _kernel, flexible, read_case
 from heeltoe.models.flexible.inside import CrackWater
 from heeltoe.models.flexible.reduced import build_flexible_dam
 from heeltoe.models.flexible.step import longest_step
-from shared.dams import ROOT
+from shared.dams import BASE, FAST
 
 G = 9.80665
 MASS = 2400.0 * 4.0
@@ -121,7 +121,7 @@ def test_a_slack_anchor_does_not_push():
 
 TIME = np.linspace(0.0, 3.0, 601)
 SHAKEN = GroundMotion("shaken", TIME, 7.0 * np.sin(2.0 * np.pi * 2.5 * TIME) * (TIME < 2.0))
-SMALL = ["flexible.elements_across=2", "flexible.convergence_check=false", "motion.duration=3s", "reservoir.depth=80m"]
+SMALL = [*FAST, "reservoir.depth=80m"]
 ANCHORS = (
     'anchors=[{distance="3 m", prestress="2 MN/m", axial_stiffness="200 MN/m/m", shear_stiffness="100 MN/m/m", '
     'inclination="-15 deg"}]'
@@ -131,7 +131,7 @@ LAWS = ("zero while open", "full while open", "follows opening")
 
 def typical(elevation, *more):
     changes = [*SMALL, f"crack.elevation={elevation}m", *more]
-    return read_case(ROOT / "examples" / "typical-base.toml", changes)
+    return read_case(BASE, changes)
 
 
 @pytest.fixture(scope="module", params=[0.0, 30.0])

@@ -13,8 +13,9 @@ from heeltoe.mechanics import loads
 from heeltoe.models.flexible.elastic import bonded_state, dam, dofs, principal, stresses
 from heeltoe.models.flexible.mesh.checks import boundary_edges
 from heeltoe.models.flexible.mesh.dam import dam_mesh
+from shared.dams import RECTANGLE, TRIANGLE, TYPICAL
 from shared.elastic import CONCRETE, built, deep, parts
-from shared.meshes import RECTANGLE, TRIANGLE, TYPICAL, flat
+from shared.meshes import flat
 from shared.outlines import dams, make
 
 G = 9.80665

@@ -18,12 +18,11 @@ from heeltoe.models.flexible.elastic import bonded_state, dam, dofs
 from heeltoe.models.flexible.mesh.checks import check_elements, check_pieces
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from heeltoe.models.flexible.reduced import build_flexible_dam
-from shared.dams import ROOT
+from shared.dams import BASE, TYPICAL, polygon
+from shared.elastic import CONCRETE
 from shared.meshes import area, bodies, flat, on_polyline
 from shared.outlines import dams
 
-CONCRETE = {"density": "2650 kg/m^3", "modulus": "20 GPa", "poisson": 0.2}
-TYPICAL = ((0.0, 0.0), (80.0, 0.0), (8.0, 90.0), (8.0, 100.0), (0.0, 100.0))
 HEAVY = {
     "reservoir": {"depth": "95 m"},
     "tailwater": {"depth": "50 m"},
@@ -37,9 +36,8 @@ HEAVY = {
 
 
 def case_of(corners, elevation, degrees, **more):
-    polygon = [[f"{x!r} m", f"{z!r} m"] for x, z in corners]
     crack = {"elevation": f"{elevation!r} m", "inclination": f"{degrees!r} deg", "friction": 1.0}
-    return Case.model_validate({"section": {"polygon": polygon}, "crack": crack, "concrete": CONCRETE, **more})
+    return Case.model_validate({"section": polygon(corners), "crack": crack, "concrete": CONCRETE, **more})
 
 
 def built(corners, elevation, degrees, **more):
@@ -232,12 +230,12 @@ def test_water_that_follows_the_vertical_motion(elevation):
 
 TIME = np.linspace(0.0, 2.0, 401)
 PULSES = GroundMotion("pulses", TIME, 6.0 * np.sin(2.0 * np.pi * TIME) * (TIME < 1.5))
-BASE = ["flexible.convergence_check=false", "motion.duration=2s", "reservoir.depth=60m", "crack.friction=0.5"]
+SMALL = ["flexible.convergence_check=false", "motion.duration=2s", "reservoir.depth=60m", "crack.friction=0.5"]
 
 
 def typical(degrees, *more):
-    changes = [*BASE, "crack.elevation=15m", f"crack.inclination={degrees}deg", *more]
-    return read_case(ROOT / "examples" / "typical-base.toml", changes)
+    changes = [*SMALL, "crack.elevation=15m", f"crack.inclination={degrees}deg", *more]
+    return read_case(BASE, changes)
 
 
 @pytest.mark.parametrize("degrees", [0.0, 8.0, -6.0])

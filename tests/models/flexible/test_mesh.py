@@ -20,7 +20,8 @@ from heeltoe.models.flexible.mesh.checks import (
     jacobians,
 )
 from heeltoe.models.flexible.mesh.dam import dam_mesh
-from shared.meshes import RECTANGLE, TRIANGLE, TYPICAL, area, bodies, flat, meshed, on_polyline
+from shared.dams import RECTANGLE, TRIANGLE, TYPICAL
+from shared.meshes import area, bodies, flat, meshed, on_polyline
 from shared.outlines import dams, make
 
 

@@ -8,8 +8,8 @@ import scipy.linalg
 
 from heeltoe.models.flexible.elastic import bonded_state, dofs
 from heeltoe.models.flexible.modes import intact_periods, part_periods, rayleigh, reduce, residual_error
+from shared.dams import TYPICAL
 from shared.elastic import built, deep, parts
-from shared.meshes import TYPICAL
 
 KOYNA = [(0.0, 0.0), (70.2, 0.0), (20.36, 66.5), (14.8, 103.0), (0.0, 103.0)]
 TRIANGLE = [(0.0, 0.0), (97.536, 0.0), (0.0, 121.92)]

@@ -8,9 +8,8 @@ import math
 import pytest
 
 from heeltoe import InputError, dam_periods, read_case
-from shared.dams import ROOT
+from shared.dams import BASE, BLOCK, HEIGHT
 
-EXAMPLES = ROOT / "examples"
 # Slender enough for Euler and Bernoulli: 2 m wide, 60 m high.
 TOWER = {
     "section": {"polygon": [["0 m", "0 m"], ["2 m", "0 m"], ["2 m", "60 m"], ["0 m", "60 m"]]},
@@ -42,14 +41,14 @@ def test_a_crack_in_the_middle():
 
 
 def test_water_makes_a_dam_slower():
-    found = dam_periods(read_case(EXAMPLES / "typical-base.toml", ["flexible.elements_across=3"]))
+    found = dam_periods(read_case(BASE, ["flexible.elements_across=3"]))
     assert all(wet > dry for wet, dry in zip(found.intact, found.intact_dry, strict=True))
     assert list(found.intact) == sorted(found.intact, reverse=True)
     assert len(found.intact) == len(found.above) == 5
 
 
 def test_json_and_damping():
-    case = read_case(EXAMPLES / "typical-height.toml", ["flexible.elements_across=2"])
+    case = read_case(HEIGHT, ["flexible.elements_across=2"])
     found = dam_periods(case, 3)
     data = json.loads(json.dumps(found.to_json(), allow_nan=False))
     assert {len(values) for values in data["periods_s"].values()} == {3}
@@ -57,9 +56,7 @@ def test_json_and_damping():
     for period in (found.intact[0], found.intact[2]):
         omega = 2.0 * math.pi / period
         assert mass / (2.0 * omega) + stiffness * omega / 2.0 == pytest.approx(0.05)
-    modal = dam_periods(
-        read_case(EXAMPLES / "typical-height.toml", ["flexible.elements_across=2", "flexible.damping=modal"]), 1
-    )
+    modal = dam_periods(read_case(HEIGHT, ["flexible.elements_across=2", "flexible.damping=modal"]), 1)
     assert modal.to_json()["rayleigh"] is None
 
 
@@ -72,5 +69,5 @@ def test_counts_that_are_none(count):
 
 def test_a_dam_without_a_modulus():
     with pytest.raises(InputError) as refused:
-        dam_periods(read_case(EXAMPLES / "block.toml"))
+        dam_periods(read_case(BLOCK))
     assert refused.value.code == "modulus-missing"

@@ -6,6 +6,7 @@ import scipy.linalg
 
 from heeltoe import GroundMotion, flexible, read_case, rigid
 from heeltoe.models.flexible.reduced import build_flexible_dam
+from shared.dams import TYPICAL, polygon
 
 G = 9.80665
 DAM = [(0.0, 0.0), (24.0, 0.0), (8.0, 20.0), (6.0, 30.0), (0.0, 30.0)]
@@ -14,7 +15,7 @@ DAM = [(0.0, 0.0), (24.0, 0.0), (8.0, 20.0), (6.0, 30.0), (0.0, 30.0)]
 def stiff(modulus=2000.0, friction=0.5, depth=24.0, damping=0.05, across=3, corners=DAM, **options):
     return read_case(
         {
-            "section": {"polygon": [[f"{x} m", f"{z} m"] for x, z in corners]},
+            "section": polygon(corners),
             "concrete": {"modulus": f"{modulus} GPa", "damping": damping},
             "crack": {"friction": friction},
             "reservoir": {"depth": f"{depth} m"},
@@ -75,12 +76,11 @@ def test_where_sliding_flutters_a_stiff_dam_slides_farther():
 
 
 def test_the_own_step_is_short_enough_to_solve_the_contact():
-    typical = [(0.0, 0.0), (80.0, 0.0), (8.0, 90.0), (8.0, 100.0), (0.0, 100.0)]
-    case = stiff(1e6, 1.2, 100.0, across=8, corners=typical)
+    case = stiff(1e6, 1.2, 100.0, across=8, corners=TYPICAL)
     response = flexible(case, three_sines(0.8))
     assert response.contact_residual < 1e-9
     assert response.residual_slip_m == pytest.approx(rigid(case, three_sines(0.8)).residual_slip_m, rel=1e-3)
     # At the step that it once took, a sixteenth of the vibration, the contact is not solved; the result says so.
-    coarse = flexible(stiff(1e6, 1.2, 100.0, across=8, corners=typical, time_step="0.05 ms"), three_sines(0.8))
+    coarse = flexible(stiff(1e6, 1.2, 100.0, across=8, corners=TYPICAL, time_step="0.05 ms"), three_sines(0.8))
     assert coarse.contact_residual > 1e-6
     assert any("give a shorter flexible.time_step" in text for text in coarse.warnings)

@@ -11,6 +11,7 @@ from heeltoe import _kernel, build_block, read_case, rigid, verdict
 from heeltoe.models.rigid.varying import varies, varying
 from heeltoe.models.rigid.walk import SETTLE
 from heeltoe.motion.ground_motion import GroundMotion
+from shared.dams import TYPICAL_SECTION
 
 G = 9.80665
 RULES = ("constant", "zero while open", "full while open", "follows opening")
@@ -367,9 +368,8 @@ def test_histories_and_spread_of_a_block_that_varies(records):
 def test_a_level_crack_is_the_limit_of_an_inclined_one():
     def limits(angle):
         crack = {"friction": 0.8, "elevation": "20 m", "inclination": f"{angle} deg"}
-        corners = [["0 m", "0 m"], ["80 m", "0 m"], ["8 m", "90 m"], ["8 m", "100 m"], ["0 m", "100 m"]]
         return build_block(
-            read_case({"section": {"polygon": corners}, "crack": crack, "reservoir": {"depth": "60 m"}})
+            read_case({"section": TYPICAL_SECTION, "crack": crack, "reservoir": {"depth": "60 m"}})
         ).critical_accelerations()
 
     level, tilted, steep = limits(0.0), limits(1e-6), limits(5.0)

@@ -4,11 +4,10 @@ import json
 import tomllib
 
 import pytest
-from typer.testing import CliRunner
 
 from heeltoe import read_case, statics
-from heeltoe.cli.main import app
 from heeltoe.models.statics.standing import standing_warnings
+from shared.command import command
 
 MASONRY = {
     "section": {
@@ -79,7 +78,7 @@ def test_a_run_says_that_the_crack_opens_through(model, tmp_path):
     path = tmp_path / "dam.json"
     path.write_text(json.dumps({**MASONRY, **THROUGH}))
     assert statics(read_case(path)).cases[0].outcome == "cracks through"
-    result = CliRunner().invoke(app, ["run", str(path), "--model", model, "--json", "-"])
+    result = command("run", path, "--model", model, "--json", "-")
     data = json.loads(result.stdout)
     for each in (data["rigid"], data["flexible"]) if model == "both" else (data,):
         (said,) = [text for text in each["warnings"] if "opens right through" in text]
@@ -89,6 +88,5 @@ def test_a_run_says_that_the_crack_opens_through(model, tmp_path):
 def test_a_table_of_runs_says_it_of_the_runs_it_belongs_to(tmp_path):
     path = tmp_path / "dam.json"
     path.write_text(json.dumps(MASONRY))
-    arguments = ["run", str(path), "--vary", "reservoir.depth=20 m,28 m", "--json", "-"]
-    runs = json.loads(CliRunner().invoke(app, arguments).stdout)["runs"]
+    runs = json.loads(command("run", path, "--vary", "reservoir.depth=20 m,28 m", "--json", "-").stdout)["runs"]
     assert [any("water that follows" in text for text in run["warnings"]) for run in runs] == [False, True]

@@ -9,8 +9,8 @@ import pytest
 import heeltoe
 from heeltoe import read_case
 from heeltoe.models.statics.criteria import CRITERIA, criteria
-from shared.command import heeltoe as command
-from shared.dams import ROOT
+from shared.command import command
+from shared.dams import ALL_EXAMPLES, BASE, BLOCK, ROOT, SLENDER
 from shared.statics import CLOSE, check, dam, only
 
 # What fails, and by how much
@@ -244,7 +244,7 @@ def test_an_extreme_flood():
 # Faces
 
 
-@pytest.mark.parametrize("example", sorted((ROOT / "examples").glob("*.toml")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("example", ALL_EXAMPLES, ids=lambda path: path.stem)
 @pytest.mark.parametrize("name", list(CRITERIA))
 def test_examples(example, name):
     case = read_case(example, [f"statics.criteria={name}", "statics.seismic_coefficient=0.1"])
@@ -267,7 +267,7 @@ def test_examples(example, name):
 def test_the_command():
     shown = command(
         "statics",
-        ROOT / "examples" / "typical-base.toml",
+        BASE,
         "--slip",
         "0.15m",
         "--criteria",
@@ -281,7 +281,7 @@ def test_the_command():
 
 
 def test_the_command_runs_the_rigid_model_for_the_slip():
-    shown = command("statics", ROOT / "examples" / "block.toml", "--json", "-")
+    shown = command("statics", BLOCK, "--json", "-")
     assert shown.returncode == 0, shown.stderr
     data = json.loads(shown.stdout)
     assert data["slip_m"] == pytest.approx(-0.012 * 9.80665, rel=1e-9)
@@ -291,14 +291,14 @@ def test_the_command_runs_the_rigid_model_for_the_slip():
 
 
 def test_the_command_says_when_the_rigid_model_has_no_slip():
-    shown = command("statics", ROOT / "examples" / "block.toml", "--set", "reservoir.depth=1m", "--json", "-")
+    shown = command("statics", BLOCK, "--set", "reservoir.depth=1m", "--json", "-")
     assert shown.returncode == 0, shown.stderr
     assert "unstable" in json.loads(shown.stdout)["slip_source"]
 
 
 def test_an_overturned_block_does_not_stand_after_the_earthquake():
     pulse = 'motion.points=[["0 s", "-1 g"], ["1 s", "-1 g"], ["1 s", "0 g"], ["6 s", "0 g"]]'
-    shown = command("statics", ROOT / "examples" / "slender.toml", "--set", pulse, "--json", "-")
+    shown = command("statics", SLENDER, "--set", pulse, "--json", "-")
     assert shown.returncode == 0, shown.stderr
     data = json.loads(shown.stdout)
     assert "post-seismic" not in [each["name"] for each in data["cases"]]
@@ -310,12 +310,11 @@ def test_an_overturned_block_does_not_stand_after_the_earthquake():
 
 
 def test_a_slip_that_has_not_ended_is_said_to_go_on():
-    block = ROOT / "examples" / "block.toml"
-    shown = command("statics", block, "--set", "motion.duration=0.15s", "--json", "-")
+    shown = command("statics", BLOCK, "--set", "motion.duration=0.15s", "--json", "-")
     assert json.loads(shown.stdout)["slip_source"].endswith(", still moving when the run ends")
 
 
 def test_the_command_refuses_what_it_does_not_know():
-    shown = command("statics", ROOT / "examples" / "block.toml", "--criteria", "ICOLD")
+    shown = command("statics", BLOCK, "--criteria", "ICOLD")
     assert shown.returncode == 2
     assert 'statics.criteria: "ICOLD" is not a choice' in shown.stderr
