@@ -49,7 +49,7 @@ demo: check $(VENV)/.built
 	@$(ELAPSED)
 
 test: check $(VENV)/.built
-	cargo test --release --locked --quiet -p heeltoe
+	cargo test --locked --quiet -p heeltoe
 	$(BIN)/pytest -q -m "not slow" -n 2
 	@$(ELAPSED)
 
