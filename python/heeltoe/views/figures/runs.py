@@ -4,21 +4,18 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 from matplotlib.figure import Figure
 
+from heeltoe.models.decoupled.response import DecoupledResponse
+from heeltoe.study.grid import Grid
 from heeltoe.units.systems import unit_system
 from heeltoe.units.write import length
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.panels import largest
 from heeltoe.views.figures.style import heading, styled
 from heeltoe.views.figures.write import save_all
-
-if TYPE_CHECKING:
-    from heeltoe.models.decoupled.response import DecoupledResponse
-from heeltoe.study.grid import Grid
 
 # Okabe and Ito's colours with dashes beside them, so that lines differ in print as well.
 _LINES = (
