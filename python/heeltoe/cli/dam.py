@@ -97,18 +97,10 @@ def statics(
             found = judge(loaded, parse(slip, "length", "--slip"), slip_source="--slip")
         elif loaded.motion is not None and loaded.statics.residual_slip is None:
             from heeltoe.models.rigid.model import rigid
+            from heeltoe.models.statics.after import statics_after
 
             say("running the rigid model")
-            response = rigid(loaded)
-            if response.outcome == "ok":
-                source = f"rigid model, {response.motion.name}, PGA {response.motion.pga / response.gravity:.4g} g"
-                if response.final_mode != "rest":
-                    source += ", still moving when the run ends"
-                found = judge(loaded, response.residual_slip_m, slip_source=source)
-            elif response.outcome == "overturned":
-                found = judge(loaded, overturned_about=response.overturned_about)
-            else:
-                found = judge(loaded, 0.0, slip_source=f"the rigid model ends {response.outcome!r}, zero is taken")
+            found = statics_after(loaded, rigid(loaded))
         else:
             found = judge(loaded)
     finish(found.to_json(), json_, [], lambda console: print_statics(found, console))

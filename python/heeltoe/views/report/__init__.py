@@ -41,13 +41,15 @@ def build_report(
     case: Case, result: Response | Comparison, *, statics: Statics | None = None, units: str = "si", command: str = ""
 ) -> Document:
     """Return what a report says, apart from how it looks; parameters as of :func:`write_report`."""
+    from heeltoe.models.statics.after import statics_after
+    from heeltoe.result.response import Response
     from heeltoe.views.report.build import document
-    from heeltoe.views.report.build_statics import judged
     from heeltoe.views.report.drawings import drawings
     from heeltoe.views.report.subject import Subject
     from heeltoe.views.words.numbers import Numbers
 
-    found = judged(case, result) if statics is None else statics
+    runs = (result,) if isinstance(result, Response) else (result.flexible, result.rigid)
+    found = statics_after(case, *runs) if statics is None else statics
     numbers = Numbers({**result.to_json(), "statics": found.to_json()}, units)
     return document(Subject(case, result, numbers, drawings(case, result, units), found, command))
 

@@ -10,10 +10,7 @@ from heeltoe.views.report.subject import Subject
 from heeltoe.views.words.numbers import Value
 
 if TYPE_CHECKING:
-    from heeltoe.case.model import Case
     from heeltoe.models.statics.model import Statics
-    from heeltoe.result.response import Response
-    from heeltoe.study.comparison import Comparison
 
 _CASES: tuple[tuple[str, str, str | None], ...] = (
     ("Normal force", "normal_force_n", None),
@@ -37,23 +34,6 @@ _LEVELS = {
 }
 # Tables for each have so many columns at most; there are five load cases at most.
 _SHARES = "lrrrrr"
-
-
-def judged(case: Case, result: Response | Comparison) -> Statics:
-    """Return the static checks of a case, with the slip that a result leaves, if it is one to trust."""
-    from heeltoe.models.statics.model import statics
-    from heeltoe.result.response import Response
-
-    runs = (result,) if isinstance(result, Response) else (result.flexible, result.rigid)
-    trusted = next((run for run in runs if run.outcome == "ok"), None)
-    overturned = next((run for run in runs if run.outcome == "overturned"), None)
-    if trusted is None and overturned is not None:
-        return statics(case, overturned_about=overturned.overturned_about)
-    if trusted is None or case.statics.residual_slip is not None:
-        return statics(case)
-    peak = trusted.motion.pga / trusted.gravity
-    source = f"{trusted.model} model, {trusted.motion.name}, PGA {peak:.4g} g"
-    return statics(case, trusted.residual_slip_m, slip_source=source)
 
 
 def static_checks(subject: Subject) -> Section | None:

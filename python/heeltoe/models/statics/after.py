@@ -1,0 +1,33 @@
+"""The static checks with what an earthquake leaves: the slip of a run, or a block that has overturned."""
+
+from __future__ import annotations
+
+from heeltoe.case.model import Case
+from heeltoe.models.statics.model import Statics, statics
+from heeltoe.result.response import Response
+from heeltoe.result.verdict import comes_to_rest
+
+
+def statics_after(case: Case, *runs: Response) -> Statics:
+    """Judge the stability of a case with what its earthquake has left.
+
+    Parameters
+    ----------
+    case
+        Of the runs; a slip of its own, ``statics.residual_slip``, goes before theirs.
+    *runs
+        One run, or several of the same earthquake, the better model first: the first that ended as it should says
+        how far the block has slipped. Where none did, an overturned one counts, as nothing stands after that.
+    """
+    trusted = next((run for run in runs if run.outcome == "ok"), None)
+    overturned = next((run for run in runs if run.outcome == "overturned"), None)
+    if trusted is None and overturned is not None:
+        return statics(case, overturned_about=overturned.overturned_about)
+    if case.statics.residual_slip is not None:
+        return statics(case)
+    if trusted is None:
+        return statics(case, 0.0, slip_source=f"the {runs[0].model} model ends {runs[0].outcome!r}, zero is taken")
+    source = f"{trusted.model} model, {trusted.motion.name}, PGA {trusted.motion.pga / trusted.gravity:.4g} g"
+    if not comes_to_rest(trusted):
+        source += ", still moving when the run ends"
+    return statics(case, trusted.residual_slip_m, slip_source=source)

@@ -1,0 +1,48 @@
+"""The static checks after an earthquake: the command and the report say the same of what it leaves."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from heeltoe import read_case, rigid
+from heeltoe.models.statics.after import statics_after
+from heeltoe.views.report import build_report
+from heeltoe.views.report.html import html
+from shared.command import heeltoe as command
+from shared.dams import ROOT
+from shared.report_reader import Reader
+
+EXAMPLES = ROOT / "examples"
+SLIDES_ON = ["crack.friction=0.8", "motion.duration=4s"]
+PUSHED = 'motion.points=[["0 s", "-0.4 g"], ["0.3 s", "-0.4 g"], ["0.3 s", "0 g"], ["3 s", "0 g"]]'
+
+
+def both(example, *changes):
+    """Return what the command finds, and all that a report of the rigid run says."""
+    given = [part for change in changes for part in ("--set", change)]
+    said = command("statics", EXAMPLES / f"{example}.toml", *given, "--json", "-")
+    assert said.returncode == 0, said.stderr
+    case = read_case(EXAMPLES / f"{example}.toml", changes)
+    response = rigid(case)
+    return json.loads(said.stdout), Reader(html(build_report(case, response))).text, response
+
+
+@pytest.mark.parametrize(
+    ("example", "changes", "slip", "expected"),
+    [
+        ("typical-base", SLIDES_ON, None, "rigid model, points of the case, PGA 0.4 g, still moving when the run ends"),
+        ("typical-base", [], None, "rigid model, points of the case, PGA 0.4 g"),
+        ("typical-base", ["statics.residual_slip=0.2m"], 0.2, "statics.residual_slip"),
+        ("typical-base", ["crack.friction=0.1"], 0.0, "the rigid model ends 'unstable', zero is taken"),
+    ],
+)
+@pytest.mark.usefixtures("no_figures")
+def test_command_and_report_agree(example, changes, slip, expected):
+    found, report, response = both(example, PUSHED, *changes)
+    assert found["slip_source"] == expected
+    assert f"({expected})." in report
+    assert found["slip_m"] == (response.residual_slip_m if slip is None else slip)
+    after = statics_after(read_case(EXAMPLES / f"{example}.toml", [PUSHED, *changes]), response)
+    assert after.to_json()["checks"] == found["checks"]
