@@ -66,7 +66,9 @@ def elastic_sliding() -> Iterator[Row]:
     motion, runs = GroundMotion.from_points(time, shaking - 0.15 * _G, name="push and sine"), Runs()
     for poisson in (0.0, 0.2):
         concrete = {"density": "250 kg/m^3", "poisson": poisson}
-        case = _case([(0.0, 0.0), (4.0, 0.0), (4.0, 1.0), (0.0, 1.0)], 0.3, 20.0, 1e-4, across=16, concrete=concrete)
+        case = _case(
+            [(0.0, 0.0), (4.0, 0.0), (4.0, 1.0), (0.0, 1.0)], 0.3, 20.0, 1e-4, elements_across=16, concrete=concrete
+        )
         slip = float(runs(case, motion).residual_slip_m)
         what = f"Poisson's ratio {poisson:g}, against"
         # As far as the prototypes are from it.
@@ -94,7 +96,12 @@ def elastic_rocking() -> Iterator[Row]:
     for modulus, damping, across in ((20.0, 0.05, 8), (2000.0, 0.05, 8), (20.0, 0.0, 8), (20.0, 0.0, 4)):
         concrete = {"damping": damping, "poisson": 0.2}
         case = _case(
-            [(0.0, 0.0), (1.0, 0.0), (1.0, 4.0), (0.0, 4.0)], 1.0, modulus, 5e-5, across=across, concrete=concrete
+            [(0.0, 0.0), (1.0, 0.0), (1.0, 4.0), (0.0, 4.0)],
+            1.0,
+            modulus,
+            5e-5,
+            elements_across=across,
+            concrete=concrete,
         )
         first, found, gained = _elastic_rocking(build_flexible_dam(case), 0.5 * slenderness, slenderness)
         what = f"{modulus:g} GPa, " + ("5 % damping" if damping else f"undamped, {across} across")
@@ -124,7 +131,7 @@ def contactors() -> Iterator[Row]:
         motion = GroundMotion.from_points([0.0, pulse, pulse, end], [push, push, 0.0, 0.0], name="push")
         found = {}
         for kind in range(1, 6):
-            case = _case(corners, 0.1, 20.0, 1e-4, across=2, elevation=4.0, contactors=kind)
+            case = _case(corners, 0.1, 20.0, 1e-4, elements_across=2, elevation=4.0, contactors=kind)
             found[kind] = runs(case, motion)
         depths = ", ".join(f"{1e3 * _depth(response):.2g}" for response in found.values())
         remark = (
@@ -202,10 +209,9 @@ def _case(
     modulus: float,
     step: float,
     *,
-    across: int = 8,
     elevation: float = 0.0,
-    contactors: int = 3,
     concrete: dict[str, Any] | None = None,
+    **flexible: Any,
 ) -> Case:
     return read_case(
         {
@@ -214,10 +220,10 @@ def _case(
             "concrete": {"modulus": f"{modulus} GPa", **(concrete or {})},
             "crack": {"friction": friction, "elevation": f"{elevation} m"},
             "flexible": {
-                "elements_across": across,
-                "contactors": contactors,
+                "elements_across": 8,
                 "time_step": f"{step} s",
                 "convergence_check": False,
+                **flexible,
             },
         }
     )

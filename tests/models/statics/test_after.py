@@ -10,7 +10,7 @@ from heeltoe import read_case, rigid
 from heeltoe.models.statics.after import statics_after
 from heeltoe.views.report import build_report
 from heeltoe.views.report.html import html
-from shared.command import heeltoe as command
+from shared.command import command
 from shared.dams import ROOT
 from shared.report_reader import Reader
 

@@ -13,6 +13,7 @@ import pytest
 from heeltoe import InputError, read_record
 from heeltoe.motion.records import read_text
 from heeltoe.motion.records.catalog import available, find
+from heeltoe.motion.records.to_motion import Told
 
 G = 9.80665
 VALUES = [0.01, -0.02, 0.3, -0.12345, 0.0]
@@ -22,8 +23,8 @@ NGA = (
 )
 
 
-def read(text: str, name: str = "a.AT2", **hints):
-    return read_text(text.encode(), name, **hints)
+def read(text: str, name: str = "a.AT2", channel: str | int | None = None, **hints):
+    return read_text(text.encode(), name, channel, Told(**hints))
 
 
 @pytest.mark.parametrize(

@@ -12,18 +12,19 @@ from heeltoe import InputError, read_record
 from heeltoe.case.motion import Motion
 from heeltoe.case.shaking import resolve
 from heeltoe.motion.records import read_channels, read_text, read_text_channels
+from heeltoe.motion.records.to_motion import Told
 from shared.record_samples import GAL, WAVE, G, cosmos, csmip, knet, smc
 
 THREE = csmip({" 90 DEG": GAL, "UP": -0.5 * GAL, "  0 DEG": 0.8 * GAL})
 TOUCHING = 100.123456 + np.linspace(0.0, 50.0, 16)
 
 
-def read(text: str, name: str = "a.V2", **hints):
-    return read_text(text.encode(), name, **hints)
+def read(text: str, name: str = "a.V2", channel: str | int | None = None, **hints):
+    return read_text(text.encode(), name, channel, Told(**hints))
 
 
 def channels(text: str, **hints):
-    return read_text_channels(text.encode(), "a.V2", **hints)
+    return read_text_channels(text.encode(), "a.V2", Told(assume=True, **hints))
 
 
 # What the headers say

@@ -121,7 +121,7 @@ def _assault(name: str, count: int) -> tuple[int, int]:
     for _ in range(count):
         data = _mutate(sample, rng)
         try:
-            motions = read_text_channels(data, "fuzzed.txt", assume=False)
+            motions = read_text_channels(data, "fuzzed.txt")
         except InputError as error:
             refused += 1
             complaints.append(str(error))

@@ -10,7 +10,7 @@ from heeltoe.case.model import Case
 from heeltoe.mechanics.loads import Resultant, concrete_mass, static_forces, virtual_mass
 from heeltoe.models.statics.contact import Contact
 from heeltoe.models.statics.criteria import UPLIFT_IN_EARTHQUAKE, Loads
-from heeltoe.models.statics.load_case import Solved, solve_case
+from heeltoe.models.statics.load_case import Given, Solved, solve_case
 from heeltoe.models.statics.water import still_water, water_in_earthquake
 
 
@@ -65,12 +65,10 @@ def pseudo_static(case: Case, before: Solved) -> tuple[Solved, Solved]:
             said = [f"uplift: {source}"]
             if vertical:
                 said.append(f"vertical coefficient {'down' if up > 0.0 else 'up'}ward on the block, the worse way")
-            strength = (case.crack.mu_static, case.statics.cohesion)
-            tried.append(
-                solve_case(
-                    f"pseudo-static {way}", "earthquake", case.cut, forces, contact, water, strength, tuple(said)
-                )
+            given = Given(
+                f"pseudo-static {way}", "earthquake", case.crack.mu_static, case.statics.cohesion, tuple(said)
             )
+            tried.append(solve_case(given, case.cut, forces, contact, water))
         found.append(min(tried, key=lambda each: _or_infinite(each.load_case.sliding_factor)))
     return found[0], found[1]
 
@@ -114,8 +112,8 @@ def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
     start, end = (0.0, width - size) if slip >= 0.0 else (size, width)
     contact = Contact(start, end, bonded_from=end)
     water = still_water(case, start, end)
-    strength = (friction, 0.0)
-    return solve_case("post-seismic", "post-earthquake", case.cut, _dry(case), contact, water, strength, tuple(said))
+    given = Given("post-seismic", "post-earthquake", friction, 0.0, tuple(said))
+    return solve_case(given, case.cut, _dry(case), contact, water)
 
 
 def _water(water: Water | None, depth: float) -> Water:
@@ -160,8 +158,8 @@ def _still(name: str, loads: Loads, case: Case, said: tuple[str, ...]) -> Solved
     """Return a case of still water on the crack as it is before the earthquake."""
     contact = _contact(case)
     water = still_water(case, contact.start, contact.end)
-    strength = (case.crack.mu_static, case.statics.cohesion)
-    return solve_case(name, loads, case.cut, _dry(case), contact, water, strength, said)
+    given = Given(name, loads, case.crack.mu_static, case.statics.cohesion, said)
+    return solve_case(given, case.cut, _dry(case), contact, water)
 
 
 def _or_infinite(value: float | None) -> float:

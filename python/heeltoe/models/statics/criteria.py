@@ -7,7 +7,7 @@ not compared with the print say so.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, TypedDict, Unpack
 
 Loads = Literal["usual", "unusual", "extreme", "earthquake", "post-earthquake"]
 
@@ -60,6 +60,12 @@ class Criterion:
         return self.check in ("sliding", "flotation")
 
 
+class _OnlyFor(TypedDict, total=False):
+    cohesion: bool
+    structure: str
+    site_information: str
+
+
 def _rows(
     check: str,
     values: dict[Loads, float],
@@ -68,9 +74,7 @@ def _rows(
     note: str = "",
     *,
     inferred: tuple[Loads, ...] = (),
-    cohesion: bool | None = None,
-    structure: str | None = None,
-    site_information: str | None = None,
+    **only_for: Unpack[_OnlyFor],
 ) -> tuple[Criterion, ...]:
     """Return one row for each case of loads; those inferred say so."""
     return tuple(
@@ -81,9 +85,7 @@ def _rows(
             document,
             paragraph,
             "; ".join(text for text in (note, _INFERRED if loads in inferred else "") if text),
-            cohesion,
-            structure,
-            site_information,
+            **only_for,
         )
         for loads, value in values.items()
     )

@@ -8,7 +8,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from heeltoe.geometry.section import CutSection
-from heeltoe.mechanics.block import ROUNDING_OF_FORCES
+from heeltoe.mechanics.block import ROUNDING_OF_FORCES, across_crack
 from heeltoe.mechanics.loads import Resultant, total
 from heeltoe.models.statics.contact import Contact, Settled, settle
 from heeltoe.models.statics.criteria import Loads
@@ -121,57 +121,56 @@ class Solved:
     settled: Settled
 
 
+@dataclass(frozen=True)
+class Given:
+    """What is known of a load case before it is solved: coefficient of friction, cohesion of the bonded part [Pa]."""
+
+    name: str
+    loads: Loads
+    friction: float
+    cohesion: float
+    assumptions: tuple[str, ...]
+
+
 def solve_case(
-    name: str,
-    loads: Loads,
-    section: CutSection,
-    forces: tuple[Resultant, ...],
-    contact: Contact,
-    water: StillWater,
-    strength: tuple[float, float],
-    said: tuple[str, ...],
+    given: Given, section: CutSection, forces: tuple[Resultant, ...], contact: Contact, water: StillWater
 ) -> Solved:
     """Find the state of the crack and the factors.
 
     Parameters
     ----------
-    name, loads
-        Of the load case.
+    given
+        What is known of the load case before.
     section
         The part above the crack.
     forces
         All but that of the water in the crack.
     contact, water
         Where the block can stand, and the water there.
-    strength
-        Coefficient of friction, and cohesion of the bonded part [Pa].
-    said
-        Assumptions.
     """
-    settled = settle(contact, _across(total(name, forces), section), water)
+    settled = settle(contact, across_crack(total(given.name, forces), section), water)
     forces = (*forces, _uplift(settled.profile, section))
-    across = [_across(force, section) for force in forces]
+    across = [across_crack(force, section) for force in forces]
     shear = math.fsum(force.horizontal for force in across)
     if abs(shear) <= ROUNDING_OF_FORCES * math.fsum(abs(force.horizontal) + abs(force.vertical) for force in across):
         shear = 0.0
-    friction, cohesion = strength
     closed = (contact.start + settled.heel_crack, contact.end - settled.toe_crack)
     pressed = _in_compression(closed, settled)
     bonded = max(pressed[0], contact.bonded_from), min(pressed[1], contact.bonded_to)
-    cohesive = cohesion * max(0.0, bonded[1] - bonded[0])
+    cohesive = given.cohesion * max(0.0, bonded[1] - bonded[0])
     about = "heel" if shear < 0.0 else "toe"
     down = -math.fsum(min(0.0, force.vertical) for force in across)
     up = math.fsum(max(0.0, force.vertical) for force in across)
     load_case = LoadCase(
-        name=name,
-        loads=loads,
+        name=given.name,
+        loads=given.loads,
         forces=forces,
         outcome=settled.outcome,
         normal_force_n=settled.normal,
         shear_force_n=shear,
-        friction=friction,
+        friction=given.friction,
         cohesive_force_n=cohesive,
-        sliding_factor=(cohesive + friction * max(0.0, settled.normal)) / abs(shear) if shear else None,
+        sliding_factor=(cohesive + given.friction * max(0.0, settled.normal)) / abs(shear) if shear else None,
         overturning_factor=_overturning(across, contact.start if about == "heel" else contact.end, about),
         overturning_about=about,
         flotation_factor=down / up if up else None,
@@ -185,15 +184,9 @@ def solve_case(
         cracked_from="toe" if settled.toe_crack else "heel",
         compressed_length_m=max(0.0, pressed[1] - pressed[0]),
         iterations=settled.iterations,
-        assumptions=said,
+        assumptions=given.assumptions,
     )
     return Solved(load_case, settled)
-
-
-def _across(force: Resultant, section: CutSection) -> Resultant:
-    """Return a force by its components along and across the crack."""
-    along, across = section.in_crack_frame(force.horizontal, force.vertical)
-    return Resultant(force.name, along, across, force.moment)
 
 
 def _uplift(profile: Floats, section: CutSection) -> Resultant:

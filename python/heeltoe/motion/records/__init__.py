@@ -24,6 +24,7 @@ __all__ = ["READERS", "RawRecord", "read_channels", "read_record", "read_text", 
 #: In the order in which they are asked.
 READERS: tuple[ModuleType, ...] = (csmip_v2, cosmos_v2, usgs_smc, knet, foreign, peer_at2, columns)
 
+_NOTHING_TOLD = Told()
 # No record comes near; what is larger is something else.
 _LARGEST_BYTES = 64_000_000
 
@@ -69,7 +70,7 @@ def read_record(
         Where there is no such file, or what is in it cannot be used.
     """
     data, name = _load(path)
-    return read_text(data, name, channel, unit=unit, time_step=time_step, gravity=gravity, field=field, assume=assume)
+    return read_text(data, name, channel, Told(unit, time_step, gravity, field, assume))
 
 
 def read_channels(
@@ -83,39 +84,19 @@ def read_channels(
 ) -> list[GroundMotion]:
     """Read all channels of a file, to look at them; see :func:`read_record`. Most files have one."""
     data, name = _load(path)
-    return read_text_channels(data, name, unit=unit, time_step=time_step, gravity=gravity, field=field, assume=assume)
+    return read_text_channels(data, name, Told(unit, time_step, gravity, field, assume))
 
 
-def read_text(
-    data: bytes,
-    name: str,
-    channel: str | int | None = None,
-    *,
-    unit: str | None = None,
-    time_step: float | None = None,
-    gravity: float = STANDARD_GRAVITY,
-    field: str = "motion",
-    assume: bool = False,
-) -> GroundMotion:
+def read_text(data: bytes, name: str, channel: str | int | None = None, told: Told = _NOTHING_TOLD) -> GroundMotion:
     """Read a record from the bytes of its file; see :func:`read_record`."""
     records, format_ = _records(data, name)
-    raw = choose(records, channel, name, f"{field}.channel")
-    return to_motion(raw, format_, name, len(records), Told(unit, time_step, gravity, field, assume))
+    raw = choose(records, channel, name, f"{told.field}.channel")
+    return to_motion(raw, format_, name, len(records), told)
 
 
-def read_text_channels(
-    data: bytes,
-    name: str,
-    *,
-    unit: str | None = None,
-    time_step: float | None = None,
-    gravity: float = STANDARD_GRAVITY,
-    field: str = "motion",
-    assume: bool = True,
-) -> list[GroundMotion]:
+def read_text_channels(data: bytes, name: str, told: Told = _NOTHING_TOLD) -> list[GroundMotion]:
     """Read all channels from the bytes of a file; see :func:`read_channels`."""
     records, format_ = _records(data, name)
-    told = Told(unit, time_step, gravity, field, assume)
     return [to_motion(raw, format_, name, len(records), told) for raw in records]
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.records.raw import RawRecord
-from heeltoe.units.parse import acceleration_unit
+from heeltoe.units.parse import STANDARD_GRAVITY, acceleration_unit
 
 # Beyond these the numbers are no record in any unit, and displacements would overflow.
 _LARGEST_VALUE, _LARGEST_GAP = 1e12, 1e4
@@ -23,11 +23,11 @@ _LIKELY_STEP = 0.01
 class Told:
     """What the caller says of a record; see :func:`heeltoe.motion.records.read_record`."""
 
-    unit: str | None
-    time_step: float | None
-    gravity: float
-    field: str
-    assume: bool
+    unit: str | None = None
+    time_step: float | None = None
+    gravity: float = STANDARD_GRAVITY
+    field: str = "motion"
+    assume: bool = False
 
 
 def to_motion(raw: RawRecord, format_: str, name: str, channels: int, told: Told) -> GroundMotion:
