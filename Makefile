@@ -50,7 +50,7 @@ demo: check $(VENV)/.built
 
 test: check $(VENV)/.built
 	cargo test --locked --quiet -p heeltoe
-	$(BIN)/pytest -q -m "not slow" -n 2
+	$(BIN)/pytest -q -m "not slow" -n 2 --dist loadfile
 	@$(ELAPSED)
 
 test-slow: check $(VENV)/.built

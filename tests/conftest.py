@@ -10,6 +10,7 @@ from hypothesis import HealthCheck, settings
 
 from heeltoe import Comparison, Response, compare
 from heeltoe.errors import CATALOGUE, InputError
+from heeltoe.views.files.write import write_all
 from shared.dams import FAST, ROOT, SHORT, example
 
 _BESIDE = ROOT.parent / "shared" / "records"
@@ -81,6 +82,13 @@ def typical_both() -> Comparison:
 
 
 @pytest.fixture(scope="session")
+def typical_written(typical_both, tmp_path_factory) -> tuple[Path, list[Path]]:
+    """All files of both, figures too: the directory, and what was said to be written."""
+    directory = tmp_path_factory.mktemp("typical")
+    return directory, write_all(typical_both, directory)
+
+
+@pytest.fixture(scope="session")
 def koyna_both() -> Comparison:
     """Koyna by the decoupled chain and by the flexible model, for 4 s."""
     return compare(example("koyna", *SHORT, "flexible.convergence_check=false"), block="decoupled")
@@ -94,5 +102,14 @@ def koyna(koyna_both) -> Response:
 
 @pytest.fixture
 def no_figures(monkeypatch):
-    """Leave out figures, which take most of the time, where words alone are looked at."""
+    """Leave out figures, which take most of the time, where words and numbers alone are looked at."""
     monkeypatch.setattr("heeltoe.views.report.drawings.drawings", lambda case, result, units: {})
+    for name in ("write_figures", "write_comparison_figure"):
+        monkeypatch.setattr(f"heeltoe.views.files.write.{name}", lambda *_, **__: [])
+
+
+@pytest.fixture
+def empty_figures(monkeypatch):
+    """Write figures as empty files, where it matters alone which there are."""
+    monkeypatch.setattr("heeltoe.views.figures.write.laid_out", lambda figure: figure)
+    monkeypatch.setattr("heeltoe.views.figures.write.save", lambda figure, path: path.touch())

@@ -96,6 +96,7 @@ def test_out_writes_everything(tmp_path):
     assert {"time_s", "mode", "rotation_rad", "gap_heel_m"} <= set(table.column_names)
 
 
+@pytest.mark.usefixtures("no_figures")
 def test_csv_and_output_step(tmp_path):
     result = command("run", BLOCK, "--out", tmp_path, "--csv", "--output-step", "0.01s")
     assert result.returncode == 0, result.stderr
@@ -135,6 +136,7 @@ def test_a_dam_that_cannot_stand_is_not_shaken():
     assert "residual_slip_m" not in data or data["residual_slip_m"] is None
 
 
+@pytest.mark.usefixtures("no_figures")
 def test_flexible_says_what_its_result_rests_on(tmp_path):
     short = ("--model", "flexible", *COARSE, "--duration", "4s")
     result = command("run", BASE, *short, "--out", tmp_path)
@@ -163,6 +165,7 @@ def test_flexible_says_what_its_result_rests_on(tmp_path):
     assert (tmp_path / "crack.parquet").exists()
 
 
+@pytest.mark.usefixtures("empty_figures")
 def test_both_models_side_by_side(tmp_path):
     arguments = ("--model", "both", *FAST, "--spread", "3", "--out", tmp_path, "--json", "-")
     result = command("run", BASE, *arguments)
@@ -242,6 +245,7 @@ def test_periods():
     assert f"{periods['intact'][0]:.4f} s" in result.stderr
 
 
+@pytest.mark.usefixtures("no_figures")
 def test_vtk_files_go_beside_the_rest(tmp_path):
     arguments = ("--model", "both", *FAST, "--out", tmp_path, "--vtk")
     folder = tmp_path / "flexible" / "vtk"

@@ -21,7 +21,6 @@ def test_el_centro_to_en_1998():
     record = read_record(find("elcentro-1940-180-nga", Path.cwd()))
     target = en_1998(0.3 * 9.81, "B")
     motion, misfit = match(record, target)
-    print(misfit)
     # EN 1998-1, 3.2.3.1.2(4)c allows no ordinate more than 10 % below, and ASCE 7 is held to ordinates within 10 % as
     # well: that is asked of the largest, and half of it of the mean.
     assert misfit.rms < 0.05

@@ -90,9 +90,10 @@ def test_a_state_that_is_not_finite_is_null_in_json(both):
     assert data["rigid"]["residual_slip_m"] is not None
 
 
-def test_files_of_both(both, tmp_path):
-    written = {str(path.relative_to(tmp_path)) for path in write_all(both, tmp_path)}
-    assert written == {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path.is_file()}
+def test_files_of_both(typical_written):
+    directory, paths = typical_written
+    written = {str(path.relative_to(directory)) for path in paths}
+    assert written == {str(path.relative_to(directory)) for path in directory.rglob("*") if path.is_file()}
     assert written >= {
         "result.json",
         "comparison.png",
@@ -108,9 +109,10 @@ def test_files_of_both(both, tmp_path):
     }
     assert "flexible/events.parquet" not in written
     for place, model in (("", "both"), ("rigid/", "rigid"), ("flexible/", "flexible")):
-        assert json.loads((tmp_path / f"{place}result.json").read_text())["model"] == model
+        assert json.loads((directory / f"{place}result.json").read_text())["model"] == model
 
 
+@pytest.mark.usefixtures("empty_figures")
 def test_what_an_earlier_run_left_does_not_stay(both, tmp_path):
     (tmp_path / "rigid").mkdir()
     mine = [tmp_path / "notes.txt", tmp_path / "rigid" / "result.json"]
@@ -146,9 +148,8 @@ def test_without_the_package_for_vtk_nothing_is_written(both, tmp_path, monkeypa
     assert list(tmp_path.iterdir()) == []
 
 
-def test_the_crack_is_written_with_its_forces_and_statuses(both, tmp_path):
-    write_all(both.flexible, tmp_path)
-    table = pq.read_table(tmp_path / "crack.parquet")
+def test_the_crack_is_written_with_its_forces_and_statuses(both, typical_written):
+    table = pq.read_table(typical_written[0] / "flexible" / "crack.parquet")
     record = both.flexible.crack
     frames, _, nodes = record.upper_position.shape
     assert table.num_rows == frames * nodes
@@ -165,7 +166,7 @@ def test_the_crack_is_written_with_its_forces_and_statuses(both, tmp_path):
 def test_statuses_belong_to_the_nodes_that_are_watched(contactors, upper, lower, tmp_path):
     changes = [f"flexible.contactors={contactors}", "flexible.elements_across_below=3", "motion.duration=0.2s"]
     response = flexible(read_case(HEIGHT, [*FAST, *changes]))
-    write_all(response, tmp_path)
+    write_all(response, tmp_path, figures=False)
     first = pq.read_table(tmp_path / "crack.parquet").slice(0, 12).to_pydict()
     assert first["side"] == ["upper"] * 5 + ["lower"] * 7
     watched = [status is not None for status in first["status"]]

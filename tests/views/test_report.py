@@ -39,6 +39,12 @@ def both(typical_both):
     return read_case(BASE, FAST), typical_both
 
 
+@pytest.fixture(scope="module")
+def document(typical_both):
+    """The report of both."""
+    return build_report(read_case(BASE, FAST), typical_both)
+
+
 def values(blocks):
     """All numbers of a tree of blocks."""
     for each in blocks:
@@ -78,8 +84,7 @@ def read_back(text):
     return float(mantissa) * factor, 0.5 * 10.0**-decimals * factor
 
 
-def check_numbers(case, result):
-    document = build_report(case, result)
+def check_numbers(document, result):
     data = json.loads(json_text(result.to_json()))
     reader = Reader(html(document))
     printed = squeezed(pdf_text(pdf(document)))
@@ -96,23 +101,21 @@ def check_numbers(case, result):
 
 
 def test_numbers_of_one_run_equal_those_of_the_json(block):
-    reader, printed = check_numbers(*block)
+    reader, printed = check_numbers(build_report(*block), block[1])
     for key in ("residual_slip_m", "spread.residual_slip_m.mean", "energy.input_j", "motion.pga_g", "limits.0.value_m"):
         assert key in reader.numbers
     assert "NO" in printed
     assert "yes" in printed
 
 
-def test_numbers_of_both_models_equal_those_of_the_json(both):
-    reader, printed = check_numbers(*both)
+def test_numbers_of_both_models_equal_those_of_the_json(both, document):
+    reader, printed = check_numbers(document, both[1])
     for key in ("rigid.residual_slip_m", "flexible.residual_slip_m", "ratio.residual_slip_m", "flexible.periods_s.0"):
         assert key in reader.numbers
     assert squeezed(both[1].meaning()) in printed
 
 
-@pytest.mark.usefixtures("no_figures")
-def test_numbers_have_units(both):
-    document = build_report(*both)
+def test_numbers_have_units(document):
     plain = ("factor", "friction", "ratio.", "impacts", "events", "samples", "steps", "iterations", "elements", "nodes")
     # The caption says that factors have no unit.
     plain += ("modes", "residual", "statics.checks.")
@@ -152,7 +155,7 @@ def test_a_report_holds_all_that_it_shall(block):
     assert all(link.startswith(("data:image/svg+xml;base64,", "#s")) for link in reader.links)
 
 
-def test_figures_of_a_report_are_there_and_not_empty(both):
+def test_figures_of_a_report_are_there_and_not_empty(document):
     def figures(blocks):
         for each in blocks:
             if isinstance(each, Section):
@@ -160,7 +163,7 @@ def test_figures_of_a_report_are_there_and_not_empty(both):
             elif isinstance(each, FigureBlock):
                 yield each
 
-    found = {figure.name: figure for figure in figures(build_report(*both).blocks)}
+    found = {figure.name: figure for figure in figures(document.blocks)}
     assert {"section", "comparison", "flexible/response", "flexible/crack", "flexible/spectrum"} <= set(found)
     for figure in found.values():
         assert len(figure.svg) > 5000
@@ -168,8 +171,7 @@ def test_figures_of_a_report_are_there_and_not_empty(both):
     assert caption("flexible/some-new_one") == "Flexible dam. Some new one."
 
 
-@pytest.mark.usefixtures("no_figures")
-def test_equations_are_numbered_in_order(both):
+def test_equations_are_numbered_in_order(document):
     def equations(blocks):
         for each in blocks:
             if isinstance(each, Section):
@@ -177,7 +179,7 @@ def test_equations_are_numbered_in_order(both):
             elif hasattr(each, "typst"):
                 yield each.number
 
-    numbers = list(equations(build_report(*both).blocks))
+    numbers = list(equations(document.blocks))
     assert len(numbers) > 8
     assert numbers == list(range(1, len(numbers) + 1))
 
@@ -284,8 +286,9 @@ def test_long_words_stay_on_the_page(block):
 
 
 def test_the_same_input_makes_the_same_report(block):
-    assert html(build_report(*block)) == html(build_report(*block))
-    assert pdf(build_report(*block)) == pdf(build_report(*block))
+    one, other = build_report(*block), build_report(*block)
+    assert html(one) == html(other)
+    assert pdf(one) == pdf(other)
 
 
 def test_the_hash_tells_inputs_apart(block):
@@ -387,7 +390,7 @@ EXAMPLES += [("koyna", decoupled), ("anchored", rigid), ("slender", rigid), ("ty
 def test_reports_of_the_examples_at_full_length(name, run, tmp_path):
     case = example(name)
     result = run(case)
-    check_numbers(case, result)
+    check_numbers(build_report(case, result), result)
     write_report(case, result, directory := ROOT / "out" / "reports" / f"{name}-{run.__name__}")
     for number, data in enumerate(pages(build_report(case, result)), start=1):
         (directory / f"page-{number}.png").write_bytes(data)
@@ -411,11 +414,11 @@ def pages_of(document):
         yield page[int(20 * one) : int(275 * one) - 2]
 
 
-def test_pages_are_full(both):
+def test_pages_are_full(document):
     import numpy as np
 
     blank = []
-    for page in pages_of(build_report(*both)):
+    for page in pages_of(document):
         inked = np.flatnonzero((page < 250).any(axis=1))
         # Bands of less than 10 mm part what belongs apart.
         bands = np.diff(inked) - 1

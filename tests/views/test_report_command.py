@@ -34,9 +34,7 @@ def test_the_command_line_writes_a_report(tmp_path):
     ],
 )
 @pytest.mark.usefixtures("no_figures")
-def test_a_report_has_the_spread_where_it_is_cheap(arguments, spreads, tmp_path, monkeypatch):
-    monkeypatch.setattr("heeltoe.views.files.write.write_figures", lambda *_, **__: None)
-    monkeypatch.setattr("heeltoe.views.files.write.write_comparison_figure", lambda *_, **__: None)
+def test_a_report_has_the_spread_where_it_is_cheap(arguments, spreads, tmp_path):
     result = command("run", BASE, *options(FAST), *arguments, "--out", tmp_path)
     assert result.returncode == 0, result.stderr
     data = json.loads((tmp_path / "result.json").read_text())
@@ -50,8 +48,7 @@ def test_a_report_has_the_spread_where_it_is_cheap(arguments, spreads, tmp_path,
 
 
 @pytest.mark.usefixtures("no_figures")
-def test_a_dam_that_cannot_stand_has_no_spread(tmp_path, monkeypatch):
-    monkeypatch.setattr("heeltoe.views.files.write.write_figures", lambda *_, **__: None)
+def test_a_dam_that_cannot_stand_has_no_spread(tmp_path):
     result = command("run", BASE, "--set", "crack.friction=0.2", "--report", "--out", tmp_path)
     assert result.returncode == 3
     assert "spread" not in json.loads((tmp_path / "result.json").read_text())

@@ -169,6 +169,7 @@ def test_a_motion_made_by_hand_is_used_as_it_is():
     assert response.crack_level["amplification"] > 5.0
 
 
+@pytest.mark.usefixtures("empty_figures")
 def test_beside_the_flexible_model(koyna_both, tmp_path):
     both = koyna_both
     assert both.rigid.model == "decoupled"
@@ -201,6 +202,7 @@ def test_what_the_difference_means(koyna_both, block, dam, words):
     assert words in replace(koyna_both, rigid=one, flexible=other).meaning()
 
 
+@pytest.mark.usefixtures("empty_figures")
 def test_on_the_command_line(tmp_path):
     result = command("run", KOYNA, "--model", "decoupled", *options(SHORT), "--out", tmp_path)
     assert result.returncode == 0, result.stderr
@@ -235,6 +237,7 @@ def test_what_the_command_line_refuses(arguments, words):
     assert words in result.stderr
 
 
+@pytest.mark.usefixtures("empty_figures")
 def test_a_table_of_runs_on_the_command_line(tmp_path):
     vary = ("--vary", "crack.friction=0.8,1.0,1.2", "--vary", "uplift.pattern=uniform,triangular")
     result = command(
