@@ -6,7 +6,9 @@ import pytest
 from rich.console import Console
 
 from heeltoe import InputError
-from heeltoe.validation import CASES, Row, run_all, run_case
+from heeltoe.validation.cases import CASES, run_case
+from heeltoe.validation.row import Row
+from heeltoe.validation.table import run_all
 
 _NEED_RECORDS = {"triangular", "table-7.6-taft", "table-7.6-el-centro"}
 # Half a second to minutes each.

@@ -56,7 +56,7 @@ def validate(
     name: Annotated[str | None, typer.Argument(help="One of the cases; all of them without it.")] = None,
 ) -> None:
     """Recompute the reference cases: reference, ours, deviation, verdict."""
-    from heeltoe.validation import run_all
+    from heeltoe.validation.table import run_all
 
     if not run_all(name, Console(highlight=False)):
         raise typer.Exit(1)

@@ -1,0 +1,54 @@
+"""The reference cases as tables on the terminal."""
+
+from __future__ import annotations
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from heeltoe.validation.cases import CASES, run_case
+from heeltoe.validation.row import Row, Skipped
+
+
+def run_all(name: str | None, console: Console) -> bool:
+    """Print the table of one case or of all; return whether every row that can be judged is within its tolerance."""
+    if name is not None and name not in CASES:
+        run_case(name)
+    passed = failed = explained = skipped = 0
+    for each in [name] if name else CASES:
+        case = CASES[each]
+        heading = (case.__doc__ or "").strip().splitlines()[0]
+        console.print(f"\n[bold]{each}[/bold]  {heading}")
+        try:
+            rows = run_case(each)
+        except Skipped as reason:
+            console.print(f"  [yellow]skipped[/yellow]: {reason}")
+            skipped += 1
+            continue
+        for row in rows:
+            passed += row.holds is True
+            failed += row.holds is False
+            explained += row.holds is None
+        _print_rows(rows, console)
+    console.print(
+        f"\n{passed} within tolerance, {failed} outside, {explained} for information (not reproducible, reason given), "
+        f"{skipped} cases skipped"
+    )
+    return failed == 0
+
+
+def _print_rows(rows: list[Row], console: Console) -> None:
+    """Print the rows of a case, each remark once below them."""
+    table = Table(show_edge=False, pad_edge=False, header_style="dim", box=None)
+    for column in ("", "reference", "heeltoe", "deviation", "verdict"):
+        table.add_column(column, justify="left" if column in ("", "verdict") else "right", no_wrap=column != "")
+    remarks = list(dict.fromkeys(row.remark for row in rows if row.remark))
+    for row in rows:
+        mark = f" [{remarks.index(row.remark) + 1}]" if row.remark else ""
+        style = {True: "", False: "bold red", None: "dim"}[row.holds]
+        table.add_row(
+            escape(row.what + mark), row.reference_text, row.ours_text, row.deviation_text, row.verdict, style=style
+        )
+    console.print(table)
+    for number, remark in enumerate(remarks, 1):
+        console.print(f"  \\[{number}] {remark}")
