@@ -1,0 +1,95 @@
+"""Every command in the documentation can be typed as it stands."""
+
+from __future__ import annotations
+
+import shlex
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+import typer
+
+from heeltoe import read_case
+from heeltoe.cli.main import app
+from heeltoe.validation import CASES
+from shared.command import command
+from shared.dams import KOYNA, ROOT
+from shared.pages import PAGES, command_lines, spans
+
+LINES = command_lines()
+COMMANDS = typer.main.get_command(app).commands
+COARSE = ("--set", "flexible.elements_across=2", "--set", "flexible.convergence_check=false")
+# What is added so that a command does not take long: an option given twice has its last value.
+QUICK = {
+    "run": (*COARSE, "--duration", "1s"),
+    "animate": (*COARSE, "--set", "motion.duration=9s", "--fps", "1"),
+    "periods": COARSE,
+    "overturning": ("--count", "4"),
+}
+RECORD = """PEER NGA STRONG MOTION DATABASE RECORD
+Somewhere, 1/1/2000, Station, 0
+ACCELERATION TIME SERIES IN UNITS OF G
+NPTS=    8, DT=   .0500 SEC
+  .0E+00  .1E+00  .2E+00 -.1E+00 -.2E+00
+  .1E+00  .0E+00  .0E+00
+"""
+
+
+@pytest.fixture(scope="module")
+def place(tmp_path_factory) -> Path:
+    """A directory as a user has it who follows the pages."""
+    directory = tmp_path_factory.mktemp("docs")
+    (directory / "examples").symlink_to(ROOT / "examples")
+    (directory / "my-record.AT2").write_text(RECORD)
+    assert command("new", "mydam", cwd=directory).returncode == 0
+    # What the pages say beside the commands: the flexible model needs a modulus, the decoupled one a crack at a height.
+    case = directory / "mydam.toml"
+    text = case.read_text(encoding="utf-8").replace("# modulus", "modulus")
+    case.write_text(text, encoding="utf-8")
+    (directory / "high.toml").write_text(text.replace('elevation = "0 m"', 'elevation = "60 m"'), encoding="utf-8")
+    return directory
+
+
+def test_there_are_some():
+    assert len(LINES) > 30
+    assert {line.split()[1] for _, line in LINES} == set(COMMANDS)
+
+
+@pytest.mark.usefixtures("no_figures")
+@pytest.mark.parametrize("line", [line for _, line in LINES], ids=[place for place, _ in LINES])
+def test_a_line_can_be_typed(line, place, request):
+    if "taft" in line:
+        request.getfixturevalue("records")
+    # As a shell takes it: to the comment, or to the pipe.
+    _, name, *arguments = shlex.split(line.partition(" | ")[0], comments=True)
+    if name == "validate":
+        assert set(arguments) <= set(CASES)
+        return
+    if name == "new":
+        arguments = ["another"]
+    if "decoupled" in arguments:
+        arguments = [argument.replace("mydam", "high") for argument in arguments]
+    arguments = [argument.replace("FILE", "my-record.AT2") for argument in arguments]
+    said = command(name, *arguments, *QUICK.get(name, ()), cwd=place)
+    assert said.returncode == 0, said.stderr
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_commands_and_options_in_passing_are_there(page):
+    options = {option for each in COMMANDS.values() for parameter in each.params for option in parameter.opts}
+    for span in spans(page):
+        if span.startswith("heeltoe "):
+            _, name, *arguments = shlex.split(span)
+            assert name in COMMANDS, span
+            known = {option for parameter in COMMANDS[name].params for option in parameter.opts}
+            assert name != "validate" or set(arguments) <= set(CASES), span
+        elif span.startswith("--") and page != "CONTRIBUTING.md":
+            arguments, known = shlex.split(span), options
+        else:
+            continue
+        assert {argument for argument in arguments if argument.startswith("--")} <= known, span
+        for option, value in pairwise(arguments):
+            if option == "--set" and "..." not in value:
+                read_case(KOYNA, [value])
+            if option == "--model":
+                assert set(value.split(",")) <= {"rigid", "flexible", "decoupled", "both"}, span

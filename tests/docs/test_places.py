@@ -1,0 +1,80 @@
+"""Links, files, fields of a case and Python names in the documentation: all are there, and mean one thing."""
+
+from __future__ import annotations
+
+import re
+from importlib import import_module
+from typing import Any
+
+import pytest
+
+from heeltoe.case.read import case_schema
+from shared.dams import ROOT
+from shared.pages import PAGES, files, headings, links, spans
+
+
+@pytest.mark.parametrize(("page", "target"), links(), ids=lambda text: text)
+def test_links_lead_somewhere(page, target):
+    if re.match("https?:", target):
+        return
+    name, _, anchor = target.partition("#")
+    place = (ROOT / page).parent / name if name else ROOT / page
+    assert place.exists()
+    if anchor:
+        assert anchor in headings(str(place.relative_to(ROOT)))
+
+
+# The map in CONTRIBUTING.md is written anew as the last of the moves.
+SETTLED = [page for page in PAGES if page != "CONTRIBUTING.md"]
+
+
+@pytest.mark.parametrize("page", SETTLED)
+def test_source_files_are_named_so_that_they_are_found(page):
+    for name in sorted(set(re.findall(r"[\w./-]+\.(?:py|rs)\b", PAGES[page]))):
+        found = [path for path in files() if path == name or path.endswith(f"/{name}")]
+        found = [path for path in found if path == name or not path.startswith("tests/")]
+        assert len(found) == 1, (name, found)
+
+
+@pytest.mark.parametrize("page", SETTLED)
+def test_paths_are_there(page):
+    places = r"(?:docs|examples|tests|benchmarks|crates|python)/[\w./-]*\w"
+    for path in sorted(set(re.findall(rf"(?<![\w/.]){places}", PAGES[page]))):
+        assert any(each == path or each.startswith(f"{path}/") for each in files()), path
+
+
+def field(path: str) -> Any:
+    """Return the schema of a field of a case by its path, None where there is no such field."""
+    schema = case_schema()
+    found: Any = schema
+    for name in path.split("."):
+        reference = re.search(r"#/\$defs/(\w+)", str(found.get("$ref", found.get("anyOf", ""))))
+        found = schema["$defs"][reference[1]] if reference else found
+        found = found.get("properties", {}).get(name)
+        if found is None:
+            return None
+    return found
+
+
+BLOCKS = "|".join(set(case_schema()["properties"]) - {"title"})
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_fields_of_a_case_are_there(page):
+    for span in spans(page):
+        named = re.match(rf"((?:{BLOCKS})(?:\.[a-z_]+)+)(?: =|$)", span)
+        if named and not span.endswith(".parquet"):
+            assert field(named[1]) is not None, span
+
+
+@pytest.mark.parametrize("name", sorted(set(re.findall(r"heeltoe(?:\.\w+)+", "".join(PAGES.values())))))
+def test_python_names_are_there(name):
+    parts = name.split(".")
+    for end in range(len(parts), 0, -1):
+        try:
+            thing = import_module(".".join(parts[:end]))
+        except ModuleNotFoundError:
+            continue
+        for part in parts[end:]:
+            thing = getattr(thing, part)
+        return

@@ -1,0 +1,71 @@
+"""What stands in the documentation, piece by piece."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from functools import cache
+from pathlib import Path
+
+from shared.dams import ROOT
+
+PAGES = {
+    str(path.relative_to(ROOT)): path.read_text(encoding="utf-8")
+    for place in ("*.md", "docs/*.md", "benchmarks/*.md")
+    for path in sorted(ROOT.glob(place))
+}
+
+
+def blocks(language: str) -> list[tuple[str, str, str]]:
+    """Return the fenced blocks in a language: page with line, the block, and the comment on the line before it."""
+    found = []
+    for page, text in PAGES.items():
+        for block in re.finditer(rf"(?:^<!-- (.*?) -->\n)?^```{language}\n(.*?)^```$", text, re.M | re.S):
+            line = text.count("\n", 0, block.start(2))
+            found.append((f"{page}:{line}", block[2], block[1] or ""))
+    return found
+
+
+def command_lines() -> list[tuple[str, str]]:
+    """Return the commands of heeltoe that stand on lines of their own: page with line, and the line."""
+    found = []
+    for page, text in PAGES.items():
+        for line in re.finditer(r"^ {4}(heeltoe (?:.*\\\n)*.*)$", text, re.M):
+            number = text.count("\n", 0, line.start()) + 1
+            found.append((f"{page}:{number}", line[1].replace("\\\n", " ")))
+    return found
+
+
+def spans(page: str) -> list[str]:
+    """Return what stands between backquotes in the running text of a page."""
+    text = re.sub(r"^```.*?^```$", "", PAGES[page], flags=re.M | re.S)
+    return [" ".join(span.split()) for span in re.findall(r"`([^`]+)`", text)]
+
+
+def links() -> list[tuple[str, str]]:
+    """Return page and target of every link and picture."""
+    return [(page, target) for page, text in PAGES.items() for target in re.findall(r"\]\(([^)\s]+)\)", text)]
+
+
+def headings(page: str) -> set[str]:
+    """Return the anchors that the headings of a page make."""
+    titles = re.findall(r"^#+ (.*)$", PAGES[page], re.M)
+    return {re.sub(r"[^\w\- ]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+@cache
+def files() -> tuple[str, ...]:
+    """Return the paths of all files of the project."""
+    found = subprocess.run(
+        ["git", "ls-files", "--cached", "--others", "--exclude-standard"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=False,
+    ).stdout.split()
+    return tuple(found or (str(path.relative_to(ROOT)) for path in ROOT.rglob("*") if _ours(path)))
+
+
+def _ours(path: Path) -> bool:
+    """Whether a path of a copy without its history can be a file of the project."""
+    return path.is_file() and not {".venv", "target", "out"} & set(path.parts)
