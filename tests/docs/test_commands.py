@@ -11,7 +11,7 @@ import typer
 
 from heeltoe import read_case
 from heeltoe.cli.main import app
-from heeltoe.validation import CASES
+from heeltoe.validation.cases import CASES
 from shared.command import command
 from shared.dams import KOYNA, ROOT
 from shared.pages import PAGES, command_lines, spans
