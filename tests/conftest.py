@@ -9,8 +9,11 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from heeltoe import Comparison, Response, compare
-from heeltoe.errors import CATALOGUE, InputError
+from heeltoe.errors import CATALOGUE as ERRORS
+from heeltoe.errors import InputError
 from heeltoe.views.files.write import write_all
+from heeltoe.warnings import CATALOGUE as WARNINGS
+from heeltoe.warnings import Notice
 from shared.dams import FAST, ROOT, SHORT, example
 
 _BESIDE = ROOT.parent / "shared" / "records"
@@ -27,29 +30,35 @@ settings.register_profile(
 )
 settings.load_profile("heeltoe")
 
-# Codes of all errors that the tests of this process have raised.
-_RAISED: set[str] = set()
+_CATALOGUES = {"error": ERRORS, "warning": WARNINGS}
+# All errors and warnings that the tests of this process have raised: "error" or "warning", and the code.
+_RAISED: set[tuple[str, str]] = set()
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Note every error that is made, to see in the end whether all of the catalogue are tested."""
-    plain = InputError.__init__
+    """Note every error and warning that is made, to see in the end whether all of the catalogues are tested."""
+    _note(InputError, "error")
+    _note(Notice, "warning")
 
-    def noting(self: InputError, code: str, *args: object, **context: object) -> None:
-        _RAISED.add(code)
+
+def _note(made: type[InputError] | type[Notice], kind: str) -> None:
+    plain = made.__init__
+
+    def noting(self: InputError | Notice, code: str, *args: object, **context: object) -> None:
+        _RAISED.add((kind, code))
         plain(self, code, *args, **context)  # type: ignore[arg-type]
 
-    InputError.__init__ = noting  # type: ignore[method-assign]
+    made.__init__ = noting  # type: ignore[assignment, method-assign]
 
 
 def pytest_testnodedown(node: object) -> None:
     """Gather what a worker of pytest-xdist has seen."""
-    _RAISED.update(getattr(node, "workeroutput", {}).get("raised", ()))
+    _RAISED.update((kind, code) for kind, code in getattr(node, "workeroutput", {}).get("raised", ()))
 
 
 @pytest.hookimpl(trylast=True)
 def pytest_sessionfinish(session: pytest.Session) -> None:
-    """Fail a complete run in which some error of the catalogue was never raised."""
+    """Fail a complete run in which some error or warning of the catalogues was never raised."""
     config = session.config
     if hasattr(config, "workeroutput"):
         config.workeroutput["raised"] = sorted(_RAISED)
@@ -58,9 +67,10 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
         config.option.markexpr in ("", "not slow") and not config.option.keyword and not config.option.collectonly
     )
     if complete and config.args == config.getini("testpaths") and session.exitstatus == 0:
-        untested = sorted(set(CATALOGUE) - _RAISED)
+        declared = {(kind, code) for kind, codes in _CATALOGUES.items() for code in codes}
+        untested = sorted(f"{kind} {code}" for kind, code in declared - _RAISED)
         if untested:
-            print(f"\nerrors of the catalogue that no test raises: {', '.join(untested)}")
+            print(f"\ndeclared in a catalogue, but raised by no test: {', '.join(untested)}")
             session.exitstatus = 1
 
 

@@ -160,7 +160,7 @@ def test_case_cannot_be_changed():
 )
 def test_warnings(changes, words):
     assert case_warnings(read_case(DAM)) == ()
-    (warning,) = case_warnings(read_case(dam(**changes)))
+    (warning,) = map(str, case_warnings(read_case(dam(**changes))))
     assert words in warning
 
 

@@ -12,6 +12,7 @@ import pytest
 
 from heeltoe import Comparison, InputError, compare, flexible, read_case, rigid
 from heeltoe.result.write import json_text
+from heeltoe.units.sentences import Sentence
 from heeltoe.views.files.write import write_all
 from shared.dams import BASE, FAST, HEIGHT
 
@@ -68,7 +69,7 @@ def test_what_the_difference_means(both, block, dam, words):
 
 
 def test_without_a_result_there_is_no_ratio(both):
-    failed = replace(both, rigid=replace(both.rigid, outcome="paradox", advice="stop"))
+    failed = replace(both, rigid=replace(both.rigid, outcome="paradox", advice=Sentence("stop")))
     assert not failed.ok
     assert "nothing to compare: no result to trust from the rigid model" in failed.meaning()
     assert set(failed.ratio().values()) == {None}
@@ -83,7 +84,10 @@ def test_a_case_without_motion():
 
 def test_a_state_that_is_not_finite_is_null_in_json(both):
     blown = replace(
-        both.flexible, outcome="blown up", advice="x", summary={**both.flexible.summary, "residual_slip_m": np.inf}
+        both.flexible,
+        outcome="blown up",
+        advice=Sentence("x"),
+        summary={**both.flexible.summary, "residual_slip_m": np.inf},
     )
     data = json.loads(json_text(replace(both, flexible=blown).to_json()), parse_constant=pytest.fail)
     assert data["flexible"]["residual_slip_m"] is None

@@ -77,7 +77,7 @@ def test_runs_without_a_result_are_counted_and_left_out():
     slips = spread["residual_slips_m"]
     assert slips.count(None) == spread["failed"]
     assert spread["residual_slip_m"]["max"] == max(slip for slip in slips if slip is not None)
-    assert any("ended without a result" in text for text in response.warnings)
+    assert any("ended without a result" in text for text in map(str, response.warnings))
     json.loads(json_text(response.to_json()))
 
 
@@ -92,7 +92,7 @@ def test_a_dam_that_cannot_stand_has_no_spread_but_says_so():
 def test_a_result_that_hangs_on_details_is_a_warning():
     def said(path, changes):
         case = read_case(path, changes)
-        return [text for text in with_spread(rigid(case), case).warnings if "hangs on details" in text]
+        return [text for text in map(str, with_spread(rigid(case), case).warnings) if "hangs on details" in text]
 
     assert said(KOYNA, [])
     assert not said(BASE, [])

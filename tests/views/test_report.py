@@ -146,7 +146,7 @@ def test_a_report_holds_all_that_it_shall(block):
         "The dam slides",
     ):
         assert words in reader.text
-    for text in response.warnings:
+    for text in map(str, response.warnings):
         assert squeezed(text) in squeezed(reader.text)
     # Every field of the case, whether given or not.
     for path, _, _, _ in fields(case, case.model_dump(mode="json")):
@@ -191,7 +191,7 @@ def test_a_run_that_never_started_says_what_failed():
     document = build_report(case, response)
     first = PdfReader(io.BytesIO(pdf(document))).pages[0].extract_text()
     assert "No result to trust" in first
-    assert squeezed(response.advice) in squeezed(first)
+    assert squeezed(str(response.advice)) in squeezed(first)
     assert "NaN" not in html(document)
     assert "no results and no figures" in Reader(html(document)).text
 

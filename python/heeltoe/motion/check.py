@@ -6,9 +6,12 @@ import numpy as np
 
 from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.warnings import Notice
 
 
-def check(motion: GroundMotion, gravity: float, *, allow_zero: bool = False, field: str = "motion") -> tuple[str, ...]:
+def check(
+    motion: GroundMotion, gravity: float, *, allow_zero: bool = False, field: str = "motion"
+) -> tuple[Notice, ...]:
     """Return what is suspicious about a motion.
 
     Parameters
@@ -30,26 +33,27 @@ def check(motion: GroundMotion, gravity: float, *, allow_zero: bool = False, fie
     peak = motion.pga / gravity
     if peak == 0.0:
         if allow_zero:
-            return (f"{motion.name} is zero throughout: in this direction the ground does not move",)
+            return (Notice("motion-still", field=field, name=motion.name),)
         raise InputError("motion-zero", field, motion.name)
     if peak > 10.0:
         raise InputError("motion-peak", field, f"{peak:.4g} g", name=motion.name)
     said = []
+
+    def say(code: str, **quantities: float) -> None:
+        said.append(Notice(code, field=field, name=motion.name, **quantities))
+
     if peak > 3.0:
-        said.append(f"{motion.name} peaks at {peak:.3g} g, more than any ground has been seen to do: check its unit")
+        say("motion-strong", peak_g=peak)
     if peak < 1e-3:
-        said.append(f"{motion.name} peaks at {peak:.2g} g only: check its unit, or scale it by motion.pga")
+        say("motion-weak", peak_g=peak)
     if motion.format != "points" and motion.pgv > 0.0 and abs(motion.end_velocity) > 0.2 * motion.pgv:
-        said.append(
-            f"{motion.name} ends at {motion.end_velocity:.3g} m/s, {abs(motion.end_velocity) / motion.pgv:.0%} of its "
-            "largest velocity: its baseline drifts, or it was cut"
-        )
+        say("motion-drifts", end_velocity_m_s=motion.end_velocity, share=abs(motion.end_velocity) / motion.pgv)
     steps = np.diff(motion.time)
     if (steps > 5.0 * motion.dt).any() and motion.time.size > 20:
         gap = int(steps.argmax())
-        said.append(f"{motion.name} has a gap of {steps[gap]:.3g} s at {motion.time[gap]:.4g} s")
+        say("motion-gap", gap_s=float(steps[gap]), time_s=float(motion.time[gap]))
     top = np.abs(motion.acceleration) >= motion.pga * (1.0 - 1e-12)
     run = top[:-3] & top[1:-2] & top[2:-1] & top[3:]
     if motion.time.size > 20 and run.any():
-        said.append(f"{motion.name} stays at its peak for four samples or more: it may be clipped")
+        say("motion-clipped")
     return tuple(said)

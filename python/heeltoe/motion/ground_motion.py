@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from heeltoe.errors import InputError
 from heeltoe.shown import Shown
+from heeltoe.warnings import Notice
 
 Floats = NDArray[np.float64]
 
@@ -58,7 +59,7 @@ class GroundMotion(Shown):
     units_as_read: str = ""
     source: str = ""
     processing: tuple[str, ...] = ()
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Notice, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("time", "acceleration"):
@@ -191,7 +192,7 @@ class GroundMotion(Shown):
             processing=(*self.processing, f"cut to {duration:g} s"),
         )
         if result.pga < 0.999 * self.pga:
-            lost = f"the cut to {duration:g} s leaves out the record's peak at {self.peak[0]:g} s"
+            lost = Notice("motion-cut", duration_s=duration, time_s=self.peak[0])
             result = replace(result, warnings=(*result.warnings, lost))
         return result
 
@@ -225,6 +226,6 @@ class GroundMotion(Shown):
             processing=(*self.processing, f"refined to a step of {step:g} s"),
         )
 
-    def with_warnings(self, *warnings: str) -> GroundMotion:
+    def with_warnings(self, *warnings: Notice) -> GroundMotion:
         """Return the motion with more warnings."""
         return replace(self, warnings=(*self.warnings, *warnings)) if warnings else self

@@ -17,6 +17,7 @@ from heeltoe.motion.ground_motion import GroundMotion, integrals
 from heeltoe.motion.measures import arias_intensity, fourier_amplitudes, husid_time, measures, uniform
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.units.parse import STANDARD_GRAVITY
+from heeltoe.warnings import Notice
 
 __all__ = [
     "Step",
@@ -219,4 +220,4 @@ def scale_time(motion: GroundMotion, factor: float, *, allow: bool = False) -> G
         raise InputError("order-time", "allow", f"{factor:g}")
     said = f"time stretched by {factor:.6g}: all its frequencies are divided by that"
     stretched = replace(motion, time=motion.time * factor, processing=(*motion.processing, said))
-    return stretched.with_warnings(f"{motion.name} had its time stretched by {factor:g}: no earthquake was recorded so")
+    return stretched.with_warnings(Notice("motion-stretched", name=motion.name, factor=factor))

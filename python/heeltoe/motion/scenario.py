@@ -22,6 +22,7 @@ from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.stochastic import Parameters, stochastic_motion
 from heeltoe.units.parse import STANDARD_GRAVITY
+from heeltoe.warnings import Notice
 
 Floats = NDArray[np.float64]
 
@@ -172,11 +173,9 @@ def synthetic(name: str, *, gravity: float = STANDARD_GRAVITY, field: str = "mot
     motion = replace(motion, event=f"made to order: M {magnitude:g} at {distance:g} km", source=name)
     if "step" in order:
         motion = motion.resampled(order["step"])
-    said = [f"{motion.name} is generated, not recorded"]
+    said = [Notice("motion-generated", field=field, name=motion.name)]
     if not (6.0 <= magnitude <= 7.6 and 10.0 <= distance <= 100.0 and vs30 >= 600.0):
-        said.append(
-            f"{motion.name} is outside the records behind its relations: M 6 to 7.6, 10 to 100 km, Vs30 600 m/s up"
-        )
+        said.append(Notice("motion-beyond-relations", field=field, name=motion.name))
     return motion.with_warnings(*said)
 
 

@@ -16,6 +16,8 @@ from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.limits import LimitCheck
 from heeltoe.result.write import build_info, motion_json, write_table
 from heeltoe.shown import Shown
+from heeltoe.units.sentences import Sentence
+from heeltoe.warnings import Notice
 
 Floats = NDArray[np.float64]
 T = TypeVar("T")
@@ -119,8 +121,8 @@ class Response(Shown):
     model: str
     title: str
     outcome: str
-    advice: str | None
-    warnings: tuple[str, ...]
+    advice: Sentence | None
+    warnings: tuple[Notice, ...]
     summary: Mapping[str, Any]
     energy: Energy | None
     motion: GroundMotion
@@ -186,8 +188,8 @@ class Response(Shown):
             "model": self.model,
             "title": self.title,
             "outcome": self.outcome,
-            "advice": self.advice,
-            "warnings": list(self.warnings),
+            "advice": None if self.advice is None else str(self.advice),
+            "warnings": [each.to_json() for each in self.warnings],
             **self.summary,
             "critical_acceleration_g": dict(self.static["critical_acceleration_g"]),
             "static": {k: v for k, v in self.static.items() if k != "critical_acceleration_g"},

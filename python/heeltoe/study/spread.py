@@ -23,6 +23,7 @@ from heeltoe.models.rigid.walk import GroundSeries, run_block
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.moments import ground
 from heeltoe.result.response import Response
+from heeltoe.warnings import Notice
 
 Floats = NDArray[np.float64]
 Told = Callable[[int, int], None]
@@ -219,16 +220,11 @@ def _statistics(values: Floats) -> dict[str, float] | None:
     }
 
 
-def _warnings(spread: Mapping[str, Any]) -> list[str]:
+def _warnings(spread: Mapping[str, Any]) -> list[Notice]:
     said = []
     if spread["failed"]:
-        said.append(
-            f"{spread['failed']} of the {spread['runs']} runs with slightly different shaking ended without a result"
-        )
+        said.append(Notice("spread-failures", failed=spread["failed"], runs=spread["runs"]))
     slip = spread["residual_slip_m"]
     if slip is not None and slip["std"] > max(_LARGE * abs(slip["mean"]), _NOTHING):
-        said.append(
-            f"the residual slip hangs on details: it is {1e3 * slip['min']:.4g} to {1e3 * slip['max']:.4g} mm when the "
-            f"shaking is scaled by {WEAKEST:g} to {STRONGEST:g}"
-        )
+        said.append(Notice("spread-large", slips_m=(slip["min"], slip["max"]), scales=(WEAKEST, STRONGEST)))
     return said

@@ -189,7 +189,7 @@ def _half_step(what: str, run: Runs, case: Case, motion: GroundMotion, allowed: 
     """Judge what the program itself says of half the step."""
     response = run(case, motion)
     evidence = response.summary["convergence"]
-    warned = any("has not converged" in text for text in response.warnings)
+    warned = any(each.code == "not-converged" for each in response.warnings)
     coarse, fine = 1e3 * evidence["coarser_residual_slip_m"], 1e3 * evidence["residual_slip_m"]
     return Row(what, coarse, fine, allowed, remark="the result warns" if warned else "")
 

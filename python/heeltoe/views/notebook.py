@@ -62,7 +62,7 @@ def _(response: Response) -> str:
     """Show verdict, warnings and key numbers of a response, and the slip over time."""
     numbers = Numbers(response.to_json())
     rows = [("model", response.model), ("verdict", verdict(response))]
-    rows += [("warning", text) for text in response.warnings]
+    rows += [("warning", str(text)) for text in response.warnings]
     for each in HEADLINES:
         cell = numbers(each.key, sign=each.way)
         if isinstance(cell, Value):

@@ -58,7 +58,7 @@ def test_a_case_without_a_motion_is_refused():
 )
 def test_what_a_reader_must_know_is_said(blocks, words):
     response = flexible(changed(**blocks), MOTION)
-    assert any(words in text for text in response.warnings), response.warnings
+    assert any(words in text for text in map(str, response.warnings)), response.warnings
 
 
 def test_evidence_of_convergence_comes_with_the_result():

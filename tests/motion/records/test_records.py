@@ -86,11 +86,11 @@ def test_wrong_counts_are_said_not_swallowed():
     for stated in (4, 6, 10**12):
         motion = read(NGA + f"NPTS= {stated}, DT= .01 SEC\n .01 -.02 .3 -.12345 0\n")
         assert motion.time.size == 5
-        assert f"states {stated:g} values and has 5" in motion.warnings[0]
+        assert f"states {stated:g} values and has 5" in str(motion.warnings[0])
     motion = read("# units: [g]\n# time step: 0.01 s\n# number of points: 7\n0.1\n0.2\n")
-    assert "states 7 values and has 2" in motion.warnings[0]
+    assert "states 7 values and has 2" in str(motion.warnings[0])
     motion = read("# units: column 2 acceleration [g]\n# time step: 0.02 s\n0 0.1\n0.01 0.2\n0.02 0\n")
-    assert "its times are 0.01 s apart" in motion.warnings[0]
+    assert "its times are 0.01 s apart" in str(motion.warnings[0])
 
 
 def test_a_file_that_ends_inside_a_number_is_not_trusted_silently():
@@ -98,7 +98,7 @@ def test_a_file_that_ends_inside_a_number_is_not_trusted_silently():
     assert read(NGA + "NPTS= 5, DT= .01 SEC\n" + rows).warnings == ()
     torn = read(NGA + "NPTS= 5, DT= .01 SEC\n" + rows[:-6])  # -.91234: a hundred times too large
     assert torn.pga > 0.9 * G
-    assert "ends in the middle of a number" in torn.warnings[0]
+    assert "ends in the middle of a number" in str(torn.warnings[0])
 
 
 def test_a_station_may_be_called_velocity():

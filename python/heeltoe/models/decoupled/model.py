@@ -21,6 +21,7 @@ from heeltoe.motion.moments import ground
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.references import cited
 from heeltoe.result.response import Response
+from heeltoe.warnings import Notice
 
 Floats = NDArray[np.float64]
 
@@ -210,12 +211,9 @@ def _histories(
     return result | {name: values for name, values in histories.items() if name not in result}
 
 
-def _warnings(level: dict[str, Any]) -> list[str]:
-    said = []
+def _warnings(level: dict[str, Any]) -> tuple[Notice, ...]:
     found = level["convergence"]
-    if found["change"] > _CHANGE:
-        said.append(
-            f"the slip hangs on details: it is {1e3 * found['coarser_residual_slip_m']:.4g} mm where the motion of the "
-            f"crack is sampled every {1e3 * found['coarser_step_s']:.3g} ms instead of {1e3 * found['step_s']:.3g} ms"
-        )
-    return said
+    if not found["change"] > _CHANGE:
+        return ()
+    steps = {name: found[name] for name in ("coarser_step_s", "step_s")}
+    return (Notice("sampling-matters", coarser_slip_m=found["coarser_residual_slip_m"], **steps),)

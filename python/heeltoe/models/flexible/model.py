@@ -12,7 +12,7 @@ from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.models.flexible.shaken import Shaken, converged
 from heeltoe.models.flexible.tables import FRAME, anchors_of, energy_of, histories_of, history_of, summary_of
-from heeltoe.models.flexible.warnings import ADVICE, last_change, warnings_of
+from heeltoe.models.flexible.warnings import advice_of, last_change, warnings_of
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.references import cited
 from heeltoe.result.limits import check_limits
@@ -73,7 +73,6 @@ def flexible(
     if outcome == "ok" and safety is not None and safety < 1.0 and not dam.anchors:
         outcome = "unstable"
     record = history_of(frames, dam, case.flexible.contactors)
-    advice = ADVICE.get(outcome)
     summary = summary_of(raw, dam, shaken, convergence)
     if case.anchors:
         summary["anchors"] = anchors_of(case, raw)
@@ -82,7 +81,7 @@ def flexible(
         model="flexible",
         title=case.title,
         outcome=outcome,
-        advice=advice and f"stopped at {raw['end_time']:.3f} s with slip {raw['slip']:.4g} m: {advice}",
+        advice=advice_of(outcome, raw),
         warnings=(
             *case_warnings(case),
             *motion.warnings,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,6 +13,8 @@ from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.reduced import FlexibleDam
 from heeltoe.models.flexible.shaken import NOTHING, Convergence
 from heeltoe.models.flexible.tables import FRAME, anchors_of
+from heeltoe.units.sentences import Sentence
+from heeltoe.warnings import Notice
 
 Floats = NDArray[np.float64]
 
@@ -26,6 +30,18 @@ ADVICE = {
 }
 
 
+def advice_of(outcome: str, raw: dict[str, float]) -> Sentence | None:
+    """Say where a run stopped, and what to do; None where there is a result to trust."""
+    if outcome not in ADVICE:
+        return None
+    return Sentence.of(
+        "stopped at {time_s:.3f s} with slip {slip_m:.4g m}: {remedy}",
+        time_s=raw["end_time"],
+        slip_m=raw["slip"],
+        remedy=ADVICE[outcome],
+    )
+
+
 def warnings_of(
     case: Case,
     dam: FlexibleDam,
@@ -34,82 +50,84 @@ def warnings_of(
     convergence: Convergence | None,
     safety: float | None,
     last_change: float,
-) -> list[str]:
-    said = []
+) -> list[Notice]:
+    """Return what a reader of a flexible run must know.
+
+    Parameters
+    ----------
+    case, dam
+        What was run.
+    raw
+        Summary of the kernel, by its names.
+    record
+        What the crack did.
+    convergence
+        Evidence for the time step; None where it was not asked.
+    safety
+        Sliding safety factor under the static loads; None where nothing pushes.
+    last_change
+        By how much the slip changes in the last second [m].
+    """
+    return [
+        *_about_the_slip(dam, convergence, safety),
+        *_about_the_concrete(case, dam),
+        *_about_the_end(case, raw, last_change),
+        *_about_the_contact(case, dam, raw, record),
+    ]
+
+
+def _about_the_slip(dam: FlexibleDam, convergence: Convergence | None, safety: float | None) -> Iterator[Notice]:
     if convergence is None:
-        said.append("flexible.convergence_check is off: nothing shows that the time step is small enough")
+        yield Notice("convergence-unchecked")
     elif not convergence.reached:
-        said.append(
-            f"the residual slip has not converged: {1e3 * convergence.coarser_slip:.4g} mm with a step of "
-            f"{convergence.coarser_step:.3g} s, {1e3 * convergence.slip:.4g} mm with half of it (allowed "
-            f"{100.0 * convergence.allowed:g} %); read it with its spread"
+        yield Notice(
+            "not-converged",
+            coarser_slip_m=convergence.coarser_slip,
+            coarser_step_s=convergence.coarser_step,
+            slip_m=convergence.slip,
+            allowed=convergence.allowed,
         )
-    if safety is not None and safety < 1.0 and dam.anchors:
-        said.append(
-            "friction and prestress alone do not hold the dam before the earthquake (sliding safety factor "
-            f"{safety:.3f}): it begins by sliding until its anchors hold it"
-        )
-    elif safety is not None and safety < 1.0:
-        said.append(
-            f"the dam slides under its static loads alone (sliding safety factor {safety:.3f}): its slip grows as long "
-            "as the run lasts"
-        )
+    if safety is not None and safety < 1.0:
+        yield Notice("anchors-hold" if dam.anchors else "slides-by-itself", factor=safety)
+
+
+def _about_the_concrete(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
     full = case.reservoir is not None and water_above_crack(case, case.reservoir) > 0.9 * dam.section.height
     if case.concrete.damping < 0.005 and full:
-        said.append(
-            "concrete.damping: with hardly any damping under a full reservoir the dam creeps downstream for as long as "
-            "it vibrates; the slip says little"
-        )
+        yield Notice("damping-hardly")
     if case.concrete.poisson > 0.35:
-        said.append(f"concrete.poisson: {case.concrete.poisson:g} is unusual for concrete")
+        yield Notice("poisson-unusual", poisson=case.concrete.poisson)
     modulus = case.concrete.modulus or 0.0
     if not 5e9 <= modulus <= 1e11:
-        said.append(f"concrete.modulus: {modulus / 1e9:.4g} GPa is not that of concrete")
+        yield Notice("modulus-unusual", modulus_pa=modulus)
     if dam.basis_error > 0.02:
-        said.append(
-            f"the modes kept leave an error of {100.0 * dam.basis_error:.2g} % in the flexibility of the crack; raise "
-            "flexible.modes"
-        )
+        yield Notice("modes-few", error=dam.basis_error)
+
+
+def _about_the_end(case: Case, raw: dict[str, float], last_change: float) -> Iterator[Notice]:
     if raw["outcome"] == 0.0 and last_change > NOTHING:
-        said.append(
-            "the dam still moves when the run ends: in the last second its slip changes by "
-            f"{1e3 * last_change:.3g} mm; the residual slip is that of this moment, and a longer motion.duration lets "
-            "it come to rest"
-        )
+        yield Notice("dam-still-moves", time_s=raw["end_time"], change_m=last_change)
     for number, anchor in enumerate(anchors_of(case, raw), start=1):
         tension, capacity = anchor["peak_tension_n"] or 0.0, anchor["capacity_n"]
         if capacity is not None and tension > capacity:
-            said.append(
-                f"anchor {number} is pulled with {tension / 1e3:.4g} kN/m, beyond its capacity of "
-                f"{capacity / 1e3:.4g} kN/m, and would have yielded; the result takes it for elastic"
-            )
+            yield Notice("anchor-yields", number=number, tension_n=tension, capacity_n=capacity)
     if case.analysis.rotation != "small":
-        said.append(
-            f'analysis.rotation = "{case.analysis.rotation}" has no say here: it is of the rigid block, and the '
-            "rotations of the flexible model are small"
-        )
+        yield Notice("rotation-unused", rotation=case.analysis.rotation)
+
+
+def _about_the_contact(case: Case, dam: FlexibleDam, raw: dict[str, float], record: CrackHistory) -> Iterator[Notice]:
     depth = record.deepest_penetration()
     if depth > 1e-3 * dam.section.crack_width:
-        said.append(
-            f"the crack faces penetrate each other by up to {1e3 * depth:.3g} mm where no node is watched (contactors "
-            f"of type {case.flexible.contactors}); types 3 to 5 prevent it"
-        )
+        yield Notice("faces-penetrate", depth_m=depth, contactors=case.flexible.contactors)
     if raw["contact_residual"] > 1e-6:
-        said.append(
-            f"contact holds only to {raw['contact_residual']:.1e} of the impulse: give a shorter flexible.time_step"
-        )
+        yield Notice("contact-loose", residual=raw["contact_residual"])
     if raw["energy_residual"] > 1e-9:
-        said.append(f"the energy ledger does not close: residual {raw['energy_residual']:.1e} of the turnover")
+        yield Notice("energy-open", residual=raw["energy_residual"])
     if raw["energy_gained"] > 1e-4 * raw["energy_turnover"]:
-        said.append(
-            f"contact has made energy out of nothing, {raw['energy_gained']:.3g} J in a turnover of "
-            f"{raw['energy_turnover']:.3g} J, as a penalty does at every blow: compare with another time_step and with "
-            'flexible.contact = "coulomb"'
-        )
+        yield Notice("energy-made", gained_j=raw["energy_gained"], turnover_j=raw["energy_turnover"])
     largest = max(-raw["rotation_min"], raw["rotation_max"])
     if largest > 0.1:
-        said.append(f"the largest rotation is {largest:.3g} rad; the model is one of small rotations")
-    return said
+        yield Notice("rotation-beyond-model", rotation_rad=largest)
 
 
 def last_change(rows: Floats) -> float:

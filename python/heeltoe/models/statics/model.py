@@ -16,6 +16,7 @@ from heeltoe.models.statics.levels import critical_water_levels
 from heeltoe.models.statics.load_case import LoadCase
 from heeltoe.references import REFERENCES
 from heeltoe.result.write import build_info
+from heeltoe.warnings import Notice
 
 
 @dataclass(frozen=True)
@@ -57,7 +58,7 @@ class Statics:
     critical_water_level_m: Mapping[str, float | None]
     slip_m: float | None
     slip_source: str | None
-    warnings: tuple[str, ...]
+    warnings: tuple[Notice, ...]
     references: tuple[str, ...]
 
     @property
@@ -80,7 +81,7 @@ class Statics:
             "critical_water_level_m": dict(self.critical_water_level_m),
             "slip_m": self.slip_m,
             "slip_source": self.slip_source,
-            "warnings": list(self.warnings),
+            "warnings": [each.to_json() for each in self.warnings],
             "references": list(self.references),
             "build": build_info(),
         }
@@ -143,19 +144,16 @@ def statics(
             cases.append(after.load_case)
             checks += check_case(after.load_case, choice)
         if source == _UNKNOWN:
-            warnings.append(f"post-seismic: {_UNKNOWN}; statics.residual_slip, or a run of the motion, says how much")
+            warnings.append(Notice("slip-unknown"))
     if before.load_case.cracked_length_m:
-        warnings.append(
-            f"the usual loads open the crack by {before.load_case.cracked_length_m:.2f} m, and water follows; the "
-            "critical accelerations keep the case's uplift, as the time histories do at the start"
-        )
+        warnings.append(Notice("crack-opens-statically", length_m=before.load_case.cracked_length_m))
     usual_depth = case.reservoir.depth if case.reservoir else 0.0
     if choice.flood_depth is not None and choice.flood_depth < usual_depth:
-        warnings.append(f"statics.flood_depth: the flood is lower than the {usual_depth:g} m of the usual loads")
+        warnings.append(Notice("flood-low", usual_depth_m=usual_depth))
     if choice.residual_friction is not None and choice.residual_friction > case.crack.mu_static:
-        warnings.append("statics.residual_friction: more than the friction of the crack before it has slid")
+        warnings.append(Notice("residual-friction-high"))
     if any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors):
-        warnings.append("anchors: the static checks count their prestress, not what opening and slip would add")
+        warnings.append(Notice("anchors-as-prestress"))
     references = dict.fromkeys(check.source for check in checks if check.required is not None)
     if choice.seismic_coefficient is not None and water_above_crack(case, case.reservoir):
         references[REFERENCES["water"]] = None

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeVar
 from heeltoe.case.model import Case
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.result.response import Response
+from heeltoe.warnings import Notice
 
 R = TypeVar("R", bound=Response)
 
@@ -27,7 +28,7 @@ def with_standing(response: R, case: Case) -> R:
     return replace(response, warnings=(*response.warnings, *said)) if said else response
 
 
-def standing_warnings(case: Case) -> tuple[str, ...]:
+def standing_warnings(case: Case) -> tuple[Notice, ...]:
     """Return what the usual loads do to the crack that a run of the earthquake does not count; nothing where the crack
     stays closed."""
     block = build_block(case)
@@ -40,20 +41,16 @@ def standing_warnings(case: Case) -> tuple[str, ...]:
     solved = usual(case)
     if solved.load_case.outcome == "stands":
         return _opened(case, block, solved)
-    return (
-        "under its usual loads the crack opens right through where water follows it, and the dam does not stand "
-        "(heeltoe statics); this run keeps the uplift of the case, so that its slip says nothing of such a dam: add "
-        "drains or anchors, or lower the water, until heeltoe statics finds that it stands",
-    )
+    return (Notice("crack-opens-through"),)
 
 
-def _opened(case: Case, block: Block, solved: Solved) -> tuple[str, ...]:
+def _opened(case: Case, block: Block, solved: Solved) -> tuple[Notice, ...]:
     found = solved.load_case
     change = block.normal_force - found.normal_force_n
     if not found.cracked_length_m or abs(change) < _NOTICED * block.normal_force:
         return ()
-    share = 100.0 * found.cracked_length_m / block.width
     remedy = "heeltoe statics counts it"
+    # Meant to be copied into the case: it stays as it is in all units.
     if case.reservoir is not None:
         unit = case.gravity * case.reservoir.density
         points = [f'[{x / block.width:.4g}, "{p / unit:.4g} m"]' for x, p in solved.settled.profile.tolist()]
@@ -61,8 +58,12 @@ def _opened(case: Case, block: Block, solved: Solved) -> tuple[str, ...]:
         remedy = f'to count it set uplift.pattern = "profile", points = [{drawn}]'
         if case.uplift.intensity != 1.0:
             remedy += " and intensity = 1"
-    return (
-        f"the usual loads open {found.cracked_length_m:.2f} m of the crack from its {found.cracked_from}, "
-        f"{share:.2g} % of its width; the water that follows lifts with {change / 1e3:.4g} kN/m more than the uplift "
-        f"of the case, which this run keeps: {remedy}",
+    said = Notice(
+        "crack-opens",
+        length_m=found.cracked_length_m,
+        corner=found.cracked_from,
+        share=found.cracked_length_m / block.width,
+        lift_n=change,
+        remedy=remedy,
     )
+    return (said,)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from heeltoe.errors import InputError
 from heeltoe.units.parse import acceleration_unit
+from heeltoe.warnings import Notice
 
 Floats = NDArray[np.float64]
 
@@ -47,7 +48,7 @@ class RawRecord:
     unit: str | None = None
     about: dict[str, str] = field(default_factory=dict)
     processing: tuple[str, ...] = ()
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Notice, ...] = ()
     channel: str = ""
 
 
@@ -102,14 +103,14 @@ def plain(text: str) -> str:
     return " ".join(text.split())
 
 
-def counted(values: Floats, stated: float, name: str) -> tuple[str, ...]:
+def counted(values: Floats, stated: float, name: str) -> tuple[Notice, ...]:
     """Return a warning where a file states another number of values than it has."""
     if values.size == stated:
         return ()
-    return (f"{name} states {stated:g} values and has {values.size}: all of them are used",)
+    return (Notice("record-count", name=name, stated=stated, found=values.size),)
 
 
-def peaked(values: Floats, stated: str, name: str, share: float = 1e-3) -> tuple[str, ...]:
+def peaked(values: Floats, stated: str, name: str, share: float = 1e-3) -> tuple[Notice, ...]:
     """Return a warning where the peak of the values is not the stated one.
 
     Parameters
@@ -129,7 +130,7 @@ def peaked(values: Floats, stated: str, name: str, share: float = 1e-3) -> tuple
     # A value that is not a number is refused later, by its place.
     if not abs(found - peak) > last_digit + share * peak:
         return ()
-    return (f"{name} states a peak of {peak:g} and has {found:.6g}: what it has is used",)
+    return (Notice("record-peak", name=name, stated=peak, found=found),)
 
 
 def word_of_unit(word: str) -> str | None:

@@ -12,6 +12,7 @@ from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.records.raw import RawRecord
 from heeltoe.units.parse import STANDARD_GRAVITY, acceleration_unit
+from heeltoe.warnings import Notice
 
 # Beyond these the numbers are no record in any unit, and displacements would overflow.
 _LARGEST_VALUE, _LARGEST_GAP = 1e12, 1e4
@@ -77,7 +78,7 @@ def to_motion(raw: RawRecord, format_: str, name: str, channels: int, told: Told
     )
 
 
-def _unit(raw: RawRecord, name: str, peak: float, told: Told) -> tuple[str, str, tuple[str, ...]]:
+def _unit(raw: RawRecord, name: str, peak: float, told: Told) -> tuple[str, str, tuple[Notice, ...]]:
     """The unit of the values, how it is known, and a warning if it is only assumed."""
     field = f"{told.field}.unit"
     if raw.unit:
@@ -91,7 +92,7 @@ def _unit(raw: RawRecord, name: str, peak: float, told: Told) -> tuple[str, str,
         return (
             likely,
             f"{likely} (assumed)",
-            (f"{name} states no unit: {likely} is assumed; an analysis asks for {field}",),
+            (Notice("record-unit-assumed", field=field, name=name, unit=likely),),
         )
     guess = f'probably unit = "{likely}"' if likely else 'unit = "m/s^2", or "g" or "cm/s^2"'
     raise InputError("record-unit-missing", name, f"{peak:.4g}", unit_field=field, guess=guess)
@@ -108,7 +109,7 @@ def _likely_unit(peak: float) -> str | None:
     return "cm/s^2" if peak > 20.0 else None
 
 
-def _time(raw: RawRecord, name: str, told: Told) -> tuple[NDArray[np.float64], tuple[str, ...]]:
+def _time(raw: RawRecord, name: str, told: Told) -> tuple[NDArray[np.float64], tuple[Notice, ...]]:
     """The moments of the values, and a warning if their step is only assumed."""
     if raw.time is not None:
         with np.errstate(invalid="ignore", over="ignore"):
@@ -117,10 +118,10 @@ def _time(raw: RawRecord, name: str, told: Told) -> tuple[NDArray[np.float64], t
             raise InputError("record-step", name, f"{gap:g} s")
         return raw.time, ()
     step, field = raw.time_step or told.time_step, f"{told.field}.time_step"
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Notice, ...] = ()
     if step is None and told.assume:
         step = _LIKELY_STEP
-        warnings = (f"{name} states no time step: {step:g} s is assumed; an analysis asks for {field}",)
+        warnings = (Notice("record-step-assumed", field=field, name=name, step_s=step),)
     if step is None:
         raise InputError("record-step-missing", name, step_field=field)
     if raw.time_step and told.time_step and abs(raw.time_step - told.time_step) > 1e-9 * told.time_step:

@@ -61,7 +61,7 @@ def ground_motion(subject: Subject) -> Section:
 
 
 def _checks(motions: list[GroundMotion]) -> Block:
-    said = [text for motion in motions for text in motion.warnings]
+    said = [str(text) for motion in motions for text in motion.warnings]
     if said:
         return Notes("warning", "Checks of the motion", tuple((text,) for text in said))
     return paragraph(

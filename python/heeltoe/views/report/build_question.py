@@ -20,6 +20,7 @@ from heeltoe.views.report.content import (
     without_gaps,
 )
 from heeltoe.views.report.subject import Run, Subject
+from heeltoe.views.words.warnings import listed
 
 
 def question(subject: Subject) -> Section:
@@ -87,10 +88,7 @@ def _failures(subject: Subject) -> Block | None:
 
 def warnings(subject: Subject) -> tuple[str, ...]:
     """Return every warning once; those of one of two models say whose they are."""
-    runs = [run.response for run in subject.runs]
-    shared = [text for text in runs[0].warnings if all(text in each.warnings for each in runs)]
-    own = [f"{each.model}: {text}" for each in runs for text in each.warnings if text not in shared]
-    return (*shared, *own) if len(runs) > 1 else tuple(dict.fromkeys(runs[0].warnings))
+    return listed([run.response for run in subject.runs], subject.units)
 
 
 def _warnings(subject: Subject) -> Block | None:

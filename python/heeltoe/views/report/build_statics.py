@@ -53,7 +53,7 @@ def static_checks(subject: Subject) -> Section | None:
     ]
     if found.warnings:
         own = [text for text in found.warnings if all(text not in run.response.warnings for run in subject.runs)]
-        blocks += [Notes("warning", "About the static checks", tuple((text,) for text in own))] if own else []
+        blocks += [Notes("warning", "About the static checks", tuple((str(text),) for text in own))] if own else []
     blocks += [
         _cases(subject, found),
         _checks(subject, found),

@@ -86,7 +86,8 @@ def _remarks(grid: Grid) -> list[str]:
     """Return all warnings, once each; what belongs to some of the runs says to which."""
     runs: dict[str, list[str]] = {}
     for cell, response in zip(grid.cells, grid.responses, strict=True):
-        said = response.warnings if response.ok else (f"{response.outcome}: {response.advice}", *response.warnings)
+        said = [] if response.ok else [f"{response.outcome}: {response.advice}"]
+        said += map(str, response.warnings)
         for text in dict.fromkeys(said):
             runs.setdefault(text, []).append(", ".join(cell))
     return [text if len(which) == len(grid.cells) else f"{'; '.join(which)}: {text}" for text, which in runs.items()]

@@ -33,7 +33,7 @@ def print_motion(motion: GroundMotion, console: Console, gravity: float = 9.8066
         if text:
             grid.add_row(label, text)
     console.print(grid)
-    print_warnings((*motion.warnings, *_suspicions(motion, gravity)), console)
+    print_warnings((*map(str, motion.warnings), *_suspicions(motion, gravity)), console)
 
 
 def _measure_lines(motion: GroundMotion, gravity: float) -> list[tuple[str, str]]:
@@ -50,6 +50,6 @@ def _measure_lines(motion: GroundMotion, gravity: float) -> list[tuple[str, str]
 def _suspicions(motion: GroundMotion, gravity: float) -> tuple[str, ...]:
     """What an analysis would say about the record; here even what it would refuse is only said."""
     try:
-        return check(motion, gravity, allow_zero=True)
+        return tuple(map(str, check(motion, gravity, allow_zero=True)))
     except InputError as error:
         return (str(error),)

@@ -16,6 +16,7 @@ from heeltoe.result.response import Response
 from heeltoe.result.verdict import comes_to_rest, verdict
 from heeltoe.units.write import angle, length
 from heeltoe.views.terminal.common import label_grid, print_warnings, quiet_table, sampling
+from heeltoe.views.words.warnings import listed
 
 # Not at run time: a run of the rigid model need not wait for the elastic parts.
 if TYPE_CHECKING:
@@ -49,7 +50,7 @@ def print_summary(response: Response, console: Console) -> None:
         if response.spread is not None:
             console.print()
             console.print(_spread_table(response))
-    print_warnings(response.warnings, console)
+    print_warnings(listed([response]), console)
     _print_verdicts([("Verdict", response.ok, verdict(response))], console)
 
 
@@ -63,10 +64,7 @@ def print_comparison(both: Comparison, console: Console) -> None:
         console.print(lines)
         console.print()
     console.print(_comparison_table(both))
-    shared = [text for text in both.rigid.warnings if text in both.flexible.warnings]
-    for each in (both.rigid, both.flexible):
-        shared += [f"{each.model}: {text}" for text in each.warnings if text not in shared]
-    print_warnings(tuple(shared), console)
+    print_warnings(listed([both.rigid, both.flexible]), console)
     verdicts = [(each.model.capitalize(), each.ok, verdict(each)) for each in (both.rigid, both.flexible)]
     _print_verdicts([*verdicts, ("Difference", both.ok, both.meaning())], console)
 

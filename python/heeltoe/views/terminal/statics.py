@@ -66,7 +66,7 @@ def print_statics(found: Statics, console: Console) -> None:
     if found.warnings:
         console.print()
     for warning in found.warnings:
-        console.print(f"[yellow]warning[/yellow]  {escape(warning)}")
+        console.print(f"[yellow]warning[/yellow]  {escape(str(warning))}")
     console.print()
     failed = [check for check in found.checks if not check.met]
     verdict = _grid()

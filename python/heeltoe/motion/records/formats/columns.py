@@ -17,6 +17,7 @@ import numpy as np
 from heeltoe.errors import InputError
 from heeltoe.motion.records.cells import is_data, parted, with_points
 from heeltoe.motion.records.raw import RawRecord, counted, numbers
+from heeltoe.warnings import Notice
 
 FORMAT = "columns"
 
@@ -92,7 +93,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
         if found := _ABOUT.match(line):
             about[found[1].lower().replace("earthquake", "event")] = found[2].strip()
     processing = (about.pop("processing"),) if "processing" in about else ()
-    warnings: list[str] = []
+    warnings: list[Notice] = []
     stated = _STATED.search(said)
     if stated:
         warnings.extend(counted(table[:, 0], int(stated[1]), name))
@@ -104,7 +105,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     if time is not None and step is not None and time.size > 1:
         median = float(np.median(np.diff(time)))
         if abs(median - step) > 0.01 * step:
-            warnings.append(f"{name} states a step of {step:g} s, but its times are {median:g} s apart: they are used")
+            warnings.append(Notice("record-step-differs", name=name, stated_s=step, found_s=median))
     record = RawRecord(
         np.ascontiguousarray(table[:, -1]),
         time=time,

@@ -19,6 +19,7 @@ import re
 
 from heeltoe.errors import InputError
 from heeltoe.motion.records.raw import NUMBER, Floats, RawRecord, counted, numbers, peaked, plain, real, word_of_unit
+from heeltoe.warnings import Notice
 
 FORMAT = "COSMOS V2"
 
@@ -116,7 +117,7 @@ def _reals(header: list[str], name: str, first_line: int) -> Floats:
     raise InputError("record-header", name, "real header")
 
 
-def _step(reals: Floats, count: float, announced: str, name: str) -> tuple[float | None, tuple[str, ...]]:
+def _step(reals: Floats, count: float, announced: str, name: str) -> tuple[float | None, tuple[Notice, ...]]:
     """The step [s] and what is doubtful about it: of the two that may be stated, the one the duration agrees with."""
     stated = [float(reals[k]) * scale for k, scale in ((61, 1e-3), (33, 1.0)) if k < reals.size and reals[k] > 0.0]
     seconds = _SECONDS.search(announced)
@@ -126,4 +127,5 @@ def _step(reals: Floats, count: float, announced: str, name: str) -> tuple[float
     for step in stated:
         if abs(count * step - duration) <= 1.0 + 0.01 * duration:
             return step, ()
-    return stated[0], (f"{name} states a step of {stated[0]:g} s, {count:g} values and {duration:g} s: check it",)
+    doubt = Notice("record-step-doubtful", name=name, step_s=stated[0], values=count, duration_s=duration)
+    return stated[0], (doubt,)

@@ -14,6 +14,7 @@ import re
 from dataclasses import replace
 
 from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, peaked, plain, real, word_of_unit
+from heeltoe.warnings import Notice
 
 FORMAT = "CSMIP V2"
 
@@ -47,7 +48,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
         records.append(_channel(header, lines[k][:_WIDTH], lines[k + 1 : end], name, k + 2))
     opened = sum(_FIRST.match(line[:_WIDTH]) is not None for line in lines)
     if opened > len(records):
-        lost = f"{name} opens {opened} channels and has accelerations of {len(records)}"
+        lost = Notice("record-channels", name=name, opened=opened, found=len(records))
         records = [replace(record, warnings=(*record.warnings, lost)) for record in records]
     return records
 

@@ -19,6 +19,7 @@ import numpy as np
 from heeltoe.errors import InputError
 from heeltoe.motion.records.cells import is_data
 from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, peaked, real
+from heeltoe.warnings import Notice
 
 FORMAT = "K-NET"
 
@@ -58,7 +59,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
         values = values - offset
     frequency = re.match(rf"({NUMBER})\s*hz", header.get("sampling freq(hz)", ""), re.IGNORECASE)
     rate = real(frequency[1]) if frequency else 0.0
-    warnings: tuple[str, ...] = ()
+    warnings: tuple[Notice, ...] = ()
     duration = re.fullmatch(NUMBER, header.get("duration time(s)", ""), re.IGNORECASE)
     if duration and rate > 0.0:
         warnings += counted(values, real(duration[0]) * rate, name)

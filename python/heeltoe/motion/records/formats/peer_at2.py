@@ -15,6 +15,7 @@ import re
 
 from heeltoe.errors import InputError
 from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, real, unglued, word_of_unit
+from heeltoe.warnings import Notice
 
 FORMAT = "PEER AT2"
 
@@ -52,7 +53,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     values = numbers(lines[k + 1 :], name, k + 2)
     warnings = [*counted(values, real(count_text), name)]
     if _torn(lines[k + 1 :]):
-        warnings.append(f"{name} ends in the middle of a number: its last value may be wrong")
+        warnings.append(Notice("record-torn", name=name))
     record = RawRecord(
         values,
         time_step=real(step_text),

@@ -10,6 +10,7 @@ import re
 
 from heeltoe.errors import InputError
 from heeltoe.motion.records.raw import NUMBER, Floats, RawRecord, counted, numbers, peaked, plain
+from heeltoe.warnings import Notice
 
 FORMAT = "USGS SMC"
 
@@ -44,7 +45,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     values = numbers(lines[first:], name, first + 1, 10)
     warnings = counted(values, integers[16], name) if integers[16] != _UNKNOWN else ()
     if integers[17] == 1:
-        warnings += (f"{name} flags a problem with its data: see the comments in it",)
+        warnings += (Notice("record-flagged", name=name),)
     peak = next((found for line in text if (found := _PEAK.match(line))), None)
     if peak:
         warnings += peaked(values, peak[1], name)

@@ -1,0 +1,371 @@
+"""Everything that a reader of a result is warned of, declared once, with its quantities and how grave it is.
+
+A :class:`Notice` is what a run, a case or a record makes of it: the code, the quantities in SI, where in the case and
+when in the run. Its sentence is written when it is shown, in the units of who reads it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from string import Formatter
+from typing import Any, Literal
+
+from heeltoe.units.sentences import Sentence
+
+Severity = Literal["note", "caution", "grave"]
+"""``"note"``: what was assumed or left out, with nothing wrong. ``"caution"``: it may be a mistake, or the numbers hold
+with care. ``"grave"``: some number is not what it seems, or the dam does not hold what is asked of it."""
+
+# Code -> (how grave, field of the case, sentence). Quantities are called as in the JSON, with their unit at the end;
+# how they are written stands in the braces, see heeltoe.units.sentences. {field} is the field, {time_s} the moment.
+CATALOGUE: dict[str, tuple[Severity, str, str]] = {
+    # case
+    "friction-high": (
+        "caution",
+        "crack",
+        "{field}: a coefficient of friction of {friction:g} is higher than concrete has shown",
+    ),
+    "uplift-intensity": (
+        "caution",
+        "uplift.intensity",
+        "{field}: {intensity:g} means more pressure than the pattern gives",
+    ),
+    "density-unusual": ("caution", "concrete.density", "{field}: {density_kg_m3:g kg/m^3} is unusual for concrete"),
+    "reservoir-below-crack": (
+        "note",
+        "reservoir",
+        "{field}: it ends below the crack, so that no water presses on the part above or in the crack",
+    ),
+    "ice-below-crack": ("note", "ice", "{field}: it acts below the crack, so that nothing of it is on the part above"),
+    "silt-below-crack": (
+        "note",
+        "silt",
+        "{field}: it ends below the crack, so that nothing of it is on the part above",
+    ),
+    "silt-above-water": (
+        "caution",
+        "silt.depth",
+        "{field}: the silt is higher than the water, though its densities are of silt under water",
+    ),
+    "silt-with-water": (
+        "caution",
+        "silt",
+        "{field}: {densities_kg_m3:g kg/m^3} look as if the water were in them; it is counted by itself",
+    ),
+    "tailwater-deeper": ("note", "tailwater.depth", "{field}: the water is deeper downstream than upstream"),
+    # ground motion
+    "motion-still": ("note", "motion", "{name} is zero throughout: in this direction the ground does not move"),
+    "motion-strong": (
+        "caution",
+        "motion",
+        "{name} peaks at {peak_g:.3g g}, more than any ground has been seen to do: check its unit",
+    ),
+    "motion-weak": (
+        "caution",
+        "motion",
+        "{name} peaks at {peak_g:.2g g} only: check its unit, or scale it by motion.pga",
+    ),
+    "motion-drifts": (
+        "caution",
+        "motion",
+        "{name} ends at {end_velocity_m_s:.3g m/s}, {share:.0%} of its largest velocity: its baseline drifts, or it "
+        "was cut",
+    ),
+    "motion-gap": ("caution", "motion", "{name} has a gap of {gap_s:.3g s} at {time_s:.4g s}"),
+    "motion-clipped": (
+        "caution",
+        "motion",
+        "{name} stays at its peak for four samples or more: it may be clipped",
+    ),
+    "motion-cut": (
+        "caution",
+        "motion.duration",
+        "the cut to {duration_s:g s} leaves out the record's peak at {time_s:g s}",
+    ),
+    "motion-stretched": (
+        "caution",
+        "motion.processing",
+        "{name} had its time stretched by {factor:g}: no earthquake was recorded so",
+    ),
+    "motion-generated": ("note", "motion.file", "{name} is generated, not recorded"),
+    "motion-beyond-relations": (
+        "caution",
+        "motion.file",
+        "{name} is outside the records behind its relations: M 6 to 7.6, 10 to 100 km, Vs30 600 m/s up",
+    ),
+    # records; their numbers are in the units of the file
+    "record-count": ("caution", "", "{name} states {stated:g} values and has {found:d}: all of them are used"),
+    "record-peak": ("caution", "", "{name} states a peak of {stated:g} and has {found:.6g}: what it has is used"),
+    "record-step-differs": (
+        "caution",
+        "",
+        "{name} states a step of {stated_s:g s}, but its times are {found_s:g s} apart: they are used",
+    ),
+    "record-step-doubtful": (
+        "caution",
+        "",
+        "{name} states a step of {step_s:g s}, {values:g} values and {duration_s:g s}: check it",
+    ),
+    "record-channels": ("caution", "", "{name} opens {opened:d} channels and has accelerations of {found:d}"),
+    "record-torn": ("caution", "", "{name} ends in the middle of a number: its last value may be wrong"),
+    "record-flagged": ("caution", "", "{name} flags a problem with its data: see the comments in it"),
+    "record-unit-assumed": (
+        "caution",
+        "motion.unit",
+        "{name} states no unit: {unit} is assumed; an analysis asks for {field}",
+    ),
+    "record-step-assumed": (
+        "caution",
+        "motion.time_step",
+        "{name} states no time step: {step_s:g s} is assumed; an analysis asks for {field}",
+    ),
+    # any run
+    "energy-open": (
+        "grave",
+        "",
+        "the energy ledger does not close: residual {residual:.1e} of the turnover",
+    ),
+    "crack-opens-through": (
+        "grave",
+        "uplift",
+        "under its usual loads the crack opens right through where water follows it, and the dam does not stand "
+        "(heeltoe statics); this run keeps the uplift of the case, so that its slip says nothing of such a dam: add "
+        "drains or anchors, or lower the water, until heeltoe statics finds that it stands",
+    ),
+    "crack-opens": (
+        "caution",
+        "uplift",
+        "the usual loads open {length_m:.2f m} of the crack from its {corner}, {share:.2g %} of its width; the water "
+        "that follows lifts with {lift_n:.4g kN/m} more than the uplift of the case, which this run keeps: {remedy}",
+    ),
+    # rigid model
+    "block-still-moves": (
+        "caution",
+        "motion.duration",
+        "the block still moves when the run ends (slip velocity {slip_velocity_m_s:.3g m/s}): the residual slip is "
+        "that of this moment; a longer motion.duration lets it come to rest",
+    ),
+    "restitution-lowered": (
+        "note",
+        "crack.restitution",
+        "{impacts:d} impact(s) would have created energy with the restitution given; theirs was lowered to the "
+        "largest that does not",
+    ),
+    "paradox-jammed": (
+        "caution",
+        "analysis.paradox",
+        "{jams:d} Painlevé paradox(es) were resolved by a tangential impact, as analysis.paradox asks",
+    ),
+    "slip-in-the-air": (
+        "caution",
+        "crack.restitution",
+        "most of the slip, {slip_m:.4g mm}, happens in the air after blows that rebound by crack.restitution = "
+        "{restitution:g}: compare with 0, which may leave a small part of it",
+    ),
+    "slid-off": (
+        "grave",
+        "",
+        "the block slides {slip_m:.3g m}, farther than its crack of {width_m:.3g m} is wide: it has left what it stood "
+        "on, and the slip means failure, not a length",
+    ),
+    "slid-far": (
+        "caution",
+        "",
+        "the block slides {share:.2g %} of the width of its crack: loads, contact and uplift are those of the place "
+        "where it began; heeltoe statics --slip judges where it ends",
+    ),
+    "anchor-overloaded": (
+        "grave",
+        "anchors",
+        "the anchor {distance_m:g m} from the heel is pulled with {tension_n:.3g MN/m}, which is more than its "
+        "capacity of {capacity_n:.3g MN/m}: it is taken to hold all the same",
+    ),
+    "rotation-large": (
+        "caution",
+        "analysis.rotation",
+        "it rotates by {rotation_rad:.3g rad} about its {corner}, {share:.2g %} of the {slenderness_rad:.3g rad} at "
+        'which it would overturn: set analysis.rotation = "finite", since small rotations know nothing of overturning',
+    ),
+    # flexible model
+    "convergence-unchecked": (
+        "note",
+        "flexible.convergence_check",
+        "{field} is off: nothing shows that the time step is small enough",
+    ),
+    "not-converged": (
+        "grave",
+        "flexible.time_step",
+        "the residual slip has not converged: {coarser_slip_m:.4g mm} with a step of {coarser_step_s:.3g s}, "
+        "{slip_m:.4g mm} with half of it (allowed {allowed:g %}); read it with its spread",
+    ),
+    "anchors-hold": (
+        "caution",
+        "anchors",
+        "friction and prestress alone do not hold the dam before the earthquake (sliding safety factor {factor:.3f}): "
+        "it begins by sliding until its anchors hold it",
+    ),
+    "slides-by-itself": (
+        "grave",
+        "",
+        "the dam slides under its static loads alone (sliding safety factor {factor:.3f}): its slip grows as long as "
+        "the run lasts",
+    ),
+    "damping-hardly": (
+        "grave",
+        "concrete.damping",
+        "{field}: with hardly any damping under a full reservoir the dam creeps downstream for as long as it "
+        "vibrates; the slip says little",
+    ),
+    "poisson-unusual": ("caution", "concrete.poisson", "{field}: {poisson:g} is unusual for concrete"),
+    "modulus-unusual": ("caution", "concrete.modulus", "{field}: {modulus_pa:.4g GPa} is not that of concrete"),
+    "modes-few": (
+        "caution",
+        "flexible.modes",
+        "the modes kept leave an error of {error:.2g %} in the flexibility of the crack; raise {field}",
+    ),
+    "dam-still-moves": (
+        "caution",
+        "motion.duration",
+        "the dam still moves when the run ends: in the last second its slip changes by {change_m:.3g mm}; the residual "
+        "slip is that of this moment, and a longer motion.duration lets it come to rest",
+    ),
+    "anchor-yields": (
+        "grave",
+        "anchors",
+        "anchor {number:d} is pulled with {tension_n:.4g kN/m}, beyond its capacity of {capacity_n:.4g kN/m}, and "
+        "would have yielded; the result takes it for elastic",
+    ),
+    "rotation-unused": (
+        "note",
+        "analysis.rotation",
+        '{field} = "{rotation}" has no say here: it is of the rigid block, and the rotations of the flexible model are '
+        "small",
+    ),
+    "faces-penetrate": (
+        "caution",
+        "flexible.contactors",
+        "the crack faces penetrate each other by up to {depth_m:.3g mm} where no node is watched (contactors of type "
+        "{contactors:d}); types 3 to 5 prevent it",
+    ),
+    "contact-loose": (
+        "caution",
+        "flexible.time_step",
+        "contact holds only to {residual:.1e} of the impulse: give a shorter {field}",
+    ),
+    "energy-made": (
+        "grave",
+        "flexible.contact",
+        "contact has made energy out of nothing, {gained_j:.3g J} in a turnover of {turnover_j:.3g J}, as a penalty "
+        'does at every blow: compare with another time_step and with flexible.contact = "coulomb"',
+    ),
+    "rotation-beyond-model": (
+        "grave",
+        "",
+        "the largest rotation is {rotation_rad:.3g rad}; the model is one of small rotations",
+    ),
+    # decoupled chain, spread
+    "sampling-matters": (
+        "caution",
+        "",
+        "the slip hangs on details: it is {coarser_slip_m:.4g mm} where the motion of the crack is sampled every "
+        "{coarser_step_s:.3g ms} instead of {step_s:.3g ms}",
+    ),
+    "spread-failures": (
+        "caution",
+        "",
+        "{failed:d} of the {runs:d} runs with slightly different shaking ended without a result",
+    ),
+    "spread-large": (
+        "caution",
+        "",
+        "the residual slip hangs on details: it is {slips_m:.4g mm|to} when the shaking is scaled by {scales:g|to}",
+    ),
+    # static checks
+    "slip-unknown": (
+        "caution",
+        "statics.residual_slip",
+        "post-seismic: no slip is given, taken as zero; {field}, or a run of the motion, says how much",
+    ),
+    "crack-opens-statically": (
+        "note",
+        "uplift",
+        "the usual loads open the crack by {length_m:.2f m}, and water follows; the critical accelerations keep the "
+        "case's uplift, as the time histories do at the start",
+    ),
+    "flood-low": (
+        "caution",
+        "statics.flood_depth",
+        "{field}: the flood is lower than the {usual_depth_m:g m} of the usual loads",
+    ),
+    "residual-friction-high": (
+        "caution",
+        "statics.residual_friction",
+        "{field}: more than the friction of the crack before it has slid",
+    ),
+    "anchors-as-prestress": (
+        "note",
+        "anchors",
+        "{field}: the static checks count their prestress, not what opening and slip would add",
+    ),
+}
+
+
+@dataclass(frozen=True, init=False)
+class Notice:
+    """What a reader of a result must know before using its numbers.
+
+    Attributes
+    ----------
+    code
+        Key of :data:`CATALOGUE`.
+    quantities
+        Names with numbers in SI, or words.
+    field
+        Which field of the case it is about; empty where it is about none.
+    time_s
+        When in the motion or in the run [s]; None where it is about no moment.
+    """
+
+    code: str
+    quantities: tuple[tuple[str, Any], ...]
+    field: str
+    time_s: float | None
+
+    def __init__(self, code: str, *, field: str | None = None, time_s: float | None = None, **quantities: Any) -> None:
+        _, usual, template = CATALOGUE[code]
+        wanted = _names(template) - {"field", "time_s"}
+        if wanted != set(quantities):
+            raise TypeError(f"{code} takes {', '.join(sorted(wanted)) or 'nothing'}, not {', '.join(quantities)}")
+        object.__setattr__(self, "code", code)
+        object.__setattr__(self, "quantities", tuple(quantities.items()))
+        object.__setattr__(self, "field", usual if field is None else field)
+        object.__setattr__(self, "time_s", time_s)
+
+    @property
+    def severity(self) -> Severity:
+        """How grave it is."""
+        return CATALOGUE[self.code][0]
+
+    def text(self, units: str = "si") -> str:
+        """Return its sentence in units ``"si"`` or ``"us"``."""
+        places = {"field": self.field, "time_s": self.time_s}
+        return Sentence.of(CATALOGUE[self.code][2], **places, **dict(self.quantities)).text(units)
+
+    def __str__(self) -> str:
+        return self.text()
+
+    def to_json(self) -> dict[str, Any]:
+        """Return it as the contract has it: sentence and quantities in SI; words stand in the sentence alone."""
+        numbers = {name: each for name, each in self.quantities if not isinstance(each, str | Sentence)}
+        return {
+            "code": self.code,
+            "text": self.text(),
+            "severity": self.severity,
+            "field": self.field or None,
+            "time_s": self.time_s,
+            "quantities": {name: list(each) if isinstance(each, tuple) else each for name, each in numbers.items()},
+        }
+
+
+def _names(template: str) -> set[str]:
+    return {name for _, name, _, _ in Formatter().parse(template) if name}
