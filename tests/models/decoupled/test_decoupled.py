@@ -3,21 +3,17 @@
 from __future__ import annotations
 
 import csv
-import io
 import json
 from dataclasses import replace
 
 import numpy as np
 import pyarrow.parquet as pq
 import pytest
-from rich.console import Console
 
 from heeltoe import GroundMotion, InputError, decoupled, read_case, rigid, verdict, with_spread
 from heeltoe.models.decoupled.model import crack_motions
 from heeltoe.result.write import json_text
-from heeltoe.study.grid import MOST, parse_variations, run_grid
 from heeltoe.views.files.write import write_all
-from heeltoe.views.terminal.grid import print_grid
 from shared.command import command, options
 from shared.dams import KOYNA, SHORT
 
@@ -268,54 +264,6 @@ def test_a_table_of_runs_on_the_command_line(tmp_path):
     assert float(rows[1]["residual_slip_m"]) == one.residual_slip_m
     assert float(rows[1]["slip_sliding_m"]) == one.slip_by_mode_m["sliding"]
     assert pq.read_table(tmp_path / "table.parquet").num_rows == 6
-
-
-def test_a_run_without_a_result_has_its_row():
-    grid = run_grid(KOYNA, SHORT, parse_variations(["crack.friction=0.1,1.0"]), rigid)
-    rows = grid.rows()
-    assert [row["outcome"] for row in rows] == ["unstable", "ok"]
-    assert rows[0]["residual_slip_m"] is None
-    assert rows[1]["residual_slip_m"] is not None
-    assert grid.ok
-    assert (grid.model, grid.title) == ("rigid", "Koyna Dam cracked at 66.5 m")
-    assert not run_grid(KOYNA, SHORT, parse_variations(["crack.friction=0.1"]), rigid).ok
-
-
-def test_a_narrow_terminal_cuts_no_number():
-    texts = ["crack.friction=0.1,1.0", "reservoir.depth=85 m,91.75 m", "uplift.pattern=none,triangular"]
-    grid = run_grid(KOYNA, SHORT, parse_variations(texts), rigid)
-    tables = []
-    for width in (60, 80, 160):
-        console = Console(file=io.StringIO(), width=width)
-        print_grid(grid, console)
-        text = console.file.getvalue()
-        assert "…" not in text
-        assert text.count("impacts") == 1
-        assert max(map(len, text.splitlines()[3:])) <= width
-        tables.append(sum(line.startswith("friction ") for line in text.splitlines()))
-        # What belongs to some runs says to which; what belongs to all is said once.
-        assert "0.1, 91.75 m, none: unstable" in " ".join(text.split())
-        assert text.count("baseline") == 1
-    # As many as it takes, and one where there is room.
-    assert tables[0] > tables[1] > tables[2] == 1
-
-
-@pytest.mark.parametrize(
-    ("texts", "code"),
-    [
-        (["crack.friction"], "vary-form"),
-        (["crack.friction="], "vary-form"),
-        (["=1,2"], "vary-form"),
-        (["crack.friction=1,,2"], "vary-form"),
-        (["crack.friction=1", "crack.friction=2"], "vary-twice"),
-        (["crack.friction=1,1"], "vary-twice"),
-        ([f"crack.friction={','.join(map(str, range(MOST + 1)))}"], "vary-many"),
-    ],
-)
-def test_variations_that_are_none(texts, code):
-    with pytest.raises(InputError) as refused:
-        parse_variations(texts)
-    assert refused.value.code == code
 
 
 def test_the_option_of_one_run_is_refused_in_process():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from shutil import rmtree
 from tempfile import TemporaryDirectory
@@ -74,32 +75,56 @@ def write_all(
     InputError
         Where the directory cannot be written, the units are unknown, or what VTK files need is not installed.
     """
+
+    def write(fresh: Path) -> None:
+        if isinstance(result, Comparison):
+            (fresh / "result.json").write_text(json_text(result.to_json()) + "\n", encoding="utf-8")
+            if figures:
+                write_comparison_figure(result, fresh, case=case, units=units)
+            for each in (result.rigid, result.flexible):
+                _write_one(each, fresh / each.model, suffix, vtk)
+                if figures:
+                    write_figures(each, fresh / each.model, units=units)
+        elif isinstance(result, Grid):
+            _write_grid(result, fresh, units)
+        else:
+            _write_one(result, fresh, suffix, vtk)
+            if figures:
+                write_figures(result, fresh, case=case, units=units)
+
+    return _whole(write, directory, _OWN)
+
+
+def write_overturning(found: OverturningMap, directory: Path) -> list[Path]:
+    """Write a map as ``overturning.csv``, ``.png`` and ``.svg``, all of them or none, and return their paths.
+
+    What a run has left in the directory stays.
+    """
+
+    def write(fresh: Path) -> None:
+        write_table(found.to_table(), fresh / "overturning.csv")
+        save_all({"overturning": overturning_figure(found)}, fresh)
+
+    return _whole(write, directory, ())
+
+
+def _whole(write: Callable[[Path], None], directory: Path, own: tuple[str, ...]) -> list[Path]:
+    """Let `write` fill a place aside, then move all of it into `directory`, where files of the names `own` go.
+
+    After a failure, or an interruption, there is what was there before.
+    """
     made = next((place for place in (*reversed(directory.parents), directory) if not place.exists()), None)
     try:
         directory.mkdir(parents=True, exist_ok=True)
-        with TemporaryDirectory(dir=directory) as name:
-            fresh = Path(name)
-            if isinstance(result, Comparison):
-                (fresh / "result.json").write_text(json_text(result.to_json()) + "\n", encoding="utf-8")
-                if figures:
-                    write_comparison_figure(result, fresh, case=case, units=units)
-                for each in (result.rigid, result.flexible):
-                    _write_one(each, fresh / each.model, suffix, vtk)
-                    if figures:
-                        write_figures(each, fresh / each.model, units=units)
-            elif isinstance(result, Grid):
-                _write_grid(result, fresh, units)
-            else:
-                _write_one(result, fresh, suffix, vtk)
-                if figures:
-                    write_figures(result, fresh, case=case, units=units)
-            return _move(fresh, directory)
-    except (OSError, InputError) as error:
+        with TemporaryDirectory(dir=directory) as fresh:
+            write(Path(fresh))
+            return _move(Path(fresh), directory, own)
+    except BaseException as error:
         if made is not None:
             rmtree(made, ignore_errors=True)
-        if isinstance(error, InputError):
-            raise
-        raise InputError("cannot-write", "--out", directory, reason=error.strerror or error) from None
+        if isinstance(error, OSError):
+            raise InputError("cannot-write", "--out", directory, reason=error.strerror or error) from None
+        raise
 
 
 def _write_one(response: Response, directory: Path, suffix: str, vtk: bool) -> None:
@@ -119,14 +144,6 @@ def _write_one(response: Response, directory: Path, suffix: str, vtk: bool) -> N
         write_vtk_series(response.crack, directory / _VTK)
 
 
-def write_overturning(found: OverturningMap, directory: Path) -> list[Path]:
-    """Write a map as ``overturning.csv``, ``.png`` and ``.svg`` and return their paths."""
-    directory.mkdir(parents=True, exist_ok=True)
-    table = directory / "overturning.csv"
-    write_table(found.to_table(), table)
-    return [table, *save_all({"overturning": overturning_figure(found)}, directory)]
-
-
 def _write_grid(grid: Grid, directory: Path, units: str) -> None:
     from heeltoe.views.figures import write_grid_figures
 
@@ -136,11 +153,11 @@ def _write_grid(grid: Grid, directory: Path, units: str) -> None:
     write_grid_figures(grid, directory, units)
 
 
-def _move(fresh: Path, directory: Path) -> list[Path]:
-    """Move all files to where they belong; remove what an earlier run has left there under such names."""
+def _move(fresh: Path, directory: Path, own: tuple[str, ...]) -> list[Path]:
+    """Move all files to where they belong; remove what an earlier run has left there under the names `own`."""
     sources = sorted(path for path in fresh.rglob("*") if path.is_file())
     for folder in {source.parent.relative_to(fresh) for source in sources}:
-        for name in _OWN:
+        for name in own:
             (directory / folder / name).unlink(missing_ok=True)
         if folder.name == _VTK:
             for series in ("dam", "crack"):

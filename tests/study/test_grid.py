@@ -1,0 +1,170 @@
+"""A table of runs: every combination of some values, each run the one a user could make by hand."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+from heeltoe import InputError, read_case, rigid
+from heeltoe.result.write import json_text
+from heeltoe.study.grid import MOST, Variation, parse_variations, run_grid
+from shared.dams import BLOCK, KOYNA, SHORT, TRIANGLE, polygon
+
+VERTICAL = ["motion.vertical.file=elcentro-1940-up-nga"]
+# Variations of each kind, and the changes that the second of their runs has.
+KINDS = {
+    "numbers": (KOYNA, "crack.friction=0.9,1.1", ["crack.friction=1.1"]),
+    "quantities": (KOYNA, "reservoir.depth=85 m,280ft", ["reservoir.depth=280 ft"]),
+    "words": (KOYNA, "uplift.pattern=none,triangular", ["uplift.pattern=triangular"]),
+    "truth": (KOYNA, "motion.reverse=false,true", ["motion.reverse=true"]),
+    "motions": (KOYNA, "motion.file=elcentro-1940-180-nga,pacoima-1971-164-nga", ["motion.file=pacoima-1971-164-nga"]),
+    "blocks in blocks": (KOYNA, "motion.vertical.pga=0.1 g,0.3 g", [*VERTICAL, "motion.vertical.pga=0.3 g"]),
+    "blocks that were not there": (KOYNA, "ice.force=50 kN/m,150 kN/m", ["ice.force=150 kN/m"]),
+    "options of the run": (KOYNA, "analysis.rotation=small,p-delta", ["analysis.rotation=p-delta"]),
+}
+
+
+def grid(path, texts, changes=(), run=rigid, **options):
+    return run_grid(path, changes, parse_variations(texts), run, **options)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_each_run_is_the_one_by_hand(kind):
+    path, text, changes = KINDS[kind]
+    common = [*SHORT, *(VERTICAL if "vertical" in text else [])]
+    found = grid(path, [text], common)
+    by_hand = rigid(read_case(path, [*SHORT, *changes]))
+    assert len(found.responses) == 2
+    assert found.responses[1].to_json()["residual_slip_m"] == by_hand.residual_slip_m
+    assert found.responses[0].residual_slip_m != found.responses[1].residual_slip_m
+
+
+def test_every_combination_the_last_varies_fastest():
+    found = grid(BLOCK, ["crack.friction = 0.2 , 0.3", "motion.reverse=true,false", "gravity=9.81 m/s^2"])
+    assert found.variations[0] == Variation("crack.friction", ("0.2", "0.3"))
+    assert found.cells == (
+        ("0.2", "true", "9.81 m/s^2"),
+        ("0.2", "false", "9.81 m/s^2"),
+        ("0.3", "true", "9.81 m/s^2"),
+        ("0.3", "false", "9.81 m/s^2"),
+    )
+    # Pushed the other way, a block slides the other way.
+    slips = [each.residual_slip_m for each in found.responses]
+    assert slips[0] == pytest.approx(-slips[1], rel=1e-12)
+    assert slips[2] == pytest.approx(-slips[3], rel=1e-12)
+
+
+def test_what_varies_wins_over_what_is_set():
+    (found,) = grid(BLOCK, ["crack.friction=0.3"], ["crack.friction=0.2"]).responses
+    assert found.residual_slip_m == rigid(read_case(BLOCK, ["crack.friction=0.3"])).residual_slip_m
+
+
+def test_a_value_may_hold_an_equals_sign():
+    assert parse_variations(["title=a=b,c"]) == (Variation("title", ("a=b", "c")),)
+
+
+def test_the_table_has_the_numbers_of_the_runs():
+    found = grid(KOYNA, ["crack.friction=0.1,1.0"], SHORT)
+    table = found.to_table().to_pylist()
+    assert table == found.rows()
+    first, *_, last = table[0]
+    assert (first, last) == ("crack.friction", "outcome")
+    response, row = found.responses[1], table[1]
+    for name in (
+        "residual_slip_m",
+        "peak_slip_downstream_m",
+        "rocking_upstream_rad",
+        "opening_downstream_m",
+        "impacts",
+    ):
+        assert row[name] == response.summary[name], name
+    assert sum(row[f"slip_{name}_m"] for name in ("sliding", "slide_rocking", "drifting")) == pytest.approx(
+        row["residual_slip_m"], abs=1e-12
+    )
+    # Whatever is not the name of the run has no number without a result.
+    assert {value for name, value in table[0].items() if name not in ("crack.friction", "outcome")} == {None}
+
+
+def test_json():
+    found = grid(KOYNA, ["crack.friction=0.1,1.0", "motion.reverse=true"], SHORT)
+    data = json.loads(json_text(found.to_json()), parse_constant=pytest.fail)
+    assert data["model"] == "rigid"
+    assert data["varied"] == {"crack.friction": ["0.1", "1.0"], "motion.reverse": ["true"]}
+    assert [run["varied"] for run in data["runs"]] == [
+        {"crack.friction": "0.1", "motion.reverse": "true"},
+        {"crack.friction": "1.0", "motion.reverse": "true"},
+    ]
+    one = json.loads(json_text(found.responses[1].to_json()))
+    assert {**one, "varied": data["runs"][1]["varied"]} == data["runs"][1]
+    assert data["build"]
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("crack.friction=0.9,eleven", "wrong-quantity"),
+        ("crack.friction=0.9,12", "out-of-range"),
+        ("reservoir.depth=90 m,90", "unit-missing"),
+        ("reservoir.depth=90 m,120 m", "water-above-crest"),
+        ("uplift.pattern=none,some", "not-a-choice"),
+        ("crack.frictoin=0.9,1.0", "unknown-field"),
+        ("crack=1,2", "wrong-type"),
+        # A list has commas of its own, so it cannot vary.
+        ('uplift.points=[[0,"90 m"],[1,"0 m"]]', "wrong-type"),
+    ],
+)
+def test_all_cases_are_read_before_the_first_one_runs(text, code):
+    ran = []
+    with pytest.raises(InputError) as refused:
+        grid(KOYNA, [text], SHORT, ran.append)
+    assert refused.value.code == code
+    assert not ran
+
+
+def test_one_says_how_far_it_is():
+    said = []
+    grid(BLOCK, ["crack.friction=0.2,0.3,0.4"], told=lambda done, of: said.append((done, of)))
+    assert said == [(0, 3), (1, 3), (2, 3)]
+
+
+def test_the_fields_themselves_can_vary():
+    pulse = {"points": [["0 s", "0.8 g"], ["0.4 s", "0 g"]]}
+    fields = {"section": polygon(TRIANGLE), "crack": {"friction": 0.5}, "motion": pulse}
+    found = grid(fields, ["crack.friction=0.5,0.6"])
+    assert abs(found.responses[0].residual_slip_m) > abs(found.responses[1].residual_slip_m) > 0.0
+    assert fields["crack"] == {"friction": 0.5}
+
+
+def test_as_many_as_a_table_holds():
+    assert len(parse_variations([f"crack.friction={','.join(map(str, range(MOST)))}"])[0].values) == MOST
+    assert parse_variations([]) == ()
+
+
+def test_a_run_without_a_result_has_its_row():
+    grid = run_grid(KOYNA, SHORT, parse_variations(["crack.friction=0.1,1.0"]), rigid)
+    rows = grid.rows()
+    assert [row["outcome"] for row in rows] == ["unstable", "ok"]
+    assert rows[0]["residual_slip_m"] is None
+    assert rows[1]["residual_slip_m"] is not None
+    assert grid.ok
+    assert (grid.model, grid.title) == ("rigid", "Koyna Dam cracked at 66.5 m")
+    assert not run_grid(KOYNA, SHORT, parse_variations(["crack.friction=0.1"]), rigid).ok
+
+
+@pytest.mark.parametrize(
+    ("texts", "code"),
+    [
+        (["crack.friction"], "vary-form"),
+        (["crack.friction="], "vary-form"),
+        (["=1,2"], "vary-form"),
+        (["crack.friction=1,,2"], "vary-form"),
+        (["crack.friction=1", "crack.friction=2"], "vary-twice"),
+        (["crack.friction=1,1"], "vary-twice"),
+        ([f"crack.friction={','.join(map(str, range(MOST + 1)))}"], "vary-many"),
+    ],
+)
+def test_variations_that_are_none(texts, code):
+    with pytest.raises(InputError) as refused:
+        parse_variations(texts)
+    assert refused.value.code == code

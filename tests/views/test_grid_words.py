@@ -1,0 +1,31 @@
+"""A table of runs on a terminal."""
+
+from __future__ import annotations
+
+import io
+
+from rich.console import Console
+
+from heeltoe import rigid
+from heeltoe.study.grid import parse_variations, run_grid
+from heeltoe.views.terminal.grid import print_grid
+from shared.dams import KOYNA, SHORT
+
+
+def test_a_narrow_terminal_cuts_no_number():
+    texts = ["crack.friction=0.1,1.0", "reservoir.depth=85 m,91.75 m", "uplift.pattern=none,triangular"]
+    grid = run_grid(KOYNA, SHORT, parse_variations(texts), rigid)
+    tables = []
+    for width in (60, 80, 160):
+        console = Console(file=io.StringIO(), width=width)
+        print_grid(grid, console)
+        text = console.file.getvalue()
+        assert "…" not in text
+        assert text.count("impacts") == 1
+        assert max(map(len, text.splitlines()[3:])) <= width
+        tables.append(sum(line.startswith("friction ") for line in text.splitlines()))
+        # What belongs to some runs says to which; what belongs to all is said once.
+        assert "0.1, 91.75 m, none: unstable" in " ".join(text.split())
+        assert text.count("baseline") == 1
+    # As many as it takes, and one where there is room.
+    assert tables[0] > tables[1] > tables[2] == 1
