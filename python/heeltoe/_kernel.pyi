@@ -62,7 +62,7 @@ def run_rigid_varying(
     block: Floats,
     varying: Floats,
     rotation: str,
-    rule: str,
+    law: str,
     pressure: Floats,
     anchors: Floats,
     time: Floats,
@@ -85,7 +85,7 @@ def run_rigid_varying(
         (21,) numbers in the order of ``VARYING_FIELDS``.
     rotation
         ``small``, ``p-delta`` or ``finite``.
-    rule
+    law
         What the pressure in the crack does as it opens: ``constant``, ``zero while open``, ``full while open``,
         ``follows opening``.
     pressure

@@ -2,6 +2,8 @@
 //! units.
 
 pub mod flexible;
+pub mod inside;
 pub mod parallel;
 pub mod rigid;
 pub mod spectrum;
+mod table;

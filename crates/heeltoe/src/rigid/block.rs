@@ -8,23 +8,35 @@
 //!
 //! The load f is affine in the ground accelerations: `f = f_0 + f_h a_h + f_v a_v`.
 
+use crate::table::numbers;
+
 /// Index of the slip, the heel gap and the toe gap in every vector of contact coordinates, and of the friction and
 /// the two normal forces in every vector of reactions.
-pub const SLIP: usize = 0;
-pub const HEEL: usize = 1;
-pub const TOE: usize = 2;
+pub(crate) const SLIP: usize = 0;
+pub(crate) const HEEL: usize = 1;
+pub(crate) const TOE: usize = 2;
 
+/// Slip, heel gap and toe gap, or friction and the normal forces at heel and toe.
 pub type Vector = [f64; 3];
 
 /// A quantity that is affine in the horizontal and vertical ground acceleration.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Affine {
+pub(super) struct Affine {
     pub constant: f64,
     pub horizontal: f64,
     pub vertical: f64,
 }
 
 impl Affine {
+    /// Three of them, from what does not depend on the ground, and what goes with either acceleration.
+    fn of([constant, horizontal, vertical]: [Vector; 3]) -> [Affine; 3] {
+        [SLIP, HEEL, TOE].map(|i| Affine {
+            constant: constant[i],
+            horizontal: horizontal[i],
+            vertical: vertical[i],
+        })
+    }
+
     /// Value under the ground acceleration (`horizontal`, `vertical`).
     #[inline]
     pub fn at(&self, ground: [f64; 2]) -> f64 {
@@ -38,38 +50,78 @@ impl Affine {
     }
 }
 
-/// Names of the numbers that describe a block, in the order the bindings take them (SI, per metre of dam).
-///
-/// The nine load numbers are the generalised forces (downstream, upward, counter-clockwise moment about the reference
-/// point) that do not depend on the ground, and those per unit of horizontal and of vertical ground acceleration.
-///
-/// The last three are what couples the motions of the reference point: the water that moves horizontally with a block on
-/// an inclined crack moves it both along and across. They are zero on a level one.
-pub const BLOCK_FIELDS: [&str; FIELD_COUNT] = [
-    "mass_horizontal",
-    "mass_vertical",
-    "inertia",
-    "height",
-    "heel_distance",
-    "toe_distance",
-    "static_horizontal",
-    "static_vertical",
-    "static_moment",
-    "per_horizontal_horizontal",
-    "per_horizontal_vertical",
-    "per_horizontal_moment",
-    "per_vertical_horizontal",
-    "per_vertical_vertical",
-    "per_vertical_moment",
-    "friction_static",
-    "friction_kinetic",
-    "restitution",
-    "coupling_horizontal_vertical",
-    "coupling_horizontal_rotation",
-    "coupling_vertical_rotation",
-];
-pub const FIELD_COUNT: usize = 21;
+numbers! {
+    /// The numbers that describe a block, SI, per metre of dam.
+    ///
+    /// Loads are generalised forces: downstream, upward, and the moment about the reference point, counter-clockwise. The
+    /// static ones do not depend on the ground; the others are per unit of horizontal and of vertical ground acceleration.
+    BlockNumbers {
+        /// Mass that moves along the crack, with that of the water.
+        mass_horizontal,
+        /// Mass that moves across the crack.
+        mass_vertical,
+        /// Moment of inertia about the reference point.
+        inertia,
+        /// Height of the reference point over the crack.
+        height,
+        /// Distance of the heel upstream of the reference point.
+        heel_distance,
+        /// Distance of the toe downstream of the reference point.
+        toe_distance,
+        /// Static load.
+        static_horizontal,
+        /// Static load.
+        static_vertical,
+        /// Static load.
+        static_moment,
+        /// Load per horizontal acceleration.
+        per_horizontal_horizontal,
+        /// Load per horizontal acceleration.
+        per_horizontal_vertical,
+        /// Load per horizontal acceleration.
+        per_horizontal_moment,
+        /// Load per vertical acceleration.
+        per_vertical_horizontal,
+        /// Load per vertical acceleration.
+        per_vertical_vertical,
+        /// Load per vertical acceleration.
+        per_vertical_moment,
+        /// Coefficient of friction of a base that sticks.
+        friction_static,
+        /// Coefficient of friction of a base that slips.
+        friction_kinetic,
+        /// Newton's restitution of an impact.
+        restitution,
+        /// What couples the motions of the reference point: the water that moves horizontally with a block on an inclined
+        /// crack moves it both along and across. Zero on a level one, as are the next two.
+        coupling_horizontal_vertical,
+        /// Coupling of the motion along the crack with the rotation.
+        coupling_horizontal_rotation,
+        /// Coupling of the motion across the crack with the rotation.
+        coupling_vertical_rotation,
+    }
+}
 
+impl BlockNumbers {
+    /// Static loads, and those per horizontal and per vertical acceleration of the ground.
+    fn loads(&self) -> [Vector; 3] {
+        [
+            [self.static_horizontal, self.static_vertical, self.static_moment],
+            [
+                self.per_horizontal_horizontal,
+                self.per_horizontal_vertical,
+                self.per_horizontal_moment,
+            ],
+            [
+                self.per_vertical_horizontal,
+                self.per_vertical_vertical,
+                self.per_vertical_moment,
+            ],
+        ]
+    }
+}
+
+/// A block in contact coordinates.
 #[derive(Clone, Debug)]
 pub struct Block {
     mass_horizontal: f64,
@@ -78,75 +130,70 @@ pub struct Block {
     coupling: Vector,
     height: f64,
     heel_distance: f64,
-    pub width: f64,
+    pub(super) width: f64,
     inverse_width: f64,
     /// `A = G M^-1 G^T`.
-    pub compliance: [Vector; 3],
+    pub(super) compliance: [Vector; 3],
     /// `b = G M^-1 f`.
-    pub free_acceleration: [Affine; 3],
+    pub(super) free_acceleration: [Affine; 3],
     /// `G^-T f`: the forces that do work on the contact coordinates.
-    pub generalised_force: [Affine; 3],
-    pub friction_static: f64,
-    pub friction_kinetic: f64,
-    pub restitution: f64,
+    pub(super) generalised_force: [Affine; 3],
+    pub(super) friction_static: f64,
+    pub(super) friction_kinetic: f64,
+    pub(super) restitution: f64,
     /// A force of the size of the loads: ties are told from rounding relative to it.
-    pub force_scale: f64,
+    pub(super) force_scale: f64,
 }
 
 impl Block {
-    /// Build from the numbers named by [`BLOCK_FIELDS`]. The caller has checked that they are finite, masses and
-    /// inertia positive, the base of positive width, friction and restitution in range.
-    pub fn new(p: &[f64; FIELD_COUNT]) -> Self {
-        let [m_y, m_z, j, h, b_h, b_t] = [p[0], p[1], p[2], p[3], p[4], p[5]];
-        let rows = [[1.0, 0.0, h], [0.0, 1.0, -b_h], [0.0, 1.0, b_t]];
-        let coupling = [p[18], p[19], p[20]];
-        let inverse_mass = inverse([m_y, m_z, j], coupling);
+    /// Work out what the walk needs of a block. The caller has checked that the numbers are finite, masses and inertia
+    /// positive, the base of positive width, friction and restitution in range.
+    pub fn new(p: &BlockNumbers) -> Self {
+        let (height, heel, toe) = (p.height, p.heel_distance, p.toe_distance);
+        let rows = [[1.0, 0.0, height], [0.0, 1.0, -heel], [0.0, 1.0, toe]];
+        let coupling = [
+            p.coupling_horizontal_vertical,
+            p.coupling_horizontal_rotation,
+            p.coupling_vertical_rotation,
+        ];
+        let masses = [p.mass_horizontal, p.mass_vertical, p.inertia];
+        let inverse_mass = if coupling == [0.0; 3] {
+            let [a, b, c] = masses.map(|mass| 1.0 / mass);
+            [[a, 0.0, 0.0], [0.0, b, 0.0], [0.0, 0.0, c]]
+        } else {
+            inverse(masses, coupling)
+        };
         let moved = |i: usize, c: usize| (0..3).map(|d| rows[i][d] * inverse_mass[d][c]).sum::<f64>();
         let compliance = [0, 1, 2].map(|i| rows.map(|row| (0..3).map(|c| moved(i, c) * row[c]).sum()));
-        let width = b_h + b_t;
-        let mut free = [[0.0; 3]; 3];
-        let mut generalised = [[0.0; 3]; 3];
-        for case in 0..3 {
-            let f = [p[6 + 3 * case], p[7 + 3 * case], p[8 + 3 * case]];
-            for (i, free) in free.iter_mut().enumerate() {
-                free[case] = (0..3).map(|c| moved(i, c) * f[c]).sum();
-            }
-            // f.q' = f_y s' + f_z z' + (m - H f_y) theta', with z' and theta' from the two gaps.
-            let turning = (f[2] - h * f[0]) / width;
-            generalised[SLIP][case] = f[0];
-            generalised[HEEL][case] = f[1] * b_t / width - turning;
-            generalised[TOE][case] = f[1] * b_h / width + turning;
-        }
-        let affine = |c: &[f64; 3]| Affine {
-            constant: c[0],
-            horizontal: c[1],
-            vertical: c[2],
-        };
+        let width = heel + toe;
+        let loads = p.loads();
+        let free = loads.map(|f| [0, 1, 2].map(|i| (0..3).map(|c| moved(i, c) * f[c]).sum()));
+        // f.q' = f_y s' + f_z z' + (m - H f_y) theta', with z' and theta' from the two gaps.
+        let generalised = loads.map(|f| {
+            let turning = (f[2] - height * f[0]) / width;
+            [f[0], f[1] * toe / width - turning, f[1] * heel / width + turning]
+        });
         Block {
-            mass_horizontal: m_y,
-            mass_vertical: m_z,
-            inertia: j,
+            mass_horizontal: p.mass_horizontal,
+            mass_vertical: p.mass_vertical,
+            inertia: p.inertia,
             coupling,
-            height: h,
-            heel_distance: b_h,
+            height,
+            heel_distance: heel,
             width,
             inverse_width: 1.0 / width,
             compliance,
-            free_acceleration: [affine(&free[0]), affine(&free[1]), affine(&free[2])],
-            generalised_force: [
-                affine(&generalised[0]),
-                affine(&generalised[1]),
-                affine(&generalised[2]),
-            ],
-            friction_static: p[15],
-            friction_kinetic: p[16],
-            restitution: p[17],
-            force_scale: p[6].abs() + p[7].abs() + p[8].abs() / width,
+            free_acceleration: Affine::of(free),
+            generalised_force: Affine::of(generalised),
+            friction_static: p.friction_static,
+            friction_kinetic: p.friction_kinetic,
+            restitution: p.restitution,
+            force_scale: p.static_horizontal.abs() + p.static_vertical.abs() + p.static_moment.abs() / width,
         }
     }
 
     /// The same block with the compliance and the free acceleration of a moment at which they are different.
-    pub fn at(&self, compliance: [Vector; 3], free_acceleration: [Affine; 3]) -> Self {
+    pub(super) fn at(&self, compliance: [Vector; 3], free_acceleration: [Affine; 3]) -> Self {
         Block {
             compliance,
             free_acceleration,
@@ -155,22 +202,28 @@ impl Block {
     }
 
     /// Mass that moves vertically (concrete alone).
-    pub fn mass(&self) -> f64 {
+    pub(super) fn mass(&self) -> f64 {
         self.mass_vertical
     }
 
+    /// A velocity of the size of sqrt(g' B): g' the vertical force per mass, B the width.
+    pub(super) fn velocity_scale(&self) -> f64 {
+        let g = -self.generalised_force[HEEL].constant - self.generalised_force[TOE].constant;
+        (g.abs() / self.mass() * self.width).sqrt()
+    }
+
     /// An acceleration of the size of the loads.
-    pub fn acceleration_scale(&self) -> f64 {
+    pub(super) fn acceleration_scale(&self) -> f64 {
         self.force_scale / self.mass_vertical
     }
 
     /// Rotation (counter-clockwise) that goes with two gaps; with two gap velocities, the rate of rotation.
-    pub fn rotation(&self, w: &Vector) -> f64 {
+    pub(super) fn rotation(&self, w: &Vector) -> f64 {
         (w[TOE] - w[HEEL]) * self.inverse_width
     }
 
     /// Kinetic energy relative to the ground.
-    pub fn kinetic_energy(&self, velocity: &Vector) -> f64 {
+    pub(super) fn kinetic_energy(&self, velocity: &Vector) -> f64 {
         let turning = self.rotation(velocity);
         let downstream = velocity[SLIP] - self.height * turning;
         let upward = velocity[HEEL] + self.heel_distance * turning;
@@ -183,19 +236,11 @@ impl Block {
     }
 }
 
-/// Inverse of the mass matrix with this diagonal and these couplings (1, 2), (1, 3) and (2, 3).
-fn inverse(diagonal: Vector, coupling: Vector) -> [Vector; 3] {
-    let ([a, b, c], [d, e, f]) = (diagonal, coupling);
-    if coupling == [0.0; 3] {
-        return [[1.0 / a, 0.0, 0.0], [0.0, 1.0 / b, 0.0], [0.0, 0.0, 1.0 / c]];
-    }
-    let first = [b * c - f * f, e * f - d * c, d * f - e * b];
-    let determinant = a * first[0] + d * first[1] + e * first[2];
-    let [x, y, z] = first;
-    [
-        [x, y, z],
-        [y, a * c - e * e, d * e - a * f],
-        [z, d * e - a * f, a * b - d * d],
-    ]
-    .map(|row| row.map(|cofactor| cofactor / determinant))
+/// Inverse of the symmetric matrix with this diagonal and these terms (1, 2), (1, 3) and (2, 3) beside it.
+pub(super) fn inverse([a, b, c]: Vector, [d, e, f]: Vector) -> [Vector; 3] {
+    let [x, y, z] = [b * c - f * f, e * f - d * c, d * f - e * b];
+    let determinant = a * x + d * y + e * z;
+    let cross = d * e - a * f;
+    [[x, y, z], [y, a * c - e * e, cross], [z, cross, a * b - d * d]]
+        .map(|row| row.map(|cofactor| cofactor / determinant))
 }

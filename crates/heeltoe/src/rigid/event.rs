@@ -5,7 +5,7 @@
 //! Where a function starts at exactly zero that root is divided out first, so that it is never found again.
 
 /// First fall through zero of `c0 + c1 t` in `[0, end]`, where its end value is already known to be negative.
-pub fn linear(c0: f64, c1: f64, end: f64) -> f64 {
+pub(super) fn linear(c0: f64, c1: f64, end: f64) -> f64 {
     if c0 <= 0.0 {
         return 0.0;
     }
@@ -13,7 +13,7 @@ pub fn linear(c0: f64, c1: f64, end: f64) -> f64 {
 }
 
 /// First fall through zero of `c0 + c1 t + c2 t^2` in `(0, end]`.
-pub fn quadratic(c0: f64, c1: f64, c2: f64, end: f64) -> Option<f64> {
+pub(super) fn quadratic(c0: f64, c1: f64, c2: f64, end: f64) -> Option<f64> {
     if c0 == 0.0 {
         return if c1 == 0.0 {
             (c2 < 0.0).then_some(0.0)
@@ -48,7 +48,7 @@ pub fn quadratic(c0: f64, c1: f64, c2: f64, end: f64) -> Option<f64> {
 }
 
 /// Times in `(0, end)` at which `c0 + c1 t + c2 t^2` changes sign, in ascending order.
-pub fn sign_changes(c0: f64, c1: f64, c2: f64, end: f64) -> [Option<f64>; 2] {
+pub(super) fn sign_changes(c0: f64, c1: f64, c2: f64, end: f64) -> [Option<f64>; 2] {
     // Most pieces are monotone and keep their sign: no need of the roots.
     if c0 * (c0 + end * (c1 + end * c2)) > 0.0 && c1 * (c1 + 2.0 * end * c2) >= 0.0 {
         return [None, None];
@@ -68,7 +68,7 @@ pub fn sign_changes(c0: f64, c1: f64, c2: f64, end: f64) -> [Option<f64>; 2] {
 }
 
 /// First fall through zero of `c0 + c1 t + c2 t^2 + c3 t^3` in `(0, end]`.
-pub fn cubic(c0: f64, c1: f64, c2: f64, c3: f64, end: f64) -> Option<f64> {
+pub(super) fn cubic(c0: f64, c1: f64, c2: f64, c3: f64, end: f64) -> Option<f64> {
     if c0 <= 0.0 {
         return if c0 < 0.0 && c1 < 0.0 {
             Some(0.0)

@@ -12,8 +12,9 @@ use super::block::{Block, Vector, HEEL, SLIP, TOE};
 /// Relative rounding allowed in the inequalities of the law.
 const ROUNDING: f64 = 1e-12;
 
+/// What an impact does.
 #[derive(Clone, Copy, Debug)]
-pub struct Impact {
+pub(super) struct Impact {
     pub velocity: Vector,
     /// Impulses: friction, heel, toe.
     pub impulse: Vector,
@@ -28,84 +29,99 @@ enum Friction {
     Slip(f64),
 }
 
-/// Outcome of the law with one assumption on contacts and friction, or `None` if that assumption does not hold.
-fn assume(
-    block: &Block,
-    before: &Vector,
+/// A block right before an impact.
+struct Approach<'a> {
+    block: &'a Block,
+    before: &'a Vector,
     touching: [bool; 2],
+    /// The fastest of its velocities that matter, to judge rounding by.
+    speed: f64,
+}
+
+/// What is assumed of the corners and of friction: who is pushed, and to what gap velocities.
+struct Assumption<'a> {
     pushed: [bool; 2],
     friction: Friction,
-    target: &Vector,
-    speed: f64,
-) -> Option<(Vector, Vector)> {
-    let a = &block.compliance;
-    let slack = ROUNDING * speed;
-    // Unknown impulses in the order friction, heel, toe; each row is one condition on them.
-    // All rows have the size of the compliance, so that a singular system can be told from a badly scaled one.
-    let mut m = [
-        [a[SLIP][SLIP], 0.0, 0.0],
-        [0.0, a[HEEL][HEEL], 0.0],
-        [0.0, 0.0, a[TOE][TOE]],
-    ];
-    let mut right = [0.0; 3];
-    match friction {
-        Friction::Stick => {
-            m[SLIP] = a[SLIP];
-            right[SLIP] = -before[SLIP];
+    target: &'a Vector,
+}
+
+impl Approach<'_> {
+    /// Velocities after the impact and impulses, or `None` if the assumption does not hold.
+    fn under(&self, assumed: &Assumption) -> Option<(Vector, Vector)> {
+        let a = &self.block.compliance;
+        let impulse = self.impulse(assumed)?;
+        let mut after = *self.before;
+        for (i, v) in after.iter_mut().enumerate() {
+            *v += (0..3).map(|k| a[i][k] * impulse[k]).sum::<f64>();
         }
-        Friction::Slip(sign) => {
-            let mu = block.friction_kinetic * sign;
-            m[SLIP] = [1.0, mu, mu].map(|factor| factor * a[SLIP][SLIP]);
-        }
-    }
-    for (corner, gap) in [HEEL, TOE].into_iter().enumerate() {
-        if pushed[corner] {
-            m[gap] = a[gap];
-            right[gap] = target[gap] - before[gap];
-        }
-    }
-    let impulse = solve3(&m, &right)?;
-    let mut after = *before;
-    for (i, v) in after.iter_mut().enumerate() {
-        *v += (0..3).map(|k| a[i][k] * impulse[k]).sum::<f64>();
-    }
-    let normal = impulse[HEEL] + impulse[TOE];
-    let push = ROUNDING * speed / a[HEEL][HEEL].min(a[TOE][TOE]);
-    for (corner, gap) in [HEEL, TOE].into_iter().enumerate() {
-        if pushed[corner] {
-            if impulse[gap] < -push {
-                return None;
+        let target = assumed.target;
+        let slack = ROUNDING * self.speed;
+        let push = ROUNDING * self.speed / a[HEEL][HEEL].min(a[TOE][TOE]);
+        for (corner, gap) in [HEEL, TOE].into_iter().enumerate() {
+            if assumed.pushed[corner] {
+                if impulse[gap] < -push {
+                    return None;
+                }
+                after[gap] = target[gap];
+            } else if self.touching[corner] {
+                if after[gap] < target[gap] - slack {
+                    return None;
+                }
+                // A corner left behind by mere rounding has not left.
+                if after[gap].abs() <= slack {
+                    after[gap] = 0.0;
+                }
             }
-            after[gap] = target[gap];
-        } else if touching[corner] {
-            if after[gap] < target[gap] - slack {
-                return None;
-            }
-            // A corner left behind by mere rounding has not left.
-            after[gap] = if after[gap].abs() <= slack {
-                0.0
-            } else {
-                after[gap]
-            };
         }
-    }
-    match friction {
-        Friction::Stick => {
-            if impulse[SLIP].abs() > block.friction_static * normal + push {
-                return None;
-            }
-            after[SLIP] = 0.0;
-        }
-        Friction::Slip(sign) => {
-            if sign * after[SLIP] < -slack {
-                return None;
-            }
-            if sign * after[SLIP] < 0.0 {
+        match assumed.friction {
+            Friction::Stick => {
+                let normal = impulse[HEEL] + impulse[TOE];
+                if impulse[SLIP].abs() > self.block.friction_static * normal + push {
+                    return None;
+                }
                 after[SLIP] = 0.0;
             }
+            Friction::Slip(sign) => {
+                if sign * after[SLIP] < -slack {
+                    return None;
+                }
+                if sign * after[SLIP] < 0.0 {
+                    after[SLIP] = 0.0;
+                }
+            }
         }
+        Some((after, impulse))
     }
-    Some((after, impulse))
+
+    /// The impulses that meet the assumption; `None` where there are none.
+    fn impulse(&self, assumed: &Assumption) -> Option<Vector> {
+        let (a, before) = (&self.block.compliance, self.before);
+        // Unknown impulses in the order friction, heel, toe; each row is one condition on them.
+        // All rows have the size of the compliance, so that a singular system can be told from a badly scaled one.
+        let mut m = [
+            [a[SLIP][SLIP], 0.0, 0.0],
+            [0.0, a[HEEL][HEEL], 0.0],
+            [0.0, 0.0, a[TOE][TOE]],
+        ];
+        let mut right = [0.0; 3];
+        match assumed.friction {
+            Friction::Stick => {
+                m[SLIP] = a[SLIP];
+                right[SLIP] = -before[SLIP];
+            }
+            Friction::Slip(sign) => {
+                let mu = self.block.friction_kinetic * sign;
+                m[SLIP] = [1.0, mu, mu].map(|factor| factor * a[SLIP][SLIP]);
+            }
+        }
+        for (corner, gap) in [HEEL, TOE].into_iter().enumerate() {
+            if assumed.pushed[corner] {
+                m[gap] = a[gap];
+                right[gap] = assumed.target[gap] - before[gap];
+            }
+        }
+        solve3(&m, &right)
+    }
 }
 
 fn solve3(m: &[[f64; 3]; 3], right: &Vector) -> Option<Vector> {
@@ -149,7 +165,12 @@ fn with_restitution(
         touching[0] && before[HEEL] < 0.0,
         touching[1] && before[TOE] < 0.0,
     ];
-    let speed = before.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
+    let approach = Approach {
+        block,
+        before,
+        touching,
+        speed: before.iter().fold(0.0_f64, |m, v| m.max(v.abs())),
+    };
     // The corner that strikes first; the other joins only if it must. Two that strike at once both obey rule 1.
     let sets = [strikes, touching, [touching[0], false], [false, touching[1]]];
     for (k, pushed) in sets.into_iter().enumerate() {
@@ -157,7 +178,11 @@ fn with_restitution(
             continue;
         }
         for friction in [Friction::Stick, Friction::Slip(1.0), Friction::Slip(-1.0)] {
-            let result = assume(block, before, touching, pushed, friction, &target, speed);
+            let result = approach.under(&Assumption {
+                pushed,
+                friction,
+                target: &target,
+            });
             if result.is_some() {
                 return result;
             }
@@ -169,7 +194,7 @@ fn with_restitution(
 /// Impact of the corners in `touching`, of which at least one has a negative gap velocity. A bounce slower than
 /// `settle` is none: that corner stays; and where both corners touch and neither moves faster, both stay. `None` is a
 /// paradox: no outcome satisfies the law.
-pub fn impact(block: &Block, before: &Vector, touching: [bool; 2], settle: f64) -> Option<Impact> {
+pub(super) fn impact(block: &Block, before: &Vector, touching: [bool; 2], settle: f64) -> Option<Impact> {
     let restitution = [HEEL, TOE].map(|gap| {
         let bounce = -block.restitution * before[gap];
         if bounce > settle {
@@ -247,21 +272,22 @@ fn come_to_lie(block: &Block, before: &Vector, settle: f64) -> Impact {
 
 /// Tangential impact that ends a Painlevé paradox: a sliding corner jams, and the impulse that stops its slip lifts
 /// nothing and sinks nothing. `None` where the cone of friction does not hold it.
-pub fn jam(block: &Block, before: &Vector, touching: [bool; 2]) -> Option<Impact> {
-    let target = [0.0; 3];
+pub(super) fn jam(block: &Block, before: &Vector, touching: [bool; 2]) -> Option<Impact> {
+    let approach = Approach {
+        block,
+        before,
+        touching,
+        speed: before[SLIP].abs(),
+    };
     [[touching[0], false], [false, touching[1]], touching]
         .into_iter()
         .filter(|pushed| *pushed != [false, false])
         .find_map(|pushed| {
-            assume(
-                block,
-                before,
-                touching,
+            approach.under(&Assumption {
                 pushed,
-                Friction::Stick,
-                &target,
-                before[SLIP].abs(),
-            )
+                friction: Friction::Stick,
+                target: &[0.0; 3],
+            })
         })
         .map(|(velocity, impulse)| Impact {
             velocity,

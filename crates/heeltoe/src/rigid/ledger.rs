@@ -6,14 +6,14 @@
 /// Work, and how much goes to and fro in it: the parts of a constant force and of its change by themselves. Their sum
 /// may vanish where neither does, and is no scale to judge rounding by.
 #[derive(Clone, Copy, Debug)]
-pub struct Work {
+pub(super) struct Work {
     pub net: f64,
     pub size: f64,
 }
 
 /// `(f0 + f1 t)(v0 + a0 t + a1 t^2 / 2)` integrated from 0 to `end`.
 #[inline]
-pub fn work(force: [f64; 2], v0: f64, a: [f64; 2], end: f64) -> Work {
+pub(super) fn work(force: [f64; 2], v0: f64, a: [f64; 2], end: f64) -> Work {
     let t = end;
     let path = t * (v0 + t * (a[0] / 2.0 + t * a[1] / 6.0));
     let moment = t * t * (v0 / 2.0 + t * (a[0] / 3.0 + t * a[1] / 8.0));
@@ -24,28 +24,33 @@ pub fn work(force: [f64; 2], v0: f64, a: [f64; 2], end: f64) -> Work {
     }
 }
 
+/// Energies since the start; losses are positive.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Ledger {
+    /// Kinetic energy at the start.
     pub start: f64,
+    /// Work of all loads, and of the ground's inertia force, on the motion relative to the ground.
     pub input: f64,
+    /// Lost to friction.
     pub friction: f64,
+    /// Lost in impacts.
     pub impact: f64,
     /// Sum of the sizes of all entries, to judge the residual by.
     pub turnover: f64,
 }
 
 impl Ledger {
-    pub fn apply(&mut self, work: Work) {
+    pub(super) fn apply(&mut self, work: Work) {
         self.input += work.net;
         self.turnover += work.size;
     }
 
-    pub fn rub(&mut self, work: Work) {
+    pub(super) fn rub(&mut self, work: Work) {
         self.friction -= work.net;
         self.turnover += work.size;
     }
 
-    pub fn strike(&mut self, lost: f64) {
+    pub(super) fn strike(&mut self, lost: f64) {
         self.impact += lost;
         self.turnover += lost.abs();
     }

@@ -1,14 +1,27 @@
-//! The rigid model: one block on a crack, three degrees of freedom, exact in time.
+//! The rigid model: one block on a crack, three degrees of freedom, from event to event.
 //!
-//! The ground acceleration is linear between samples, so in every mode of motion the accelerations are linear in
-//! time, velocities quadratic and positions cubic. The walk goes from event to event; there is no step size.
+//! [`exact`] where the loads stay as they are, [`varying`] where loads or geometry change as the block moves; both share
+//! modes, reactions, impact and the choice of what comes next, in contact coordinates `w = (slip, heel gap, toe gap)`:
+//!
+//! `w'' = b + A (T, N_h, N_t)`.
 
-pub mod block;
-pub mod event;
-pub mod impact;
-pub mod ledger;
+mod block;
+mod choice;
+mod event;
+pub mod exact;
+mod impact;
+mod ledger;
 pub mod many;
-pub mod mode;
-pub mod result;
-pub mod simulate;
+mod mode;
+mod reaction;
+mod result;
+mod shaking;
 pub mod varying;
+mod walk;
+
+pub use block::{Block, BlockNumbers, Vector};
+pub use ledger::Ledger;
+pub use mode::{Corner, Mode, Slip};
+pub use result::{Event, EventKind, Moment, Outcome, Run, Summary};
+pub use shaking::Shaking;
+pub use walk::{Options, Wanted};

@@ -1,109 +1,218 @@
-//! What a run returns: its outcome, its summary, its events, the histories asked for.
+//! What a run returns: its outcome, its summary, its events, the moments asked for.
 
 use super::block::{Block, Vector, HEEL, SLIP, TOE};
 use super::ledger::Ledger;
 use super::mode::Mode;
+use crate::table::{columns, named};
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Outcome {
-    Done,
-    /// The static loads alone move the block.
-    Unstable,
-    /// No mode of motion is admissible (Painlevé), or no outcome of an impact.
-    Paradox,
-    EventLimit,
-    /// Events follow each other without time passing.
-    Cycling,
-    /// The block lies on its side.
-    Overturned,
+named! {
+    /// How a run ended.
+    Outcome {
+        /// At the end of the record.
+        Done = "ok",
+        /// The static loads alone move the block.
+        Unstable = "unstable",
+        /// No mode of motion is admissible (Painlevé), or no outcome of an impact.
+        Paradox = "paradox",
+        /// After too many events.
+        EventLimit = "event limit",
+        /// Events follow each other without time passing.
+        Cycling = "cycling",
+        /// The block lies on its side.
+        Overturned = "overturned",
+    }
 }
 
-impl Outcome {
-    pub const NAMES: [&'static str; 6] = [
-        "ok",
-        "unstable",
-        "paradox",
-        "event limit",
-        "cycling",
-        "overturned",
-    ];
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum EventKind {
-    SlipStarts,
-    SlipStops,
-    HeelLifts,
-    ToeLifts,
-    HeelStrikes,
-    ToeStrikes,
-    BothStrike,
-    Jams,
-    ModeChanges,
-}
-
-impl EventKind {
-    pub const NAMES: [&'static str; 9] = [
-        "slip starts",
-        "slip stops",
-        "heel lifts",
-        "toe lifts",
-        "heel strikes",
-        "toe strikes",
-        "both strike",
-        "jams",
-        "mode changes",
-    ];
+named! {
+    /// What happens at an event.
+    EventKind {
+        /// A base that stuck slips.
+        SlipStarts = "slip starts",
+        /// The slip velocity has come to zero.
+        SlipStops = "slip stops",
+        /// The heel leaves the crack.
+        HeelLifts = "heel lifts",
+        /// The toe leaves the crack.
+        ToeLifts = "toe lifts",
+        /// The heel comes down.
+        HeelStrikes = "heel strikes",
+        /// The toe comes down.
+        ToeStrikes = "toe strikes",
+        /// Both come down at once.
+        BothStrike = "both strike",
+        /// A tangential impact ends a Painlevé paradox.
+        Jams = "jams",
+        /// None of these, but the mode is another.
+        ModeChanges = "mode changes",
+    }
 }
 
 /// One event: state after it and, for an impact, what it did.
 #[derive(Clone, Copy, Debug)]
 pub struct Event {
+    /// When [s].
     pub time: f64,
+    /// What.
     pub kind: EventKind,
+    /// Mode before it.
     pub before: Mode,
+    /// Mode after it.
     pub after: Mode,
+    /// Slip and gaps [m].
     pub position: Vector,
+    /// Their velocities after it [m/s].
     pub velocity: Vector,
-    /// Velocity right before (equal to `velocity` where nothing strikes).
+    /// Velocities right before (equal to `velocity` where nothing strikes).
     pub approach: Vector,
+    /// Impulses of friction and of the normal forces at heel and toe.
     pub impulse: Vector,
+    /// Kinetic energy lost.
     pub energy_lost: f64,
 }
 
-/// Moments at which the state is wanted, and what is kept of it.
-pub struct Histories<'a> {
-    pub times: &'a [f64],
-    pub rows: Vec<[f64; 12]>,
-    pub modes: Vec<u8>,
+columns!(Event, e => {
+    "time": e.time,
+    "kind": e.kind as u8 as f64,
+    "mode_before": e.before.index() as f64,
+    "mode_after": e.after.index() as f64,
+    "slip": e.position[SLIP],
+    "gap_heel": e.position[HEEL],
+    "gap_toe": e.position[TOE],
+    "slip_velocity": e.velocity[SLIP],
+    "gap_velocity_heel": e.velocity[HEEL],
+    "gap_velocity_toe": e.velocity[TOE],
+    "approach_slip_velocity": e.approach[SLIP],
+    "approach_velocity_heel": e.approach[HEEL],
+    "approach_velocity_toe": e.approach[TOE],
+    "impulse_friction": e.impulse[SLIP],
+    "impulse_heel": e.impulse[HEEL],
+    "impulse_toe": e.impulse[TOE],
+    "energy_lost": e.energy_lost,
+});
+
+/// The block at a moment that was asked for.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment {
+    /// Mode of motion.
+    pub mode: Mode,
+    /// Slip and gaps [m].
+    pub position: Vector,
+    /// Their velocities [m/s].
+    pub velocity: Vector,
+    /// Their accelerations [m/s2].
+    pub acceleration: Vector,
+    /// Friction and normal forces at heel and toe [N/m].
+    pub reaction: Vector,
 }
 
+columns!(Moment, m => {
+    "slip": m.position[SLIP],
+    "gap_heel": m.position[HEEL],
+    "gap_toe": m.position[TOE],
+    "slip_velocity": m.velocity[SLIP],
+    "gap_velocity_heel": m.velocity[HEEL],
+    "gap_velocity_toe": m.velocity[TOE],
+    "slip_acceleration": m.acceleration[SLIP],
+    "gap_acceleration_heel": m.acceleration[HEEL],
+    "gap_acceleration_toe": m.acceleration[TOE],
+    "friction_force": m.reaction[SLIP],
+    "normal_force_heel": m.reaction[HEEL],
+    "normal_force_toe": m.reaction[TOE],
+});
+
+/// What a run leaves behind.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// Its end, peaks and sums.
+    pub summary: Summary,
+    /// The block at the moments asked for, up to where the run stopped.
+    pub moments: Vec<Moment>,
+    /// What happened, if that was asked for.
+    pub events: Vec<Event>,
+    /// Largest tension of each anchor that stretches [N/m]; the exact walk knows none.
+    pub tensions: Vec<f64>,
+}
+
+/// End, peaks and sums of a run; SI, per metre of dam.
 #[derive(Clone, Debug)]
 pub struct Summary {
+    /// How it ended.
     pub outcome: Outcome,
+    /// When [s].
     pub end_time: f64,
+    /// Mode of motion at the end.
     pub mode: Mode,
+    /// Slip and gaps at the end [m].
     pub position: Vector,
+    /// Their velocities [m/s].
     pub velocity: Vector,
+    /// Least and largest slip [m].
     pub slip_range: [f64; 2],
     /// Most negative (downstream, about the toe) and most positive (upstream, about the heel) rotation.
     pub rotation_range: [f64; 2],
+    /// Largest gap at the heel and at the toe [m].
     pub largest_gap: [f64; 2],
     /// Slip gathered in rest, slide, rock, slide-rock, drift (the first and third stay zero).
     pub slip_by_mode: [f64; 5],
+    /// Time spent in each of them [s].
     pub time_by_mode: [f64; 5],
+    /// Number of impacts.
     pub impacts: u64,
+    /// Number of all events.
     pub events: u64,
+    /// Largest velocity with which a corner struck [m/s].
     pub largest_impact_velocity: f64,
+    /// Impacts whose restitution had to be lowered for energy not to grow.
     pub energy_limited: u64,
+    /// Tangential impacts out of a Painlevé paradox.
     pub jams: u64,
+    /// How often a slip stopped.
     pub slip_stops: u64,
+    /// Where the energy went.
     pub ledger: Ledger,
+    /// Kinetic energy at the end, relative to the ground.
     pub kinetic_energy: f64,
 }
 
+columns!(Summary, s => {
+    "outcome": s.outcome as u8 as f64,
+    "end_time": s.end_time,
+    "final_mode": s.mode.index() as f64,
+    "slip": s.position[SLIP],
+    "gap_heel": s.position[HEEL],
+    "gap_toe": s.position[TOE],
+    "slip_velocity": s.velocity[SLIP],
+    "gap_velocity_heel": s.velocity[HEEL],
+    "gap_velocity_toe": s.velocity[TOE],
+    "slip_min": s.slip_range[0],
+    "slip_max": s.slip_range[1],
+    "rotation_min": s.rotation_range[0],
+    "rotation_max": s.rotation_range[1],
+    "largest_gap_heel": s.largest_gap[0],
+    "largest_gap_toe": s.largest_gap[1],
+    "slip_sliding": s.slip_by_mode[1],
+    "slip_slide_rocking": s.slip_by_mode[3],
+    "slip_drifting": s.slip_by_mode[4],
+    "time_rest": s.time_by_mode[0],
+    "time_sliding": s.time_by_mode[1],
+    "time_rocking": s.time_by_mode[2],
+    "time_slide_rocking": s.time_by_mode[3],
+    "time_drifting": s.time_by_mode[4],
+    "impacts": s.impacts as f64,
+    "events": s.events as f64,
+    "largest_impact_velocity": s.largest_impact_velocity,
+    "energy_limited_impacts": s.energy_limited as f64,
+    "jams": s.jams as f64,
+    "slip_stops": s.slip_stops as f64,
+    "energy_input": s.ledger.input,
+    "energy_friction": s.ledger.friction,
+    "energy_impact": s.ledger.impact,
+    "energy_kinetic": s.kinetic_energy,
+    "energy_residual": s.ledger.residual(s.kinetic_energy),
+});
+
 impl Summary {
-    pub(in crate::rigid) fn at_start(block: &Block, time: f64, position: Vector, velocity: Vector) -> Self {
+    pub(super) fn at_start(block: &Block, time: f64, [position, velocity]: [Vector; 2]) -> Self {
         let turn = block.rotation(&position);
         Summary {
             outcome: Outcome::Done,
@@ -130,8 +239,8 @@ impl Summary {
         }
     }
 
-    pub(in crate::rigid) fn widen(&mut self, at: &Vector, block: &Block) {
-        let turn = block.rotation(at);
+    /// Take slip, gaps and rotation of a moment into the extremes.
+    pub(super) fn widen(&mut self, at: &Vector, turn: f64) {
         self.slip_range = [self.slip_range[0].min(at[SLIP]), self.slip_range[1].max(at[SLIP])];
         self.rotation_range = [self.rotation_range[0].min(turn), self.rotation_range[1].max(turn)];
         self.largest_gap = [

@@ -2,14 +2,14 @@
 //! (Hairer, Nørsett and Wanner, Solving Ordinary Differential Equations I, 2nd edition, section II.5: DOP853).
 
 /// Displacement of the corner along and across the crack, rotation; their velocities; work of the loads, friction.
-pub const SIZE: usize = 8;
-pub type State = [f64; SIZE];
+pub(super) const SIZE: usize = 8;
+pub(super) type State = [f64; SIZE];
 
 const STAGES: usize = 12;
 
 /// Result of a step: the state at its end, its rate of change there, and the error estimate, relative to the tolerance:
 /// at most 1 is good.
-pub struct Step {
+pub(super) struct Step {
     pub end: State,
     pub rate: State,
     pub error: f64,
@@ -17,7 +17,7 @@ pub struct Step {
 
 /// Step from `start`, whose rate is `rate`, over `length`; `rates(since, state)` gives the rate of change, `scale` the
 /// absolute error that is allowed in each component, infinite where none counts.
-pub fn step(
+pub(super) fn step(
     start: &State,
     rate: &State,
     length: f64,
@@ -59,7 +59,7 @@ pub fn step(
 
 /// Displacements, rotation and velocities in the middle of a step, on the polynomial of degree 5 through both ends with
 /// their velocities and accelerations; the works are left at zero.
-pub fn middle(ends: [&State; 2], rates: [&State; 2], length: f64) -> State {
+pub(super) fn middle(ends: [&State; 2], rates: [&State; 2], length: f64) -> State {
     let mut at = [0.0; SIZE];
     for j in 0..3 {
         let [y0, y1] = ends.map(|y| y[j]);

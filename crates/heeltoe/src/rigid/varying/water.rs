@@ -1,45 +1,22 @@
-//! What pulls and presses in the crack, as it depends on how far the crack is open: water and anchors.
+//! Force and moment of the water in the crack under a block.
 //!
-//! At a distance x from the heel the crack is open by g(x), which is straight in x. The pressure there is
+//! At a distance x from the heel the crack is open by `g(x) = gap + slope x`, and the pressure p(x) is that of
+//! [`Law`]:
 //!
-//! | rule | pressure |
-//! | --- | --- |
-//! | constant | p(x) |
-//! | zero while open | p(x) max(0, 1 - g/w) |
-//! | full while open | p(x) + (p_full - p(x)) min(1, g/w) |
-//! | follows opening | p(x) w/(w + g): the water that is there fills the wider crack |
-//!
-//! with the opening w over which it changes. An anchor at x pulls with max(0, P + k e), e its elongation along its axis.
+//! `F = int p(x) dx`, `M = int p(x) x dx`.
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Rule {
-    Constant,
-    ZeroWhileOpen,
-    FullWhileOpen,
-    FollowsOpening,
-}
+use crate::inside::Law;
 
-impl Rule {
-    pub const ALL: [Rule; 4] = [
-        Rule::Constant,
-        Rule::ZeroWhileOpen,
-        Rule::FullWhileOpen,
-        Rule::FollowsOpening,
-    ];
-    pub const NAMES: [&'static str; 4] = [
-        "constant",
-        "zero while open",
-        "full while open",
-        "follows opening",
-    ];
-}
-
-/// Pressure in the crack: straight between its points (distance from the heel, pressure).
+/// Water whose pressure follows the opening of the crack.
 #[derive(Clone, Debug)]
-pub struct Water {
-    pub rule: Rule,
+pub struct FollowingWater {
+    /// How it does.
+    pub law: Law,
+    /// Distance from the heel [m] and pressure while the crack is closed [Pa]; straight in between.
     pub points: Vec<[f64; 2]>,
+    /// Opening over which the pressure changes [m].
     pub opening: f64,
+    /// Pressure of the reservoir [Pa].
     pub full: f64,
 }
 
@@ -55,10 +32,10 @@ const WEIGHTS: [f64; 3] = [
     0.171_324_492_379_170_36,
 ];
 
-impl Water {
+impl FollowingWater {
     /// Force of the water across the crack and its moment about the heel, where the crack is open by
     /// `gap + slope x` at x.
-    pub fn force(&self, gap: f64, slope: f64) -> [f64; 2] {
+    pub(super) fn force(&self, gap: f64, slope: f64) -> [f64; 2] {
         let mut sum = [0.0; 2];
         for pair in self.points.windows(2) {
             let ([x0, p0], [x1, p1]) = (pair[0], pair[1]);
@@ -92,49 +69,21 @@ impl Water {
         sum
     }
 
-    /// Openings between which the pressure is smooth enough for one set of points: kinks of the rule, or doublings.
+    /// Openings between which the pressure is smooth enough for one set of points: kinks of the law, or doublings.
     fn bend(&self, k: u32) -> f64 {
         (2.0_f64.powi(k as i32) - 1.0) * self.opening
     }
 
     fn bends(&self) -> u32 {
-        match self.rule {
-            Rule::Constant => 0,
-            Rule::ZeroWhileOpen | Rule::FullWhileOpen => 2,
-            Rule::FollowsOpening => 16,
+        match self.law {
+            Law::Constant => 0,
+            Law::ZeroWhileOpen | Law::FullWhileOpen => 2,
+            Law::FollowsOpening => 16,
         }
     }
 
     fn pressure(&self, still: f64, gap: f64) -> f64 {
-        let open = (gap / self.opening).max(0.0);
-        match self.rule {
-            Rule::Constant => still,
-            Rule::ZeroWhileOpen => still * (1.0 - open).max(0.0),
-            Rule::FullWhileOpen => still + (self.full - still) * open.min(1.0),
-            Rule::FollowsOpening => still / (1.0 + open),
-        }
-    }
-}
-
-#[derive(Clone, Copy, Debug)]
-pub struct Anchor {
-    /// From the heel along the crack.
-    pub distance: f64,
-    /// Of its axis, along and across the crack.
-    pub axis: [f64; 2],
-    pub prestress: f64,
-    pub axial_stiffness: f64,
-    pub shear_stiffness: f64,
-}
-
-impl Anchor {
-    /// Tension, and the force along and across the crack on the part above, whose end of the anchor has moved so far
-    /// along and across.
-    pub fn pull(&self, moved: [f64; 2]) -> (f64, [f64; 2]) {
-        let longer = moved[0] * self.axis[0] + moved[1] * self.axis[1];
-        let tension = (self.prestress + self.axial_stiffness * longer).max(0.0);
-        let along = -tension * self.axis[0] - self.shear_stiffness * moved[0];
-        (tension, [along, -tension * self.axis[1]])
+        self.law.pressure(still, self.full, gap, self.opening)
     }
 }
 
@@ -142,9 +91,9 @@ impl Anchor {
 mod tests {
     use super::*;
 
-    fn water(rule: Rule) -> Water {
-        Water {
-            rule,
+    fn water(law: Law) -> FollowingWater {
+        FollowingWater {
+            law,
             points: vec![[0.0, 8.0], [4.0, 2.0], [10.0, 0.0]],
             opening: 1e-3,
             full: 8.0,
@@ -152,7 +101,7 @@ mod tests {
     }
 
     /// The same by very many points.
-    fn by_sums(w: &Water, gap: f64, slope: f64) -> [f64; 2] {
+    fn by_sums(w: &FollowingWater, gap: f64, slope: f64) -> [f64; 2] {
         let mut sum = [0.0; 2];
         for pair in w.points.windows(2) {
             let ([x0, p0], [x1, p1]) = (pair[0], pair[1]);
@@ -170,8 +119,8 @@ mod tests {
 
     #[test]
     fn forces_are_the_integrals() {
-        for rule in Rule::ALL {
-            let w = water(rule);
+        for law in Law::ALL {
+            let w = water(law);
             for (gap, slope) in [
                 (0.0, 0.0),
                 (2e-3, 0.0),
@@ -185,7 +134,7 @@ mod tests {
                 for i in 0..2 {
                     assert!(
                         (ours[i] - sums[i]).abs() < 1e-6 * 100.0,
-                        "{rule:?} {gap} {slope}: {ours:?} {sums:?}"
+                        "{law:?} {gap} {slope}: {ours:?} {sums:?}"
                     );
                 }
             }
@@ -194,24 +143,10 @@ mod tests {
 
     #[test]
     fn a_closed_crack_is_under_its_still_pressure() {
-        for rule in Rule::ALL {
-            let [force, moment] = water(rule).force(0.0, 0.0);
+        for law in Law::ALL {
+            let [force, moment] = water(law).force(0.0, 0.0);
             assert!((force - 26.0).abs() < 1e-13);
             assert!((moment - (4.0 * 2.0 * 2.0 + 12.0 * 4.0 / 3.0 + 6.0 * 6.0)).abs() < 1e-12);
         }
-    }
-
-    #[test]
-    fn a_slack_anchor_pulls_nothing() {
-        let anchor = Anchor {
-            distance: 0.0,
-            axis: [0.6, 0.8],
-            prestress: 10.0,
-            axial_stiffness: 100.0,
-            shear_stiffness: 50.0,
-        };
-        assert_eq!(anchor.pull([0.0, 0.0]), (10.0, [-6.0, -8.0]));
-        let (tension, force) = anchor.pull([-0.5, 0.0]);
-        assert_eq!((tension, force), (0.0, [25.0, 0.0]));
     }
 }

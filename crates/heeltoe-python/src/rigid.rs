@@ -1,0 +1,173 @@
+//! The rigid model, bound to Python.
+
+use heeltoe::inside::{Anchor, Law};
+use heeltoe::rigid::varying::{self, Rotation, TurningBlock, TurningShaking, VaryingNumbers};
+use heeltoe::rigid::{exact, many, Block, BlockNumbers, Event, Moment, Options, Run, Shaking, Wanted};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+
+use crate::tables::{named, pool, row, rows, slice, table, wrong, Numbers};
+
+type Result<'py> = (
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray1<u8>>,
+    Bound<'py, PyArray2<f64>>,
+);
+
+type VaryingResult<'py> = (
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray1<u8>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray1<f64>>,
+);
+
+/// Summary, histories, modes and events.
+fn arrays<'py>(py: Python<'py>, run: &Run) -> Result<'py> {
+    let modes: Vec<u8> = run.moments.iter().map(|m| m.mode.index() as u8).collect();
+    (
+        run.summary.row().to_vec().into_pyarray(py),
+        table(py, run.moments.iter().map(Moment::row)),
+        modes.into_pyarray(py),
+        table(py, run.events.iter().map(Event::row)),
+    )
+}
+
+fn block(numbers: &Numbers) -> PyResult<Block> {
+    Ok(Block::new(&BlockNumbers::from_row(&row(numbers, "a block")?)))
+}
+
+/// Run one block; see `_kernel.pyi`.
+#[pyfunction]
+#[pyo3(signature = (block, time, horizontal, vertical, output_times, start, settle, event_limit, jam))]
+#[allow(clippy::too_many_arguments)]
+pub fn run_rigid<'py>(
+    py: Python<'py>,
+    block: Numbers<'py>,
+    time: Numbers<'py>,
+    horizontal: Numbers<'py>,
+    vertical: Option<Numbers<'py>>,
+    output_times: Numbers<'py>,
+    start: Option<[[f64; 3]; 2]>,
+    settle: f64,
+    event_limit: u64,
+    jam: bool,
+) -> PyResult<Result<'py>> {
+    let block = self::block(&block)?;
+    let shaking = Shaking::new(time.as_slice()?, horizontal.as_slice()?, slice(&vertical)?).map_err(wrong)?;
+    let options = Options {
+        settle,
+        event_limit,
+        jam,
+    };
+    let wanted = Wanted {
+        times: output_times.as_slice()?,
+        events: true,
+    };
+    let run = py.detach(|| exact::simulate(&block, &shaking, start, options, wanted));
+    Ok(arrays(py, &run))
+}
+
+/// Run one block under loads and at rotations that change; see `_kernel.pyi`.
+#[pyfunction]
+#[pyo3(signature = (block, varying, rotation, law, pressure, anchors, time, horizontal, vertical, turning,
+    output_times, start, settle, event_limit, jam))]
+#[allow(clippy::too_many_arguments)]
+pub fn run_rigid_varying<'py>(
+    py: Python<'py>,
+    block: Numbers<'py>,
+    varying: Numbers<'py>,
+    rotation: &str,
+    law: &str,
+    pressure: PyReadonlyArray2<'py, f64>,
+    anchors: PyReadonlyArray2<'py, f64>,
+    time: Numbers<'py>,
+    horizontal: Numbers<'py>,
+    vertical: Option<Numbers<'py>>,
+    turning: Option<Numbers<'py>>,
+    output_times: Numbers<'py>,
+    start: Option<[[f64; 3]; 2]>,
+    settle: f64,
+    event_limit: u64,
+    jam: bool,
+) -> PyResult<VaryingResult<'py>> {
+    let block = self::block(&block)?;
+    let anchors = rows(anchors.as_slice()?, "anchors")?.iter().map(anchor).collect();
+    let body = TurningBlock::new(
+        &VaryingNumbers::from_row(&row(&varying, "a block that varies")?),
+        named(rotation, Rotation::named, &Rotation::NAMES)?,
+        named(law, Law::named, &Law::NAMES)?,
+        rows(pressure.as_slice()?, "pressure")?.to_vec(),
+        anchors,
+    );
+    let level = Shaking::new(time.as_slice()?, horizontal.as_slice()?, slice(&vertical)?).map_err(wrong)?;
+    let shaking = TurningShaking::new(level, slice(&turning)?).map_err(wrong)?;
+    let options = Options {
+        settle,
+        event_limit,
+        jam,
+    };
+    let wanted = Wanted {
+        times: output_times.as_slice()?,
+        events: true,
+    };
+    let run = py.detach(|| varying::simulate(&block, &body, &shaking, start, options, wanted));
+    let (summary, histories, modes, events) = arrays(py, &run);
+    Ok((summary, histories, modes, events, run.tensions.into_pyarray(py)))
+}
+
+fn anchor(&[place, along, across, prestress, axial_stiffness, shear_stiffness]: &[f64; 6]) -> Anchor<f64> {
+    Anchor {
+        place,
+        axis: [along, across],
+        prestress,
+        axial_stiffness,
+        shear_stiffness,
+    }
+}
+
+/// Run many blocks on all cores; see `_kernel.pyi`.
+#[pyfunction]
+#[pyo3(signature = (blocks, motions, motion_of, scales, settle, event_limit, jam, threads))]
+#[allow(clippy::too_many_arguments)]
+pub fn run_rigid_many<'py>(
+    py: Python<'py>,
+    blocks: PyReadonlyArray2<'py, f64>,
+    motions: Vec<(Numbers<'py>, Numbers<'py>, Option<Numbers<'py>>)>,
+    motion_of: PyReadonlyArray1<'py, i64>,
+    scales: PyReadonlyArray2<'py, f64>,
+    settle: f64,
+    event_limit: u64,
+    jam: bool,
+    threads: usize,
+) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    let (blocks, scales) = (blocks.as_slice()?, scales.as_slice()?);
+    let (blocks, scales) = (rows(blocks, "blocks")?, rows(scales, "scales")?);
+    let which = motion_of.as_slice()?;
+    let count = blocks.len();
+    if scales.len() != count || which.len() != count {
+        return Err(wrong("blocks, motion_of and scales must be as many"));
+    }
+    let shakings = motions
+        .iter()
+        .map(|(time, horizontal, vertical)| {
+            Shaking::new(time.as_slice()?, horizontal.as_slice()?, slice(vertical)?).map_err(wrong)
+        })
+        .collect::<PyResult<Vec<_>>>()?;
+    if which.iter().any(|&m| m < 0 || m as usize >= shakings.len()) {
+        return Err(wrong("motion_of names a motion that is not there"));
+    }
+    let options = Options {
+        settle,
+        event_limit,
+        jam,
+    };
+    let case = |k: usize| {
+        let shaking = shakings[which[k] as usize].scaled(scales[k]);
+        (BlockNumbers::from_row(&blocks[k]), shaking)
+    };
+    let pool = pool(threads)?;
+    let summaries = py.detach(|| pool.install(|| many::run(count, options, case)));
+    Ok(table(py, summaries.iter().map(heeltoe::rigid::Summary::row)))
+}

@@ -1,0 +1,66 @@
+//! Arrays as Python gives and takes them.
+
+use numpy::ndarray::Array2;
+use numpy::{Element, IntoPyArray, PyArray2, PyReadonlyArray1};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use rayon::ThreadPool;
+
+pub type Numbers<'py> = PyReadonlyArray1<'py, f64>;
+
+/// A slip of the caller's, who is the Python half: users never see it.
+pub fn wrong(what: impl Into<String>) -> PyErr {
+    PyValueError::new_err(what.into())
+}
+
+/// Rows of equal length, as an array.
+pub fn table<const N: usize>(
+    py: Python<'_>,
+    rows: impl ExactSizeIterator<Item = [f64; N]>,
+) -> Bound<'_, PyArray2<f64>> {
+    let mut values = Vec::with_capacity(N * rows.len());
+    rows.for_each(|row| values.extend_from_slice(&row));
+    Array2::from_shape_vec((values.len() / N, N), values)
+        .expect("rows of equal length")
+        .into_pyarray(py)
+}
+
+/// So many rows of all these values, as an array.
+pub fn shaped<T: Element>(py: Python<'_>, values: Vec<T>, rows: usize) -> PyResult<Bound<'_, PyArray2<T>>> {
+    let columns = values.len() / rows.max(1);
+    Array2::from_shape_vec((rows, columns), values)
+        .map(|array| array.into_pyarray(py))
+        .map_err(|e| wrong(e.to_string()))
+}
+
+/// The numbers of a row that has a known number of them.
+pub fn row<const N: usize>(numbers: &Numbers, what: &str) -> PyResult<[f64; N]> {
+    let values = numbers.as_slice()?;
+    values
+        .try_into()
+        .map_err(|_| wrong(format!("{what} has {N} numbers, not {}", values.len())))
+}
+
+/// The rows of an array that has a known number of columns.
+pub fn rows<'a, const N: usize>(values: &'a [f64], what: &str) -> PyResult<&'a [[f64; N]]> {
+    match values.as_chunks::<N>() {
+        (rows, []) => Ok(rows),
+        _ => Err(wrong(format!("{what} has {N} columns"))),
+    }
+}
+
+/// Numbers that may not be there.
+pub fn slice<'a>(numbers: &'a Option<Numbers>) -> PyResult<Option<&'a [f64]>> {
+    Ok(numbers.as_ref().map(|n| n.as_slice()).transpose()?)
+}
+
+/// What has that name.
+pub fn named<T>(name: &str, known: fn(&str) -> Option<T>, names: &[&str]) -> PyResult<T> {
+    known(name).ok_or_else(|| wrong(format!("{name} is none of {}", names.join(", "))))
+}
+
+/// So many threads, or as many as there are cores.
+pub fn pool(threads: usize) -> PyResult<ThreadPool> {
+    let builder = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    builder.build().map_err(|e| wrong(e.to_string()))
+}

@@ -1,0 +1,159 @@
+//! What acts in a crack beside contact, as it depends on how far the crack is open: water and anchors.
+//!
+//! Where the crack is open by g, the pressure p that is there while it is closed becomes
+//!
+//! | law | pressure |
+//! | --- | --- |
+//! | constant | p |
+//! | zero while open | p max(0, 1 - g/w) |
+//! | full while open | p + (p_full - p) min(1, g/w) |
+//! | follows opening | p w/(w + g): the water that is there fills the wider crack |
+//!
+//! with the opening w over which it changes. An anchor pulls with max(0, P + k e), e its elongation along its axis, and
+//! resists slip as a dowel.
+
+use crate::table::named;
+
+named! {
+    /// What the pressure in the crack does as it opens.
+    Law {
+        /// Nothing.
+        Constant = "constant",
+        /// It vanishes, in proportion to the gap, until this is `opening`.
+        ZeroWhileOpen = "zero while open",
+        /// It becomes the reservoir's, in proportion to the gap, until this is `opening`.
+        FullWhileOpen = "full while open",
+        /// It falls as a given volume of water fills a wider crack.
+        FollowsOpening = "follows opening",
+    }
+}
+
+impl Law {
+    /// Pressure, or force of a node, that is `still` in the closed crack and `full` at the reservoir's pressure.
+    pub(crate) fn pressure(self, still: f64, full: f64, gap: f64, opening: f64) -> f64 {
+        let open = (gap / opening).max(0.0);
+        match self {
+            Law::Constant => still,
+            Law::ZeroWhileOpen => still * (1.0 - open).max(0.0),
+            Law::FullWhileOpen => still + (full - still) * open.min(1.0),
+            Law::FollowsOpening => still / (1.0 + open),
+        }
+    }
+
+    /// The same less `still`, with all its digits where the crack is hardly open.
+    #[inline(always)]
+    pub(crate) fn change(self, still: f64, full: f64, gap: f64, opening: f64) -> f64 {
+        let gap = gap.max(0.0);
+        let part = (gap / opening).min(1.0);
+        match self {
+            Law::Constant => 0.0,
+            Law::ZeroWhileOpen => -part * still,
+            Law::FullWhileOpen => part * (full - still),
+            Law::FollowsOpening => -still * gap / (opening + gap),
+        }
+    }
+}
+
+/// An anchor through the crack; `Place` says where.
+#[derive(Clone, Copy, Debug)]
+pub struct Anchor<Place> {
+    /// Where it crosses the crack.
+    pub place: Place,
+    /// Its axis, along and across the crack.
+    pub axis: [f64; 2],
+    /// Tension before the earthquake.
+    pub prestress: f64,
+    /// Tension per elongation.
+    pub axial_stiffness: f64,
+    /// Resistance per slip.
+    pub shear_stiffness: f64,
+}
+
+impl<Place> Anchor<Place> {
+    fn elongation(&self, moved: [f64; 2]) -> f64 {
+        self.axis[0] * moved[0] + self.axis[1] * moved[1]
+    }
+
+    /// Tension where its upper end has moved so far along and across the crack.
+    pub(crate) fn tension(&self, moved: [f64; 2]) -> f64 {
+        (self.prestress + self.axial_stiffness * self.elongation(moved)).max(0.0)
+    }
+
+    /// Force along and across the crack on the part above.
+    pub(crate) fn pull(&self, moved: [f64; 2]) -> [f64; 2] {
+        let tension = self.tension(moved);
+        [
+            -tension * self.axis[0] - self.shear_stiffness * moved[0],
+            -tension * self.axis[1],
+        ]
+    }
+
+    /// The force beyond that of the prestress, on the part below.
+    pub(crate) fn pull_beyond_prestress(&self, moved: [f64; 2]) -> [f64; 2] {
+        let more = self.tension(moved) - self.prestress;
+        let dowel = [self.shear_stiffness * moved[0], 0.0];
+        [0, 1].map(|d| more * self.axis[d] + dowel[d])
+    }
+
+    /// Energy stored beyond the work of the prestress.
+    pub(crate) fn energy(&self, moved: [f64; 2]) -> f64 {
+        let e = self.elongation(moved);
+        let dowel = 0.5 * self.shear_stiffness * moved[0] * moved[0];
+        if self.prestress + self.axial_stiffness * e > 0.0 {
+            return dowel + 0.5 * self.axial_stiffness * e * e;
+        }
+        // Slack: from where its tension vanished only the prestress is missing.
+        let slack = if self.axial_stiffness > 0.0 {
+            0.5 * self.prestress * self.prestress / self.axial_stiffness
+        } else {
+            0.0
+        };
+        dowel - slack - self.prestress * e
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ANCHOR: Anchor<()> = Anchor {
+        place: (),
+        axis: [0.6, 0.8],
+        prestress: 10.0,
+        axial_stiffness: 100.0,
+        shear_stiffness: 50.0,
+    };
+
+    #[test]
+    fn the_change_is_the_difference_from_the_still_pressure() {
+        for law in Law::ALL {
+            for gap in [-1e-3, 0.0, 1e-12, 3e-4, 1e-3, 0.2] {
+                let pressure = law.pressure(2.0, 7.0, gap, 1e-3);
+                let change = law.change(2.0, 7.0, gap, 1e-3);
+                assert!((pressure - 2.0 - change).abs() < 1e-14, "{law:?} {gap}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_slack_anchor_pulls_nothing() {
+        assert_eq!(ANCHOR.pull([0.0, 0.0]), [-6.0, -8.0]);
+        assert_eq!(ANCHOR.pull_beyond_prestress([0.0, 0.0]), [0.0, 0.0]);
+        assert_eq!(ANCHOR.tension([-0.5, 0.0]), 0.0);
+        assert_eq!(ANCHOR.pull([-0.5, 0.0]), [25.0, 0.0]);
+    }
+
+    #[test]
+    fn the_energy_of_an_anchor_is_the_work_done_on_it() {
+        // From taut to slack and on: the integral of the force beyond the prestress, which works at every moment.
+        let (n, end) = (100_000, [-0.3, -0.1]);
+        let work: f64 = (0..n)
+            .map(|k| {
+                let share = (f64::from(k) + 0.5) / f64::from(n);
+                let force = ANCHOR.pull_beyond_prestress(end.map(|x| x * share));
+                (force[0] * end[0] + force[1] * end[1]) / f64::from(n)
+            })
+            .sum();
+        assert!((ANCHOR.energy(end) - work).abs() < 1e-8, "{work}");
+    }
+}

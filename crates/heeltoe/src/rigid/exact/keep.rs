@@ -1,0 +1,128 @@
+//! What is kept of a piece: the new state, the books, extremes, the moments asked for.
+
+use super::super::block::{Vector, HEEL, SLIP, TOE};
+use super::super::event;
+use super::super::ledger::work;
+use super::super::mode::Mode;
+use super::super::result::Moment;
+use super::advance::Course;
+use super::walk::Exact;
+
+impl Exact<'_> {
+    /// Take over the end of a step.
+    pub(super) fn move_on(&mut self, course: &Course, step: f64, time: f64) {
+        let Course { force, motion, piece } = course;
+        self.record(Some(course), time + step, time);
+        let block = self.walk.block;
+        let kind = self.walk.mode.kind();
+        self.walk.summary.time_by_mode[kind] += step;
+        if self.walk.mode == Mode::Rest {
+            return;
+        }
+        let contacts = self.walk.mode.contacts();
+        let moves = [!self.walk.mode.sticks(), !contacts[0], !contacts[1]];
+        let before = self.walk.summary.position;
+        let speed = self.walk.summary.velocity;
+        let s = &mut self.walk.summary;
+        for i in 0..3 {
+            if !moves[i] {
+                continue;
+            }
+            let [a0, a1] = motion[i];
+            let load = &block.generalised_force[i];
+            let load = [load.at(piece.ground), load.slope(piece.rate)];
+            s.ledger.apply(work(load, speed[i], motion[i], step));
+            s.position[i] += step * (speed[i] + step * (a0 / 2.0 + step * a1 / 6.0));
+            s.velocity[i] += step * (a0 + step * a1 / 2.0);
+        }
+        if self.walk.mode.slip().is_some() {
+            let rub = [force[SLIP].at(piece.ground), force[SLIP].slope(piece.rate)];
+            s.ledger.rub(work(rub, speed[SLIP], motion[SLIP], step));
+        }
+        for gap in [HEEL, TOE] {
+            // The root that ended the piece is exact to rounding; so is the gap.
+            s.position[gap] = s.position[gap].max(0.0);
+        }
+        s.slip_by_mode[kind] += s.position[SLIP] - before[SLIP];
+        if contacts == [true, true] {
+            // Both gaps stay closed and the slip keeps its sign.
+            s.slip_range = [
+                s.slip_range[0].min(s.position[SLIP]),
+                s.slip_range[1].max(s.position[SLIP]),
+            ];
+        } else {
+            let end = s.position;
+            s.widen(&end, block.rotation(&end));
+            self.turning_points(&before, &speed, motion, step);
+        }
+    }
+
+    /// Extremes inside a piece, where a velocity changes sign.
+    fn turning_points(&mut self, w: &Vector, v: &Vector, a: &[[f64; 2]; 3], step: f64) {
+        let block = self.walk.block;
+        let turn = |value: &Vector| block.rotation(value);
+        let (turn_0, turn_1) = (
+            turn(&[a[0][0], a[1][0], a[2][0]]),
+            turn(&[a[0][1], a[1][1], a[2][1]]),
+        );
+        let rates = [
+            [v[SLIP], a[SLIP][0], a[SLIP][1]],
+            [v[HEEL], a[HEEL][0], a[HEEL][1]],
+            [v[TOE], a[TOE][0], a[TOE][1]],
+            [turn(v), turn_0, turn_1],
+        ];
+        let reach =
+            |c: usize| step * (v[c].abs() + step * (a[c][0].abs() / 2.0 + step * a[c][1].abs() / 6.0));
+        let [slide, rise_heel, rise_toe] = [SLIP, HEEL, TOE].map(reach);
+        let (now, spin, s) = (turn(w), (rise_heel + rise_toe) / block.width, &self.walk.summary);
+        // Where nothing on this piece can go beyond what has been, there is no need to look where it turns.
+        if w[SLIP] + slide <= s.slip_range[1]
+            && w[SLIP] - slide >= s.slip_range[0]
+            && w[HEEL] + rise_heel <= s.largest_gap[0]
+            && w[TOE] + rise_toe <= s.largest_gap[1]
+            && now + spin <= s.rotation_range[1]
+            && now - spin >= s.rotation_range[0]
+        {
+            return;
+        }
+        for rate in rates {
+            let moments = event::sign_changes(rate[0], rate[1], rate[2] / 2.0, step);
+            for t in moments.into_iter().flatten() {
+                let mut at = *w;
+                for i in 0..3 {
+                    at[i] += t * (v[i] + t * (a[i][0] / 2.0 + t * a[i][1] / 6.0));
+                }
+                self.walk.summary.widen(&at, turn(&at));
+            }
+        }
+    }
+
+    /// Keep the block at every wanted moment before `until`; `since` is when the present piece began, and without a
+    /// course it has come to its end.
+    pub(super) fn record(&mut self, course: Option<&Course>, until: f64, since: f64) {
+        while let Some(time) = self.walk.next_moment(until) {
+            let (w, v) = (&self.walk.summary.position, &self.walk.summary.velocity);
+            let t = course.map_or(0.0, |_| (time - since).max(0.0));
+            let last = self.walk.last_moment();
+            let mut moment = Moment {
+                mode: self.walk.mode,
+                position: *w,
+                velocity: *v,
+                acceleration: last.map_or([0.0; 3], |m| m.acceleration),
+                reaction: last.map_or([0.0; 3], |m| m.reaction),
+            };
+            for i in 0..3 {
+                let [a0, a1] = course.map_or([0.0; 2], |c| c.motion[i]);
+                moment.position[i] = w[i] + t * (v[i] + t * (a0 / 2.0 + t * a1 / 6.0));
+                moment.velocity[i] = v[i] + t * (a0 + t * a1 / 2.0);
+                if let Some(c) = course {
+                    moment.acceleration[i] = a0 + a1 * t;
+                    moment.reaction[i] = c.force[i].at(c.piece.ground) + c.force[i].slope(c.piece.rate) * t;
+                }
+            }
+            moment.position[HEEL] = moment.position[HEEL].max(0.0);
+            moment.position[TOE] = moment.position[TOE].max(0.0);
+            self.walk.keep(moment);
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! From piece to piece of the record, and from event to event within each.
+
+use std::borrow::Cow;
+
+use super::super::block::{Block, Vector, HEEL, SLIP, TOE};
+use super::super::choice::select;
+use super::super::mode::Mode;
+use super::super::reaction::Reactions;
+use super::super::result::{Outcome, Run};
+use super::super::shaking::{Piece, Shaking};
+use super::super::walk::{Carried, Options, Walk, Wanted};
+
+/// A block that is carried exactly; its state is in the summary.
+pub(super) struct Exact<'a> {
+    pub(super) walk: Walk<'a>,
+    pub(super) reactions: &'a Reactions,
+}
+
+/// Run one block through one motion.
+///
+/// `start` gives contact coordinates and their velocities at the first sample; without it the block stands still in
+/// contact and must be able to do so under its static loads.
+pub fn simulate(
+    block: &Block,
+    shaking: &Shaking,
+    start: Option<[Vector; 2]>,
+    options: Options,
+    wanted: Wanted,
+) -> Run {
+    let reactions = Reactions::new(block);
+    let from = start.unwrap_or([[0.0; 3]; 2]);
+    let mut exact = Exact {
+        walk: Walk::new(block, shaking.time[0], from, options, wanted),
+        reactions: &reactions,
+    };
+    exact.run(shaking, start.is_none());
+    let energy = block.kinetic_energy(&exact.walk.summary.velocity);
+    exact.walk.end(energy, Vec::new())
+}
+
+impl Exact<'_> {
+    fn run(&mut self, shaking: &Shaking, stands: bool) {
+        if stands && !self.rests(&Piece::still(1.0)) {
+            self.walk.summary.outcome = Outcome::Unstable;
+            return;
+        }
+        let n = shaking.time.len();
+        let mut k = 0;
+        // Whether the present mode was chosen by the state as it is now.
+        let mut settled = false;
+        while k + 1 < n {
+            if settled && self.walk.mode == Mode::Rest && !self.walk.observed() {
+                k = self.rest_until(shaking, k);
+                if k + 1 >= n {
+                    break;
+                }
+            }
+            let (t0, t1) = (shaking.time[k], shaking.time[k + 1]);
+            let (a0, a1) = (shaking.at(k), shaking.at(k + 1));
+            k += 1;
+            let length = t1 - t0;
+            if length <= 0.0 {
+                continue;
+            }
+            let inverse = 1.0 / length;
+            let whole = Piece {
+                ground: a0,
+                rate: [(a1[0] - a0[0]) * inverse, (a1[1] - a0[1]) * inverse],
+                left: length,
+            };
+            if !self.cross(&whole, t0) {
+                return;
+            }
+            settled = true;
+        }
+        self.walk.summary.end_time = shaking.time[n - 1];
+        self.walk.summary.mode = self.walk.mode;
+        self.record(None, f64::INFINITY, 0.0);
+    }
+
+    /// Go from event to event to the end of a piece that begins at `time`; false where the run cannot continue.
+    fn cross(&mut self, whole: &Piece<2>, time: f64) -> bool {
+        let mut local = 0.0;
+        let mut cause = None;
+        loop {
+            let piece = Piece {
+                ground: whole.after(local),
+                left: whole.left - local,
+                ..*whole
+            };
+            self.walk.summary.end_time = time + local;
+            if !self.choose(&piece, cause) {
+                return false;
+            }
+            let (step, ended) = self.advance(&piece, time + local);
+            // A step may be too short to move the clock.
+            let moved = local + step > local;
+            local += step;
+            if ended.is_none() {
+                return true;
+            }
+            cause = ended;
+            if !self.walk.count(moved) {
+                self.walk.summary.end_time = time + local;
+                return false;
+            }
+        }
+    }
+
+    fn rests(&self, piece: &Piece<2>) -> bool {
+        let closed = [true, true];
+        select(self.reactions, Mode::Rest, closed, 0.0, piece) == Some(Mode::Rest)
+    }
+
+    /// While the block rests nothing moves: go through the samples as fast as they can be read and return the last
+    /// one before rest may end.
+    fn rest_until(&mut self, shaking: &Shaking, from: usize) -> usize {
+        let rest = self.reactions.of(Mode::Rest);
+        let limits = [rest.force[HEEL], rest.force[TOE], rest.cone[0], rest.cone[1]];
+        let holds = |k: usize| {
+            let ground = shaking.at(k);
+            limits.iter().all(|limit| limit.at(ground) >= 0.0)
+        };
+        let mut k = from;
+        // The first sample is looked at too: right behind a jump it is new.
+        if holds(k) {
+            while k + 1 < shaking.time.len() && holds(k + 1) {
+                k += 1;
+            }
+        }
+        self.walk.summary.time_by_mode[Mode::Rest.kind()] += shaking.time[k] - shaking.time[from];
+        k
+    }
+}
+
+impl<'a> Carried<'a> for Exact<'a> {
+    type Piece = Piece<2>;
+
+    fn walk(&mut self) -> &mut Walk<'a> {
+        &mut self.walk
+    }
+
+    fn velocity(&self) -> Vector {
+        self.walk.summary.velocity
+    }
+
+    fn closed(&self) -> [bool; 2] {
+        let s = &self.walk.summary;
+        [HEEL, TOE].map(|gap| s.position[gap] == 0.0 && s.velocity[gap] == 0.0)
+    }
+
+    fn block(&self) -> Cow<'_, Block> {
+        Cow::Borrowed(self.walk.block)
+    }
+
+    fn pick(&mut self, piece: &Piece<2>) -> Option<Mode> {
+        let velocity = self.walk.summary.velocity[SLIP];
+        select(self.reactions, self.walk.mode, self.closed(), velocity, piece)
+    }
+
+    /// Both gaps may have closed: corners nearer than rounding strike together.
+    fn land(&mut self, _gap: usize) -> [bool; 2] {
+        let near = self.walk.near();
+        let position = &mut self.walk.summary.position;
+        [HEEL, TOE].map(|gap| {
+            let touches = position[gap] <= near;
+            if touches {
+                position[gap] = 0.0;
+            }
+            touches
+        })
+    }
+
+    fn set_velocity(&mut self, velocity: &Vector) {
+        self.walk.summary.velocity = *velocity;
+    }
+
+    fn begin(&mut self) {}
+}

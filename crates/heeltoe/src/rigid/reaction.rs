@@ -1,0 +1,178 @@
+//! Reactions and accelerations in each mode of motion.
+//!
+//! What the mode holds does not accelerate, what slips rubs:
+//!
+//! `0 = b + A f` in the rows that are held, `T = -mu_k S (N_h + N_t)` where it slips, and then `w'' = b + A f`.
+//!
+//! Both are linear in the loads, hence affine in the ground acceleration: they are worked out once per block, and a piece
+//! of the record costs a handful of multiplications.
+
+use super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
+use super::mode::Mode;
+
+/// A contact that friction leaves with less than this share of its resistance to being pushed in is Painlevé's.
+const SINGULAR: f64 = 1e-9;
+
+/// Reactions and accelerations of one mode, affine in the ground acceleration.
+///
+/// Each is a sum of terms, one per load, and where it vanishes what remains of it is the rounding of those terms. Close
+/// to Painlevé's paradox, where friction all but pulls the contact in, the terms are larger than the loads by any
+/// factor, and so is their rounding. Hence each comes with the size of its terms under the static loads and a ground
+/// acceleration like theirs, taken as no less than that of the loads.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reaction {
+    /// False where the mode's own equations are singular or push the contact apart with a positive force (Painlevé).
+    pub regular: bool,
+    /// Friction (downstream), normal force at the heel, at the toe.
+    pub force: [Affine; 3],
+    pub force_size: [f64; 3],
+    /// Accelerations of slip, heel gap, toe gap; exactly zero where the mode holds them.
+    pub acceleration: [Affine; 3],
+    pub acceleration_size: [f64; 3],
+    /// What is left of the friction cone downstream and upstream, `mu_s (N_h + N_t) -/+ T`.
+    pub cone: [Affine; 2],
+    pub cone_size: f64,
+}
+
+/// Reactions of a mode to the free acceleration `b`, or `None` where the equations are singular or Painlevé's.
+pub(super) fn reaction_to(a: &[Vector; 3], friction_kinetic: f64, mode: Mode, b: &Vector) -> Option<Vector> {
+    let mut force = [0.0; 3];
+    match mode {
+        Mode::Drift => {}
+        Mode::Rest => force = all_held(a, b),
+        Mode::Slide(slip) => {
+            let t = -friction_kinetic * slip.sign();
+            let n = |r: usize, c: usize| a[r][c] + t * a[r][SLIP];
+            let m = [[n(HEEL, HEEL), n(HEEL, TOE)], [n(TOE, HEEL), n(TOE, TOE)]];
+            let smooth = [[a[HEEL][HEEL], a[HEEL][TOE]], [a[TOE][HEEL], a[TOE][TOE]]];
+            if determinant(m) <= SINGULAR * determinant(smooth) {
+                return None;
+            }
+            let normal = two_held(m, [b[HEEL], b[TOE]]);
+            force = [t * (normal[0] + normal[1]), normal[0], normal[1]];
+        }
+        Mode::Rock(corner) => {
+            let i = corner.gap();
+            let m = [[a[SLIP][SLIP], a[SLIP][i]], [a[i][SLIP], a[i][i]]];
+            [force[SLIP], force[i]] = two_held(m, [b[SLIP], b[i]]);
+        }
+        Mode::SlideRock(corner, slip) => {
+            let i = corner.gap();
+            let t = -friction_kinetic * slip.sign();
+            let stiffness = a[i][i] + t * a[i][SLIP];
+            if stiffness <= SINGULAR * a[i][i] {
+                return None;
+            }
+            let n = -b[i] / stiffness;
+            force[SLIP] = t * n;
+            force[i] = n;
+        }
+    }
+    Some(force)
+}
+
+fn determinant(m: [[f64; 2]; 2]) -> f64 {
+    m[0][0] * m[1][1] - m[0][1] * m[1][0]
+}
+
+/// Solve `m f = -b`.
+fn two_held(m: [[f64; 2]; 2], b: [f64; 2]) -> [f64; 2] {
+    let det = determinant(m);
+    [
+        (-b[0] * m[1][1] + b[1] * m[0][1]) / det,
+        (-b[1] * m[0][0] + b[0] * m[1][0]) / det,
+    ]
+}
+
+/// Solve `A f = -b` by Cramer's rule; A is positive definite.
+fn all_held(a: &[Vector; 3], b: &Vector) -> Vector {
+    let cofactor = |r: usize, c: usize| {
+        let (r1, r2) = ((r + 1) % 3, (r + 2) % 3);
+        let (c1, c2) = ((c + 1) % 3, (c + 2) % 3);
+        a[r1][c1] * a[r2][c2] - a[r1][c2] * a[r2][c1]
+    };
+    let det: f64 = (0..3).map(|c| a[0][c] * cofactor(0, c)).sum();
+    [0, 1, 2].map(|i| -(0..3).map(|column| cofactor(column, i) * b[column]).sum::<f64>() / det)
+}
+
+impl Reaction {
+    fn new(block: &Block, mode: Mode) -> Self {
+        let free = &block.free_acceleration;
+        let (forces, accelerations) = (block.force_scale, block.acceleration_scale());
+        let size = |q: &Affine| q.constant.abs() + accelerations * (q.horizontal.abs() + q.vertical.abs());
+        let mut reaction = Reaction {
+            regular: true,
+            force: [Affine::default(); 3],
+            force_size: [0.0; 3],
+            acceleration: *free,
+            acceleration_size: free.map(|q| size(&q)),
+            cone: [Affine::default(); 2],
+            cone_size: 0.0,
+        };
+        for (column, load) in free.iter().enumerate() {
+            let mut one = [0.0; 3];
+            one[column] = 1.0;
+            let Some(unit) = reaction_to(&block.compliance, block.friction_kinetic, mode, &one) else {
+                reaction.regular = false;
+                return reaction;
+            };
+            for i in 0..3 {
+                let from = |k: f64, to: &mut Affine, terms: &mut f64| {
+                    to.constant += k * load.constant;
+                    to.horizontal += k * load.horizontal;
+                    to.vertical += k * load.vertical;
+                    *terms += k.abs() * size(load);
+                };
+                from(unit[i], &mut reaction.force[i], &mut reaction.force_size[i]);
+                let coupling: f64 = (0..3).map(|k| block.compliance[i][k] * unit[k]).sum();
+                from(
+                    coupling,
+                    &mut reaction.acceleration[i],
+                    &mut reaction.acceleration_size[i],
+                );
+            }
+        }
+        reaction.force_size = reaction.force_size.map(|terms| terms.max(forces));
+        reaction.acceleration_size = reaction.acceleration_size.map(|terms| terms.max(accelerations));
+        reaction.cone = [1.0, -1.0].map(|direction| cone(block, &reaction.force, direction));
+        let [friction, heel, toe] = reaction.force_size;
+        reaction.cone_size = block.friction_static * (heel + toe) + friction;
+        let held = [mode.sticks(), mode.contacts()[0], mode.contacts()[1]];
+        for (acceleration, held) in reaction.acceleration.iter_mut().zip(held) {
+            if held {
+                *acceleration = Affine::default();
+            }
+        }
+        reaction
+    }
+}
+
+/// The reactions of all modes of one block.
+pub(super) struct Reactions([Reaction; Mode::COUNT]);
+
+impl Reactions {
+    pub(super) fn new(block: &Block) -> Self {
+        let mut table = [Reaction::new(block, Mode::Drift); Mode::COUNT];
+        for mode in Mode::ALL {
+            table[mode.index()] = Reaction::new(block, mode);
+        }
+        Reactions(table)
+    }
+
+    #[inline]
+    pub(super) fn of(&self, mode: Mode) -> &Reaction {
+        &self.0[mode.index()]
+    }
+}
+
+/// `mu_s (N_h + N_t) - direction * T`: what is left of the friction cone.
+fn cone(block: &Block, force: &[Affine; 3], direction: f64) -> Affine {
+    let left = |f: fn(&Affine) -> f64| {
+        block.friction_static * (f(&force[HEEL]) + f(&force[TOE])) - direction * f(&force[SLIP])
+    };
+    Affine {
+        constant: left(|q| q.constant),
+        horizontal: left(|q| q.horizontal),
+        vertical: left(|q| q.vertical),
+    }
+}

@@ -1,0 +1,88 @@
+//! How the state changes, `q'' = M^-1 (Q + G^T (T, N_h, N_t))` with what the mode holds held, and what limits the mode.
+
+use super::super::block::{Vector, HEEL, SLIP};
+use super::super::mode::Mode;
+use super::super::reaction::reaction_to;
+use super::super::walk::Cause;
+use super::instant::Instant;
+use super::shaking::{Ground, Piece};
+use super::step::{step, State};
+use super::walk::Varying;
+
+impl Varying<'_> {
+    /// Reactions in the present mode; where friction makes them infinite, none, and the choice of the next mode says so.
+    pub(super) fn reactions(&self, instant: &Instant) -> Vector {
+        let friction = self.walk.block.friction_kinetic;
+        reaction_to(
+            &instant.compliance,
+            friction,
+            self.walk.mode,
+            &instant.free_acceleration,
+        )
+        .unwrap_or([0.0; 3])
+    }
+
+    pub(super) fn rates(&self, state: &State, ground: &Ground) -> State {
+        let instant = self.turning.at(self.corner, state, ground);
+        let reactions = self.reactions(&instant);
+        let mut acceleration = instant.acceleration(&reactions);
+        let contacts = self.walk.mode.contacts();
+        if self.walk.mode.sticks() {
+            acceleration[0] = 0.0;
+        }
+        if contacts[self.corner.gap() - HEEL] {
+            acceleration[1] = 0.0;
+        }
+        if contacts == [true, true] {
+            acceleration[2] = 0.0;
+        }
+        let [a, b, c] = acceleration;
+        let rubbing = reactions[SLIP] * state[3];
+        [
+            state[3],
+            state[4],
+            state[5],
+            a,
+            b,
+            c,
+            instant.power(state),
+            rubbing,
+        ]
+    }
+
+    /// The state after `since` from `start`, by one step.
+    pub(super) fn moved(&self, start: &State, rate: &State, piece: &Piece, since: f64) -> State {
+        if since == 0.0 || self.walk.mode == Mode::Rest {
+            return *start;
+        }
+        let mut rates = |t: f64, y: &State| self.rates(y, &piece.after(t));
+        step(start, rate, since, &self.scale, &mut rates).end
+    }
+
+    /// Normal forces and what is left of the friction cone, both ways, at a state; sizes to judge them by.
+    pub(super) fn limits(&self, state: &State, ground: &Ground) -> [(f64, f64); 4] {
+        let instant = self.turning.at(self.corner, state, ground);
+        self.limits_under(&self.reactions(&instant))
+    }
+
+    pub(super) fn limits_under(&self, reactions: &Vector) -> [(f64, f64); 4] {
+        let [friction, heel, toe] = *reactions;
+        let scale = self.walk.block.force_scale;
+        let mu = self.walk.block.friction_static;
+        let size = |force: f64| scale.max(force.abs());
+        let cone = mu * (size(heel) + size(toe)) + size(friction);
+        [
+            (heel, size(heel)),
+            (toe, size(toe)),
+            (mu * (heel + toe) - friction, cone),
+            (mu * (heel + toe) + friction, cone),
+        ]
+    }
+
+    /// Which of the limits of [`Self::limits`] end the present mode.
+    pub(super) fn watched(&self) -> [Option<Cause>; 4] {
+        let [heel, toe] = self.walk.mode.contacts().map(|on| on.then_some(Cause::Normal));
+        let cone = self.walk.mode.sticks().then_some(Cause::Cone);
+        [heel, toe, cone, cone]
+    }
+}

@@ -1,0 +1,34 @@
+//! The ground's motion: `(a_h, a_v, alpha)(t)`, linear between the samples; the ground may turn, too.
+
+use super::super::shaking::Shaking;
+
+/// Ground acceleration: horizontal, upward, rotation (counter-clockwise about the middle of the crack).
+pub(super) type Ground = [f64; 3];
+
+/// Ground acceleration from here to the end of the piece.
+pub(super) type Piece = super::super::shaking::Piece<3>;
+
+/// Accelerations of a ground that turns.
+#[derive(Clone, Copy, Debug)]
+pub struct TurningShaking<'a> {
+    pub(super) level: Shaking<'a>,
+    turning: Option<&'a [f64]>,
+}
+
+impl<'a> TurningShaking<'a> {
+    /// Add a rotational acceleration about the middle of the crack [rad/s2], if there is one, to the others.
+    ///
+    /// # Errors
+    /// Not as many accelerations as moments.
+    pub fn new(level: Shaking<'a>, turning: Option<&'a [f64]>) -> Result<Self, &'static str> {
+        if turning.is_some_and(|a| a.len() != level.time.len()) {
+            return Err("a motion needs as many rotational accelerations as times");
+        }
+        Ok(TurningShaking { level, turning })
+    }
+
+    pub(super) fn at(&self, k: usize) -> Ground {
+        let [horizontal, vertical] = self.level.at(k);
+        [horizontal, vertical, self.turning.map_or(0.0, |a| a[k])]
+    }
+}
