@@ -12,9 +12,10 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np
 from measure import heading, repeat, require, seconds, table, timed
 
-from heeltoe import Case, GroundMotion, InputError, _kernel, read_case, read_record
+from heeltoe import Case, GroundMotion, InputError, kernel, read_case, read_record
 from heeltoe.models.flexible import reduced as flexible_parts
-from heeltoe.models.flexible.shaken import Shaken
+from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.records.catalog import find
 
 DURATION = 20.0
@@ -73,26 +74,25 @@ def machine_rate() -> float:
 
 def operations(dam: flexible_parts.FlexibleDam) -> float:
     """Count the operations of a step that go over the modes: two products with the shapes, and 34 for each mode."""
-    return float(sum(4 * part.shapes.size + 34 * part.omega_squared.size for part in dam.parts))
+    return float(sum(4 * part.shapes.size + 34 * part.omega_squared.size for part in dam.reduced))
 
 
 def row(problem: Problem, peak: float) -> list[str]:
     """Measure one problem."""
     case = read_case(EXAMPLES / problem.file, problem.changes)
     shaking = motion(case)
-    setup = repeat(lambda: flexible_parts.build_flexible_dam(case), 5, prepare=flexible_parts._BUILT.clear)
+    setup = repeat(lambda: flexible_parts._build(case), 5)
     dam = flexible_parts.build_flexible_dam(case)
-    shaken = Shaken(case, dam, shaking, None, DURATION)
-    result, _ = shaken.run(problem.step)
-    raw = dict(zip(_kernel.CRACK_SUMMARY_FIELDS, result, strict=True))
+    shaken = ShakenDam(case, dam, Earthquake(shaking, None, DURATION).shaking)
+    raw = shaken.run(problem.step).summary
     require(raw["steps"] == round(DURATION / problem.step) and raw["slip"] > 1e-3, "the dam did not slide")
     timing = repeat(lambda: shaken.run(problem.step), 5)
     per_step = timing.median / raw["steps"]
     rate = operations(dam) / per_step
     return [
         problem.name,
-        " + ".join(str(part.omega_squared.size) for part in dam.parts),
-        str(dam.dam.upper.mesh.crack.size + (2 if dam.dam.lower else 0)),
+        " + ".join(str(part.omega_squared.size) for part in dam.reduced),
+        str(dam.upper.mesh.crack.size + (2 if dam.lower else 0)),
         seconds(problem.step),
         timed(setup),
         timed(timing),
@@ -106,7 +106,7 @@ def row(problem: Problem, peak: float) -> list[str]:
 
 def report() -> str:
     """Measure and return Markdown."""
-    require(_kernel.PROFILE == "release", "the kernel is a debug build")
+    require(kernel.PROFILE == "release", "the kernel is a debug build")
     peak = machine_rate()
     text = (
         "Typical dam, 100 m, on one core. The rate counts the arithmetic on the modes alone, not that of the contact; "

@@ -25,8 +25,10 @@ from push_and_sine import (
     rows,
 )
 
-from heeltoe import GroundMotion, _kernel, build_flexible_dam, read_case
-from heeltoe.models.flexible.shaken import Shaken
+from heeltoe import GroundMotion, build_flexible_dam, read_case
+from heeltoe.kernel import PROFILE
+from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.motion.earthquake import Earthquake
 
 COLUMNS = ["program", "settings", "step", "largest error", "relative", "time per run", "times ours at no larger error"]
 OUR_STEPS = (2e-2, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4)
@@ -60,11 +62,10 @@ def ours(across: int) -> list[Attempt]:
     # The push is a part of the ground's motion to the block: both are forces on all of its mass.
     time = np.linspace(0.0, DURATION, 50_001)
     ground = GroundMotion.from_points(time, AMPLITUDE * np.sin(2.0 * np.pi * FREQUENCY * time) - PUSH)
-    shaken = Shaken(case, build_flexible_dam(case), ground, None, DURATION)
+    shaken = ShakenDam(case, build_flexible_dam(case), Earthquake(ground, None, DURATION).shaking)
     attempts = []
     for step in OUR_STEPS:
-        frames = shaken.run(step, INTERVAL)[1][0]
-        slip = frames[1:, _kernel.FRAME_FIELDS.index("slip")]
+        slip = shaken.run(step, INTERVAL).frames["slip"][1:]
         timing = repeat(lambda step=step: shaken.run(step), 3)
         attempts.append(Attempt("heeltoe", f"{across} across, 8-node, exact contact", step, error(slip), timing))
     return attempts
@@ -110,7 +111,7 @@ def peers() -> tuple[list[Attempt], list[str]]:
 
 def report() -> str:
     """Measure and return Markdown."""
-    require(_kernel.PROFILE == "release", "the kernel is a debug build")
+    require(PROFILE == "release", "the kernel is a debug build")
     own = ours(ALONG) + ours(ALONG // 2)
     found, said = peers()
     text = (

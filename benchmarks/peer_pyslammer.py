@@ -16,8 +16,8 @@ from exact import slip_one_way
 from measure import repeat, require, seconds, table, timed
 from problems import DURATION, STEP, Floats, G, rectangle, taft
 
-from heeltoe import GroundMotion, _kernel, rigid_many
-from heeltoe.models.rigid.walk import SETTLE
+from heeltoe import GroundMotion, rigid_many
+from heeltoe.kernel import BlockRun, Shaking, run_block
 
 PEAK = 0.4 * G
 YIELD = (0.05, 0.1, 0.2)
@@ -37,15 +37,15 @@ def _ours(motion: GroundMotion, yield_g: float, exact: Floats) -> tuple[list[lis
     """Rows of the table, and the time of one call and of one run in an ensemble [s]."""
     block, time, ground = _block(yield_g), motion.time, -motion.acceleration
 
-    def solve() -> tuple[Floats, ...]:
-        return _kernel.run_rigid(block, time, ground, None, time, None, SETTLE, 1_000_000, False)
+    def solve() -> BlockRun:
+        return run_block(block, Shaking(time, ground), time)
 
     blocks = np.tile(block, (COUNT, 1))
     reverse = [motion.reversed()]
-    summary, history, _, _ = solve()
-    end = dict(zip(_kernel.SUMMARY_FIELDS, summary, strict=True))
+    run = solve()
+    end = run.summary
     require(end["slip_stops"] > 0 and end["slip_min"] == 0.0 and end["slip_sliding"] == end["slip"], "no one-way slip")
-    wrong = float(np.abs(history[:, 0] - exact).max())
+    wrong = float(np.abs(run.histories["slip"] - exact).max())
     alone = repeat(solve)
     many = repeat(lambda: rigid_many(blocks, reverse, threads=1))
     start = [f"{yield_g:g}", f"{1e3 * exact[-1]:.2f} mm", "heeltoe", f"{STEP:g} s", f"{1e3 * wrong:.1g} mm"]

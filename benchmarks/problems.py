@@ -9,7 +9,8 @@ import numpy as np
 from measure import require
 from numpy.typing import NDArray
 
-from heeltoe import Case, GroundMotion, InputError, _kernel, build_block, read_case, read_record, rigid_many
+from heeltoe import Case, GroundMotion, InputError, build_block, read_case, read_record, rigid_many
+from heeltoe.kernel import BLOCK, block
 from heeltoe.motion.records.catalog import find
 
 Floats = NDArray[np.float64]
@@ -20,7 +21,7 @@ G = 9.80665
 #: Step and length of the records that are run [s].
 STEP, DURATION = 0.01, 30.0
 
-_AT = {name: k for k, name in enumerate(_kernel.BLOCK_FIELDS)}
+_AT = {name: k for k, name in enumerate(BLOCK)}
 
 
 def taft() -> GroundMotion:
@@ -129,4 +130,4 @@ def rectangle(
         "friction_static": friction,
         "friction_kinetic": friction,
     }
-    return np.array([values.get(name, 0.0) for name in _kernel.BLOCK_FIELDS])
+    return block(values)

@@ -14,8 +14,7 @@ from exact import slip_push_and_sine
 from measure import NothingMeasured, Timing, repeat, require, seconds, timed
 from problems import Floats, rectangle
 
-from heeltoe import _kernel
-from heeltoe.models.rigid.walk import SETTLE
+from heeltoe.kernel import BlockRun, Shaking, run_block
 
 GRAVITY, WIDTH, HEIGHT, DEPTH, MASS, FRICTION = 9.81, 4.0, 1.0, 1.0, 1000.0, 0.3
 PUSH, AMPLITUDE, FREQUENCY, DURATION = 0.15 * GRAVITY, 0.6 * GRAVITY, 2.0, 5.0
@@ -65,14 +64,14 @@ def ours(step: float) -> Attempt:
     time = np.arange(round(DURATION / step) + 1) * step
     ground = AMPLITUDE * np.sin(2.0 * np.pi * FREQUENCY * time)
 
-    def solve() -> tuple[Floats, ...]:
-        return _kernel.run_rigid(block, time, ground, None, MOMENTS, None, SETTLE, 1_000_000, False)
+    def solve() -> BlockRun:
+        return run_block(block, Shaking(time, ground), MOMENTS)
 
-    summary, history, _, _ = solve()
-    end = dict(zip(_kernel.SUMMARY_FIELDS, summary, strict=True))
+    run = solve()
+    end = run.summary
     if end["slip_stops"] == 0 or end["slip_sliding"] != end["slip"]:
         raise NothingMeasured("the block did not slide and stop")
-    return Attempt("heeltoe", "sine sampled", step, error(history[:, 0]), repeat(solve))
+    return Attempt("heeltoe", "sine sampled", step, error(run.histories["slip"]), repeat(solve))
 
 
 def rows(our_attempts: list[Attempt], attempts: list[Attempt]) -> list[list[str]]:

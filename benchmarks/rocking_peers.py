@@ -17,11 +17,12 @@ from measure import heading, repeat, require, table, timed
 from numpy.typing import NDArray
 from scipy.integrate import quad, solve_ivp
 
-from heeltoe import Case, _kernel, read_case, read_record
-from heeltoe.case.shaking import resolve
+from heeltoe import Case, read_case, read_record
+from heeltoe.kernel import PROFILE, BlockRun, Shaking, Varying, run_block
 from heeltoe.mechanics.block import Block, build_block
-from heeltoe.models.rigid.varying import Varying, varying
-from heeltoe.models.rigid.walk import SETTLE, GroundSeries, run_block
+from heeltoe.models.rigid.varying import varying
+from heeltoe.models.rigid.walk import walk
+from heeltoe.models.run import earthquake
 from heeltoe.motion.records.catalog import find
 
 Floats = NDArray[np.float64]
@@ -144,19 +145,16 @@ def _struck(found: Any) -> tuple[float, Floats]:
 def ours_impacts(block: Block, what: Varying) -> tuple[float, ...]:
     """Return the moments of impact by the kernel."""
     lifted = [[0.0, 0.0, WIDTH * math.sin(0.5 * SLENDERNESS)], [0.0, 0.0, 0.0]]
-    events = _kernel.run_rigid_varying(
-        block.parameters(), what.numbers, what.rotation, what.rule, what.pressure, what.anchors,
-        np.array([0.0, FREE_END]), np.zeros(2), None, None, np.empty(0), lifted, SETTLE, 1_000_000, False,
-    )[3]  # fmt: skip
-    strikes = [_kernel.EVENT_KINDS.index(kind) for kind in ("heel strikes", "toe strikes")]
-    return tuple(float(row[0]) for row in events if int(row[1]) in strikes)
+    shaking = Shaking(np.array([0.0, FREE_END]), np.zeros(2))
+    run = run_block(block.parameters(), shaking, np.empty(0), start=lifted, varying=what)
+    return tuple(run.times_of("heel strikes", "toe strikes"))
 
 
 def ours_peak(case: Case, block: Block, time: Floats, ground: Floats) -> tuple[float, ...]:
     """Return the largest rotation [rad] by the kernel."""
-    row = run_block(case, block, GroundSeries(time, ground, None, None), np.empty(0))[0]
-    found = dict(zip(_kernel.SUMMARY_FIELDS, row, strict=True))
-    require(_kernel.OUTCOMES[int(found["outcome"])] == "ok", "the block did not stand")
+    run = walk(case, block, Shaking(time, ground))
+    found = run.summary
+    require(run.outcome == "ok", "the block did not stand")
     require(found["impacts"] > 10, "the block hardly rocked")
     return (math.asin(max(found["largest_gap_heel"], found["largest_gap_toe"]) / WIDTH),)
 
@@ -184,15 +182,12 @@ def walks() -> list[list[str]]:
         times, slips = [], []
         for rotation in ("small", "finite"):
             case = read_case(EXAMPLES / f"{name}.toml", [f"analysis.rotation={rotation}"])
-            assert case.motion is not None
-            motion, vertical = resolve(case.motion, case.gravity, case.base_directory)
-            block = build_block(case)
-            shaking = GroundSeries.of(motion, vertical, None, case.motion.duration or motion.duration)
+            block, shaking = build_block(case), earthquake(case).shaking
 
-            def run(case: Case = case, block: Block = block, shaking: GroundSeries = shaking) -> Floats:
-                return run_block(case, block, shaking, np.empty(0))[0]
+            def run(case: Case = case, block: Block = block, shaking: Shaking = shaking) -> BlockRun:
+                return walk(case, block, shaking)
 
-            slips.append(float(run()[_kernel.SUMMARY_FIELDS.index("slip")]))
+            slips.append(run().summary["slip"])
             times.append(repeat(run))
         require(slips[0] > 1e-3, "the dam did not slide")
         ratio = f"{times[1].median / times[0].median:.0f}"
@@ -202,7 +197,7 @@ def walks() -> list[list[str]]:
 
 def report() -> str:
     """Measure and return Markdown."""
-    require(_kernel.PROFILE == "release", "the kernel is a debug build")
+    require(PROFILE == "release", "the kernel is a debug build")
     case = block_case()
     block = build_block(case)
     what = varying(case, block)

@@ -25,17 +25,18 @@ _HOME = {
     "build_flexible_dam": "models.flexible.reduced",
     "compare": "study.comparison",
     "dam_periods": "models.flexible.periods",
-    "decoupled": "models.decoupled.model",
+    "decoupled": "models.run",
     "en_1998": "motion.targets",
-    "flexible": "models.flexible.model",
+    "flexible": "models.run",
     "match": "motion.matching",
     "overturning_map": "study.overturning",
     "read_case": "case.read",
     "read_channels": "motion.records",
     "read_record": "motion.records",
     "response_spectrum": "motion.spectrum",
-    "rigid": "models.rigid.model",
+    "rigid": "models.run",
     "rigid_many": "models.rigid.many",
+    "run": "models.run",
     "statics": "models.statics.model",
     "stochastic_motion": "motion.stochastic",
     "synthetic": "motion.scenario",
@@ -53,14 +54,15 @@ if TYPE_CHECKING:
     from heeltoe.errors import InputError as InputError
     from heeltoe.mechanics.block import Block as Block
     from heeltoe.mechanics.block import build_block as build_block
-    from heeltoe.models.decoupled.model import decoupled as decoupled
-    from heeltoe.models.flexible.model import flexible as flexible
     from heeltoe.models.flexible.periods import DamPeriods as DamPeriods
     from heeltoe.models.flexible.periods import dam_periods as dam_periods
     from heeltoe.models.flexible.reduced import FlexibleDam as FlexibleDam
     from heeltoe.models.flexible.reduced import build_flexible_dam as build_flexible_dam
     from heeltoe.models.rigid.many import rigid_many as rigid_many
-    from heeltoe.models.rigid.model import rigid as rigid
+    from heeltoe.models.run import decoupled as decoupled
+    from heeltoe.models.run import flexible as flexible
+    from heeltoe.models.run import rigid as rigid
+    from heeltoe.models.run import run as run
     from heeltoe.models.statics.model import Statics as Statics
     from heeltoe.models.statics.model import statics as statics
     from heeltoe.motion.ground_motion import GroundMotion as GroundMotion

@@ -51,8 +51,7 @@ def test_critical_accelerations_are_where_the_kernel_starts_to_move():
     """Closed forms against the kernel: just below nothing moves, just above the motion named begins."""
     import numpy as np
 
-    from heeltoe import _kernel
-    from heeltoe.models.rigid.walk import SETTLE
+    from heeltoe.kernel import Shaking, run_block
 
     for friction, kind in ((0.5, "sliding"), (5.0, "rocking")):
         block = build_block(read_case({**TYPICAL, "crack": {"friction": friction}, "reservoir": {"depth": "60 m"}}))
@@ -61,22 +60,12 @@ def test_critical_accelerations_are_where_the_kernel_starts_to_move():
             limit = getattr(critical, f"{kind}_{way}")
             for factor, moves in ((0.9999, False), (1.0001, True)):
                 ground = np.full(2, sign * factor * limit)
-                row, _, _, events = _kernel.run_rigid(
-                    block.parameters(),
-                    np.array([0.0, 0.1]),
-                    ground,
-                    None,
-                    np.empty(0),
-                    None,
-                    SETTLE,
-                    1000,
-                    False,
-                )
-                slip = row[_kernel.SUMMARY_FIELDS.index("slip")]
-                rotation = row[_kernel.SUMMARY_FIELDS.index("rotation_min" if way == "downstream" else "rotation_max")]
+                run = run_block(block.parameters(), Shaking(np.array([0.0, 0.1]), ground), np.empty(0))
+                slip = run.summary["slip"]
+                rotation = run.summary["rotation_min" if way == "downstream" else "rotation_max"]
                 moved = slip if kind == "sliding" else rotation
                 assert (moved != 0.0) == moves, (kind, way, factor)
-                assert (len(events) > 0) == moves
+                assert (run.events["time"].size > 0) == moves
                 if moves and kind == "sliding":
                     assert np.sign(slip) == -sign
 

@@ -11,7 +11,7 @@ import pytest
 
 import heeltoe
 from heeltoe import GroundMotion, read_case, rigid, rigid_many, verdict
-from heeltoe.motion.moments import ground
+from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.response import Of
 from shared.dams import ALL_EXAMPLES, BASE, BLOCK
 from shared.dams import KOYNA_TOP as KOYNA
@@ -126,19 +126,19 @@ def test_still_moving_in_the_end_is_a_warning():
 
 def test_after_the_record_the_ground_stands_still():
     motion = GroundMotion.from_points([0.0, 1.0], [3.0, 3.0])
-    time, horizontal, vertical = ground(motion, None, 5.0)
-    assert time.tolist() == [0.0, 1.0, 1.0, 5.0]
-    assert horizontal.tolist() == [3.0, 3.0, 0.0, 0.0]
-    assert vertical is None
+    shaking = Earthquake(motion, None, 5.0).shaking
+    assert shaking.time.tolist() == [0.0, 1.0, 1.0, 5.0]
+    assert shaking.horizontal.tolist() == [3.0, 3.0, 0.0, 0.0]
+    assert shaking.up is None
 
 
 def test_two_directions_share_moments_and_keep_jumps():
     across = GroundMotion.from_points([0.0, 1.0, 1.0, 2.0], [0.0, 1.0, -1.0, 0.0])
     up = GroundMotion.from_points([0.0, 0.5, 3.0], [0.0, 5.0, 0.0])
-    time, horizontal, vertical = ground(across, up, 4.0)
-    assert time.tolist() == [0.0, 0.5, 1.0, 1.0, 2.0, 3.0, 4.0]
-    assert horizontal == pytest.approx([0.0, 0.5, 1.0, -1.0, 0.0, 0.0, 0.0])
-    assert vertical == pytest.approx([0.0, 5.0, 4.0, 4.0, 2.0, 0.0, 0.0])
+    shaking = Earthquake(across, up, 4.0).shaking
+    assert shaking.time.tolist() == [0.0, 0.5, 1.0, 1.0, 2.0, 3.0, 4.0]
+    assert shaking.horizontal == pytest.approx([0.0, 0.5, 1.0, -1.0, 0.0, 0.0, 0.0])
+    assert shaking.up == pytest.approx([0.0, 5.0, 4.0, 4.0, 2.0, 0.0, 0.0])
 
 
 def test_vertical_motion_changes_the_result():

@@ -6,30 +6,27 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from heeltoe import _kernel
-
-Floats = NDArray[np.float64]
+from heeltoe.arrays import Floats
+from heeltoe.kernel import BLOCK, EVENT_KINDS, MODES, SETTLE, Limits, Shaking, run_block
 
 GRAVITY = 9.81
-SETTLE = 1e-7
 EVENT_LIMIT = 1_000_000
 WATER = 1000.0
 
 
 def named(**values: Any) -> dict[str, Any]:
     """Return all fields of a block, those not given zero; each value a number or an (n,) array."""
-    unknown = set(values) - set(_kernel.BLOCK_FIELDS)
+    unknown = set(values) - set(BLOCK)
     if unknown:
         raise KeyError(f"no such block field: {unknown}")
     like = np.asarray(values["height"], dtype=float)
-    return {name: np.zeros_like(like) + values.get(name, 0.0) for name in _kernel.BLOCK_FIELDS}
+    return {name: np.zeros_like(like) + values.get(name, 0.0) for name in BLOCK}
 
 
 def rows(block: dict[str, Any]) -> Floats:
     """Return the kernel's (21,) or (n, 21) array of a named block."""
-    return np.ascontiguousarray(np.stack([block[name] for name in _kernel.BLOCK_FIELDS], axis=-1), dtype=float)
+    return np.ascontiguousarray(np.stack([block[name] for name in BLOCK], axis=-1), dtype=float)
 
 
 def ordinary(
@@ -155,24 +152,13 @@ def run(
     def array(values: Any) -> Floats:
         return np.ascontiguousarray(values, dtype=float)
 
-    row, history, modes, events = _kernel.run_rigid(
-        block,
-        array(time),
-        array(horizontal),
-        None if vertical is None else array(vertical),
-        array(at),
-        start,
-        settle,
-        event_limit,
-        jam,
-    )
-    summary = dict(zip(_kernel.SUMMARY_FIELDS, row.tolist(), strict=True))
-    columns = dict(zip(_kernel.EVENT_FIELDS, events.T, strict=True))
+    shaking = Shaking(array(time), array(horizontal), None if vertical is None else array(vertical))
+    found = run_block(block, shaking, array(at), Limits(event_limit, jam, settle), start=start)
     return Run(
-        summary=summary,
-        outcome=_kernel.OUTCOMES[int(summary["outcome"])],
-        histories=dict(zip(_kernel.HISTORY_FIELDS, history.T, strict=True)),
-        modes=[_kernel.MODES[m] for m in modes],
-        events=columns,
-        kinds=[_kernel.EVENT_KINDS[int(k)] for k in columns["kind"]],
+        summary=dict(found.summary),
+        outcome=found.outcome,
+        histories=dict(found.histories),
+        modes=[MODES[m] for m in found.mode],
+        events=dict(found.events),
+        kinds=[EVENT_KINDS[int(k)] for k in found.events["kind"]],
     )

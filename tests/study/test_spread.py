@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from heeltoe import InputError, flexible, read_case, rigid, verdict, with_spread
+from heeltoe.result.contract import HEADLINES
 from heeltoe.result.write import json_text
-from heeltoe.study.spread import QUANTITIES, _step, check_runs
-from shared.dams import BASE, FAST
+from heeltoe.study.spread import _step, check_runs
+from shared.dams import BASE, FAST, SLENDER
 from shared.dams import KOYNA_TOP as KOYNA
 
 
@@ -30,7 +31,7 @@ def test_rigid_runs_are_those_of_the_scaled_motion(changes):
     spread = response.spread
     assert spread["scales"] == pytest.approx([0.99, 1.0, 1.01])
     assert spread["residual_slips_m"] == pytest.approx([each.residual_slip_m for each in by_hand], rel=1e-9)
-    for name in QUANTITIES:
+    for name in (each.key for each in HEADLINES):
         values = [each.summary[name] for each in by_hand]
         assert spread[name]["mean"] == pytest.approx(np.mean(values), rel=1e-9, abs=1e-15), name
         assert spread[name]["std"] == pytest.approx(np.std(values, ddof=1), rel=1e-6, abs=1e-12), name
@@ -43,7 +44,7 @@ def test_flexible_runs_are_those_of_the_scaled_motion(more, typical_both):
     case = read_case(BASE, [*FAST, *more])
     plain = flexible(case) if more else typical_both.flexible
     seen = []
-    response = with_spread(plain, case, 3, told=lambda done, of: seen.append((done, of)))
+    response = with_spread(plain, case, 3, progress=lambda done, of: seen.append((done, of)))
     spread = response.spread
     assert spread["time_step_s"] == plain.time_step_s
     assert spread["residual_slips_m"][1] == pytest.approx(plain.residual_slip_m, rel=1e-9)
@@ -118,3 +119,15 @@ def test_numbers_of_runs_that_are_none(runs):
 
 def test_numbers_of_runs():
     assert [check_runs(runs, "") for runs in (2, "11", " 1000 ")] == [2, 11, 1000]
+
+
+def test_openings_of_the_spread_are_those_of_the_run():
+    # Under rotations of any size the crack opens with their sine, by no more than its width: 1 m.
+    case = read_case(SLENDER)
+    response = with_spread(rigid(case), case, 3)
+    for name, gap in (("opening_upstream_m", "gap_heel_m"), ("opening_downstream_m", "gap_toe_m")):
+        assert response.spread[name]["max"] <= 1.0
+        # The run as it is is one of the three.
+        same = response.spread[name]
+        assert same["min"] <= response.summary[name] <= same["max"]
+        assert response.summary[name] == pytest.approx(response.histories[gap].max(), rel=1e-3)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -24,8 +23,7 @@ from heeltoe.cli.common import (
 from heeltoe.errors import InputError
 
 if TYPE_CHECKING:
-    from heeltoe.case.model import Case
-    from heeltoe.result.response import Response
+    pass
 
 
 def periods(
@@ -96,7 +94,7 @@ def statics(
         if slip is not None:
             found = judge(loaded, parse(slip, "length", "--slip"), slip_source="--slip")
         elif loaded.motion is not None and loaded.statics.residual_slip is None:
-            from heeltoe.models.rigid.model import rigid
+            from heeltoe.models.run import rigid
             from heeltoe.models.statics.after import statics_after
 
             say("running the rigid model")
@@ -129,12 +127,13 @@ def animate(
     from time import perf_counter
 
     from heeltoe.case.read import read_case
+    from heeltoe.models.run import MODELS, run
     from heeltoe.units.parse import parse
     from heeltoe.views.animation.write import animate as write_animation
     from heeltoe.views.animation.write import check_options
 
-    if model not in ("rigid", "flexible", "decoupled"):
-        raise InputError("animation-model", "--model", model)
+    if model not in MODELS:
+        raise InputError("unknown-model", "--model", model, models=", ".join(MODELS))
     place = to or Path(f"{Path(case).stem}.animation.html")
     many = None if exaggerate == "auto" else parse(exaggerate, "number", "--exaggerate")
     start = parse(from_, "duration", "--from")
@@ -148,7 +147,8 @@ def animate(
     loaded = read_case(case, changes)
     with status() as say:
         began = perf_counter()
-        response = _one_response(loaded, model, say)
+        say(f"running the {model} model")
+        response = run(loaded, model)
         analysed = perf_counter()
         if response.histories:
             say("drawing")
@@ -163,12 +163,3 @@ def animate(
     if not response.ok:
         console.print(f"{response.outcome}: {response.advice}", soft_wrap=True, markup=False)
         raise typer.Exit(NO_RESULT)
-
-
-def _one_response(case: Case, model: str, say: Callable[[str], None]) -> Response:
-    """Run one model."""
-    import heeltoe
-
-    say(f"running the {model} model")
-    found: Response = getattr(heeltoe, model)(case)
-    return found

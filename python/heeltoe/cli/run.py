@@ -32,8 +32,8 @@ if TYPE_CHECKING:
 
 R = TypeVar("R", bound="Response")
 
-# What --model takes; "both" is the rigid and the flexible one.
-_MODELS = ("rigid", "decoupled", "flexible", "both", "rigid,flexible", "decoupled,flexible")
+# What --model takes beside one model: the first is the rigid and the flexible one.
+_BOTH = ("both", "rigid,flexible", "decoupled,flexible")
 
 
 class Run(TyperCommand):
@@ -98,11 +98,14 @@ def run(
 ) -> None:
     """Run a case and say what the dam does."""
     from heeltoe.case.read import read_case
+    from heeltoe.models.run import MODELS
     from heeltoe.units.parse import parse
     from heeltoe.views.terminal.common import in_units
 
-    if model not in _MODELS:
-        raise InputError("unknown-model", "--model", model)
+    if model not in (*MODELS, *_BOTH):
+        raise InputError(
+            "unknown-model", "--model", model, models="rigid, decoupled, flexible, both or decoupled,flexible"
+        )
     if units not in ("si", "us"):
         raise InputError("unknown-units", "--units", units)
     if report:
@@ -120,7 +123,7 @@ def run(
     for option, given in (("--vtk", vtk), ("--spread", spread is not None), ("--report", report)):
         if vary and given:
             raise InputError("vary-option", option)
-    if vary and model not in _MODELS[:3]:
+    if vary and model in _BOTH:
         raise InputError("vary-option", "--model", model)
     runs = None
     if spread not in (None, "none"):
@@ -175,6 +178,7 @@ def _vary(
     units: str,
 ) -> None:
     """Run a table of runs, show and write it."""
+    from heeltoe.models.run import run as run_model
     from heeltoe.study.grid import parse_variations, run_grid
     from heeltoe.views.terminal.grid import print_grid
 
@@ -182,12 +186,12 @@ def _vary(
     with status() as say:
 
         def run_one(each: Case) -> Response:
-            return _run_model(each, model, step)
+            return run_model(each, model, output_step=step)
 
-        def told(done: int, of: int) -> None:
+        def progress(done: int, of: int) -> None:
             say(f"running the {model} model, {done} of {of} runs done")
 
-        grid = run_grid(case, changes, variations, run_one, told=told)
+        grid = run_grid(case, changes, variations, run_one, progress=progress)
         written = []
         if out is not None:
             from heeltoe.views.files.write import write_all
@@ -203,18 +207,17 @@ def _analysis(
     case: Case, model: str, step: float | None, runs: int | None, say: Callable[[str], None]
 ) -> Response | Comparison:
     """Run what is asked for; `say` is told what goes on."""
-    from heeltoe.models.statics.standing import with_standing
-
     result: Response | Comparison
-    if model in _MODELS[:3]:
-        say(f"running the {model} model")
-        result = _run_model(case, model, step)
-    else:
+    if model in _BOTH:
         from heeltoe.study.comparison import compare
 
         say("running both models")
-        both = compare(case, output_step=step, block="decoupled" if model.startswith("decoupled") else "rigid")
-        result = both.with_responses(lambda response: with_standing(response, case))
+        result = compare(case, output_step=step, block="decoupled" if model.startswith("decoupled") else "rigid")
+    else:
+        from heeltoe.models.run import run as run_model
+
+        say(f"running the {model} model")
+        result = run_model(case, model, output_step=step)
     return result if runs is None else _with_spread(result, case, runs, say)
 
 
@@ -222,7 +225,7 @@ def _with_cheap_spread(result: Response | Comparison, case: Case, say: Callable[
     """Give a result the spread that costs milliseconds: that of a rigid block which stands, whatever shakes it."""
     from heeltoe.study.spread import RUNS
 
-    return _with_spread(result, case, RUNS, say, lambda each: each.ok and each.model in ("rigid", "decoupled"))
+    return _with_spread(result, case, RUNS, say, lambda each: each.ok and not each.elastic)
 
 
 def _with_spread(
@@ -240,32 +243,12 @@ def _with_spread(
         if not wanted(response):
             return response
 
-        def told(done: int, of: int) -> None:
+        def progress(done: int, of: int) -> None:
             say(f"varying the shaking of the {response.model} model, {done} of {of} runs done")
 
-        return with_spread(response, case, runs, told=told)
+        return with_spread(response, case, runs, progress=progress)
 
     return result.with_responses(vary) if isinstance(result, Comparison) else vary(result)
-
-
-def _run_model(case: Case, model: str, step: float | None) -> Response:
-    """Run one of the models; what another one needs is not loaded."""
-    from heeltoe.models.statics.standing import with_standing
-
-    found: Response
-    if model == "rigid":
-        from heeltoe.models.rigid.model import rigid
-
-        found = rigid(case, output_step=step)
-    elif model == "decoupled":
-        from heeltoe.models.decoupled.model import decoupled
-
-        found = decoupled(case, output_step=step)
-    else:
-        from heeltoe.models.flexible.model import flexible
-
-        found = flexible(case, output_step=step)
-    return with_standing(found, case)
 
 
 def _print(result: Response | Comparison, console: Console) -> None:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe import _kernel
+from heeltoe import kernel
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.loads import Resultant, VirtualMass, concrete_mass, face_at, static_forces, total, virtual_mass
@@ -163,7 +163,7 @@ class Block:
         )
 
     def parameters(self) -> NDArray[np.float64]:
-        """Return the numbers the kernel takes, shape (21,), in the order of ``_kernel.BLOCK_FIELDS``."""
+        """Return the numbers the kernel takes, shape (21,), in the order of :data:`heeltoe.kernel.BLOCK`."""
         values = [
             self.mass_horizontal,
             self.mass_vertical,
@@ -181,7 +181,7 @@ class Block:
             self.restitution,
             *self.coupling,
         ]
-        assert len(values) == len(_kernel.BLOCK_FIELDS)
+        assert len(values) == len(kernel.BLOCK)
         return np.array(values)
 
 

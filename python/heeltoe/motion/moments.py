@@ -7,23 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
+from heeltoe.kernel import Shaking
 from heeltoe.motion.ground_motion import GroundMotion
-
-Floats = NDArray[np.float64]
-
-
-def ground(motion: GroundMotion, vertical: GroundMotion | None, end: float) -> tuple[Floats, Floats, Floats | None]:
-    """Put both motions on the same moments, from zero to `end`; where a record has ended the ground stands still.
-
-    Returns
-    -------
-    time, horizontal, vertical
-        (n,) each; at a jump the moment is there twice.
-    """
-    if vertical is None and motion.duration == end:
-        return motion.time, motion.acceleration, None
-    time, horizontal, *rest = on_same_moments([motion] if vertical is None else [motion, vertical], end)
-    return time, horizontal, rest[0] if rest else None
 
 
 def on_same_moments(series: Sequence[GroundMotion], end: float) -> list[Floats]:
@@ -39,20 +25,21 @@ def on_same_moments(series: Sequence[GroundMotion], end: float) -> list[Floats]:
     return [time, *(np.where(after, right, left) for left, right in repeated)]
 
 
-def step_means(time: Floats, horizontal: Floats, up: Floats | None, count: int, end: float) -> Floats:
-    """Return the mean acceleration of each of `count` equal steps from zero to `end`, exact for straight pieces.
+def step_means(shaking: Shaking, count: int) -> Floats:
+    """Return the mean acceleration of each of `count` equal steps from zero to the end, exact for straight pieces.
 
     Returns
     -------
     ndarray, shape (count, 2)
         Horizontal and vertical [m/s2].
     """
+    time, end = shaking.time, shaking.end
     means = np.zeros((count, 2))
     moments = np.linspace(0.0, end, count + 1)
     piece = np.clip(np.searchsorted(time, moments, side="right") - 1, 0, time.size - 2)
     since = moments - time[piece]
     length = time[piece + 1] - time[piece]
-    for column, series in enumerate((horizontal, up)):
+    for column, series in enumerate((shaking.horizontal, shaking.up)):
         if series is None:
             continue
         velocity = np.concatenate([[0.0], np.cumsum(np.diff(time) * (series[1:] + series[:-1]) / 2.0)])
@@ -62,12 +49,13 @@ def step_means(time: Floats, horizontal: Floats, up: Floats | None, count: int, 
     return means
 
 
-def step_ends(time: Floats, horizontal: Floats, up: Floats | None, count: int, end: float) -> Floats:
+def step_ends(shaking: Shaking, count: int) -> Floats:
     """Return the acceleration at both ends of each of `count` equal steps, (count + 1, 2) [m/s2]; at a jump the mean
     of both sides."""
-    moments = np.linspace(0.0, end, count + 1)
+    time = shaking.time
+    moments = np.linspace(0.0, shaking.end, count + 1)
     ends = np.zeros((count + 1, 2))
-    for column, series in enumerate((horizontal, up)):
+    for column, series in enumerate((shaking.horizontal, shaking.up)):
         if series is not None:
             left = series[np.clip(np.searchsorted(time, moments, side="left"), 0, time.size - 1)]
             right = series[np.clip(np.searchsorted(time, moments, side="right") - 1, 0, time.size - 1)]

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from heeltoe import _kernel
+from heeltoe import kernel
 from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 
@@ -76,6 +76,5 @@ def response_spectrum(motion: GroundMotion, periods: ArrayLike | None = None, da
         raise InputError("spectrum-damping", "damping", f"{damping:g}")
     if period.ndim != 1 or not np.isfinite(period).all() or (period < 0.0).any():
         raise InputError("spectrum-period", "periods")
-    table = _kernel.spectrum(motion.time, motion.acceleration, period, damping)
-    displacement, total = np.ascontiguousarray(table.T)
+    displacement, total = kernel.spectrum(motion.time, motion.acceleration, period, damping)
     return Spectrum(motion.name, period, damping, displacement, total)

@@ -9,27 +9,13 @@ from types import MappingProxyType
 from typing import Any, Literal, Protocol, TypeVar
 
 from heeltoe.case.model import Case
-from heeltoe.case.shaking import resolve
-from heeltoe.errors import InputError
-from heeltoe.models.decoupled.model import decoupled
 from heeltoe.models.decoupled.response import DecoupledResponse
-from heeltoe.models.flexible.model import flexible
-from heeltoe.models.flexible.reduced import build_flexible_dam
 from heeltoe.models.flexible.response import FlexibleResponse
-from heeltoe.models.rigid.model import rigid
+from heeltoe.models.run import earthquake, flexible, run
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.result.contract import HEADLINES, Quantity
 from heeltoe.result.response import Response
 
-# Numbers that are compared, and below which value of the rigid block a ratio would compare nothing with nothing.
-_COMPARED = {
-    "residual_slip_m": 1e-5,
-    "peak_slip_downstream_m": 1e-5,
-    "peak_slip_upstream_m": 1e-5,
-    "rocking_downstream_rad": 1e-6,
-    "rocking_upstream_rad": 1e-6,
-    "opening_upstream_m": 1e-5,
-    "opening_downstream_m": 1e-5,
-}
 # From which ratio on the models differ by more than the flexible one is known to differ from its references.
 _CLOSE = 1.25
 # A slip of less is none that matters to a dam [m].
@@ -80,7 +66,7 @@ class Comparison:
 
     def ratio(self) -> dict[str, float | None]:
         """Return flexible over rigid for slips, rotations and openings; None where the rigid one is next to nothing."""
-        return {name: self._ratio(name, least) for name, least in _COMPARED.items()}
+        return {each.key: self._ratio(each) for each in HEADLINES}
 
     def meaning(self) -> str:
         """Say in a sentence what the difference means."""
@@ -145,9 +131,9 @@ class Comparison:
         """Return the same with both responses changed."""
         return replace(self, rigid=change(self.rigid), flexible=change(self.flexible))
 
-    def _ratio(self, name: str, least: float) -> float | None:
-        block, dam = (each.summary.get(name) for each in (self.rigid, self.flexible))
-        if block is None or dam is None or not self.ok or abs(block) < least:
+    def _ratio(self, of: Quantity) -> float | None:
+        block, dam = (each.summary.get(of.key) for each in (self.rigid, self.flexible))
+        if block is None or dam is None or not self.ok or abs(block) < of.least:
             return None
         return float(dam / block)
 
@@ -162,12 +148,9 @@ def compare(
 ) -> Comparison:
     """Run two models on a case: the flexible one and `block`, which knows a rigid part above the crack. Parameters and
     errors are those of :func:`heeltoe.flexible` and :func:`heeltoe.decoupled`."""
-    if motion is None:
-        if case.motion is None:
-            raise InputError("motion-missing", "motion")
-        motion, vertical = resolve(case.motion, case.gravity, case.base_directory)
+    shaking = earthquake(case, motion, vertical)
     began = perf_counter()
-    stiff = (rigid if block == "rigid" else decoupled)(case, motion, vertical, output_step=output_step)
+    stiff = run(case, block, shaking.motion, shaking.vertical, output_step=output_step)
     between = perf_counter()
-    dam = flexible(case, motion, vertical, output_step=output_step, dam=build_flexible_dam(case))
+    dam = flexible(case, shaking.motion, shaking.vertical, output_step=output_step)
     return Comparison(stiff, dam, {block: between - began, "flexible": perf_counter() - between})

@@ -13,6 +13,7 @@ import pyarrow as pa
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
 from heeltoe.errors import InputError, shown
+from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.write import build_info
 
@@ -21,17 +22,7 @@ MOST = 32
 
 Run = Callable[[Case], Response]
 
-# Columns of the table after the varied fields: name and what it is in the summary.
-_NUMBERS = (
-    "residual_slip_m",
-    "peak_slip_downstream_m",
-    "peak_slip_upstream_m",
-    "rocking_downstream_rad",
-    "rocking_upstream_rad",
-    "opening_upstream_m",
-    "opening_downstream_m",
-    "impacts",
-)
+# Slips have their modes behind them, as columns of their own.
 _MODES = ("sliding", "slide_rocking", "drifting")
 
 
@@ -133,7 +124,7 @@ def run_grid(
     variations: Sequence[Variation],
     run: Run,
     *,
-    told: Callable[[int, int], None] | None = None,
+    progress: Callable[[int, int], None] | None = None,
 ) -> Grid:
     """Run every combination of the values.
 
@@ -145,7 +136,7 @@ def run_grid(
         From :func:`parse_variations`.
     run
         Makes a response of a case.
-    told
+    progress
         Called with how many runs are done, and of how many.
 
     Raises
@@ -161,8 +152,8 @@ def run_grid(
     ]
     responses = []
     for done, case in enumerate(cases):
-        if told is not None:
-            told(done, len(cases))
+        if progress is not None:
+            progress(done, len(cases))
         responses.append(run(case))
     return Grid(tuple(variations), cells, tuple(responses))
 
@@ -170,9 +161,11 @@ def run_grid(
 def _numbers(response: Response) -> dict[str, Any]:
     found = response.summary if response.ok else {}
     by_mode = found.get("slip_by_mode_m", {})
+    slips = [each.key for each in HEADLINES if "slip" in each.key]
+    others = [each.key for each in HEADLINES if "slip" not in each.key]
     return {
-        **{name: found.get(name) for name in _NUMBERS[:3]},
+        **{name: found.get(name) for name in slips},
         **{f"slip_{name}_m": by_mode.get(name) for name in _MODES},
-        **{name: found.get(name) for name in _NUMBERS[3:]},
+        **{name: found.get(name) for name in (*others, "impacts")},
         "outcome": response.outcome,
     }

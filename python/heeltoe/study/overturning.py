@@ -17,14 +17,14 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from heeltoe import _kernel
+from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
+from heeltoe.kernel import Shaking
 from heeltoe.mechanics.block import Block, build_block
-from heeltoe.models.rigid.walk import GroundSeries, run_block
+from heeltoe.models.rigid.walk import walk
 from heeltoe.result.write import build_info
 
-Floats = NDArray[np.float64]
 Pulse = Literal["sine", "half-sine", "cosine"]
 
 #: What a pulse does to a block, by the numbers of a map.
@@ -162,7 +162,7 @@ def overturning_map(
 
     def column(frequency: float) -> list[int]:
         return [
-            _end(case, block, *_pulse(pulse, frequency, sign * amplitude * case.gravity, _WAIT / rate))
+            _end(case, block, _pulse(pulse, frequency, sign * amplitude * case.gravity, _WAIT / rate))
             for amplitude in amplitudes_g
         ]
 
@@ -189,27 +189,23 @@ def _inverted_pendulum(block: Block) -> tuple[float, float]:
     return math.sqrt(block.gravity * radius / per_mass), math.atan2(arm, z)
 
 
-def _pulse(kind: str, frequency: float, amplitude: float, wait: float) -> tuple[Floats, Floats]:
-    """Return times and accelerations of a pulse and the quiet after it."""
+def _pulse(kind: str, frequency: float, amplitude: float, wait: float) -> Shaking:
+    """Return a pulse and the quiet after it."""
     end = (0.5 if kind == "half-sine" else 1.0) / frequency
     time = np.linspace(0.0, end, _PIECES + 1)
     phase = 2.0 * math.pi * frequency * time
     values: Floats = amplitude * (np.cos(phase) if kind == "cosine" else np.sin(phase))
     if kind != "cosine":
         values[-1] = 0.0
-        return np.append(time, end + wait), np.append(values, 0.0)
+        return Shaking(np.append(time, end + wait), np.append(values, 0.0))
     # It starts and ends with a jump.
-    return np.concatenate([time, [end, end + wait]]), np.concatenate([values, [0.0, 0.0]])
+    return Shaking(np.concatenate([time, [end, end + wait]]), np.concatenate([values, [0.0, 0.0]]))
 
 
-_ROW = {name: place for place, name in enumerate(_kernel.SUMMARY_FIELDS)}
-
-
-def _end(case: Case, block: Block, time: Floats, ground: Floats) -> int:
-    row = run_block(case, block, GroundSeries(time, ground, None, None), np.empty(0))[0]
-    outcome = _kernel.OUTCOMES[int(row[_ROW["outcome"]])]
-    if outcome == "overturned":
-        return 2 if row[_ROW["impacts"]] else 3
-    if outcome != "ok":
+def _end(case: Case, block: Block, shaking: Shaking) -> int:
+    run = walk(case, block, shaking)
+    if run.outcome == "overturned":
+        return 2 if run.summary["impacts"] else 3
+    if run.outcome != "ok":
         return 4
-    return int(max(row[_ROW["largest_gap_heel"]], row[_ROW["largest_gap_toe"]]) > 0.0)
+    return int(max(run.summary["largest_gap_heel"], run.summary["largest_gap_toe"]) > 0.0)

@@ -6,27 +6,30 @@ import os
 from collections.abc import Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe import _kernel
+from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
+from heeltoe.kernel import DAM_OUTCOMES, OUTCOMES, Shaking, run_blocks
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.models.flexible.response import FlexibleResponse
-from heeltoe.models.rigid.many import rigid_many
+from heeltoe.models.rigid.tables import opening
 from heeltoe.models.rigid.varying import varies
-from heeltoe.models.rigid.walk import GroundSeries, run_block
-from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.motion.moments import ground
+from heeltoe.models.rigid.walk import limits_of, walk
+from heeltoe.models.run import earthquake
+from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.warnings import Notice
 
-Floats = NDArray[np.float64]
-Told = Callable[[int, int], None]
+if TYPE_CHECKING:
+    from heeltoe.models.flexible.shaken import ShakenDam
+
+Progress = Callable[[int, int], None]
 R = TypeVar("R", bound=Response)
 
 #: Runs where no number is given: enough for a standard deviation, and one of them has the motion as it is.
@@ -41,8 +44,8 @@ _LARGE = 0.10
 #: Slips of less vary by nothing anyone could measure [m].
 _NOTHING = 1e-4
 
-# Numbers of the contract, and what gives them: name in both kernels and factor. The rigid kernel has no openings, but
-# rotations of a base that stays straight.
+# What both kernels call the headline numbers, and the factor; the block has no openings, but rotations of a base that
+# stays straight.
 _COMMON = {
     "residual_slip_m": ("slip", 1.0),
     "peak_slip_downstream_m": ("slip_max", 1.0),
@@ -50,8 +53,6 @@ _COMMON = {
     "rocking_downstream_rad": ("rotation_min", -1.0),
     "rocking_upstream_rad": ("rotation_max", 1.0),
 }
-#: Names of the numbers that have a spread.
-QUANTITIES = (*_COMMON, "opening_upstream_m", "opening_downstream_m")
 
 
 def check_runs(value: object, field: str) -> int:
@@ -68,7 +69,7 @@ def check_runs(value: object, field: str) -> int:
     return int(text)
 
 
-def with_spread(response: R, case: Case, runs: int = RUNS, *, told: Told | None = None) -> R:
+def with_spread(response: R, case: Case, runs: int = RUNS, *, progress: Progress | None = None) -> R:
     """Run a case again with its ground motion scaled by equally spaced factors from 0.99 to 1.01.
 
     Parameters
@@ -80,7 +81,7 @@ def with_spread(response: R, case: Case, runs: int = RUNS, *, told: Told | None 
         What it is the response of.
     runs
         How many, 2 to 1000; they run on all cores.
-    told
+    progress
         Called with how many runs are done, and of how many, as they go on.
 
     Returns
@@ -88,7 +89,7 @@ def with_spread(response: R, case: Case, runs: int = RUNS, *, told: Told | None 
     Response
         The same with `spread`, and a warning where the slip varies much or runs end without a result. In `spread`:
         `runs`, `failed` (without a result; they count nowhere else), `scales`, `residual_slips_m` (None where failed),
-        `time_step_s` of the flexible model, and for each of :data:`QUANTITIES` mean, std (of a sample), min and max.
+        `time_step_s` of the flexible model, and for each of the headline numbers mean, std (of a sample), min and max.
 
     Raises
     ------
@@ -97,102 +98,88 @@ def with_spread(response: R, case: Case, runs: int = RUNS, *, told: Told | None 
     """
     runs = check_runs(runs, "runs")
     scales = np.linspace(WEAKEST, STRONGEST, runs)
-    end = case.motion.duration if case.motion and case.motion.duration else response.motion.duration
+    ground = earthquake(case, response.motion, response.vertical)
     step = None
     if isinstance(response, FlexibleResponse):
+        # Here, so that the block need not wait for the elastic parts.
+        from heeltoe.models.flexible.shaken import ShakenDam
+
         step = _step(response)
-        found, good = _flexible(response, case, end, scales, step, told)
+        shaken = ShakenDam(case, response.crack.dam, ground.shaking)
+        found, good = _flexible(shaken, scales, step, progress)
     elif isinstance(response, DecoupledResponse):
-        from heeltoe.models.decoupled.model import crack_motions
+        from heeltoe.models.decoupled.model import crack_earthquake
 
         # The part below is linear: its motion grows as the ground's does.
-        found, good = _rigid(case, crack_motions(case, response.motion, response.vertical), end, scales, told)
+        found, good = _rigid(case, crack_earthquake(case, ground).shaking, scales, progress)
     else:
-        found, good = _rigid(case, (response.motion, response.vertical, None), end, scales, told)
+        found, good = _rigid(case, ground.shaking, scales, progress)
     spread = {
         "runs": runs,
         "failed": int(np.sum(~good)),
         "scales": scales.tolist(),
         **({} if step is None else {"time_step_s": step}),
-        **{name: _statistics(found[name][good]) for name in QUANTITIES},
+        **{each.key: _statistics(found[each.key][good]) for each in HEADLINES},
         "residual_slips_m": [
-            float(slip) if fine else None for slip, fine in zip(found[QUANTITIES[0]], good, strict=True)
+            float(slip) if fine else None for slip, fine in zip(found["residual_slip_m"], good, strict=True)
         ],
     }
     return replace(response, spread=spread, warnings=(*response.warnings, *_warnings(spread)))
 
 
-_Motions = tuple[GroundMotion, GroundMotion | None, GroundMotion | None]
+_Found = tuple[dict[str, Floats], NDArray[np.bool_]]
 
 
-def _rigid(
-    case: Case, motions: _Motions, end: float, scales: Floats, told: Told | None
-) -> tuple[dict[str, Floats], NDArray[np.bool_]]:
+def _rigid(case: Case, shaking: Shaking, scales: Floats, progress: Progress | None) -> _Found:
+    """Return the headline numbers of a block, and which of the runs have a result."""
     block = build_block(case)
-    if varies(case) or motions[2] is not None:
-        return _varying(case, block, motions, end, scales, told)
-    # Both directions up to the end of the run, which may be after that of the record.
-    time, horizontal, up = ground(motions[0], motions[1], end)
-    motion = GroundMotion.from_points(time, horizontal)
-    rows = rigid_many(
-        [block] * scales.size,
-        [motion if up is None else (motion, GroundMotion.from_points(time, up))],
-        scales=scales,
-        event_limit=case.analysis.event_limit,
-        jam=case.analysis.paradox == "tangential impact",
-    )
-    if told is not None:
-        told(scales.size, scales.size)
-    return _with_openings(rows, block)
+    if varies(case) or shaking.turning is not None:
+        rows = _walked(case, block, shaking, scales, progress)
+    else:
+        many = np.tile(block.parameters(), (scales.size, 1))
+        first = np.zeros(scales.size, dtype=np.int64)
+        rows = run_blocks(many, [shaking], first, np.column_stack([scales, scales]), limits_of(case))
+        if progress is not None:
+            progress(scales.size, scales.size)
+    found = _named(rows)
+    for face, way in (("upstream", "downstream"), ("downstream", "upstream")):
+        rotations = found[f"rocking_{way}_rad"].tolist()
+        found[f"opening_{face}_m"] = np.array([opening(case, block, rotation) for rotation in rotations])
+    good = [OUTCOMES.index(name) for name in ("ok", "overturned")]
+    return found, np.isin(rows["outcome"], good)
 
 
-def _varying(
-    case: Case, block: Block, motions: _Motions, end: float, scales: Floats, told: Told | None
-) -> tuple[dict[str, Floats], NDArray[np.bool_]]:
-    shaking = GroundSeries.of(*motions, end)
+def _walked(case: Case, block: Block, shaking: Shaking, scales: Floats, progress: Progress | None) -> dict[str, Floats]:
+    """Run a block that only integration can follow, once for each factor."""
     rows = []
 
-    def run(scale: float) -> Floats:
-        return run_block(case, block, shaking.scaled(scale), np.empty(0))[0]
+    def run(scale: float) -> Mapping[str, float]:
+        return walk(case, block, shaking.scaled(scale)).summary
 
     # The kernel lets go of the interpreter.
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         for done, row in enumerate(pool.map(run, scales.tolist())):
-            if told is not None:
-                told(done, scales.size)
+            if progress is not None:
+                progress(done, scales.size)
             rows.append(row)
-    table = np.array(rows)
-    return _with_openings({name: table[:, k] for k, name in enumerate(_kernel.SUMMARY_FIELDS)}, block)
+    return {name: np.array([row[name] for row in rows]) for name in rows[0]}
 
 
-def _with_openings(rows: Mapping[str, Floats], block: Block) -> tuple[dict[str, Floats], NDArray[np.bool_]]:
-    found = _named(rows)
-    found["opening_upstream_m"] = block.width * found["rocking_downstream_rad"]
-    found["opening_downstream_m"] = block.width * found["rocking_upstream_rad"]
-    good = [_kernel.OUTCOMES.index(name) for name in ("ok", "overturned")]
-    return found, np.isin(rows["outcome"], good)
-
-
-def _flexible(
-    response: FlexibleResponse, case: Case, end: float, scales: Floats, step: float, told: Told | None
-) -> tuple[dict[str, Floats], NDArray[np.bool_]]:
-    # Here, so that the rigid model need not wait for the elastic parts.
-    from heeltoe.models.flexible.shaken import Shaken
-
-    shaken = Shaken(case, response.crack.dam, response.motion, response.vertical, end)
-    if told is None:
+def _flexible(shaken: ShakenDam, scales: Floats, step: float, progress: Progress | None) -> _Found:
+    """Return the headline numbers of an elastic dam, and which of the runs have a result."""
+    if progress is None:
         rows = shaken.run_scaled(step, scales)
     else:
         # In parts of one run for each core, so that there is something to tell.
-        parts = []
-        for start in range(0, scales.size, os.cpu_count() or 1):
-            told(start, scales.size)
-            parts.append(shaken.run_scaled(step, scales[start : start + (os.cpu_count() or 1)]))
+        cores, parts = os.cpu_count() or 1, []
+        for start in range(0, scales.size, cores):
+            progress(start, scales.size)
+            parts.append(shaken.run_scaled(step, scales[start : start + cores]))
         rows = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
     found = _named(rows)
     found["opening_upstream_m"] = rows["opening_heel"]
     found["opening_downstream_m"] = rows["opening_toe"]
-    return found, rows["outcome"] == _kernel.CRACK_OUTCOMES.index("ok")
+    return found, rows["outcome"] == DAM_OUTCOMES.index("ok")
 
 
 def _named(rows: Mapping[str, Floats]) -> dict[str, Floats]:

@@ -18,8 +18,8 @@ import numpy as np
 import scipy.linalg
 from numpy.typing import NDArray
 
-from heeltoe import _kernel
-from heeltoe.models.flexible.reduced import Part
+from heeltoe.kernel import CrackedDam
+from heeltoe.models.flexible.reduced import ReducedBody
 from heeltoe.validation.row import Row
 
 Floats = NDArray[np.float64]
@@ -77,12 +77,11 @@ def _bounced(courant: float) -> _Bounced:
     longest = courant * _LENGTH / _ELEMENTS / np.sqrt(_MODULUS / _DENSITY)
     per_period = int(np.ceil(_PERIOD / longest))
     step = _PERIOD / per_period
-    dam = _kernel.CrackedDam(_two_bars(), None, (0.5, 0.5), 3)
+    dam = CrackedDam(_two_bars(), None, (0.5, 0.5), 3)
     ground = np.zeros((3 * per_period, 2))
-    row, frames, _, _, force, *_ = dam.run(ground, step, 0.5, 1, False, (1.0, 1.0))
-    found = dict(zip(_kernel.CRACK_SUMMARY_FIELDS, row.tolist(), strict=True))
-    column = {name: frames[:, k] for k, name in enumerate(_kernel.FRAME_FIELDS)}
-    time, push = column["time"], force[:, 2]
+    run = dam.run(ground, step, 0.5, stride=1)
+    found, column = run.summary, run.frames
+    time, push = column["time"], run.force[:, 2]
     # Between two contacts the bar is in the air for two seconds.
     touching = time[push > 1e-6 * _FORCE]
     begins = touching[np.diff(touching, prepend=-1.0) > 1.0]
@@ -99,7 +98,7 @@ def _bounced(courant: float) -> _Bounced:
     )
 
 
-def _two_bars() -> Part:
+def _two_bars() -> ReducedBody:
     size = _LENGTH / _ELEMENTS
     ends = np.arange(_ELEMENTS)
     stiffness, mass = np.zeros((2, _ELEMENTS + 1, _ELEMENTS + 1))
@@ -119,7 +118,7 @@ def _two_bars() -> Part:
 
     uniform = shapes.T @ mass @ np.ones(squares.size)
     nothing = np.zeros(2 * squares.size + 2)
-    return Part(
+    return ReducedBody(
         omega_squared=both(squares),
         damping_sticking=nothing,
         damping_free=nothing,

@@ -14,16 +14,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe import _kernel
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
-from heeltoe.models.flexible.reduced import FlexibleDam, Part, build_flexible_dam
+from heeltoe.kernel import CrackedDam
+from heeltoe.models.flexible.reduced import FlexibleDam, ReducedBody, build_flexible_dam
 from heeltoe.models.flexible.response import FlexibleResponse
-from heeltoe.models.rigid.model import rigid
+from heeltoe.models.run import rigid
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.response import Response
 from heeltoe.validation.flexible_runs import Runs
-from heeltoe.validation.plain import rectangle, run, sampled, times_of
+from heeltoe.validation.plain import rectangle, run, sampled
 from heeltoe.validation.row import Row
 
 Floats = NDArray[np.float64]
@@ -165,29 +165,32 @@ def _rigid_rocking(slenderness: float) -> tuple[float, list[float]]:
     grid = np.linspace(0.0, 4.0, 40_001)
     start = [[0.0, 0.5 * slenderness, 0.0], [0.0, 0.0, 0.0]]
     block = rectangle(1.0, 4.0, 1.0, gravity=_G)
-    _, history, events = run(block, np.array([0.0, 4.0]), np.zeros(2), grid, start)
-    strikes = times_of(events, "heel strikes", "toe strikes")
-    turned = np.abs(history["gap_toe"] - history["gap_heel"]) / slenderness
+    found = run(block, np.array([0.0, 4.0]), np.zeros(2), grid, start)
+    strikes = found.times_of("heel strikes", "toe strikes")
+    turned = np.abs(found.histories["gap_toe"] - found.histories["gap_heel"]) / slenderness
     return strikes[0], [float(turned[(grid > a) & (grid < b)].max()) for a, b in pairwise(strikes[:3])]
 
 
 def _elastic_rocking(dam: FlexibleDam, angle: float, slenderness: float) -> tuple[float, list[float], float]:
     """Return the same of an elastic block, and what contact has made over the turnover."""
     step, end = 5e-5, 2.5
-    leaning = _kernel.CrackedDam(_leaning(dam, angle), None, (1.0, 1.0), 3)
-    row, frames, *_ = leaning.run(np.zeros((round(end / step), 2)), step, 0.52, 1, False, (1.0, 1.0))
-    found = dict(zip(_kernel.CRACK_SUMMARY_FIELDS, row.tolist(), strict=True))
-    time, turned = (frames[:, _kernel.FRAME_FIELDS.index(name)] for name in ("time", "rotation"))
+    leaning = CrackedDam(_leaning(dam, angle), None, (1.0, 1.0), 3)
+    found = leaning.run(np.zeros((round(end / step), 2)), step, 0.52, stride=1)
+    time, turned = found.frames["time"], found.frames["rotation"]
     # It strikes where it passes the upright; a face that flutters there passes more than once.
     upright = time[1:][turned[1:] * turned[:-1] < 0.0]
     strikes = upright[np.diff(upright, prepend=-1.0) > 0.1]
     peaks = [float(np.abs(turned[(time > a) & (time < b)]).max()) for a, b in pairwise([*strikes[:2], end])]
-    return float(strikes[0]), [peak / slenderness for peak in peaks], found["energy_gained"] / found["energy_turnover"]
+    return (
+        float(strikes[0]),
+        [peak / slenderness for peak in peaks],
+        found.summary["energy_gained"] / found.summary["energy_turnover"],
+    )
 
 
-def _leaning(dam: FlexibleDam, angle: float) -> Part:
+def _leaning(dam: FlexibleDam, angle: float) -> ReducedBody:
     """Lean a block downstream by `angle`, about its toe, deformed as it is while it falls without vibrating."""
-    part, rigid_modes = dam.parts[0], dam.modes[0].rigid
+    part, rigid_modes = dam.reduced[0], dam.modes[0].rigid
     count = part.shapes.shape[1] // 2
     toe = part.shapes[:, [count - 1, 2 * count - 1]]
     # The force on the toe with which it does not accelerate; it bends the block.

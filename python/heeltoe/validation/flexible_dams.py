@@ -20,8 +20,9 @@ from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
 from heeltoe.models.flexible.modes import intact_periods
 from heeltoe.models.flexible.reduced import build_flexible_dam
-from heeltoe.models.flexible.shaken import Shaken
-from heeltoe.models.rigid.model import rigid
+from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.models.run import rigid
+from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.validation.flexible_runs import Runs
 from heeltoe.validation.row import Row
@@ -66,7 +67,7 @@ def periods() -> Iterator[Row]:
         ("Koyna", _KOYNA, koyna, (0.3254, 0.1218, 0.0925, 0.0627, 0.0413)),
         ("triangular", _TRIANGLE, triangle, (0.2620, 0.1126, 0.1008)),
     ):
-        dam = build_flexible_dam(_case(corners, concrete, friction=1.0)).dam
+        dam = build_flexible_dam(_case(corners, concrete, friction=1.0))
         found = intact_periods(dam, len(printed), water=False)
         for number, (reference, ours) in enumerate(zip(printed, found, strict=True), 1):
             remark = "thesis; without Poisson's ratio" if name == "triangular" else "thesis"
@@ -196,7 +197,7 @@ def _half_step(what: str, run: Runs, case: Case, motion: GroundMotion, allowed: 
 
 def _scattered(case: Case, motion: GroundMotion) -> list[float]:
     """Return the slips [mm] under a little less, the very and a little more shaking."""
-    shaken = Shaken(case, build_flexible_dam(case), motion, None, motion.duration)
+    shaken = ShakenDam(case, build_flexible_dam(case), Earthquake(motion, None, motion.duration).shaking)
     slips: list[float] = (1e3 * shaken.run_scaled(1e-4, np.array([0.99, 1.0, 1.01]))["slip"]).tolist()
     return slips
 

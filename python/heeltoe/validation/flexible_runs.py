@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from heeltoe.case.model import Case
-from heeltoe.models.flexible.model import flexible
+from heeltoe.models.run import flexible
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.response import Response
 from heeltoe.validation.row import Row

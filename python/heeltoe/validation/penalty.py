@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
-from heeltoe.models.flexible.model import flexible
+from heeltoe.models.run import flexible
 from heeltoe.result.response import Response
 from heeltoe.validation.row import Row
 from heeltoe.validation.thesis_dams import record_named

@@ -5,12 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 
-from heeltoe import _kernel
-from heeltoe.models.rigid.walk import SETTLE
-
-Floats = NDArray[np.float64]
+from heeltoe.arrays import Floats
+from heeltoe.kernel import BlockRun, Shaking, block, run_block
 
 
 def rectangle(
@@ -40,7 +37,7 @@ def rectangle(
         "friction_kinetic": friction,
         "restitution": restitution,
     }
-    return np.array([values.get(name, 0.0) for name in _kernel.BLOCK_FIELDS])
+    return block(values)
 
 
 def sampled(ground: Callable[[Floats], Floats], step: float, end: float) -> tuple[Floats, Floats]:
@@ -55,20 +52,7 @@ def run(
     ground: Floats,
     output_times: Floats | None = None,
     start: list[list[float]] | None = None,
-) -> tuple[dict[str, float], dict[str, Floats], dict[str, Floats]]:
-    """Run the kernel; returns summary, histories and events by the kernel's names."""
+) -> BlockRun:
+    """Run the kernel."""
     wanted = np.empty(0) if output_times is None else output_times
-    row, history, _, events = _kernel.run_rigid(
-        block, time, np.ascontiguousarray(ground), None, wanted, start, SETTLE, 1_000_000, False
-    )
-    return (
-        dict(zip(_kernel.SUMMARY_FIELDS, row.tolist(), strict=True)),
-        {name: history[:, k] for k, name in enumerate(_kernel.HISTORY_FIELDS)},
-        {name: events[:, k] for k, name in enumerate(_kernel.EVENT_FIELDS)},
-    )
-
-
-def times_of(events: dict[str, Floats], *kinds: str) -> list[float]:
-    """Return the times of all events of some kinds."""
-    wanted = [_kernel.EVENT_KINDS.index(kind) for kind in kinds]
-    return [float(t) for t, kind in zip(events["time"], events["kind"], strict=True) if int(kind) in wanted]
+    return run_block(block, Shaking(time, np.ascontiguousarray(ground)), wanted, start=start)

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe import _kernel
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
+from heeltoe.kernel import DamRun
 from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
 from heeltoe.validation.flexible_runs import GAINED
 from heeltoe.validation.row import Row
@@ -55,17 +55,16 @@ class Drawn:
         """Whether theta is at least its default, and friction no more than there is, whatever the step."""
         return self.case.crack.mu_static <= FRICTION and self.case.flexible.theta >= 0.52
 
-    def run(self) -> dict[str, float]:
-        """Shake it; the summary of the kernel by name."""
-        row, *_ = self.dam.kernel.run(self.ground, self.step, self.case.flexible.theta, 0, False, (1.0, 1.0))
-        return dict(zip(_kernel.CRACK_SUMMARY_FIELDS, row.tolist(), strict=True))
+    def run(self) -> DamRun:
+        """Shake it."""
+        return self.dam.kernel.run(self.ground, self.step, self.case.flexible.theta)
 
     def residual_allowed(self) -> float:
         """Return how much of its turnover a ledger may leave unexplained.
 
         A step multiplies what rounding leaves in a mode by the square of step times frequency.
         """
-        fastest = max(float(part.omega_squared.max()) for part in self.dam.parts)
+        fastest = max(float(part.omega_squared.max()) for part in self.dam.reduced)
         return 1e-12 + 1e-15 * self.step**2 * fastest
 
 
@@ -115,7 +114,7 @@ def random_dams() -> Iterator[Row]:
     unexplained = 0.0
     for seed in range(200):
         drawn = draw(np.random.default_rng(seed))
-        found = drawn.run()
+        found = drawn.run().summary
         unexplained = max(unexplained, found["energy_residual"] / drawn.residual_allowed())
         name = names[0 if drawn.ordinary else 1 if drawn.default else 2]
         made[name] = max(made[name], found["energy_gained"] / found["energy_turnover"])

@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from heeltoe.case.read import read_case
-from heeltoe.models.rigid.model import rigid
+from heeltoe.models.run import rigid
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.validation.plain import rectangle, run, sampled, times_of
+from heeltoe.validation.plain import rectangle, run, sampled
 from heeltoe.validation.row import Row
 
 
@@ -36,9 +36,9 @@ def sine() -> Iterator[Row]:
     """The same block, ground 0.5 g sin(pi t / 0.2): printed times of zero slip velocity."""
     block = rectangle(1.0, 1.0, 0.2, gravity=9.80665)
     ground = sampled(lambda t: 0.5 * 9.80665 * np.sin(np.pi * t / 0.2), 1e-5, 1.6)
-    _, _, events = run(block, *ground)
+    found = run(block, *ground)
     printed = (0.026198, 0.261845, 0.454995, 0.657297, 0.856571, 1.056805, 1.256730, 1.456755)
-    times = times_of(events, "slip starts")[:1] + times_of(events, "slip stops")
+    times = found.times_of("slip starts")[:1] + found.times_of("slip stops")
     for k, (reference, ours) in enumerate(zip(printed, times, strict=False), 1):
         yield Row(f"zero velocity {k} [s]", reference, ours, 1e-6, relative=False)
 
@@ -77,7 +77,7 @@ def dry_block() -> Iterator[Row]:
     ground = np.where(time < 0.0975, 0.8 * 9.81, 0.0)
     for restitution, reference in ((0.0, 0.016974), (0.5, 0.016974), (0.9, 0.01683)):
         block = rectangle(1.0, 3.0, 1.0, gravity=9.81, restitution=restitution)
-        summary, _, _ = run(block, time, ground)
+        summary = run(block, time, ground).summary
         label = f"e = {restitution:g}: rocking"
         yield Row(f"{label} upstream [rad]", 0.023497, summary["rotation_max"], 1e-4, remark="two prototypes")
         yield Row(f"{label} downstream [rad]", reference, -summary["rotation_min"], 5e-4, remark="two prototypes")

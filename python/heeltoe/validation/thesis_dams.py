@@ -10,7 +10,7 @@ from typing import Any
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
 from heeltoe.errors import InputError
-from heeltoe.models.rigid.model import rigid
+from heeltoe.models.run import rigid
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.records import read_record
 from heeltoe.motion.records.catalog import find

@@ -7,17 +7,15 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
-from heeltoe import _kernel
+from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
+from heeltoe.kernel import BlockRun, Shaking, run_block
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.rigid.varying import varying
-from heeltoe.models.rigid.walk import SETTLE
 from heeltoe.validation.row import Row
 
-Floats = NDArray[np.float64]
 _G = 9.81
 
 
@@ -27,13 +25,12 @@ def free_finite_rocking() -> Iterator[Row]:
     slenderness = math.atan(0.25)
     moments = np.linspace(0.0, 4.4, 8801)
     lifted = [0.0, 0.0, math.sin(0.5 * slenderness)]
-    _, history, _, events = _run(case, np.array([0.0, 4.4]), np.zeros(2), moments, [lifted, [0.0, 0.0, 0.0]])
-    strikes = [_kernel.EVENT_KINDS.index(kind) for kind in ("heel strikes", "toe strikes")]
-    impacts = [float(row[0]) for row in events if int(row[1]) in strikes]
+    found = _run(case, np.array([0.0, 4.4]), np.zeros(2), moments, [lifted, [0.0, 0.0, 0.0]])
+    impacts = found.times_of("heel strikes", "toe strikes")
     remark = "sine of the rotation over the crack is the gap"
     for number, (reference, ours) in enumerate(zip((0.698343, 1.834900, 2.799281, 3.635548), impacts, strict=False)):
         yield Row(f"impact {number + 1} [s]", reference, ours, 1e-6)
-    rotation = np.arcsin(history[:, 2] - history[:, 1])
+    rotation = np.arcsin(found.histories["gap_toe"] - found.histories["gap_heel"])
     references = (0.386714, 0.306397, 0.246057, 0.199314)
     for reference, (start, end) in zip(references, pairwise(impacts), strict=False):
         between = (moments > start) & (moments < end)
@@ -69,28 +66,10 @@ def _slender(rotation: str) -> Case:
 
 def _run(
     case: Case, time: Floats, ground: Floats, moments: Floats | None = None, start: list[list[float]] | None = None
-) -> tuple[Floats, Floats, NDArray[np.uint8], Floats]:
+) -> BlockRun:
     block = build_block(case)
-    what = varying(case, block)
     wanted = np.empty(0) if moments is None else moments
-    row, history, modes, events, _ = _kernel.run_rigid_varying(
-        block.parameters(),
-        what.numbers,
-        what.rotation,
-        what.rule,
-        what.pressure,
-        what.anchors,
-        time,
-        ground,
-        None,
-        None,
-        wanted,
-        start,
-        SETTLE,
-        1_000_000,
-        False,
-    )
-    return row, history, modes, events
+    return run_block(block.parameters(), Shaking(time, ground), wanted, start=start, varying=varying(case, block))
 
 
 def _least(case: Case, block: Block, ratio: float, *, whole: bool) -> float:
@@ -103,12 +82,11 @@ def _least(case: Case, block: Block, ratio: float, *, whole: bool) -> float:
     pulse = np.append(np.sin(circular * time), 0.0)
     pulse[-2] = 0.0
     time = np.append(time, end + 40.0 / rate)
-    outcome, impacts = (_kernel.SUMMARY_FIELDS.index(name) for name in ("outcome", "impacts"))
     low, high = 1.0, 12.0
     while high - low > 1e-6:
         middle = 0.5 * (low + high)
-        row = _run(case, time, middle * _G * half / height * pulse)[0]
-        if _kernel.OUTCOMES[int(row[outcome])] == "overturned" and row[impacts] == 0.0:
+        found = _run(case, time, middle * _G * half / height * pulse)
+        if found.outcome == "overturned" and found.summary["impacts"] == 0.0:
             high = middle
         else:
             low = middle

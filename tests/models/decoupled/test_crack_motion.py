@@ -10,11 +10,13 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from heeltoe import GroundMotion, InputError, build_block, read_case, response_spectrum
+from heeltoe.kernel import Shaking
 from heeltoe.models.decoupled.chain import Chain, attached_mass, bonded_chain, chain, plane_fit
-from heeltoe.models.decoupled.crack_motion import STRAIGHT, crack_motion, shaken
+from heeltoe.models.decoupled.crack_motion import STRAIGHT, accelerations, crack_motion
 from heeltoe.models.flexible.elastic import dofs
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from heeltoe.models.flexible.modes import intact_periods
+from heeltoe.motion.earthquake import Earthquake
 from shared.dams import BASE, KOYNA
 
 COARSE = "flexible.elements_across=3"
@@ -39,25 +41,25 @@ def test_a_step_and_a_ramp(damping):
     one = oscillator(0.3, damping)
     # A constant acceleration from the start: q'' = -a exp(-dwt) (cos - dw/wd sin), in one piece and in many.
     for time in (np.array([0.0, 2.0]), np.array([0.0, 0.013, 0.5, 0.51, 2.0])):
-        t, crack, ground = shaken(one, time, np.full(time.size, 3.0), None, 1e-2)
+        t, crack, ground = accelerations(one, Shaking(time, np.full(time.size, 3.0)), 1e-2)
         swing = np.exp(-fade * t) * (np.cos(wd * t) - fade / wd * np.sin(wd * t))
         assert crack[0] == pytest.approx(3.0 - 3.0 * swing, abs=1e-12)
         assert ground[0] == pytest.approx(3.0, rel=1e-15)
         assert np.all(crack[1:] == 0.0)
     # A ramp: q'' = -r exp(-dwt) sin(wd t) / wd.
-    t, crack, _ = shaken(one, np.array([0.0, 0.7, 1.0]), np.array([0.0, 1.4, 2.0]), None, 1e-2)
+    t, crack, _ = accelerations(one, Shaking(np.array([0.0, 0.7, 1.0]), np.array([0.0, 1.4, 2.0])), 1e-2)
     assert crack[0] == pytest.approx(2.0 * t - 2.0 * np.exp(-fade * t) * np.sin(wd * t) / wd, abs=1e-12)
 
 
 def test_a_jump_is_there_twice_and_acts_at_once():
     one = oscillator(0.3, 0.05)
     time, push = np.array([0.0, 0.5, 0.5, 1.0]), np.array([0.0, 0.0, 2.0, 2.0])
-    t, crack, ground = shaken(one, time, push, None, 0.01)
+    t, crack, ground = accelerations(one, Shaking(time, push), 0.01)
     assert np.flatnonzero(np.diff(t) == 0.0).tolist() == [50]
     assert (ground[0, 50], ground[0, 51]) == (0.0, 2.0)
     # The oscillator cannot follow at once: its total acceleration starts from zero.
     assert crack[0, 51] == pytest.approx(0.0, abs=1e-12)
-    _, same, _ = shaken(one, np.array([0.0, 0.5]), np.array([2.0, 2.0]), None, 0.01)
+    _, same, _ = accelerations(one, Shaking(np.array([0.0, 0.5]), np.array([2.0, 2.0])), 0.01)
     assert crack[0, 51:] == pytest.approx(same[0], abs=1e-12)
 
 
@@ -72,7 +74,7 @@ def test_several_modes_both_ways_against_a_general_solver():
         load = -several.participation @ [np.interp(t, time, across), np.interp(t, time, up)]
         return np.concatenate([state[3:], load - 0.1 * w * state[3:] - w**2 * state[:3]])
 
-    t, crack, ground = shaken(several, time, across, up, 0.004)
+    t, crack, ground = accelerations(several, Shaking(time, across, up), 0.004)
     found = solve_ivp(
         slope, (0.0, time[-1]), np.zeros(6), t_eval=t[t <= time[-1]], rtol=1e-9, atol=1e-12, max_step=2e-3
     )
@@ -85,7 +87,7 @@ def test_several_modes_both_ways_against_a_general_solver():
 def test_an_oscillator_is_one_of_the_response_spectrum():
     rng = np.random.default_rng(2)
     motion = GroundMotion.from_points(np.arange(400) * 0.02, np.cumsum(rng.standard_normal(400)) * 0.1)
-    found, straightness = crack_motion(oscillator(0.2, 0.05), motion, None, motion.duration)
+    found, straightness = crack_motion(oscillator(0.2, 0.05), Earthquake(motion, None, motion.duration))
     spectrum = response_spectrum(motion, [0.2], 0.05)
     assert found.horizontal.pga == pytest.approx(float(spectrum.total_acceleration[0]), rel=1e-3)
     assert 0.0 < straightness <= STRAIGHT
@@ -96,7 +98,7 @@ def test_the_transfer_function_is_what_a_steady_vibration_does():
     one = oscillator(0.25, 0.05)
     period = 0.4
     time = np.arange(0.0, 40.0, 1e-3)
-    _, crack, _ = shaken(one, time, np.sin(2.0 * math.pi * time / period), None, 1.0)
+    _, crack, _ = accelerations(one, Shaking(time, np.sin(2.0 * math.pi * time / period)), 1.0)
     assert np.abs(crack[0, -2000:]).max() == pytest.approx(float(one.transfer(np.array([period]))[0]), rel=1e-4)
     # The closed form of a damped oscillator.
     r, d = 0.25 / period, 0.05
@@ -169,7 +171,7 @@ def test_the_whole_dam_is_that_of_the_flexible_model():
     case = read_case(KOYNA, [COARSE])
     from heeltoe import build_flexible_dam
 
-    assert bonded_chain(case).periods[:5] == pytest.approx(intact_periods(build_flexible_dam(case).dam, 5), rel=1e-9)
+    assert bonded_chain(case).periods[:5] == pytest.approx(intact_periods(build_flexible_dam(case), 5), rel=1e-9)
 
 
 def test_a_stiff_dam_hands_on_the_motion_of_the_ground():
@@ -179,7 +181,7 @@ def test_a_stiff_dam_hands_on_the_motion_of_the_ground():
     stiff = chain(read_case(KOYNA, [COARSE, "concrete.modulus=1e15 Pa"]))
     # All its modes are faster than anything in an accelerogram.
     assert stiff.omega.size == 0
-    found, straightness = crack_motion(stiff, motion, up, 2.0)
+    found, straightness = crack_motion(stiff, Earthquake(motion, up, 2.0))
     assert straightness < 1e-12
     for each, source in ((found.horizontal, motion), (found.vertical, up)):
         # Up to where the first of them ends, which is a jump to zero.
@@ -197,8 +199,8 @@ def test_the_motion_turned_round_turns_the_crack_round():
     case = read_case(KOYNA, [COARSE])
     rng = np.random.default_rng(4)
     motion = GroundMotion.from_points(np.arange(200) * 0.01, rng.standard_normal(200))
-    plain, _ = crack_motion(chain(case), motion, None, 3.0)
-    turned, _ = crack_motion(chain(case), motion.reversed(), None, 3.0)
+    plain, _ = crack_motion(chain(case), Earthquake(motion, None, 3.0))
+    turned, _ = crack_motion(chain(case), Earthquake(motion.reversed(), None, 3.0))
     for name in ("horizontal", "vertical", "rotation"):
         one, other = getattr(plain, name), getattr(turned, name)
         assert np.all(one.acceleration == -other.acceleration)

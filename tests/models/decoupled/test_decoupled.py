@@ -11,7 +11,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from heeltoe import GroundMotion, InputError, decoupled, read_case, rigid, verdict, with_spread
-from heeltoe.models.decoupled.model import crack_motions
+from heeltoe.models.decoupled.model import crack_earthquake
+from heeltoe.models.run import earthquake
 from heeltoe.result.write import json_text
 from heeltoe.views.files.write import write_all
 from shared.command import command, options
@@ -74,11 +75,11 @@ def test_on_a_stiff_dam_it_is_the_rigid_model():
 
 def test_what_drives_the_block_is_the_motion_of_the_crack(koyna):
     case = read_case(KOYNA, SHORT)
-    horizontal, vertical, _ = crack_motions(case, koyna.motion, None)
-    assert vertical is None
-    assert "at the crack" in horizontal.name
-    assert "through the part of the dam below the crack" in horizontal.processing[-1]
-    assert rigid(case, horizontal).residual_slip_m == koyna.residual_slip_m
+    felt = crack_earthquake(case, earthquake(case, koyna.motion))
+    assert felt.vertical is None
+    assert "at the crack" in felt.motion.name
+    assert "through the part of the dam below the crack" in felt.motion.processing[-1]
+    assert rigid(case, felt.motion).residual_slip_m == koyna.residual_slip_m
     assert koyna.motion.name == "elcentro-1940-180-nga"
 
 

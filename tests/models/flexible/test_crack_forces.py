@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from heeltoe import GroundMotion, InputError, _kernel, flexible, read_case
-from heeltoe.models.flexible.inside import CrackWater
+from heeltoe import GroundMotion, InputError, flexible, read_case
+from heeltoe.kernel import CrackedDam
+from heeltoe.models.flexible.inside import FollowingWater
 from heeltoe.models.flexible.reduced import build_flexible_dam
 from heeltoe.models.flexible.step import longest_step
 from shared.dams import BASE, FAST
@@ -160,9 +161,8 @@ def test_a_change_over_a_wide_opening_is_none(elevation):
 
     def slip(opening):
         water = dataclasses.replace(dam.water, opening=opening) if opening else None
-        lower = dam.parts[1] if len(dam.parts) > 1 else None
-        kernel = _kernel.CrackedDam(dam.parts[0], lower, (1.0, 1.0), 3, water)
-        return kernel.run(shaking, 2e-4, 0.52, 0, False, (1.0, 1.0))[0][_kernel.CRACK_SUMMARY_FIELDS.index("slip")]
+        upper, lower = (*dam.reduced, None)[:2]
+        return CrackedDam(upper, lower, (1.0, 1.0), 3, water).run(shaking, 2e-4, 0.52).summary["slip"]
 
     assert abs(slip(None)) > 0.01
     assert slip(1e9) == pytest.approx(slip(None), rel=1e-6)
@@ -181,13 +181,13 @@ def test_a_rising_block_by_its_equation_of_motion(law):
     dam = build_flexible_dam(block())
     # The static load is that of a crack under the still pressure.
     share = np.array([1.0, 4.0, 2.0, 4.0, 1.0]) / 12.0
-    part = dam.parts[0]
+    part = dam.reduced[0]
     pressed = dataclasses.replace(part, load=part.load + part.shapes[:, 5:] @ (still * share))
-    water = CrackWater(law, opening, (still * share,), (reservoir * share,))
-    kernel = _kernel.CrackedDam(pressed, None, (0.3, 0.3), 3, water)
+    water = FollowingWater(law, opening, (still * share,), (reservoir * share,))
+    kernel = CrackedDam(pressed, None, (0.3, 0.3), 3, water)
     step, steps = 2e-5, 2000
-    row, frames, *_ = kernel.run(np.tile([0.0, -fall], (steps, 1)), step, 0.52, 10, False, (1.0, 1.0))
-    time, rise = (frames[:, _kernel.FRAME_FIELDS.index(name)] for name in ("time", "opening_heel"))
+    run = kernel.run(np.tile([0.0, -fall], (steps, 1)), step, 0.52, stride=10)
+    time, rise = run.frames["time"], run.frames["opening_heel"]
 
     def motion(_, state):
         return [state[1], fall - G + laws[law](state[0]) / MASS]
@@ -195,7 +195,7 @@ def test_a_rising_block_by_its_equation_of_motion(law):
     reference = solve_ivp(motion, (0.0, time[-1]), [0.0, 0.0], t_eval=time, rtol=1e-9, max_step=1e-4).y[0]
     assert rise[-1] > 2.0 * opening
     assert rise == pytest.approx(reference, abs=0.005 * rise[-1])
-    assert row[_kernel.CRACK_SUMMARY_FIELDS.index("energy_residual")] < 1e-12
+    assert run.summary["energy_residual"] < 1e-12
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -273,11 +273,11 @@ def test_what_a_step_cannot_follow_is_refused(changes, field):
 
 def test_the_step_is_shortened_for_what_is_stiff():
     dam = build_flexible_dam(typical(0.0, 'anchors=[{distance="3 m", axial_stiffness="1e7 MN/m/m"}]'))
-    step, field = longest_step(dam.parts, dam.water, dam.anchors, 0.52, 1e-2)
+    step, field = longest_step(dam.reduced, dam.water, dam.anchors, 0.52, 1e-2)
     assert field == "anchors"
     assert step < 1e-2
     soft = build_flexible_dam(typical(0.0, 'anchors=[{distance="3 m", axial_stiffness="1 MN/m/m"}]'))
-    assert longest_step(soft.parts, soft.water, soft.anchors, 0.52, 1e-2)[0] == 1e-2
+    assert longest_step(soft.reduced, soft.water, soft.anchors, 0.52, 1e-2)[0] == 1e-2
 
 
 def test_anchors_hold_what_friction_does_not():

@@ -54,7 +54,7 @@ def test_crack_positions_are_those_of_the_parts_for_long(name, modes):
 
 def test_the_first_frame_is_the_static_state(response):
     record = response.crack
-    upper, lower, force = bonded_state(record.dam.dam)
+    upper, lower, force = bonded_state(record.dam)
     assert record.time[0] == 0.0
     for found, static in zip(record.displacements(0), (upper, lower), strict=False):
         assert found.reshape(-1) == pytest.approx(static, rel=0.0, abs=1e-12)

@@ -218,12 +218,12 @@ def test_water_that_follows_the_vertical_motion(elevation):
         return build_flexible_dam(case_of(TYPICAL, elevation, 0.0, **more))
 
     still, following, denser = one(False), one(True), one(False, 1.3)
-    for place, part in enumerate(following.parts):
+    for place, part in enumerate(following.reduced):
         basis, bodies_ = following.modes[place].shapes, (still.bodies[place], denser.bodies[place])
         more = bodies_[1].load - bodies_[0].load
-        expected = still.parts[place].participation_vertical - basis.T @ more / (0.3 * 9.80665)
+        expected = still.reduced[place].participation_vertical - basis.T @ more / (0.3 * 9.80665)
         assert part.participation_vertical == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.abs(expected).max())
-        assert (part.participation_horizontal == still.parts[place].participation_horizontal).all()
+        assert (part.participation_horizontal == still.reduced[place].participation_horizontal).all()
 
 
 # Runs

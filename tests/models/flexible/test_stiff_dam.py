@@ -44,7 +44,7 @@ def growth(case):
     The normal velocities vanish, ``S_n q' = 0``, and the forces are ``(S_n - mu S_t)^T p``; what is left of the
     equations of motion has those forces taken out of it, so that its matrices are not symmetric.
     """
-    part = build_flexible_dam(case).parts[0]
+    part = build_flexible_dam(case).reduced[0]
     along, across = np.split(part.shapes, 2, axis=1)
     free = scipy.linalg.null_space(across.T)
     left = scipy.linalg.null_space((across - case.crack.mu_kinetic * along).T).T

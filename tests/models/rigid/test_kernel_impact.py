@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from heeltoe import _kernel
+from heeltoe.kernel import BLOCK
 from shared.kernel_cases import GRAVITY, ordinary, rectangle, rows, run
 
 STRIKES = ("heel strikes", "toe strikes", "both strike")
@@ -275,7 +275,7 @@ def test_restitution_is_lowered_where_it_would_create_energy():
         assert all(0.0 <= e < 0.95 for e in lowered)
         assert max(lowered) == pytest.approx(min(lowered), abs=1e-9)
         with_it = body.array()
-        with_it[_kernel.BLOCK_FIELDS.index("restitution")] = lowered[0]
+        with_it[BLOCK.index("restitution")] = lowered[0]
         assert strike(with_it, blow.before, gaps).after == pytest.approx(blow.after)
         assert blow.energy_lost >= -rounding(blow)
         # It is the largest such e: just above, the law would create energy or change its mind about stick and slip.

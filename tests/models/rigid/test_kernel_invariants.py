@@ -10,8 +10,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from heeltoe import _kernel
-from shared.kernel_cases import GRAVITY, SETTLE, Floats, Run, ordinary, paradox_possible, rectangle, rows, run
+from heeltoe.kernel import SUMMARY, Shaking, run_blocks
+from shared.kernel_cases import GRAVITY, Floats, Run, ordinary, paradox_possible, rectangle, rows, run
 
 EVENT_LIMIT = 20_000
 VELOCITIES = ("slip_velocity", "gap_velocity_heel", "gap_velocity_toe")
@@ -184,17 +184,16 @@ def test_ensembles_give_the_same_bits(examples):
     def law(many, random):
         def ensemble(order, threads):
             arrays = [np.array([value[k] for k in order]) for value in (blocks, which)]
-            return _kernel.run_rigid_many(
-                arrays[0], motions, arrays[1], np.ones((len(order), 2)), SETTLE, EVENT_LIMIT, False, threads
-            )
+            found = run_blocks(arrays[0], motions, arrays[1], np.ones((len(order), 2)), threads=threads)
+            return np.column_stack(list(found.values()))
 
         blocks, which = [rows(one.block) for one in many], np.arange(len(many))
-        motions = [(one.time, one.horizontal, one.vertical) for one in many]
+        motions = [Shaking(one.time, one.horizontal, one.vertical) for one in many]
         order = list(which)
         single = np.array([list(one.run().summary.values()) for one in many])
         watched = np.array([list(one.run(at=[0.0, one.time[-1]]).summary.values()) for one in many])
         # In histories rest is walked through sample by sample: the clock's sums are rounded differently.
-        clocks = [_kernel.SUMMARY_FIELDS.index("time_rest")]
+        clocks = [SUMMARY.index("time_rest")]
         assert (np.delete(single, clocks, axis=1) == np.delete(watched, clocks, axis=1)).all()
         for threads in (1, 2, 7):
             assert (ensemble(order, threads) == single).all()

@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heeltoe import _kernel, build_block, read_case, rigid, verdict
+from heeltoe import build_block, read_case, rigid, verdict
+from heeltoe.kernel import Limits, Shaking, run_block
 from heeltoe.models.rigid.varying import varies, varying
-from heeltoe.models.rigid.walk import SETTLE
 from heeltoe.motion.ground_motion import GroundMotion
 from shared.dams import TYPICAL_SECTION
 
@@ -25,29 +25,18 @@ def rectangle(width, height, friction=1.0, **more):
 
 
 def integrated(case, time, horizontal, vertical=None, turning=None, at=(), start=None, jam=False):
-    """Run the walk by integration whatever the case says; summary, histories, events and tension by name."""
+    """Run the walk by integration whatever the case says."""
     block = build_block(case)
-    what = varying(case, block)
-    row, history, _, events, tension = _kernel.run_rigid_varying(
-        block.parameters(),
-        what.numbers,
-        what.rotation,
-        what.rule,
-        what.pressure,
-        what.anchors,
+    shaking = Shaking(
         np.asarray(time, dtype=float),
         np.asarray(horizontal, dtype=float),
         None if vertical is None else np.asarray(vertical, dtype=float),
         None if turning is None else np.asarray(turning, dtype=float),
-        np.asarray(at, dtype=float),
-        start,
-        SETTLE,
-        20_000,
-        jam,
     )
-    summary = dict(zip(_kernel.SUMMARY_FIELDS, row.tolist(), strict=True))
-    summary["outcome"] = _kernel.OUTCOMES[int(summary["outcome"])]
-    return summary, dict(zip(_kernel.HISTORY_FIELDS, history.T, strict=True)), events, tension
+    limits = Limits(event_limit=20_000, jam=jam)
+    return run_block(
+        block.parameters(), shaking, np.asarray(at, dtype=float), limits, start=start, varying=varying(case, block)
+    )
 
 
 def random_dam(seed, **more):
@@ -85,25 +74,25 @@ def random_dam(seed, **more):
 
 
 def exactly(case, time, ground, up, factor=1.0):
-    """Run the exact walk, the ground times a factor; summary by name."""
-    block = build_block(case).parameters()
-    row = _kernel.run_rigid(block, time, factor * ground, up, np.empty(0), None, SETTLE, 20_000, True)[0]
-    return dict(zip(_kernel.SUMMARY_FIELDS, row.tolist(), strict=True))
+    """Run the exact walk, the ground times a factor."""
+    shaking = Shaking(time, factor * ground, up)
+    return run_block(build_block(case).parameters(), shaking, np.empty(0), Limits(event_limit=20_000, jam=True))
 
 
 def test_without_anything_that_varies_it_is_the_exact_walk():
     compared = chaotic = 0
     for seed in range(150):
         case, time, ground, up = random_dam(seed)
-        exact = exactly(case, time, ground, up)
-        ours, *_ = integrated(case, time, ground, up, jam=True)
-        assert ours["outcome"] == _kernel.OUTCOMES[int(exact["outcome"])]
-        if ours["outcome"] != "ok":
+        by_events, integral = exactly(case, time, ground, up), integrated(case, time, ground, up, jam=True)
+        assert integral.outcome == by_events.outcome
+        if integral.outcome != "ok":
             continue
+        exact, ours = by_events.summary, integral.summary
         allowed = 1e-8 * (abs(exact["slip"]) + 1e-3 * build_block(case).width)
         # Where the exact walk itself changes as much with the last digits of the record, there is nothing to compare.
         if any(
-            abs(exactly(case, time, ground, up, 1.0 + way)["slip"] - exact["slip"]) > allowed for way in (-1e-13, 1e-13)
+            abs(exactly(case, time, ground, up, 1.0 + way).summary["slip"] - exact["slip"]) > allowed
+            for way in (-1e-13, 1e-13)
         ):
             chaotic += 1
             continue
@@ -121,14 +110,15 @@ def test_every_run_is_sound(rotation, rule):
         case, time, ground, up = random_dam(
             seed, uplift={"during_shaking": rule}, analysis={"rotation": rotation}, anchored=seed % 2 == 0
         )
-        one, histories, events, _ = integrated(case, time, ground, up, at=time, jam=True)
-        assert one["outcome"] in ("ok", "unstable", "overturned"), seed
-        if one["outcome"] == "unstable":
+        run = integrated(case, time, ground, up, at=time, jam=True)
+        one, histories, events = run.summary, run.histories, run.events
+        assert run.outcome in ("ok", "unstable", "overturned"), seed
+        if run.outcome == "unstable":
             continue
         assert one["energy_residual"] < 1e-8
         assert all(np.isfinite(column).all() for column in histories.values())
         assert min(histories["gap_heel"].min(), histories["gap_toe"].min()) >= 0.0
-        assert (events[:, _kernel.EVENT_FIELDS.index("energy_lost")] >= -1e-9 * one["energy_input"]).all()
+        assert (events["energy_lost"] >= -1e-9 * one["energy_input"]).all()
         parts = one["slip_sliding"] + one["slip_slide_rocking"] + one["slip_drifting"]
         width = build_block(case).width
         assert parts == pytest.approx(one["slip"], abs=1e-9 * width, rel=1e-9)
@@ -139,10 +129,10 @@ def test_what_begins_does_not_end_at_once(which):
     # Two of some hundred thousand random dams: a corner that bounces so little that the search for its landing fell
     # back on its take-off, and a slip that grows from nothing before it turns round within one step.
     found = json.loads((Path(__file__).parent / "varying_loops.json").read_text())[which]
-    one, *_ = integrated(read_case(found["case"]), found["time"], found["ground"], found["vertical"], jam=True)
-    assert one["outcome"] == ("ok", "overturned")[which]
-    assert one["events"] < 500
-    assert one["energy_residual"] < 1e-10
+    one = integrated(read_case(found["case"]), found["time"], found["ground"], found["vertical"], jam=True)
+    assert one.outcome == ("ok", "overturned")[which]
+    assert one.summary["events"] < 500
+    assert one.summary["energy_residual"] < 1e-10
 
 
 def test_below_the_critical_acceleration_nothing_moves():
@@ -157,9 +147,9 @@ def test_below_the_critical_acceleration_nothing_moves():
         )
         if least <= 0.0:
             continue
-        _, histories, events, _ = integrated(case, time, 0.9999 * least * ground / np.abs(ground).max(), at=time)
-        assert len(events) == 0
-        assert all((histories[name] == 0.0).all() for name in ("slip", "gap_heel", "gap_toe"))
+        still = integrated(case, time, 0.9999 * least * ground / np.abs(ground).max(), at=time)
+        assert still.summary["events"] == still.events["time"].size == 0
+        assert all((still.histories[name] == 0.0).all() for name in ("slip", "gap_heel", "gap_toe"))
 
 
 def test_a_dowel_stops_the_slip_where_the_closed_form_says():
@@ -168,11 +158,11 @@ def test_a_dowel_stops_the_slip_where_the_closed_form_says():
     mass, mu, stiffness = 2400.0 * 2.0, 0.5, 1e6
     case = read_case(rectangle(2, 1, mu, anchors=[{"distance": "1 m", "shear_stiffness": f"{stiffness} N/m^2"}]))
     push = 0.9
-    one, *_ = integrated(case, [0.0, 2.0], [-push * G, -push * G])
+    one = integrated(case, [0.0, 2.0], [-push * G, -push * G])
     expected = 2.0 * (push - mu) * mass * G / stiffness
-    assert one["outcome"] == "ok"
-    assert one["slip"] == pytest.approx(expected, rel=1e-11)
-    assert one["final_mode"] == _kernel.MODES.index("rest")
+    assert one.outcome == "ok"
+    assert one.summary["slip"] == pytest.approx(expected, rel=1e-11)
+    assert one.final_mode == "rest"
 
 
 def test_an_anchor_pulls_with_its_prestress_and_its_elongation():
@@ -226,7 +216,7 @@ def test_a_crack_full_of_water_as_it_opens_lifts_less_than_statics_would():
     case = read_case(fields)
     limit = build_block(case).critical_accelerations().rocking_downstream
     for factor, moves in ((0.9999, False), (1.0001, True)):
-        one, *_ = integrated(case, [0.0, 0.2], np.full(2, -factor * limit))
+        one = integrated(case, [0.0, 0.2], np.full(2, -factor * limit)).summary
         assert (one["rotation_min"] < 0.0) is moves
 
 
@@ -242,11 +232,10 @@ def test_water_that_follows_the_vertical_motion():
     limit = (0.8 * (mass * G / 2.0 - lift) - push / 2.0) / block.mass_horizontal
     for factor, moves in ((0.9999, False), (1.0001, True)):
         ground = np.full(2, -factor * limit)
-        row = _kernel.run_rigid(
-            block.parameters(), np.array([0.0, 0.1]), ground, np.full(2, -0.5 * G), np.empty(0), None, SETTLE, 99, False
-        )[0]
-        assert bool(row[_kernel.SUMMARY_FIELDS.index("slip")] > 0.0) is moves
-        one, *_ = integrated(case, [0.0, 0.1], ground, np.full(2, -0.5 * G))
+        shaking = Shaking(np.array([0.0, 0.1]), ground, np.full(2, -0.5 * G))
+        exact = run_block(block.parameters(), shaking, np.empty(0), Limits(event_limit=99))
+        assert (exact.summary["slip"] > 0.0) is moves
+        one = integrated(case, [0.0, 0.1], ground, np.full(2, -0.5 * G)).summary
         assert (one["slip"] > 0.0) is moves
 
 
@@ -256,14 +245,14 @@ def test_a_ground_that_turns_moves_the_block_by_its_inertia():
     height, mu = 0.5, 0.2
     limit = mu * G / height
     for factor, moves in ((0.9999, False), (1.0001, True)):
-        one, *_ = integrated(case, [0.0, 0.1], [0.0, 0.0], turning=np.full(2, factor * limit))
+        one = integrated(case, [0.0, 0.1], [0.0, 0.0], turning=np.full(2, factor * limit)).summary
         assert (one["slip"] > 0.0) is moves
     # Its rotation alone lifts a corner where J phi'' + ... exceeds m g B / 2: about the heel, with m_o = J + m H^2.
     stiff = read_case(rectangle(2, 1, 10.0))
     inertia = 2400.0 * 2.0 * (2.0**2 + 1.0**2) / 12.0 + 2400.0 * 2.0 * height**2
     lifts = 2400.0 * 2.0 * G * 1.0 / inertia
     for factor, moves in ((0.9999, False), (1.0001, True)):
-        one, *_ = integrated(stiff, [0.0, 0.05], [0.0, 0.0], turning=np.full(2, -factor * lifts))
+        one = integrated(stiff, [0.0, 0.05], [0.0, 0.0], turning=np.full(2, -factor * lifts)).summary
         assert (one["rotation_max"] > 0.0) is moves
     turning = GroundMotion.from_points([0.0, 1.0], [2.0 * limit, 2.0 * limit])
     assert rigid(case, QUIET, rotation=turning).residual_slip_m > 0.0
@@ -275,8 +264,9 @@ def test_rocking_of_any_size_keeps_its_energy_between_blows():
     slenderness = math.atan(0.25)
     start = [[0.0, 0.0, math.sin(0.9 * slenderness)], [0.0, 0.0, 0.0]]
     moments = np.linspace(0.0, 1.2, 121)
-    one, h, *_ = integrated(case, [0.0, 1.2], [0.0, 0.0], at=moments, start=start)
-    assert one["impacts"] == 0
+    one = integrated(case, [0.0, 1.2], [0.0, 0.0], at=moments, start=start)
+    h = one.histories
+    assert one.summary["impacts"] == 0
     mass, radius = 2400.0 * 4.0, math.hypot(0.5, 2.0)
     inertia = mass * (1.0 + 16.0) / 12.0 + mass * radius**2
     theta = np.arcsin(h["gap_toe"])
@@ -305,8 +295,7 @@ def test_free_rocking_from_under_one_per_cent_of_the_slenderness(rotation):
     case = read_case(rectangle(1, 4, 10.0, analysis={"rotation": rotation}))
     slenderness = math.atan(0.25)
     start = [[0.0, 0.0, 0.009 * slenderness], [0.0, 0.0, 0.0]]
-    _, _, events, _ = integrated(case, [0.0, 1.0], [0.0, 0.0], start=start)
-    first = events[events[:, 1] == _kernel.EVENT_KINDS.index("toe strikes")][0, 0]
+    first = integrated(case, [0.0, 1.0], [0.0, 0.0], start=start).times_of("toe strikes")[0]
     # theta'' = -m g B / 2 / I: the time of the fall is that of a small rotation, longer by less than one per cent.
     radius2 = 0.25 + 4.0
     fall = math.sqrt(2.0 * 0.009 * slenderness * (17.0 / 12.0 + radius2) / (0.5 * G))

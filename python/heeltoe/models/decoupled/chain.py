@@ -12,17 +12,16 @@ from typing import Any
 
 import numpy as np
 import scipy.sparse as sparse
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
+from heeltoe.kept import Kept
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.flexible.elastic import Sparse, dam, dofs, side_by_side
 from heeltoe.models.flexible.mesh.dam import BodyMesh, dam_mesh
 from heeltoe.models.flexible.modes import lowest
 from heeltoe.models.flexible.reduced import fingerprints
-
-Floats = NDArray[np.float64]
 
 #: Modes that are kept: the lowest, up to so many, and none with a shorter period [s]. Nothing in an accelerogram is as
 #: fast; faster modes move with the ground, as all that is left out does.
@@ -94,11 +93,7 @@ def bonded_chain(case: Case) -> Chain:
     return _kept(case, _bonded)
 
 
-# Chains built before, newest last: a table of runs shakes the same one again and again.
-_BUILT: dict[tuple[str, ...], Chain] = {}
-
-
-_MOST_KEPT = 8
+_KEPT: Kept[Chain] = Kept(8)
 
 
 def _kept(case: Case, build: Callable[[Case], Chain]) -> Chain:
@@ -107,12 +102,7 @@ def _kept(case: Case, build: Callable[[Case], Chain]) -> Chain:
     fields["crack"] = {"elevation", "inclination"}
     # Files may change under their name.
     key = (build.__name__, case.model_dump_json(include=fields), *fingerprints(case))
-    if key not in _BUILT:
-        built = build(case)
-        while len(_BUILT) >= _MOST_KEPT:
-            _BUILT.pop(next(iter(_BUILT)), None)
-        _BUILT[key] = built
-    return _BUILT[key]
+    return _KEPT.get(key, lambda: build(case))
 
 
 def _chain(case: Case) -> Chain:

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
+from heeltoe.case.model import Case
+from heeltoe.kernel import Shaking
 from heeltoe.models.decoupled.chain import Chain
+from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.motion.moments import ground
-
-Floats = NDArray[np.float64]
 
 #: The first step of the motion at the crack [s]; it is halved until straight lines between the samples are within
 #: this part of the peak, or up to so often.
@@ -36,20 +37,29 @@ class CrackMotion:
     rotation: GroundMotion
     step: float
 
+    def felt(self, case: Case, ground: Earthquake) -> Earthquake:
+        """Return what of it the block of a case feels.
 
-def crack_motion(
-    chain: Chain, motion: GroundMotion, vertical: GroundMotion | None, end: float
-) -> tuple[CrackMotion, float]:
+        A vertical ground motion that is given must not be lost on the way; what the crack adds to it belongs to it.
+        """
+        upward = case.decoupled.vertical or ground.vertical is not None
+        return Earthquake(
+            self.horizontal,
+            self.vertical if upward else None,
+            ground.end,
+            self.rotation if case.decoupled.rotation else None,
+        )
+
+
+def crack_motion(chain: Chain, ground: Earthquake) -> tuple[CrackMotion, float]:
     """Return the motion of the crack, sampled so that straight lines between the samples are good enough.
 
     Parameters
     ----------
     chain
         What the ground shakes.
-    motion, vertical
-        The ground's motion, downstream and upward.
-    end
-        Length of the run [s]; where a record has ended the ground stands still.
+    ground
+        What shakes it; its rotation plays no part.
 
     Returns
     -------
@@ -58,28 +68,26 @@ def crack_motion(
         What straight lines between samples twice as far apart miss of the horizontal and the vertical motion, over the
         horizontal peak; between these samples it is a quarter of that.
     """
-    series = ground(motion, vertical, end)
+    shaking = ground.shaking
     step = FIRST_STEP
-    coarse, rough, _ = shaken(chain, *series, step)
+    coarse, rough, _ = accelerations(chain, shaking, step)
     for _ in range(HALVINGS):
         step /= 2.0
-        time, crack, _ = shaken(chain, *series, step)
+        time, crack, _ = accelerations(chain, shaking, step)
         # The ground's own moments are samples of both; among them are the jumps, which have two values.
-        between = ~np.isin(time, series[0])
+        between = ~np.isin(time, shaking.time)
         straight = np.array([np.interp(time[between], coarse, row) for row in rough[:2]])
         straightness = relative(straight, crack[:2, between], crack)
         if straightness <= STRAIGHT:
             break
         coarse, rough = time, crack
-    return _named(chain, motion, time, crack), straightness
+    return _named(chain, ground.motion, time, crack), straightness
 
 
-def crack_motion_at(
-    chain: Chain, motion: GroundMotion, vertical: GroundMotion | None, end: float, step: float
-) -> CrackMotion:
+def crack_motion_at(chain: Chain, ground: Earthquake, step: float) -> CrackMotion:
     """Return the motion of the crack with samples no more than `step` [s] apart."""
-    time, crack, _ = shaken(chain, *ground(motion, vertical, end), step)
-    return _named(chain, motion, time, crack)
+    time, crack, _ = accelerations(chain, ground.shaking, step)
+    return _named(chain, ground.motion, time, crack)
 
 
 def relative(found: Floats, exact: Floats, crack: Floats) -> float:
@@ -104,9 +112,7 @@ def _named(chain: Chain, motion: GroundMotion, time: Floats, crack: Floats) -> C
     return CrackMotion(horizontal, vertical, rotation, round(float(np.diff(time).max()), 9))
 
 
-def shaken(
-    chain: Chain, time: Floats, horizontal: Floats, up: Floats | None, step: float
-) -> tuple[Floats, Floats, Floats]:
+def accelerations(chain: Chain, shaking: Shaking, step: float) -> tuple[Floats, Floats, Floats]:
     """Return the acceleration of the crack under a ground acceleration that is straight between its moments.
 
     On a piece of length h with the load p0 + p1 s of a mode, q = (p0 + p1 s)/w^2 - 2 d p1/w^3 + Re(c exp(l s)) with
@@ -117,8 +123,8 @@ def shaken(
     ----------
     chain
         What is shaken, at rest at the start.
-    time, horizontal, up
-        (n,) each, from :func:`heeltoe.motion.moments.ground` [s, m/s2].
+    shaking
+        By what; its rotation plays no part.
     step
         Each piece of the ground's motion is divided into equal parts of up to this length [s].
 
@@ -131,8 +137,9 @@ def shaken(
     ground : ndarray, shape (2, k)
         The ground's, on the same moments.
     """
+    time, up = shaking.time, shaking.up
     pieces = np.diff(time)
-    base = np.stack([horizontal, np.zeros_like(horizontal) if up is None else up])
+    base = np.stack([shaking.horizontal, np.zeros_like(time) if up is None else up])
     load = -(chain.participation @ base)
     root = 1j * math.sqrt(1.0 - chain.damping**2)
     w = chain.omega
@@ -167,7 +174,7 @@ def shaken(
 def _states(
     pieces: Floats, load: Floats, w: Floats, damping: float, eigen: NDArray[np.complex128]
 ) -> NDArray[np.complex128]:
-    """Return the constants c of :func:`shaken` of every piece and mode, (n - 1, m)."""
+    """Return the constants c of :func:`accelerations` of every piece and mode, (n - 1, m)."""
     constants = np.empty((pieces.size, w.size), dtype=np.complex128)
     place, velocity = np.zeros(w.size), np.zeros(w.size)
     swing = eigen.imag

@@ -71,22 +71,29 @@ class Body:
 
 @dataclass(frozen=True, eq=False)
 class Dam:
-    """Both parts of the dam, and how they hang together while the crack is bonded.
+    """The parts of a dam, and how they hang together while the crack is bonded.
 
-    Parameters
+    Attributes
     ----------
-    upper
-        The part above the crack, free.
-    lower
-        The part below it; None where the foundation is a rigid plane.
+    bodies
+        The part above the crack, free, and, if the foundation is no rigid plane, the part below it.
     tie
         Displacements of the upper, then of the lower part are ``tie @ free``, with the crack bonded and the base
         held. Where the nodes of the two faces do not match, those of the upper follow the lower face.
     """
 
-    upper: Body
-    lower: Body | None
+    bodies: tuple[Body, ...]
     tie: Sparse
+
+    @property
+    def upper(self) -> Body:
+        """The part above the crack."""
+        return self.bodies[0]
+
+    @property
+    def lower(self) -> Body | None:
+        """The part below it; None where the foundation is a rigid plane."""
+        return self.bodies[1] if len(self.bodies) > 1 else None
 
 
 def dam(case: Case, mesh: DamMesh) -> Dam:
@@ -104,9 +111,8 @@ def dam(case: Case, mesh: DamMesh) -> Dam:
     InputError
         Where the case has no Young's modulus, or one that is no solid's.
     """
-    upper = _body(case, mesh.upper, above=True)
-    lower = _body(case, mesh.lower, above=False) if mesh.lower else None
-    return Dam(upper, lower, _tie(mesh))
+    meshes = (mesh.upper,) if mesh.lower is None else (mesh.upper, mesh.lower)
+    return Dam(tuple(_body(case, each, above=each is mesh.upper) for each in meshes), _tie(mesh))
 
 
 def bonded_state(dam: Dam) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
@@ -122,7 +128,7 @@ def bonded_state(dam: Dam) -> tuple[NDArray[np.float64], NDArray[np.float64], ND
     """
     from scipy.sparse.linalg import splu
 
-    load = np.concatenate([body.load for body in (dam.upper, dam.lower) if body])
+    load = np.concatenate([body.load for body in dam.bodies])
     stiffness = (dam.tie.T @ side_by_side(dam, "stiffness") @ dam.tie).tocsc()
     displacements = dam.tie @ splu(stiffness).solve(dam.tie.T @ load)
     upper, lower = np.split(displacements, [dam.upper.load.size])
@@ -131,7 +137,7 @@ def bonded_state(dam: Dam) -> tuple[NDArray[np.float64], NDArray[np.float64], ND
 
 def side_by_side(dam: Dam, name: str) -> Sparse:
     """Return a matrix of both parts, upper first and unconnected; `name` is that of a field of :class:`Body`."""
-    return sparse.block_diag([getattr(body, name) for body in (dam.upper, dam.lower) if body], format="csc")
+    return sparse.block_diag([getattr(body, name) for body in dam.bodies], format="csc")
 
 
 def dofs(nodes: NDArray[np.int64]) -> NDArray[np.int64]:

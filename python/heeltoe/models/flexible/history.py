@@ -10,8 +10,8 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
-from heeltoe import _kernel
 from heeltoe.geometry.axes import along_and_across
+from heeltoe.kernel import CONTACT_STATUSES
 from heeltoe.models.flexible.elastic import stresses
 from heeltoe.models.flexible.reduced import FlexibleDam
 
@@ -36,7 +36,7 @@ class CrackHistory:
         (f, 2, k) forces by which the lower face pushes the nodes of the upper one, along and across the crack, mean
         since the frame before [N].
     status
-        (f, c) status of each watched node, counting ``_kernel.CONTACT_STATUSES``.
+        (f, c) status of each watched node, counting :data:`heeltoe.kernel.CONTACT_STATUSES`.
     modes
         (f, m) amplitudes of the modes of the upper and, if there is one, of the lower part.
     dam
@@ -115,7 +115,7 @@ class CrackHistory:
 
     def status_names(self) -> list[str]:
         """Return the names that `status` counts."""
-        return list(_kernel.CONTACT_STATUSES)
+        return list(CONTACT_STATUSES)
 
 
 def crack_table(record: CrackHistory) -> pa.Table:

@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class CrackWater:
+class FollowingWater:
     """Water in the crack whose pressure changes as the crack opens.
 
     Attributes
@@ -59,7 +59,7 @@ class CrackAnchor:
     shear_stiffness: float
 
 
-def crack_water(case: Case, bodies: list[Body]) -> CrackWater | None:
+def following_water(case: Case, bodies: tuple[Body, ...]) -> FollowingWater | None:
     """Return the water of a case, None where its pressure is constant."""
     if case.uplift.during_shaking == "constant":
         return None
@@ -74,10 +74,10 @@ def crack_water(case: Case, bodies: list[Body]) -> CrackWater | None:
             found.append(np.ascontiguousarray(turned[:, 1]))
         return tuple(found)
 
-    return CrackWater(case.uplift.during_shaking, case.uplift.opening_of_change, across(None), across(full))
+    return FollowingWater(case.uplift.during_shaking, case.uplift.opening_of_change, across(None), across(full))
 
 
-def crack_anchors(case: Case, bodies: list[Body]) -> tuple[CrackAnchor, ...]:
+def crack_anchors(case: Case, bodies: tuple[Body, ...]) -> tuple[CrackAnchor, ...]:
     """Return the anchors of a case that have a stiffness; prestress alone is a constant load."""
     found = []
     for place, anchor in enumerate(case.anchors):

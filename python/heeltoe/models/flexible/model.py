@@ -2,109 +2,77 @@
 
 from __future__ import annotations
 
-from heeltoe import _kernel
+from heeltoe import kernel
 from heeltoe.case.model import Case
-from heeltoe.case.shaking import resolve
-from heeltoe.case.warnings import case_warnings
 from heeltoe.errors import InputError
 from heeltoe.mechanics.block import build_block, static_state
 from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
 from heeltoe.models.flexible.response import FlexibleResponse
-from heeltoe.models.flexible.shaken import Shaken, converged
-from heeltoe.models.flexible.tables import FRAME, anchors_of, energy_of, histories_of, history_of, summary_of
-from heeltoe.models.flexible.warnings import advice_of, last_change, warnings_of
-from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.models.flexible.shaken import ShakenDam, converged
+from heeltoe.models.flexible.tables import energy_of, histories_of, history_of, summary_of
+from heeltoe.models.flexible.warnings import advice_of, warnings_of
+from heeltoe.motion.earthquake import Earthquake
 from heeltoe.references import cited
-from heeltoe.result.limits import check_limits
 
 #: Frames kept: enough for an animation, few enough for memory.
 _FRAME_STEP = 0.01
-
-
 _SHORTEST_FRAME_STEP = 1e-3
 
 
-def flexible(
-    case: Case,
-    motion: GroundMotion | None = None,
-    vertical: GroundMotion | None = None,
-    *,
-    output_step: float | None = None,
-    dam: FlexibleDam | None = None,
-) -> FlexibleResponse:
+def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None = None) -> FlexibleResponse:
     """Run the flexible model on a case.
 
     Parameters
     ----------
     case
-        Dam, crack, water and earthquake.
-    motion, vertical
-        Ground motions to use, as they are, instead of the case's [m/s2, downstream and upward].
+        Dam, crack and water.
+    earthquake
+        What shakes the ground.
     output_step
-        Spacing of the histories [s]; 0.01 s where it is not given. It does not change the motion that is computed.
-    dam
-        The case's dam, built before; saves the set-up in studies of one dam.
-
-    Returns
-    -------
-    FlexibleResponse
+        Spacing of the histories [s]; 0.01 s where it is not given.
 
     Raises
     ------
     InputError
-        Where the case has no motion, no modulus or a mesh or a step that cannot be used.
+        Where the case has no modulus or a mesh or a step that cannot be used.
     """
-    if motion is None:
-        if case.motion is None:
-            raise InputError("motion-missing", "motion")
-        motion, vertical = resolve(case.motion, case.gravity, case.base_directory)
-    end = case.motion.duration if case.motion and case.motion.duration else motion.duration
+    end = earthquake.end
     if output_step is not None and not _SHORTEST_FRAME_STEP <= output_step <= end:
         raise InputError(
             "frame-step", "output_step", f"{output_step:g} s", shortest=f"{_SHORTEST_FRAME_STEP:g} s", end=f"{end:g} s"
         )
-    dam = dam or build_flexible_dam(case)
-    shaken = Shaken(case, dam, motion, vertical, end)
-    raw, frames, convergence = converged(shaken, output_step or min(_FRAME_STEP, end))
-    outcome = _kernel.CRACK_OUTCOMES[int(raw["outcome"])]
+    dam = build_flexible_dam(case)
+    shaken = ShakenDam(case, dam, earthquake.shaking)
+    run, convergence = converged(shaken, output_step or min(_FRAME_STEP, end))
     block = build_block(case)
     safety = block.sliding_safety_factor
     # Anchors with stiffness hold what friction does not.
-    if outcome == "ok" and safety is not None and safety < 1.0 and not dam.anchors:
-        outcome = "unstable"
-    record = history_of(frames, dam, case.flexible.contactors)
-    summary = summary_of(raw, dam, shaken, convergence)
-    if case.anchors:
-        summary["anchors"] = anchors_of(case, raw)
-    summary["uplift_during_shaking"] = case.uplift.during_shaking
+    slides_away = safety is not None and safety < 1.0 and not dam.anchors
+    outcome = "unstable" if run.outcome == "ok" and slides_away else run.outcome
+    history = history_of(case, dam, run)
     return FlexibleResponse(
         model="flexible",
         title=case.title,
         outcome=outcome,
-        advice=advice_of(outcome, raw),
-        warnings=(
-            *case_warnings(case),
-            *motion.warnings,
-            *warnings_of(case, dam, raw, record, convergence, safety, last_change(frames[0])),
-        ),
-        summary=summary,
-        energy=energy_of(raw),
-        motion=motion,
-        vertical=vertical,
+        advice=advice_of(outcome, run.summary),
+        warnings=tuple(warnings_of(shaken, run, history, convergence, safety)),
+        summary=summary_of(shaken, run, convergence),
+        energy=energy_of(run),
+        motion=earthquake.motion,
+        vertical=earthquake.vertical,
         gravity=case.gravity,
-        histories=histories_of(frames[0], shaken),
-        mode=tuple(_kernel.CRACK_STATES[int(state)] for state in frames[0][:, FRAME["state"]]),
+        histories=histories_of(shaken.shaking, run),
+        mode=tuple(kernel.DAM_STATES[int(state)] for state in run.frames["state"]),
         event_log={},
         static=static_state(block),
         references=_references(case, dam),
-        crack=record,
-        limits=check_limits(case.limits, summary),
+        crack=history,
     )
 
 
 def _references(case: Case, dam: FlexibleDam) -> tuple[str, ...]:
     keys = ["flexible", case.flexible.contact]
-    if dam.dam.upper.mass.sum() > dam.dam.upper.mass_concrete.sum() * (1.0 + 1e-12):
+    if dam.upper.mass.sum() > dam.upper.mass_concrete.sum() * (1.0 + 1e-12):
         keys.append("water")
     if dam.water is not None:
         keys.append(case.uplift.during_shaking)

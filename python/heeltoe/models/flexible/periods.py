@@ -91,8 +91,8 @@ def dam_periods(case: Case, count: int = COUNT, *, field: str = "count") -> DamP
     parts = [tuple(part_periods(modes, count).tolist()) for modes in dam.modes]
     return DamPeriods(
         title=case.title,
-        intact_dry=tuple(intact_periods(dam.dam, count, water=False).tolist()),
-        intact=tuple(intact_periods(dam.dam, count).tolist()),
+        intact_dry=tuple(intact_periods(dam, count, water=False).tolist()),
+        intact=tuple(intact_periods(dam, count).tolist()),
         above=parts[0],
         below=parts[1] if len(parts) > 1 else None,
         rayleigh=dam.coefficients,

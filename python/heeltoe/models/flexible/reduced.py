@@ -6,23 +6,22 @@ from dataclasses import dataclass
 from hashlib import sha256
 
 import numpy as np
-from numpy.typing import NDArray
 
-from heeltoe import _kernel
+from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.geometry.axes import along_and_across, places
 from heeltoe.geometry.section import CutSection
+from heeltoe.kept import Kept
+from heeltoe.kernel import CrackedDam
 from heeltoe.models.flexible.elastic import Body, Dam, bonded_state, dam
-from heeltoe.models.flexible.inside import CrackAnchor, CrackWater, crack_anchors, crack_water
+from heeltoe.models.flexible.inside import CrackAnchor, FollowingWater, crack_anchors, following_water
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from heeltoe.models.flexible.modes import Modes, intact_periods, part_periods, rayleigh, reduce, residual_error
 
-Floats = NDArray[np.float64]
-
 
 @dataclass(frozen=True, eq=False)
-class Part:
-    """One part of the dam as the kernel takes it; m modes, k nodes on the crack.
+class ReducedBody:
+    """A body in its modes, as the kernel takes it; m modes, k nodes on the crack.
 
     Attributes
     ----------
@@ -46,26 +45,24 @@ class Part:
     position: Floats
 
 
-@dataclass(frozen=True, eq=False)
-class FlexibleDam:
-    """A dam ready to be shaken.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class FlexibleDam(Dam):
+    """A dam ready to be shaken: its elastic bodies in their modes.
 
     Attributes
     ----------
     section
         The part above the crack.
-    dam
-        The elastic bodies.
     modes
-        Of the upper part and, if there is one, of the lower.
-    parts
-        The same for the kernel.
+        Of each body.
+    reduced
+        The bodies in their modes, as the kernel takes them.
     kernel
         The kernel's own copy.
     static
-        (2 n,) displacements before the earthquake of each part [m].
+        (2 n,) displacements before the earthquake of each body [m].
     crack_force
-        (2 k,) forces on the upper part's crack nodes before the earthquake, x and z in turn [N].
+        (2 k,) forces on the upper body's crack nodes before the earthquake, x and z in turn [N].
     periods
         Longest periods of the intact dam, water included [s].
     coefficients
@@ -77,27 +74,19 @@ class FlexibleDam:
     """
 
     section: CutSection
-    dam: Dam
     modes: tuple[Modes, ...]
-    parts: tuple[Part, ...]
-    kernel: _kernel.CrackedDam
+    reduced: tuple[ReducedBody, ...]
+    kernel: CrackedDam
     static: tuple[Floats, ...]
     crack_force: Floats
     periods: Floats
     coefficients: tuple[float, float] | None
     basis_error: float
-    water: CrackWater | None
+    water: FollowingWater | None
     anchors: tuple[CrackAnchor, ...]
 
-    @property
-    def bodies(self) -> tuple[Body, ...]:
-        """The upper part and, if there is one, the lower."""
-        return (self.dam.upper,) if self.dam.lower is None else (self.dam.upper, self.dam.lower)
 
-
-# Dams built before, newest last: a study shakes the same few again and again.
-_BUILT: dict[tuple[str, ...], FlexibleDam] = {}
-_KEPT = 4
+_KEPT: Kept[FlexibleDam] = Kept(4)
 
 
 def build_flexible_dam(case: Case) -> FlexibleDam:
@@ -110,12 +99,7 @@ def build_flexible_dam(case: Case) -> FlexibleDam:
     """
     # The earthquake plays no part, and files may change under their name.
     key = (case.model_dump_json(exclude={"motion", "title", "analysis"}), *fingerprints(case))
-    if key not in _BUILT:
-        built = _build(case)
-        while len(_BUILT) >= _KEPT:
-            _BUILT.pop(next(iter(_BUILT)), None)
-        _BUILT[key] = built
-    return _BUILT[key]
+    return _KEPT.get(key, lambda: _build(case))
 
 
 def fingerprints(case: Case) -> list[str]:
@@ -128,32 +112,32 @@ def fingerprints(case: Case) -> list[str]:
 
 
 def _build(case: Case) -> FlexibleDam:
-    section = case.cut
-    bodies = dam(case, dam_mesh(case))
-    upper, lower, crack_force = bonded_state(bodies)
-    periods = intact_periods(bodies, 5)
-    held = [bodies.upper] if bodies.lower is None else [bodies.upper, bodies.lower]
-    modes = tuple(reduce(body, case.flexible.modes) for body in held)
+    bonded = dam(case, dam_mesh(case))
+    bodies = bonded.bodies
+    *static, crack_force = bonded_state(bonded)
+    static = static[: len(bodies)]
+    periods = intact_periods(bonded, 5)
+    modes = tuple(reduce(body, case.flexible.modes) for body in bodies)
     coefficients = None
     if case.flexible.damping != "modal":
         coefficients = rayleigh(periods[0], periods[2], case.concrete.damping)
-    parts = []
-    for place, (body, basis, static) in enumerate(zip(held, modes, (upper, lower), strict=False)):
+    reduced = []
+    for place, (body, basis, still) in enumerate(zip(bodies, modes, static, strict=True)):
         damping = _damping(case, basis, coefficients, above=place == 0)
-        parts.append(_part(body, basis, static, damping, section))
+        reduced.append(_reduced(body, basis, still, damping, case.cut))
     friction = (case.crack.mu_static, case.crack.mu_kinetic)
-    water, anchors = crack_water(case, held), crack_anchors(case, held)
-    lower_part = parts[1] if len(parts) > 1 else None
-    kernel = _kernel.CrackedDam(parts[0], lower_part, friction, case.flexible.contactors, water, anchors)
-    statics = (upper, lower)[: len(parts)]
-    errors = [residual_error(body, basis) for body, basis in zip(held, modes, strict=True) if basis.truncated]
+    water, anchors = following_water(case, bodies), crack_anchors(case, bodies)
+    upper, lower = (*reduced, None)[:2]
+    assert upper is not None
+    errors = [residual_error(body, basis) for body, basis in zip(bodies, modes, strict=True) if basis.truncated]
     return FlexibleDam(
-        section=section,
-        dam=bodies,
+        bodies=bodies,
+        tie=bonded.tie,
+        section=case.cut,
         modes=modes,
-        parts=tuple(parts),
-        kernel=kernel,
-        static=statics,
+        reduced=tuple(reduced),
+        kernel=CrackedDam(upper, lower, friction, case.flexible.contactors, water, anchors),
+        static=tuple(static),
         crack_force=crack_force,
         periods=periods,
         coefficients=coefficients,
@@ -186,7 +170,9 @@ def _damping(
     return everywhere, mass + stiffness * omega_squared
 
 
-def _part(body: Body, modes: Modes, static: Floats, damping: tuple[Floats, Floats], section: CutSection) -> Part:
+def _reduced(
+    body: Body, modes: Modes, static: Floats, damping: tuple[Floats, Floats], section: CutSection
+) -> ReducedBody:
     crack = body.mesh.crack
     horizontal = np.zeros(static.size)
     horizontal[::2] = 1.0
@@ -194,7 +180,7 @@ def _part(body: Body, modes: Modes, static: Floats, damping: tuple[Floats, Float
     moved = along_and_across(static.reshape(-1, 2)[crack], section).T.reshape(-1)
     shapes = along_and_across(modes.shapes.T.reshape(modes.omega_squared.size, -1, 2)[:, crack], section)
     pushed = body.mass @ (1.0 - horizontal) - body.load_per_vertical
-    return Part(
+    return ReducedBody(
         omega_squared=np.ascontiguousarray(modes.omega_squared),
         damping_sticking=np.ascontiguousarray(damping[0]),
         damping_free=np.ascontiguousarray(damping[1]),

@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe.models.flexible.inside import CrackAnchor, CrackWater
+from heeltoe.models.flexible.inside import CrackAnchor, FollowingWater
 
 if TYPE_CHECKING:
-    from heeltoe.models.flexible.reduced import Part
+    from heeltoe.models.flexible.reduced import ReducedBody
 
 Floats = NDArray[np.float64]
 
@@ -19,7 +19,11 @@ _FOLLOWED = 1.0
 
 
 def longest_step(
-    parts: tuple[Part, ...], water: CrackWater | None, anchors: tuple[CrackAnchor, ...], theta: float, step: float
+    bodies: tuple[ReducedBody, ...],
+    water: FollowingWater | None,
+    anchors: tuple[CrackAnchor, ...],
+    theta: float,
+    step: float,
 ) -> tuple[float, str]:
     """Return a step [s], `step` or a shorter one, that follows these forces, and the field that asks for it.
 
@@ -29,8 +33,8 @@ def longest_step(
     """
     for _ in range(20):
         springs = [
-            ("uplift.opening", _water_rate(parts, water, theta, step)),
-            ("anchors", max((_anchor_rate(parts, anchor, theta, step) for anchor in anchors), default=0.0)),
+            ("uplift.opening", _water_rate(bodies, water, theta, step)),
+            ("anchors", max((_anchor_rate(bodies, anchor, theta, step) for anchor in anchors), default=0.0)),
         ]
         field, rate = max(springs, key=lambda spring: spring[1])
         if step * step * rate <= _FOLLOWED:
@@ -39,34 +43,34 @@ def longest_step(
     return step, field
 
 
-def _answer(part: Part, theta: float, step: float) -> Floats:
-    weight = 1.0 / (1.0 + theta * step * part.damping_free + (theta * step) ** 2 * part.omega_squared)
-    found: Floats = (part.shapes.T * weight) @ part.shapes
+def _answer(body: ReducedBody, theta: float, step: float) -> Floats:
+    weight = 1.0 / (1.0 + theta * step * body.damping_free + (theta * step) ** 2 * body.omega_squared)
+    found: Floats = (body.shapes.T * weight) @ body.shapes
     return found
 
 
-def _water_rate(parts: tuple[Part, ...], water: CrackWater | None, theta: float, step: float) -> float:
+def _water_rate(bodies: tuple[ReducedBody, ...], water: FollowingWater | None, theta: float, step: float) -> float:
     if water is None:
         return 0.0
     rate = 0.0
-    for part, still, full in zip(parts, water.still, water.full, strict=True):
+    for body, still, full in zip(bodies, water.still, water.full, strict=True):
         change = full - still if water.law == "full while open" else still
         root = np.sqrt(np.abs(change) / water.opening)
         count = root.size
-        across = _answer(part, theta, step)[count:, count:]
+        across = _answer(body, theta, step)[count:, count:]
         rate += float(np.linalg.eigvalsh(root[:, None] * across * root)[-1])
     return rate
 
 
-def _anchor_rate(parts: tuple[Part, ...], anchor: CrackAnchor, theta: float, step: float) -> float:
+def _anchor_rate(bodies: tuple[ReducedBody, ...], anchor: CrackAnchor, theta: float, step: float) -> float:
     answer = np.zeros((2, 2))
-    for part, point in zip(parts, anchor.points, strict=True):
-        count = part.position.size // 2
+    for body, point in zip(bodies, anchor.points, strict=True):
+        count = body.position.size // 2
         weights = np.zeros((2, 2 * count))
         for node, share in point:
             weights[0, node] += share
             weights[1, count + node] += share
-        answer += weights @ _answer(part, theta, step) @ weights.T
+        answer += weights @ _answer(body, theta, step) @ weights.T
     axis = np.array(anchor.axis)
     stiffness = anchor.axial_stiffness * np.outer(axis, axis) + anchor.shear_stiffness * np.diag([1.0, 0.0])
     return float(np.abs(np.linalg.eigvals(answer @ stiffness)).max())

@@ -5,55 +5,50 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from heeltoe import _kernel
+from heeltoe import kernel
+from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
+from heeltoe.kernel import DamRun, Shaking
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.reduced import FlexibleDam
-from heeltoe.models.flexible.shaken import Convergence, Frames, Shaken
+from heeltoe.models.flexible.shaken import Convergence, ShakenDam
 from heeltoe.result.response import Energy
 
-Floats = NDArray[np.float64]
 
-FRAME = {name: place for place, name in enumerate(_kernel.FRAME_FIELDS)}
-
-
-def anchors_of(case: Case, raw: dict[str, float]) -> list[dict[str, float | None]]:
+def anchors_of(case: Case, run: DamRun) -> list[dict[str, float | None]]:
     """Return the largest tension [N] of each anchor, and what it is good for."""
-    stiff = 0
+    tensions = iter(run.tension)
     found: list[dict[str, float | None]] = []
     for anchor in case.anchors:
-        tension = anchor.prestress
-        if anchor.axial_stiffness or anchor.shear_stiffness:
-            tension = raw[f"tension_{stiff}"]
-            stiff += 1
+        stiff = anchor.axial_stiffness or anchor.shear_stiffness
+        tension = next(tensions) if stiff else anchor.prestress
         found.append({"distance_m": anchor.distance, "peak_tension_n": tension, "capacity_n": anchor.capacity})
     return found
 
 
-def history_of(frames: Frames, dam: FlexibleDam, contactors: int) -> CrackHistory:
-    rows, upper, lower, force, status, above, below = frames
-    count = len(rows)
+def history_of(case: Case, dam: FlexibleDam, run: DamRun) -> CrackHistory:
+    """Return the frames of a run."""
+    time = run.frames["time"]
 
     def pairs(table: Floats) -> Floats:
-        return table.reshape(count, 2, -1)
+        return table.reshape(time.size, 2, -1)
 
     return CrackHistory(
-        time=np.ascontiguousarray(rows[:, 0]),
-        upper_position=pairs(upper),
-        lower_position=pairs(lower) if lower.size else None,
-        force=pairs(force),
-        status=status,
-        modes=(above, below)[: len(dam.modes)],
+        time=time,
+        upper_position=pairs(run.upper),
+        lower_position=pairs(run.lower) if run.lower.size else None,
+        force=pairs(run.force),
+        status=run.status,
+        modes=run.modes[: len(dam.modes)],
         dam=dam,
-        contactors=contactors,
+        contactors=case.flexible.contactors,
     )
 
 
-def summary_of(
-    raw: dict[str, float], dam: FlexibleDam, shaken: Shaken, convergence: Convergence | None
-) -> dict[str, Any]:
+def summary_of(shaken: ShakenDam, run: DamRun, convergence: Convergence | None) -> dict[str, Any]:
+    """Return the numbers of the contract."""
+    raw, dam, case = run.summary, shaken.dam, shaken.case
     return {
         "residual_slip_m": raw["slip"],
         "peak_slip_downstream_m": raw["slip_max"],
@@ -69,13 +64,11 @@ def summary_of(
             "slide_rocking": raw["slip_slide_rocking"],
             "drifting": raw["slip_drifting"],
         },
-        "time_by_mode_s": {
-            name.replace("-", "_"): raw[f"time_{name.replace('-', '_')}"] for name in _kernel.CRACK_STATES
-        },
+        "time_by_mode_s": {name.replace("-", "_"): raw[f"time_{name.replace('-', '_')}"] for name in kernel.DAM_STATES},
         "impacts": int(raw["impacts"]),
         "largest_impact_velocity_m_s": raw["largest_impact_velocity"],
         "peak_normal_force_n": raw["peak_normal_force"],
-        "final_mode": _kernel.CRACK_STATES[int(raw["final_state"])],
+        "final_mode": run.final_state,
         "final_slip_velocity_m_s": raw["slip_velocity"],
         "end_time_s": raw["end_time"],
         "crack_width_m": dam.section.crack_width,
@@ -84,32 +77,27 @@ def summary_of(
             "elements": [len(body.mesh.elements) for body in dam.bodies],
             "nodes": [len(body.mesh.nodes) for body in dam.bodies],
             "modes": [int(basis.omega_squared.size) for basis in dam.modes],
-            "crack_nodes": int(dam.dam.upper.mesh.crack.size),
+            "crack_nodes": int(dam.upper.mesh.crack.size),
             "basis_error": dam.basis_error,
         },
-        "damping": shaken.case.flexible.damping,
-        "damping_ratio": shaken.case.concrete.damping,
+        "damping": case.flexible.damping,
+        "damping_ratio": case.concrete.damping,
         "rayleigh_mass_1_s": dam.coefficients[0] if dam.coefficients else None,
         "rayleigh_stiffness_s": dam.coefficients[1] if dam.coefficients else None,
-        "contact": shaken.case.flexible.contact,
+        "contact": case.flexible.contact,
         "steps": int(raw["steps"]),
         "time_step_s": raw["end_time"] / raw["steps"],
         "contact_iterations_per_step": raw["iterations"] / raw["steps"],
         "contact_residual": raw["contact_residual"],
-        "convergence": None
-        if convergence is None
-        else {
-            "time_step_s": convergence.time_step,
-            "coarser_step_s": convergence.coarser_step,
-            "residual_slip_m": convergence.slip,
-            "coarser_residual_slip_m": convergence.coarser_slip,
-            "change": convergence.change,
-            "allowed": convergence.allowed,
-        },
+        "convergence": None if convergence is None else convergence.to_json(),
+        **({"anchors": anchors_of(case, run)} if case.anchors else {}),
+        "uplift_during_shaking": case.uplift.during_shaking,
     }
 
 
-def energy_of(raw: dict[str, float]) -> Energy:
+def energy_of(run: DamRun) -> Energy:
+    """Return the ledger."""
+    raw = run.summary
     return Energy(
         input_j=raw["energy_input"],
         friction_j=raw["energy_friction"],
@@ -122,26 +110,24 @@ def energy_of(raw: dict[str, float]) -> Energy:
     )
 
 
-def histories_of(rows: Floats, shaken: Shaken) -> dict[str, Floats]:
-    def column(name: str) -> Floats:
-        return np.ascontiguousarray(rows[:, FRAME[name]])
-
-    time = column("time")
-    result = {"time_s": time, "ground_acceleration_m_s2": np.interp(time, shaken.time, shaken.horizontal)}
-    if shaken.up is not None:
-        result["vertical_ground_acceleration_m_s2"] = np.interp(time, shaken.time, shaken.up)
+def histories_of(shaking: Shaking, run: DamRun) -> dict[str, Floats]:
+    """Return the histories of the contract, frame by frame."""
+    column, time = run.frames, run.frames["time"]
+    result = {"time_s": time, "ground_acceleration_m_s2": np.interp(time, shaking.time, shaking.horizontal)}
+    if shaking.up is not None:
+        result["vertical_ground_acceleration_m_s2"] = np.interp(time, shaking.time, shaking.up)
     return result | {
-        "slip_m": column("slip"),
-        "slip_velocity_m_s": column("slip_velocity"),
-        "gap_heel_m": column("opening_heel"),
-        "gap_toe_m": column("opening_toe"),
-        "rotation_rad": column("rotation"),
-        "normal_force_n": column("normal_force"),
-        "friction_force_n": column("friction_force"),
-        "touching": column("touching"),
-        "stored_energy_j": column("energy_stored"),
-        "input_energy_j": column("energy_input"),
-        "damping_energy_j": column("energy_damping"),
-        "friction_energy_j": column("energy_friction"),
-        "impact_energy_j": column("energy_impact"),
+        "slip_m": column["slip"],
+        "slip_velocity_m_s": column["slip_velocity"],
+        "gap_heel_m": column["opening_heel"],
+        "gap_toe_m": column["opening_toe"],
+        "rotation_rad": column["rotation"],
+        "normal_force_n": column["normal_force"],
+        "friction_force_n": column["friction_force"],
+        "touching": column["touching"],
+        "stored_energy_j": column["energy_stored"],
+        "input_energy_j": column["energy_input"],
+        "damping_energy_j": column["energy_damping"],
+        "friction_energy_j": column["energy_friction"],
+        "impact_energy_j": column["energy_impact"],
     }

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from heeltoe.case.model import Case
+from heeltoe.kernel import DamRun
 from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.reduced import FlexibleDam
-from heeltoe.models.flexible.shaken import NOTHING, Convergence
-from heeltoe.models.flexible.tables import FRAME, anchors_of
+from heeltoe.models.flexible.shaken import NOTHING, Convergence, ShakenDam
+from heeltoe.models.flexible.tables import anchors_of
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings import Notice
-
-Floats = NDArray[np.float64]
 
 ADVICE = {
     "unstable": (
@@ -30,7 +28,7 @@ ADVICE = {
 }
 
 
-def advice_of(outcome: str, raw: dict[str, float]) -> Sentence | None:
+def advice_of(outcome: str, raw: Mapping[str, float]) -> Sentence | None:
     """Say where a run stopped, and what to do; None where there is a result to trust."""
     if outcome not in ADVICE:
         return None
@@ -43,36 +41,15 @@ def advice_of(outcome: str, raw: dict[str, float]) -> Sentence | None:
 
 
 def warnings_of(
-    case: Case,
-    dam: FlexibleDam,
-    raw: dict[str, float],
-    record: CrackHistory,
-    convergence: Convergence | None,
-    safety: float | None,
-    last_change: float,
+    shaken: ShakenDam, run: DamRun, history: CrackHistory, convergence: Convergence | None, safety: float | None
 ) -> list[Notice]:
-    """Return what a reader of a flexible run must know.
-
-    Parameters
-    ----------
-    case, dam
-        What was run.
-    raw
-        Summary of the kernel, by its names.
-    record
-        What the crack did.
-    convergence
-        Evidence for the time step; None where it was not asked.
-    safety
-        Sliding safety factor under the static loads; None where nothing pushes.
-    last_change
-        By how much the slip changes in the last second [m].
-    """
+    """Return what a reader of a flexible run must know; `safety` is that against sliding under the static loads."""
+    case, dam = shaken.case, shaken.dam
     return [
         *_about_the_slip(dam, convergence, safety),
         *_about_the_concrete(case, dam),
-        *_about_the_end(case, raw, last_change),
-        *_about_the_contact(case, dam, raw, record),
+        *_about_the_end(case, run),
+        *_about_the_contact(case, run, history),
     ]
 
 
@@ -104,10 +81,11 @@ def _about_the_concrete(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
         yield Notice("modes-few", error=dam.basis_error)
 
 
-def _about_the_end(case: Case, raw: dict[str, float], last_change: float) -> Iterator[Notice]:
-    if raw["outcome"] == 0.0 and last_change > NOTHING:
-        yield Notice("dam-still-moves", time_s=raw["end_time"], change_m=last_change)
-    for number, anchor in enumerate(anchors_of(case, raw), start=1):
+def _about_the_end(case: Case, run: DamRun) -> Iterator[Notice]:
+    change = last_change(run)
+    if run.outcome == "ok" and change > NOTHING:
+        yield Notice("dam-still-moves", time_s=run.summary["end_time"], change_m=change)
+    for number, anchor in enumerate(anchors_of(case, run), start=1):
         tension, capacity = anchor["peak_tension_n"] or 0.0, anchor["capacity_n"]
         if capacity is not None and tension > capacity:
             yield Notice("anchor-yields", number=number, tension_n=tension, capacity_n=capacity)
@@ -115,9 +93,9 @@ def _about_the_end(case: Case, raw: dict[str, float], last_change: float) -> Ite
         yield Notice("rotation-unused", rotation=case.analysis.rotation)
 
 
-def _about_the_contact(case: Case, dam: FlexibleDam, raw: dict[str, float], record: CrackHistory) -> Iterator[Notice]:
-    depth = record.deepest_penetration()
-    if depth > 1e-3 * dam.section.crack_width:
+def _about_the_contact(case: Case, run: DamRun, history: CrackHistory) -> Iterator[Notice]:
+    raw, depth = run.summary, history.deepest_penetration()
+    if depth > 1e-3 * history.dam.section.crack_width:
         yield Notice("faces-penetrate", depth_m=depth, contactors=case.flexible.contactors)
     if raw["contact_residual"] > 1e-6:
         yield Notice("contact-loose", residual=raw["contact_residual"])
@@ -130,7 +108,7 @@ def _about_the_contact(case: Case, dam: FlexibleDam, raw: dict[str, float], reco
         yield Notice("rotation-beyond-model", rotation_rad=largest)
 
 
-def last_change(rows: Floats) -> float:
+def last_change(run: DamRun) -> float:
     """Return by how much the slip changes in the last second of a run [m]."""
-    time, slip = rows[:, FRAME["time"]], rows[:, FRAME["slip"]]
+    time, slip = run.frames["time"], run.frames["slip"]
     return float(np.ptp(slip[time >= time[-1] - 1.0]))

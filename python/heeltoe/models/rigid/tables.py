@@ -6,25 +6,45 @@ import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from heeltoe import _kernel
+from heeltoe import kernel
+from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
+from heeltoe.kernel import BlockRun, Shaking
 from heeltoe.mechanics.block import Block
-from heeltoe.models.rigid.walk import GroundSeries
+from heeltoe.references import cited
 from heeltoe.result.response import Energy
 
-Floats = NDArray[np.float64]
+
+def opening(case: Case, block: Block, rotation: float) -> float:
+    """Return how far a rotation [rad] about one corner opens the crack at the other [m]."""
+    if case.analysis.rotation == "finite":
+        return block.width * math.sin(min(rotation, math.pi / 2.0))
+    return block.width * rotation
 
 
-def summary_of(case: Case, raw: dict[str, float], block: Block, tension: Floats) -> dict[str, Any]:
+def tensions(case: Case, run: BlockRun) -> list[float]:
+    """Return the largest tension of each anchor [N/m]: its prestress where nothing varies."""
+    return [anchor.prestress for anchor in case.anchors] if run.tension is None else run.tension.tolist()
+
+
+def references_of(case: Case, block: Block, run: BlockRun) -> tuple[str, ...]:
+    """Return the sources of what was used."""
+    keys = ["rigid", "rocking"] + (["water"] if block.water.mass else [])
+    if case.analysis.rotation != "small":
+        keys.append("overturning")
+    if case.uplift.during_shaking != "constant":
+        keys.append(case.uplift.during_shaking)
+    if not run.exact:
+        keys.append("integration")
+    return cited(*keys)
+
+
+def summary_of(case: Case, block: Block, run: BlockRun) -> dict[str, Any]:
+    """Return the numbers of the contract."""
+    raw = run.summary
     downstream, upstream = -raw["rotation_min"], raw["rotation_max"]
-    overturned = _kernel.OUTCOMES[int(raw["outcome"])] == "overturned"
-    finite = case.analysis.rotation == "finite"
-
-    def opening(rotation: float) -> float:
-        return block.width * (math.sin(min(rotation, math.pi / 2.0)) if finite else rotation)
-
+    about = "toe" if downstream > upstream else "heel"
     return {
         "residual_slip_m": raw["slip"],
         "peak_slip_downstream_m": raw["slip_max"],
@@ -32,8 +52,8 @@ def summary_of(case: Case, raw: dict[str, float], block: Block, tension: Floats)
         "rocking_downstream_rad": abs(downstream),
         "rocking_upstream_rad": abs(upstream),
         # Rocking downstream, about the toe, opens the crack at the upstream face.
-        "opening_upstream_m": opening(abs(downstream)),
-        "opening_downstream_m": opening(abs(upstream)),
+        "opening_upstream_m": opening(case, block, abs(downstream)),
+        "opening_downstream_m": opening(case, block, abs(upstream)),
         "largest_gap_heel_m": raw["largest_gap_heel"],
         "largest_gap_toe_m": raw["largest_gap_toe"],
         "slip_by_mode_m": {
@@ -51,21 +71,23 @@ def summary_of(case: Case, raw: dict[str, float], block: Block, tension: Floats)
         "impacts": int(raw["impacts"]),
         "largest_impact_velocity_m_s": raw["largest_impact_velocity"],
         "events": int(raw["events"]),
-        "final_mode": _kernel.MODES[int(raw["final_mode"])],
+        "final_mode": run.final_mode,
         "final_slip_velocity_m_s": raw["slip_velocity"],
         "end_time_s": raw["end_time"],
         "crack_width_m": block.width,
         "rotation": case.analysis.rotation,
         "uplift_during_shaking": case.uplift.during_shaking,
-        "overturned_about": ("toe" if downstream > upstream else "heel") if overturned else None,
+        "overturned_about": about if run.outcome == "overturned" else None,
         "anchors": [
             {"distance_m": anchor.distance, "peak_tension_n": float(peak), "capacity_n": anchor.capacity}
-            for anchor, peak in zip(case.anchors, tension, strict=True)
+            for anchor, peak in zip(case.anchors, tensions(case, run), strict=True)
         ],
     }
 
 
-def energy_of(raw: dict[str, float]) -> Energy:
+def energy_of(run: BlockRun) -> Energy:
+    """Return the ledger."""
+    raw = run.summary
     return Energy(
         input_j=raw["energy_input"],
         friction_j=raw["energy_friction"],
@@ -75,11 +97,9 @@ def energy_of(raw: dict[str, float]) -> Energy:
     )
 
 
-def histories_of(
-    case: Case, moments: Floats, history: Floats, shaking: GroundSeries, block: Block
-) -> dict[str, Floats]:
-    column = {name: np.ascontiguousarray(history[:, k]) for k, name in enumerate(_kernel.HISTORY_FIELDS)}
-    time = shaking.time
+def histories_of(case: Case, block: Block, shaking: Shaking, moments: Floats, run: BlockRun) -> dict[str, Floats]:
+    """Return the histories of the contract at the moments that the run has reached."""
+    column, time = run.histories, shaking.time
     result = {"time_s": moments, "ground_acceleration_m_s2": np.interp(moments, time, shaking.horizontal)}
     if shaking.up is not None:
         result["vertical_ground_acceleration_m_s2"] = np.interp(moments, time, shaking.up)
@@ -106,17 +126,18 @@ def histories_of(
     return result
 
 
-def events_of(rows: Floats) -> dict[str, Any]:
-    column = {name: np.ascontiguousarray(rows[:, k]) for k, name in enumerate(_kernel.EVENT_FIELDS)}
+def events_of(run: BlockRun) -> dict[str, Any]:
+    """Return the events of the contract."""
+    column = run.events
 
-    def named(field: str, names: list[str]) -> list[str]:
+    def named(field: str, names: tuple[str, ...]) -> list[str]:
         return [names[int(k)] for k in column[field]]
 
     return {
         "time_s": column["time"],
-        "kind": named("kind", _kernel.EVENT_KINDS),
-        "mode_before": named("mode_before", _kernel.MODES),
-        "mode_after": named("mode_after", _kernel.MODES),
+        "kind": named("kind", kernel.EVENT_KINDS),
+        "mode_before": named("mode_before", kernel.MODES),
+        "mode_after": named("mode_after", kernel.MODES),
         "slip_m": column["slip"],
         "gap_heel_m": column["gap_heel"],
         "gap_toe_m": column["gap_toe"],

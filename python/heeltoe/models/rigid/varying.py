@@ -3,40 +3,13 @@ to know of them."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
-from numpy.typing import NDArray
 
-from heeltoe import _kernel
+from heeltoe import kernel
 from heeltoe.case.model import Case
+from heeltoe.kernel import Varying
 from heeltoe.mechanics.block import Block, across_crack
 from heeltoe.mechanics.loads import face_at, total, uplift_profile, water_above_crack
-
-Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True, eq=False)
-class Varying:
-    """What changes as a block moves, as the kernel takes it.
-
-    Attributes
-    ----------
-    numbers
-        (21,) in the order of ``_kernel.VARYING_FIELDS``.
-    rotation, rule
-        ``analysis.rotation`` and ``uplift.during_shaking`` of the case.
-    pressure
-        (k, 2) distance from the heel [m], pressure in the closed crack [Pa].
-    anchors
-        (n, 6) distance, axis along and across the crack, prestress, axial and shear stiffness.
-    """
-
-    numbers: Floats
-    rotation: str
-    rule: str
-    pressure: Floats
-    anchors: Floats
 
 
 def varies(case: Case) -> bool:
@@ -98,7 +71,7 @@ def varying(case: Case, block: Block) -> Varying:
         for anchor in case.anchors
     ]
     return Varying(
-        numbers=np.array([numbers[name] for name in _kernel.VARYING_FIELDS]),
+        numbers=np.array([numbers[name] for name in kernel.VARYING]),
         rotation=case.analysis.rotation,
         rule=uplift.during_shaking,
         pressure=np.ascontiguousarray(profile),

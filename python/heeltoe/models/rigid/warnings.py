@@ -4,17 +4,12 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
-from heeltoe import _kernel
 from heeltoe.case.model import Case
+from heeltoe.kernel import BlockRun
 from heeltoe.mechanics.block import Block
-from heeltoe.models.rigid.varying import varies
+from heeltoe.models.rigid.tables import tensions
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings import Notice
-
-Floats = NDArray[np.float64]
 
 ADVICE = {
     "unstable": "give the dam more friction, less uplift or less water until it stands before the earthquake",
@@ -34,8 +29,9 @@ _SLIP_TO_TALK_ABOUT = 1e-3
 _SHARE_OF_WIDTH = 0.1
 
 
-def advice_of(outcome: str, raw: dict[str, float], block: Block) -> Sentence | None:
+def advice_of(block: Block, run: BlockRun) -> Sentence | None:
     """Say where a run stopped, and what to do; None where there is a result to trust."""
+    raw, outcome = run.summary, run.outcome
     if outcome in ("ok", "overturned"):
         return None
     if outcome == "unstable":
@@ -44,7 +40,7 @@ def advice_of(outcome: str, raw: dict[str, float], block: Block) -> Sentence | N
         "stopped at {time_s:.6f s} in mode {mode} with slip {slip_m:.6g m} at {slip_velocity_m_s:.6g m/s}, heel gap "
         "{gap_heel_m:.6g m}, toe gap {gap_toe_m:.6g m}: {remedy}",
         time_s=raw["end_time"],
-        mode=repr(_kernel.MODES[int(raw["final_mode"])]),
+        mode=repr(run.final_mode),
         slip_m=raw["slip"],
         slip_velocity_m_s=raw["slip_velocity"],
         gap_heel_m=raw["gap_heel"],
@@ -75,49 +71,49 @@ def _instability(block: Block) -> Sentence:
     return reasons[0] if reasons else Sentence("its static loads are at the limit of friction or of overturning")
 
 
-def warnings_of(case: Case, raw: dict[str, float], outcome: str, block: Block, tension: Floats) -> list[Notice]:
-    """Return what a reader of a rigid run must know; `tension` is the largest of each anchor [N/m]."""
-    said = []
-    if outcome == "ok" and _kernel.MODES[int(raw["final_mode"])] != "rest":
+def warnings_of(case: Case, block: Block, run: BlockRun) -> list[Notice]:
+    """Return what a reader of a rigid run must know."""
+    raw, said = run.summary, []
+    if run.outcome == "ok" and run.final_mode != "rest":
         said.append(Notice("block-still-moves", time_s=raw["end_time"], slip_velocity_m_s=raw["slip_velocity"]))
     if raw["energy_limited_impacts"]:
         said.append(Notice("restitution-lowered", impacts=int(raw["energy_limited_impacts"])))
     if raw["jams"]:
         said.append(Notice("paradox-jammed", jams=int(raw["jams"])))
-    said += _about_the_slip(case, raw, outcome, block)
+    said += _about_the_slip(case, block, run)
     # Integration is exact to a part of the crack's width, of which tiny motions are a tiny part.
-    if raw["energy_residual"] > (1e-6 if varies(case) else 1e-9):
+    if raw["energy_residual"] > (1e-9 if run.exact else 1e-6):
         said.append(Notice("energy-open", residual=raw["energy_residual"]))
-    for anchor, peak in zip(case.anchors, tension.tolist(), strict=True):
+    for anchor, peak in zip(case.anchors, tensions(case, run), strict=True):
         if anchor.capacity is not None and peak > anchor.capacity:
             said.append(
                 Notice("anchor-overloaded", distance_m=anchor.distance, tension_n=peak, capacity_n=anchor.capacity)
             )
     if case.analysis.rotation == "small":
-        said += _about_the_rotation(raw, block)
+        said += _about_the_rotation(block, run)
     return said
 
 
-def _about_the_slip(case: Case, raw: dict[str, float], outcome: str, block: Block) -> list[Notice]:
+def _about_the_slip(case: Case, block: Block, run: BlockRun) -> list[Notice]:
     """Say where the slip is of little use, or too much for what was taken for granted."""
-    said = []
+    raw, said = run.summary, []
     largest = max(raw["slip_max"], -raw["slip_min"])
     in_the_air, sliding = abs(raw["slip_drifting"]), abs(raw["slip_sliding"]) + abs(raw["slip_slide_rocking"])
     if case.crack.restitution > 0.0 and in_the_air > max(sliding, _SLIP_TO_TALK_ABOUT):
         said.append(Notice("slip-in-the-air", slip_m=in_the_air, restitution=case.crack.restitution))
-    if outcome == "ok" and largest > block.width:
+    if run.outcome == "ok" and largest > block.width:
         said.append(Notice("slid-off", slip_m=largest, width_m=block.width))
-    elif outcome == "ok" and largest > _SHARE_OF_WIDTH * block.width:
+    elif run.outcome == "ok" and largest > _SHARE_OF_WIDTH * block.width:
         said.append(Notice("slid-far", share=largest / block.width))
     return said
 
 
-def _about_the_rotation(raw: dict[str, float], block: Block) -> list[Notice]:
+def _about_the_rotation(block: Block, run: BlockRun) -> list[Notice]:
     """Say where the block turns so far that its weight pulls it back noticeably less."""
     said = []
     for rotation, distance, corner in (
-        (-raw["rotation_min"], block.toe_distance, "toe"),
-        (raw["rotation_max"], block.heel_distance, "heel"),
+        (-run.summary["rotation_min"], block.toe_distance, "toe"),
+        (run.summary["rotation_max"], block.heel_distance, "heel"),
     ):
         slenderness = math.atan2(distance, block.height)
         if rotation > _SHARE_OF_SLENDERNESS * slenderness:

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
-from heeltoe import _kernel
+from heeltoe.kernel import CONTACT_STATUSES
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.units.systems import Scale, unit_system
@@ -53,7 +53,7 @@ def crack_figure(response: FlexibleResponse, units: str = "si") -> Figure:
 
 def _status_map(axes: Axes, record: CrackHistory, scale: Scale) -> list[str]:
     """Colour every watched node of one whole face at every moment by its status; return which there are."""
-    names = _kernel.CONTACT_STATUSES
+    names = CONTACT_STATUSES
     along = record.upper_position[0, 0]
     # The nodes of a face that is watched as a whole come first; those of its ends that follow say nothing new.
     status = record.status[:, : along.size]

@@ -110,8 +110,8 @@ def intact_shapes(dam: FlexibleDam, count: int) -> tuple[Floats, list[tuple[Floa
     parts; their largest component downstream is positive."""
     from scipy.sparse.linalg import eigsh
 
-    tie = dam.dam.tie
-    stiffness, mass = ((tie.T @ side_by_side(dam.dam, name) @ tie).tocsc() for name in ("stiffness", "mass"))
+    tie = dam.tie
+    stiffness, mass = ((tie.T @ side_by_side(dam, name) @ tie).tocsc() for name in ("stiffness", "mass"))
     # A start of our own makes the result the same every time.
     start = np.random.default_rng(0).standard_normal(tie.shape[1])
     count = min(count, tie.shape[1] - 2)

@@ -230,7 +230,7 @@ def _damping_ratio(dam: FlexibleDam) -> float:
     if dam.coefficients is not None:
         omega = 2.0 * math.pi / dam.periods[0]
         return float(dam.coefficients[0] / omega + dam.coefficients[1] * omega) / 2.0
-    part = dam.parts[-1]
+    part = dam.reduced[-1]
     return float(part.damping_sticking[-1] / math.sqrt(part.omega_squared[-1])) / 2.0
 
 

@@ -1,0 +1,75 @@
+"""One way to run any model: whoever asks gets the same result, and the way there is straight."""
+
+import json
+import sys
+from collections import Counter
+
+import pytest
+
+import heeltoe
+from heeltoe import InputError, compare, read_case
+from heeltoe.models.run import MODELS, run
+from shared.command import command
+from shared.dams import BASE
+
+# The usual loads open part of the crack, of which water takes hold.
+OPENED = ["section.base_width=70 m", "crack.friction=1.2"]
+FAST = ["motion.duration=3 s", "flexible.elements_across=2", "flexible.convergence_check=false"]
+
+
+def test_python_and_the_command_line_warn_of_the_same():
+    changes = [f"--set={change}" for change in OPENED]
+    told = json.loads(command("run", str(BASE), *changes, "--json", "-").stdout)
+    response = heeltoe.rigid(read_case(BASE, OPENED))
+    assert len(response.warnings) == 1
+    assert response.warnings[0].code == "crack-opens"
+    assert response.to_json() == told
+
+
+def test_every_way_to_a_model_is_the_same():
+    case = read_case(BASE, [*OPENED, *FAST, "limits.residual_slip=1 mm"])
+    for model, function in (("rigid", heeltoe.rigid), ("flexible", heeltoe.flexible)):
+        one, other = run(case, model), function(case)
+        assert type(one) is type(other)
+        assert one.to_json() == other.to_json()
+        assert sum(each.code == "crack-opens" for each in one.warnings) == 1
+        assert [check.name for check in one.limits] == ["residual_slip"]
+    both = compare(case)
+    assert both.flexible.to_json() == one.to_json()
+    assert both.rigid.warnings == heeltoe.rigid(case).warnings
+
+
+def test_models_are_listed_once():
+    for name in MODELS:
+        assert callable(getattr(heeltoe, name))
+    with pytest.raises(InputError, match="use rigid, decoupled, flexible") as refused:
+        run(read_case(BASE), "elastic")
+    assert refused.value.code == "unknown-model"
+
+
+def test_the_way_of_a_rigid_run_is_straight():
+    """The section is cut once, the block built once, and every file entered once with the case in hand."""
+    heeltoe.rigid(read_case(BASE, ["motion.duration=3 s"]))
+    calls, way, fresh = Counter(), [], []
+
+    def watch(frame, event, _):
+        module = frame.f_globals.get("__name__", "")
+        if event != "call" or not module.startswith("heeltoe."):
+            return
+        calls[f"{module}.{frame.f_code.co_name}"] += 1
+        given = [frame.f_locals[name] for name in frame.f_code.co_varnames[: frame.f_code.co_argcount]]
+        if any(each is case for each in given for case in fresh) and way[-1:] != [module]:
+            way.append(module)
+
+    sys.setprofile(watch)
+    try:
+        fresh.append(read_case(BASE, ["motion.duration=3 s"]))
+        heeltoe.rigid(fresh[0])
+    finally:
+        sys.setprofile(None)
+    assert calls["heeltoe.geometry.section.cut"] == 1
+    assert calls["heeltoe.mechanics.block.build_block"] == 1
+    # The door hands it on, and takes the result back.
+    entered = Counter(way) - Counter({"heeltoe.models.run": 2})
+    assert max(entered.values()) == 1, way
+    assert len(entered) < 12, way
