@@ -77,7 +77,7 @@ class Varying:
     ----------
     numbers
         (21,) in the order of :data:`VARYING`.
-    rotation, rule
+    rotation, law
         ``analysis.rotation`` and ``uplift.during_shaking`` of the case.
     pressure
         (k, 2) distance from the heel [m], pressure in the closed crack [Pa].
@@ -87,7 +87,7 @@ class Varying:
 
     numbers: Floats
     rotation: str
-    rule: str
+    law: str
     pressure: Floats
     anchors: Floats
 
@@ -222,7 +222,7 @@ def run_block(
         block,
         varying.numbers,
         varying.rotation,
-        varying.rule,
+        varying.law,
         varying.pressure,
         varying.anchors,
         time,

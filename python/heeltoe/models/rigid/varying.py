@@ -73,7 +73,7 @@ def varying(case: Case, block: Block) -> Varying:
     return Varying(
         numbers=np.array([numbers[name] for name in kernel.VARYING]),
         rotation=case.analysis.rotation,
-        rule=uplift.during_shaking,
+        law=uplift.during_shaking,
         pressure=np.ascontiguousarray(profile),
         anchors=np.array(anchors, dtype=np.float64).reshape(-1, 6),
     )
