@@ -87,9 +87,8 @@ def test_kinds_of_results_replace_each_other(both, block, tmp_path):
         apart[name] = {path.relative_to(tmp_path / name) for path in write_all(result, tmp_path / name, figures=False)}
     for result in (both, grid, both.flexible, block, both):
         write_all(result, tmp_path / "all", figures=False)
-    assert {path.relative_to(tmp_path / "all") for path in (tmp_path / "all").rglob("*") if path.is_file()} == apart[
-        "both"
-    ]
+    found = {path.relative_to(tmp_path / "all") for path in (tmp_path / "all").rglob("*") if path.is_file()}
+    assert found == apart["both"]
     for name in ("block", "grid", "elastic"):
         assert {path.relative_to(tmp_path / name) for path in (tmp_path / name).rglob("*")} == apart[name]
 
