@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from heeltoe.motion.records import read_text, read_text_channels
+from heeltoe.motion.records.to_motion import Told
+
 G = 9.80665
 #: A wave without offset [g], as K-NET's reader takes the mean out.
 WAVE = 0.3 * np.sin(np.arange(160) * 0.2) * np.hanning(160)
@@ -148,3 +151,11 @@ Last Correction   1980/01/01 20:00:00
 Memo.
 {rows(counts, 8, "9d")}
 """
+
+
+def read(text: str, name: str = "a.V2", channel: str | int | None = None, **hints):
+    return read_text(text.encode(), name, channel, Told(**hints))
+
+
+def channels(text: str, **hints):
+    return read_text_channels(text.encode(), "a.V2", Told(assume=True, **hints))

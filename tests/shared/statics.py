@@ -5,6 +5,8 @@ from __future__ import annotations
 from heeltoe import read_case
 
 CLOSE = {"rel": 1e-6}
+M = 1e6
+SHAKEN = {"seismic_coefficient": 0.1, "vertical_seismic_coefficient": 0.05}
 TRIANGLE = [["0 m", "0 m"], ["80 m", "0 m"], ["0 m", "100 m"]]
 
 
