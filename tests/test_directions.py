@@ -49,6 +49,7 @@ def test_all_contracts_hold(copy):
     ("file", "form", "forbidden", "contract"),
     [
         ("geometry/section.py", "\n{0}\n", "from heeltoe.case.model import Case", ONE_WAY),
+        ("mechanics/block.py", "\n{0}\n", "from heeltoe import rigid", ONE_WAY),
         ("motion/spectrum.py", WITHIN, "from heeltoe.views.figures import write", ONE_WAY),
         ("result/response.py", FOR_TYPES, "from heeltoe.models.rigid.model import rigid", ONE_WAY),
         ("models/statics/cases.py", WITHIN, "from heeltoe.models.flexible.loads import edge_shapes", MODELS),
