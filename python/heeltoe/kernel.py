@@ -396,4 +396,6 @@ class CrackedDam:
 
 
 def _columns(names: Sequence[str], table: Floats) -> dict[str, Floats]:
-    return {name: np.ascontiguousarray(column) for name, column in zip(names, table.T, strict=True)}
+    # A table that was not asked for has no columns either.
+    columns = table.reshape(-1, len(names)).T
+    return {name: np.ascontiguousarray(column) for name, column in zip(names, columns, strict=True)}
