@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.geometry.section import CutSection
 
-Floats = NDArray[np.float64]
+Floats = Floats
 
 
 def along_and_across(vectors: Floats, section: CutSection) -> Floats:

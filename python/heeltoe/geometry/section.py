@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.errors import InputError, shown
 
 ON_LINE = 1e-9
@@ -42,14 +42,14 @@ class CutSection:
         z of the lowest and of the highest point of the whole section [m].
     """
 
-    polygon: NDArray[np.float64]
+    polygon: Floats
     area: float
     centroid: tuple[float, float]
     polar_inertia: float
     heel: tuple[float, float]
     toe: tuple[float, float]
-    upstream_face: NDArray[np.float64]
-    downstream_face: NDArray[np.float64]
+    upstream_face: Floats
+    downstream_face: Floats
     base_elevation: float
     crest_elevation: float
 
@@ -146,7 +146,7 @@ def cut(whole: shapely.Polygon, elevation: float, inclination: float = 0.0) -> C
     return _measured(corners, base, crest)
 
 
-def _cut_inclined(whole: shapely.Polygon, level: float, inclination: float, slack: float) -> NDArray[np.float64]:
+def _cut_inclined(whole: shapely.Polygon, level: float, inclination: float, slack: float) -> Floats:
     """Return the corners above a crack that starts at `level` on the upstream face: turned until it is level, cut as
     a level one and turned back."""
     left, _, right, _ = whole.bounds
@@ -156,14 +156,14 @@ def _cut_inclined(whole: shapely.Polygon, level: float, inclination: float, slac
     turn = np.array([[down, up], [-up, down]])
     turned = shapely.transform(whole, lambda corners: (corners - heel) @ turn.T)
     corners = _cut_level(turned, 0.0, slack, level - whole.bounds[1])
-    back: NDArray[np.float64] = corners @ turn + heel
+    back: Floats = corners @ turn + heel
     # The crest, whose corners tell the two faces apart, must be level again to the last bit.
     for corner in shapely.get_coordinates(whole):
         back[np.all(np.abs(back - corner) <= slack, axis=1)] = corner
     return back
 
 
-def _cut_level(whole: shapely.Polygon, level: float, slack: float, elevation: float) -> NDArray[np.float64]:
+def _cut_level(whole: shapely.Polygon, level: float, slack: float, elevation: float) -> Floats:
     """Return the corners of what is above a level crack, from the heel round; `elevation` is what the case says."""
     left, base, right, crest = whole.bounds
     size = max(right - left, crest - base)
@@ -194,14 +194,14 @@ def _solid(shape: shapely.Geometry) -> shapely.Geometry:
 def _snapped(shape: shapely.Geometry, level: float, slack: float) -> shapely.Geometry:
     """Put corners that are within `slack` of the crack line onto it, so that rounding cuts off no sliver."""
 
-    def snap(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    def snap(corners: Floats) -> Floats:
         z = corners[:, 1]
         return np.column_stack([corners[:, 0], np.where(np.abs(z - level) <= slack, level, z)])
 
     return shapely.transform(shape, snap)
 
 
-def _ring(upper: shapely.Polygon, start: float, end: float, level: float, slack: float) -> NDArray[np.float64]:
+def _ring(upper: shapely.Polygon, start: float, end: float, level: float, slack: float) -> Floats:
     """Return the corners of the upper part: heel, toe, up the downstream face, down the upstream face."""
     corners = shapely.get_coordinates(shapely.geometry.polygon.orient(upper).exterior)[:-1]
     x, z = corners.T
@@ -217,7 +217,7 @@ def _ring(upper: shapely.Polygon, start: float, end: float, level: float, slack:
     return np.vstack([[start, level], [end, level], rest])
 
 
-def _measured(corners: NDArray[np.float64], base: float, crest: float) -> CutSection:
+def _measured(corners: Floats, base: float, crest: float) -> CutSection:
     """Measure the upper part; its corners start with heel and toe."""
     outline = shapely.Polygon(corners)
     centroid = outline.centroid

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from heeltoe import kernel
+from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.loads import Resultant, VirtualMass, concrete_mass, face_at, static_forces, total, virtual_mass
@@ -162,7 +162,7 @@ class Block:
             rocking_upstream=limit(height, -self.heel_distance, -1.0, 1.0),
         )
 
-    def parameters(self) -> NDArray[np.float64]:
+    def parameters(self) -> Floats:
         """Return the numbers the kernel takes, shape (21,), in the order of :data:`heeltoe.kernel.BLOCK`."""
         values = [
             self.mass_horizontal,

@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
@@ -134,7 +134,7 @@ def prestress(case: Case) -> Resultant:
     return total("anchors", forces)
 
 
-def uplift_profile(case: Case) -> NDArray[np.float64]:
+def uplift_profile(case: Case) -> Floats:
     """Return the pressure in the crack, straight between its points.
 
     Heads count from the crack. At the drains the head is ``tail + (1 - efficiency) (heel - tail)``: USBR,
@@ -244,8 +244,6 @@ def face_at(section: CutSection, height: float) -> float:
     return float(np.interp(height, face[:, 1], face[:, 0]))
 
 
-def _mean_product(
-    f0: NDArray[np.float64], f1: NDArray[np.float64], g0: NDArray[np.float64], g1: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _mean_product(f0: Floats, f1: Floats, g0: Floats, g1: Floats) -> Floats:
     """Return the mean of the product of two linear functions over pieces, from the values at their ends."""
     return (2.0 * f0 * g0 + f0 * g1 + f1 * g0 + 2.0 * f1 * g1) / 6.0

@@ -6,13 +6,14 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from heeltoe.arrays import Floats
 from heeltoe.errors import InputError
 from heeltoe.shown import Shown
 from heeltoe.warnings import Notice
 
-Floats = NDArray[np.float64]
+Floats = Floats
 
 # Of a refined motion: days of shaking at a thousandth of a second, and still within memory.
 _MOST_SAMPLES = 5e7

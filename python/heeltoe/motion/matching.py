@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import arias_intensity, uniform
@@ -20,7 +21,7 @@ from heeltoe.motion.processing import baseline
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.motion.targets import Target
 
-Floats = NDArray[np.float64]
+Floats = Floats
 
 # Of a peak sampled at a fortieth of a period not more than 1 - cos(pi / 40) = 0.3 % is missed.
 _SAMPLES_PER_PERIOD = 40.0

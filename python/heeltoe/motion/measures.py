@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion, integrals
 from heeltoe.units.parse import STANDARD_GRAVITY
 
-Floats = NDArray[np.float64]
+Floats = Floats
 
 
 def velocity_displacement(motion: GroundMotion) -> tuple[Floats, Floats]:

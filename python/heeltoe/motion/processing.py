@@ -10,8 +10,8 @@ from dataclasses import replace
 from typing import Literal, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion, integrals
 from heeltoe.motion.measures import arias_intensity, fourier_amplitudes, husid_time, measures, uniform
@@ -33,7 +33,7 @@ __all__ = [
     "taper",
 ]
 
-Floats = NDArray[np.float64]
+Floats = Floats
 Ends = Literal["both", "start", "end"]
 
 

@@ -16,15 +16,15 @@ import re
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.stochastic import Parameters, stochastic_motion
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.warnings import Notice
 
-Floats = NDArray[np.float64]
+Floats = Floats
 
 PREFIX = "synthetic:"
 

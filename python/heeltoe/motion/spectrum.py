@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from heeltoe import kernel
+from heeltoe.arrays import Floats
 from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 
-Floats = NDArray[np.float64]
+Floats = Floats
 
 #: 200 periods from 0.02 s to 10 s, evenly spread on a logarithmic axis.
 PERIODS: Floats = np.geomspace(0.02, 10.0, 200)

@@ -10,14 +10,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.processing import baseline
 from heeltoe.units.parse import STANDARD_GRAVITY
 
-Floats = NDArray[np.float64]
+Floats = Floats
 
 STEP = 0.01
 """Step of generated motions [s]; the filter is a continuous one sampled at it."""

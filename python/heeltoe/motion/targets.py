@@ -6,11 +6,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from heeltoe.arrays import Floats
 from heeltoe.errors import InputError
 
-Floats = NDArray[np.float64]
+Floats = Floats
 
 
 @dataclass(frozen=True)

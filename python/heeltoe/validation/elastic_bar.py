@@ -16,13 +16,13 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.linalg
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.kernel import CrackedDam
 from heeltoe.models.flexible.reduced import ReducedBody
 from heeltoe.validation.row import Row
 
-Floats = NDArray[np.float64]
+Floats = Floats
 
 _LENGTH, _MODULUS, _DENSITY, _GRAVITY, _DROP = 10.0, 900.0, 1.0, 10.0, 5.0
 _ELEMENTS = 100

@@ -12,8 +12,8 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
 from heeltoe.kernel import CrackedDam
@@ -26,7 +26,7 @@ from heeltoe.validation.flexible_runs import Runs
 from heeltoe.validation.plain import rectangle, run, sampled
 from heeltoe.validation.row import Row
 
-Floats = NDArray[np.float64]
+Floats = Floats
 Corners = list[tuple[float, float]]
 
 _G = 9.81

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
 from heeltoe.kernel import DamRun
@@ -17,7 +17,7 @@ from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
 from heeltoe.validation.flexible_runs import GAINED
 from heeltoe.validation.row import Row
 
-Floats = NDArray[np.float64]
+Floats = Floats
 
 #: Up to this friction, from this damping and up to this step as a part of the dam's first period, dams are ordinary.
 FRICTION, DAMPING, STEP = 2.0, 0.005, 0.01

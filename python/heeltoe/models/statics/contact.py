@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
+from heeltoe.arrays import Floats
 from heeltoe.mechanics.loads import Resultant
 from heeltoe.models.statics.water import StillWater, force_and_moment
 
-Floats = NDArray[np.float64]
+Floats = Floats
 
 
 @dataclass(frozen=True)

@@ -7,12 +7,13 @@ from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from typing import Any
 
+from heeltoe.arrays import Floats
 from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.block import ROUNDING_OF_FORCES, across_crack
 from heeltoe.mechanics.loads import Resultant, total
 from heeltoe.models.statics.contact import Contact, Settled, settle
 from heeltoe.models.statics.criteria import Loads
-from heeltoe.models.statics.water import Floats, StillWater, force_and_moment
+from heeltoe.models.statics.water import StillWater, force_and_moment
 
 
 @dataclass(frozen=True)

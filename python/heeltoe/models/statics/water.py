@@ -11,14 +11,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.loads import uplift_profile, water_above_crack
 
-Floats = NDArray[np.float64]
+Floats = Floats
 
 
 def force_and_moment(profile: Floats) -> tuple[float, float]:

@@ -6,13 +6,13 @@ import re
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.errors import InputError
 from heeltoe.units.parse import acceleration_unit
 from heeltoe.warnings import Notice
 
-Floats = NDArray[np.float64]
+Floats = Floats
 
 #: A number of Fortran's, for patterns that ignore case; see :func:`real`.
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[ED][-+]?\d+)?"

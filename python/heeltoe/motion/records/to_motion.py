@@ -6,8 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.records.raw import RawRecord
@@ -109,7 +109,7 @@ def _likely_unit(peak: float) -> str | None:
     return "cm/s^2" if peak > 20.0 else None
 
 
-def _time(raw: RawRecord, name: str, told: Told) -> tuple[NDArray[np.float64], tuple[Notice, ...]]:
+def _time(raw: RawRecord, name: str, told: Told) -> tuple[Floats, tuple[Notice, ...]]:
     """The moments of the values, and a warning if their step is only assumed."""
     if raw.time is not None:
         with np.errstate(invalid="ignore", over="ignore"):

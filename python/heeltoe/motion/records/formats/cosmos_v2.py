@@ -17,8 +17,9 @@ from __future__ import annotations
 
 import re
 
+from heeltoe.arrays import Floats
 from heeltoe.errors import InputError
-from heeltoe.motion.records.raw import NUMBER, Floats, RawRecord, counted, numbers, peaked, plain, real, word_of_unit
+from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, peaked, plain, real, word_of_unit
 from heeltoe.warnings import Notice
 
 FORMAT = "COSMOS V2"
