@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import peer_opensees
 import peer_siconos
+from elastic_block import ALONG, MODULUS, POISSON, Result, Skipped
 from measure import NothingMeasured, heading, repeat, require, table
-from peer_siconos import ALONG, MODULUS, POISSON, Result, Skipped
 from push_and_sine import (
     AMPLITUDE,
     DEPTH,

@@ -21,8 +21,8 @@ import os
 from typing import Any
 
 import numpy as np
+from elastic_block import ALONG, MODULUS, POISSON, UP, Result, Skipped, mesh, steps_between
 from measure import repeat
-from peer_siconos import ALONG, MODULUS, POISSON, UP, Result, Skipped, mesh, steps_between
 from push_and_sine import (
     AMPLITUDE,
     DEPTH,
