@@ -22,6 +22,7 @@ from heeltoe.views.report.drawings import caption
 from heeltoe.views.report.html import html
 from heeltoe.views.report.typst_pdf import pages, pdf, source
 from heeltoe.views.words.numbers import Value
+from heeltoe.warnings import Notice
 from shared.dams import BASE, BLOCK, FAST, ROOT, SLENDER, example
 from shared.report_reader import Reader, lookup, pdf_text, squeezed
 
@@ -276,7 +277,11 @@ def test_nobodys_words_are_markup(text):
 def test_long_words_stay_on_the_page(block):
     # Ink to the right of the margin would mean that something runs over.
     case, response = block
-    long = replace(response, motion=replace(response.motion, name="elcentro-" * 30), warnings=("w" * 300,))
+    long = replace(
+        response,
+        motion=replace(response.motion, name="elcentro-" * 30),
+        warnings=(Notice("motion-still", name="w" * 300),),
+    )
     from PIL import Image
 
     for data in pages(build_report(case.model_copy(update={"title": "T" * 200}), long), 40.0):
