@@ -1,11 +1,14 @@
 """Elastic dams of plain sections."""
 
+import numpy as np
+
 from heeltoe.models.flexible.elastic import dam
 from heeltoe.models.flexible.mesh.checks import check_elements
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from shared.meshes import bodies
 from shared.outlines import make
 
+G = 9.80665
 CONCRETE = {"density": "2650 kg/m^3", "modulus": "20 GPa", "poisson": 0.2}
 
 
@@ -25,3 +28,10 @@ def deep(depth):
 
 def parts(one):
     return [body for body in (one.upper, one.lower) if body]
+
+
+def resultant(body, forces, section):
+    """Sum of forces and moment about the heel."""
+    x, z = (body.mesh.nodes - section.heel).T
+    fx, fz = forces[::2], forces[1::2]
+    return np.array([fx.sum(), fz.sum(), np.sum(x * fz - z * fx)])

@@ -19,7 +19,7 @@ from heeltoe.models.flexible.mesh.checks import check_elements, check_pieces
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from heeltoe.models.flexible.reduced import build_flexible_dam
 from shared.dams import BASE, TYPICAL, polygon
-from shared.elastic import CONCRETE
+from shared.elastic import CONCRETE, resultant
 from shared.meshes import area, bodies, flat, on_polyline
 from shared.outlines import dams
 
@@ -45,13 +45,6 @@ def built(corners, elevation, degrees, **more):
     section = case.cut
     mesh = dam_mesh(case)
     return case, section, mesh, dam(case, mesh)
-
-
-def resultant(body, forces, section):
-    """Sum of forces and moment about the heel."""
-    x, z = (body.mesh.nodes - section.heel).T
-    fx, fz = forces[::2], forces[1::2]
-    return np.array([fx.sum(), fz.sum(), np.sum(x * fz - z * fx)])
 
 
 def numbers(force):
