@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe import _kernel
-from heeltoe.arrays import Floats
+from heeltoe.arrays import Floats, Integers
 
 if TYPE_CHECKING:
     from heeltoe._kernel import CrackAnchor, CrackPart, CrackWater
@@ -241,7 +241,7 @@ def run_block(
 def run_blocks(
     blocks: Floats,
     shakings: Sequence[Shaking],
-    which: NDArray[np.int64],
+    which: Integers,
     scales: Floats,
     limits: Limits = USUAL,
     threads: int = 0,

@@ -124,7 +124,7 @@ def test_all_cases_are_read_before_the_first_one_runs(text, code):
 
 def test_one_says_how_far_it_is():
     said = []
-    grid(BLOCK, ["crack.friction=0.2,0.3,0.4"], told=lambda done, of: said.append((done, of)))
+    grid(BLOCK, ["crack.friction=0.2,0.3,0.4"], progress=lambda done, of: said.append((done, of)))
     assert said == [(0, 3), (1, 3), (2, 3)]
 
 

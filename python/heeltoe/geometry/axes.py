@@ -9,8 +9,6 @@ import numpy as np
 from heeltoe.arrays import Floats
 from heeltoe.geometry.section import CutSection
 
-Floats = Floats
-
 
 def along_and_across(vectors: Floats, section: CutSection) -> Floats:
     """Return the components along and across the crack of vectors (..., 2) in x and z."""

@@ -13,8 +13,6 @@ from heeltoe.errors import InputError
 from heeltoe.shown import Shown
 from heeltoe.warnings import Notice
 
-Floats = Floats
-
 # Of a refined motion: days of shaking at a thousandth of a second, and still within memory.
 _MOST_SAMPLES = 5e7
 

@@ -21,8 +21,6 @@ from heeltoe.motion.processing import baseline
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.motion.targets import Target
 
-Floats = Floats
-
 # Of a peak sampled at a fortieth of a period not more than 1 - cos(pi / 40) = 0.3 % is missed.
 _SAMPLES_PER_PERIOD = 40.0
 # The largest peaks of each oscillator that are looked after: a peak that was not the largest must not become it.

@@ -9,8 +9,6 @@ from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion, integrals
 from heeltoe.units.parse import STANDARD_GRAVITY
 
-Floats = Floats
-
 
 def velocity_displacement(motion: GroundMotion) -> tuple[Floats, Floats]:
     """Return velocity [m/s] and displacement [m] from rest at the moments of the motion, exactly."""

@@ -11,7 +11,6 @@ from typing import Literal, Protocol
 
 import numpy as np
 
-from heeltoe.arrays import Floats
 from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion, integrals
 from heeltoe.motion.measures import arias_intensity, fourier_amplitudes, husid_time, measures, uniform
@@ -33,7 +32,6 @@ __all__ = [
     "taper",
 ]
 
-Floats = Floats
 Ends = Literal["both", "start", "end"]
 
 

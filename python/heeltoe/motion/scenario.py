@@ -24,8 +24,6 @@ from heeltoe.motion.stochastic import Parameters, stochastic_motion
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.warnings import Notice
 
-Floats = Floats
-
 PREFIX = "synthetic:"
 
 # Rows: intensity, D5-95, t_mid, frequency, its rate, bandwidth. Columns: 1, M, F, distance, Vs30, of which the last two

@@ -12,8 +12,6 @@ from heeltoe.arrays import Floats
 from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 
-Floats = Floats
-
 #: 200 periods from 0.02 s to 10 s, evenly spread on a logarithmic axis.
 PERIODS: Floats = np.geomspace(0.02, 10.0, 200)
 

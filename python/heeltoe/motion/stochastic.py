@@ -17,8 +17,6 @@ from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.processing import baseline
 from heeltoe.units.parse import STANDARD_GRAVITY
 
-Floats = Floats
-
 STEP = 0.01
 """Step of generated motions [s]; the filter is a continuous one sampled at it."""
 LOWEST_FREQUENCY = 0.3

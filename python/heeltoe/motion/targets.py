@@ -11,8 +11,6 @@ from numpy.typing import ArrayLike
 from heeltoe.arrays import Floats
 from heeltoe.errors import InputError
 
-Floats = Floats
-
 
 @dataclass(frozen=True)
 class Target:

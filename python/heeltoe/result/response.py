@@ -8,10 +8,9 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, ClassVar, Generic, Self, TypeVar, overload
 
-import numpy as np
 import pyarrow as pa
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.limits import LimitCheck
 from heeltoe.result.write import build_info, motion_json, write_table
@@ -19,7 +18,6 @@ from heeltoe.shown import Shown
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings import Notice
 
-Floats = NDArray[np.float64]
 T = TypeVar("T")
 
 #: Outcomes of a run; only the first two come with a result to trust.

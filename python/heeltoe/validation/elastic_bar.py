@@ -22,8 +22,6 @@ from heeltoe.kernel import CrackedDam
 from heeltoe.models.flexible.reduced import ReducedBody
 from heeltoe.validation.row import Row
 
-Floats = Floats
-
 _LENGTH, _MODULUS, _DENSITY, _GRAVITY, _DROP = 10.0, 900.0, 1.0, 10.0, 5.0
 _ELEMENTS = 100
 _PERIOD, _CONTACT, _FORCE = 16.0 / 3.0, 2.0 / 3.0, 400.0

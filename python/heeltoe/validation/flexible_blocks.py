@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 
-from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
 from heeltoe.kernel import CrackedDam
@@ -26,7 +25,6 @@ from heeltoe.validation.flexible_runs import Runs
 from heeltoe.validation.plain import rectangle, run, sampled
 from heeltoe.validation.row import Row
 
-Floats = Floats
 Corners = list[tuple[float, float]]
 
 _G = 9.81

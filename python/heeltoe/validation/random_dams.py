@@ -17,8 +17,6 @@ from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
 from heeltoe.validation.flexible_runs import GAINED
 from heeltoe.validation.row import Row
 
-Floats = Floats
-
 #: Up to this friction, from this damping and up to this step as a part of the dam's first period, dams are ordinary.
 FRICTION, DAMPING, STEP = 2.0, 0.005, 0.01
 #: Of ordinary dams, contact makes at most this part of the turnover in single steps, and this part in the whole run.

@@ -6,8 +6,8 @@ from functools import singledispatch
 from html import escape
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.contract import HEADLINES
@@ -74,7 +74,7 @@ def _(response: Response) -> str:
     return _page(response.title or "Untitled case", rows, drawing)
 
 
-def line(x: NDArray[np.float64], y: NDArray[np.float64], label: str) -> str:
+def line(x: Floats, y: Floats, label: str) -> str:
     """Return a curve as an inline SVG with its zero line; the label says what it is."""
     if len(x) < 2 or not np.ptp(x) > 0.0 or not np.isfinite(y).all():
         return ""
@@ -104,7 +104,7 @@ def _section(case: Case) -> str:
     size = float(max(corners.max(axis=0) - corners.min(axis=0))) or 1.0
     scale = 160.0 / size
 
-    def place(points: NDArray[np.float64]) -> str:
+    def place(points: Floats) -> str:
         return " ".join(f"{60 + (x - left) * scale:.1f},{165 - (z - low) * scale:.1f}" for x, z in points)
 
     water = ""

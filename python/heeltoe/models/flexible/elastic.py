@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 import scipy.sparse as sparse
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats, Integers
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.models.flexible.loads import (
@@ -63,10 +63,10 @@ class Body:
     stiffness: Sparse
     mass: Sparse
     mass_concrete: Sparse
-    load: NDArray[np.float64]
-    loads: dict[str, NDArray[np.float64]]
-    load_per_vertical: NDArray[np.float64]
-    elasticity: NDArray[np.float64]
+    load: Floats
+    loads: dict[str, Floats]
+    load_per_vertical: Floats
+    elasticity: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,7 +115,7 @@ def dam(case: Case, mesh: DamMesh) -> Dam:
     return Dam(tuple(_body(case, each, above=each is mesh.upper) for each in meshes), _tie(mesh))
 
 
-def bonded_state(dam: Dam) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+def bonded_state(dam: Dam) -> tuple[Floats, Floats, Floats]:
     """Return the static equilibrium under all static loads with the crack bonded.
 
     Returns
@@ -140,12 +140,12 @@ def side_by_side(dam: Dam, name: str) -> Sparse:
     return sparse.block_diag([getattr(body, name) for body in dam.bodies], format="csc")
 
 
-def dofs(nodes: NDArray[np.int64]) -> NDArray[np.int64]:
+def dofs(nodes: Integers) -> Integers:
     """Return the degrees of freedom of nodes, x and z in turn, shape (2 k,)."""
     return np.stack([2 * nodes, 2 * nodes + 1], axis=1).reshape(-1)
 
 
-def stresses(body: Body, displacements: NDArray[np.float64]) -> NDArray[np.float64]:
+def stresses(body: Body, displacements: Floats) -> Floats:
     """Return the stresses at the nodes.
 
     They are taken at the 2 x 2 Gauss points, where they are most accurate (Barlow 1976), go from there straight to
@@ -182,8 +182,8 @@ def stresses(body: Body, displacements: NDArray[np.float64]) -> NDArray[np.float
 
 
 def principal(
-    stress: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    stress: Floats,
+) -> tuple[Floats, Floats, Floats]:
     """Return the principal stresses of what :func:`stresses` returns.
 
     Returns
@@ -223,7 +223,7 @@ def _body(case: Case, mesh: BodyMesh, *, above: bool) -> Body:
     return Body(mesh, stiffness, (concrete + water).tocsc(), concrete, load, loads, following, elasticity)
 
 
-def _elasticity(case: Case) -> NDArray[np.float64]:
+def _elasticity(case: Case) -> Floats:
     modulus, poisson = case.concrete.modulus, case.concrete.poisson
     if modulus is None:
         raise InputError("modulus-missing", "concrete.modulus")
@@ -235,7 +235,7 @@ def _elasticity(case: Case) -> NDArray[np.float64]:
     return modulus / (1.0 - poisson**2) * np.array([[1.0, poisson, 0.0], [poisson, 1.0, 0.0], [0.0, 0.0, shear]])
 
 
-def _matrices(mesh: BodyMesh, elasticity: NDArray[np.float64]) -> tuple[Sparse, Sparse, NDArray[np.float64]]:
+def _matrices(mesh: BodyMesh, elasticity: Floats) -> tuple[Sparse, Sparse, Floats]:
     """Return stiffness, mass at unit density, and the nodal forces of a unit upward force per area."""
     import skfem
     from skfem.helpers import dot
@@ -266,7 +266,7 @@ def _matrices(mesh: BodyMesh, elasticity: NDArray[np.float64]) -> tuple[Sparse, 
     )
 
 
-def _skfem_mesh(mesh: BodyMesh) -> tuple[Any, NDArray[np.int64], NDArray[np.int64]]:
+def _skfem_mesh(mesh: BodyMesh) -> tuple[Any, Integers, Integers]:
     """Return the mesh for scikit-fem and, for its vertices and its facets, the numbers of our nodes."""
     import skfem
 
@@ -304,7 +304,7 @@ def _tie(mesh: DamMesh) -> Sparse:
     return sparse.csr_array((values[there], (rows[there], columns[there])), shape)
 
 
-def _led(upper: BodyMesh, lower: BodyMesh) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
+def _led(upper: BodyMesh, lower: BodyMesh) -> tuple[Integers, Floats]:
     """Return for each crack node of the upper part three nodes of the lower face and their shares in it, flat."""
     # Along a straight crack that is not upright, x tells the places as well as the distance does.
     x, face = upper.nodes[upper.crack, 0], lower.nodes[lower.crack, 0]

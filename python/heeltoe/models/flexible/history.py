@@ -10,12 +10,11 @@ import numpy as np
 import pyarrow as pa
 from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats, Integers
 from heeltoe.geometry.axes import along_and_across
 from heeltoe.kernel import CONTACT_STATUSES
 from heeltoe.models.flexible.elastic import stresses
 from heeltoe.models.flexible.reduced import FlexibleDam
-
-Floats = NDArray[np.float64]
 
 #: Status of a node that is not watched.
 UNWATCHED = -1
@@ -173,7 +172,7 @@ def _named(numbers: NDArray[Any], names: list[str]) -> pa.Array:
     return pa.DictionaryArray.from_arrays(pa.array(numbers, mask=numbers < 0), names).cast(pa.string())
 
 
-def _watched(nodes: list[int], contactors: int) -> list[tuple[int, NDArray[np.int64]]]:
+def _watched(nodes: list[int], contactors: int) -> list[tuple[int, Integers]]:
     """Return the nodes that are watched, face by face, in the order of the kernel (Zhu 2004, section 6.3)."""
     every = [(face, np.arange(count)) for face, count in enumerate(nodes)]
     if len(nodes) == 1:

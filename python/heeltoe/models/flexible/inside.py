@@ -6,15 +6,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError, shown
 from heeltoe.geometry.axes import along_and_across
 from heeltoe.models.flexible.elastic import Body
 from heeltoe.models.flexible.loads import crack_point, full_head_profile, uplift_forces
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

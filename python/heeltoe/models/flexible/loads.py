@@ -12,16 +12,14 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import coo_array
 
+from heeltoe.arrays import Floats, Integers
 from heeltoe.case.model import Case
 from heeltoe.geometry.axes import places
 from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.loads import uplift_profile, water_above_crack
 from heeltoe.models.flexible.mesh.dam import BodyMesh
-
-Floats = NDArray[np.float64]
 
 # Exact to degree 5: quadratic shape function, quadratic pressure and linear normal on an edge; and to degree 11: with
 # depth = t^2, two shape functions are of degree 8, sqrt(depth) of 1, the change of variable of 1.
@@ -29,7 +27,7 @@ _THREE = np.polynomial.legendre.leggauss(3)
 _SIX = np.polynomial.legendre.leggauss(6)
 
 
-def edge_shapes(s: NDArray[np.float64]) -> NDArray[np.float64]:
+def edge_shapes(s: Floats) -> Floats:
     """Return the shape functions of start, middle and end of an edge at -1 <= s <= 1, shape (len(s), 3)."""
     return np.stack([s * (s - 1.0) / 2.0, 1.0 - s * s, s * (s + 1.0) / 2.0], axis=-1)
 
@@ -101,7 +99,7 @@ def full_head_profile(case: Case) -> Floats:
     return np.array([(0.0, 1.0), (case.cut.crack_width, 1.0)]) * [1.0, density * case.gravity * head]
 
 
-def crack_point(mesh: BodyMesh, section: CutSection, distance: float) -> tuple[NDArray[np.int64], Floats]:
+def crack_point(mesh: BodyMesh, section: CutSection, distance: float) -> tuple[Integers, Floats]:
     """Return the three nodes of the crack edge at a distance from the heel, counted along the crack from 0, and their
     shares in the motion of that point."""
     along = places(mesh.nodes[mesh.crack], section)[:, 0]
@@ -151,7 +149,7 @@ def virtual_masses(mesh: BodyMesh, case: Case, *, above: bool) -> Any:
     return coo_array((np.concatenate(values), places), (mesh.nodes.size, mesh.nodes.size))
 
 
-def _moving(heights: NDArray[np.float64], start: float, end: float, surface: float) -> NDArray[np.float64]:
+def _moving(heights: Floats, start: float, end: float, surface: float) -> Floats:
     """Integrate the products of shape functions times sqrt(depth) over the height of a piece of an edge, (3, 3)."""
     # In t = sqrt(depth) the integrand is smooth up to the surface.
     deep, shallow = np.sqrt(np.maximum(0.0, surface - edge_shapes(np.array([start, end])) @ heights))
@@ -159,7 +157,7 @@ def _moving(heights: NDArray[np.float64], start: float, end: float, surface: flo
     t = (deep + shallow) / 2.0 + half * _SIX[0]
     shapes = edge_shapes(_place(heights, surface - t * t, start, end))
     weights = 2.0 * abs(half) * _SIX[1] * t * t
-    matrix: NDArray[np.float64] = shapes.T @ (weights[:, None] * shapes)
+    matrix: Floats = shapes.T @ (weights[:, None] * shapes)
     return matrix
 
 
@@ -178,24 +176,24 @@ def _fluid(mesh: BodyMesh, surface: float, gravity: float, densities: tuple[floa
     return forces
 
 
-def _edges(path: NDArray[np.int64]) -> Iterator[NDArray[np.int64]]:
+def _edges(path: Integers) -> Iterator[Integers]:
     for start in range(0, len(path) - 2, 2):
         yield path[start : start + 3]
 
 
-def _gauss(start: float, end: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _gauss(start: float, end: float) -> tuple[Floats, Floats]:
     """Return three Gauss points and weights between two places of an edge."""
     half = (end - start) / 2.0
     return (start + end) / 2.0 + half * _THREE[0], half * _THREE[1]
 
 
 def _press(
-    forces: NDArray[np.float64],
-    edge: NDArray[np.int64],
-    corners: NDArray[np.float64],
-    s: NDArray[np.float64],
-    pressure: NDArray[np.float64],
-    vertical: NDArray[np.float64] | None = None,
+    forces: Floats,
+    edge: Integers,
+    corners: Floats,
+    s: Floats,
+    pressure: Floats,
+    vertical: Floats | None = None,
 ) -> None:
     """Add weighted pressures at the places `s` of an edge, positive towards the right hand; `vertical` where that of
     the horizontal planes is another."""
@@ -205,7 +203,7 @@ def _press(
     forces[2 * edge + 1] -= shapes.T @ ((pressure if vertical is None else vertical) * along[:, 0])
 
 
-def _pieces(values: NDArray[np.float64], low: float, high: float) -> list[tuple[float, float]]:
+def _pieces(values: Floats, low: float, high: float) -> list[tuple[float, float]]:
     """Return the parts of an edge, as intervals of s, where a coordinate with these nodal values is between two."""
     square, slope = (values[0] - 2.0 * values[1] + values[2]) / 2.0, (values[2] - values[0]) / 2.0
     marks = [-1.0, 1.0]
@@ -230,7 +228,7 @@ def _roots(a: float, b: float, c: float) -> list[float]:
     return [root for top, bottom in ((q, a), (c, q)) if bottom != 0.0 and abs(root := top / bottom) < 1e6]
 
 
-def _place(values: NDArray[np.float64], wanted: NDArray[np.float64], start: float, end: float) -> NDArray[np.float64]:
+def _place(values: Floats, wanted: Floats, start: float, end: float) -> Floats:
     """Return where on a monotonic piece of an edge a coordinate has the values wanted."""
     square, slope = (values[0] - 2.0 * values[1] + values[2]) / 2.0, (values[2] - values[0]) / 2.0
     middle = (start + end) / 2.0

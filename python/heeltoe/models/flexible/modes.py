@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.models.flexible.elastic import Body, Dam, Sparse, dofs, side_by_side
 
 # Up to so many degrees of freedom all modes take less time than the rest of a run.
@@ -42,8 +42,8 @@ class Modes:
         Whether modes were left out.
     """
 
-    omega_squared: NDArray[np.float64]
-    shapes: NDArray[np.float64]
+    omega_squared: Floats
+    shapes: Floats
     rigid: int
     kept: int
     total: int
@@ -116,13 +116,13 @@ def residual_error(body: Body, modes: Modes) -> float:
     return float(scipy.linalg.eigvalsh(direct - reduced, direct)[-1])
 
 
-def part_periods(modes: Modes, count: int = 5) -> NDArray[np.float64]:
+def part_periods(modes: Modes, count: int = 5) -> Floats:
     """Return the longest periods of a part by itself, rigid-body modes left out, up to `count` of them [s]."""
     squares = modes.omega_squared[modes.rigid : min(modes.rigid + count, modes.kept)]
     return 2.0 * math.pi / np.sqrt(squares)
 
 
-def intact_periods(dam: Dam, count: int = 5, *, water: bool = True) -> NDArray[np.float64]:
+def intact_periods(dam: Dam, count: int = 5, *, water: bool = True) -> Floats:
     """Return the longest periods of the dam with its crack bonded.
 
     Parameters
@@ -162,7 +162,7 @@ def rayleigh(period_a: float, period_b: float, ratio: float) -> tuple[float, flo
     return 2.0 * ratio * a * b / (a + b), 2.0 * ratio / (a + b)
 
 
-def _rigid_shapes(body: Body) -> NDArray[np.float64]:
+def _rigid_shapes(body: Body) -> Floats:
     """Return translations and rotation, orthonormal in the mass, which water makes larger in x; shape (2 n, 3)."""
     x, z = (body.mesh.nodes - body.mesh.nodes.mean(axis=0)).T
     shapes = np.zeros((2 * len(x), 3))
@@ -174,25 +174,21 @@ def _rigid_shapes(body: Body) -> NDArray[np.float64]:
     return shapes
 
 
-def _unit_forces(body: Body) -> NDArray[np.float64]:
+def _unit_forces(body: Body) -> Floats:
     places = dofs(body.mesh.crack)
     forces = np.zeros((body.mesh.nodes.size, places.size))
     forces[places, np.arange(places.size)] = 1.0
     return forces
 
 
-def _all(
-    stiffness: Sparse, mass: Sparse, rigid: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _all(stiffness: Sparse, mass: Sparse, rigid: Floats) -> tuple[Floats, Floats]:
     import scipy.linalg
 
     squares, shapes = scipy.linalg.eigh(stiffness.toarray(), mass.toarray(), overwrite_a=True, overwrite_b=True)
     return _with_rigid(squares, shapes, mass, rigid)
 
 
-def _truncated(
-    stiffness: Sparse, mass: Sparse, forces: NDArray[np.float64], rigid: NDArray[np.float64], keep: int
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _truncated(stiffness: Sparse, mass: Sparse, forces: Floats, rigid: Floats, keep: int) -> tuple[Floats, Floats]:
     import scipy.linalg
 
     count = rigid.shape[1]
@@ -211,9 +207,7 @@ def _truncated(
     return np.concatenate([squares, 1.0 / inverse[::-1]]), np.column_stack([shapes, pseudo[:, ::-1]])
 
 
-def _with_rigid(
-    squares: NDArray[np.float64], shapes: NDArray[np.float64], mass: Sparse, rigid: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _with_rigid(squares: Floats, shapes: Floats, mass: Sparse, rigid: Floats) -> tuple[Floats, Floats]:
     """Put exact rigid-body modes in the place of those that rounding has made."""
     count = rigid.shape[1]
     squares, shapes = squares[count:], shapes[:, count:]
@@ -221,12 +215,12 @@ def _with_rigid(
     return np.concatenate([np.zeros(count), squares]), np.column_stack([rigid, shapes])
 
 
-def _projected(shapes: NDArray[np.float64], onto: NDArray[np.float64], mass: Sparse) -> NDArray[np.float64]:
-    part: NDArray[np.float64] = onto @ (onto.T @ (mass @ shapes))
+def _projected(shapes: Floats, onto: Floats, mass: Sparse) -> Floats:
+    part: Floats = onto @ (onto.T @ (mass @ shapes))
     return part
 
 
-def _small_shift(stiffness: Sparse, mass: Sparse, rigid: NDArray[np.float64]) -> float:
+def _small_shift(stiffness: Sparse, mass: Sparse, rigid: Floats) -> float:
     """Return a millionth of a Rayleigh quotient, which bounds the lowest squared frequency of a free body."""
     shape = rigid[:, 2] ** 2
     shape -= _projected(shape, rigid, mass)
@@ -240,9 +234,7 @@ def _factor(operator: Sparse) -> Any:
     return splu(operator.tocsc(), permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}).solve
 
 
-def lowest(
-    stiffness: Sparse, mass: Sparse, count: int, shift: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def lowest(stiffness: Sparse, mass: Sparse, count: int, shift: float) -> tuple[Floats, Floats]:
     """Return the lowest squared frequencies, ascending, and their shapes, orthonormal in the mass;
     ``stiffness + shift mass`` must be regular."""
     import scipy.linalg

@@ -5,14 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.models.flexible.inside import CrackAnchor, FollowingWater
 
 if TYPE_CHECKING:
     from heeltoe.models.flexible.reduced import ReducedBody
 
-Floats = NDArray[np.float64]
 
 # Up to dt^2 stiffness / mass = 4 / (4 theta - 1) a spring is stable, at this it is followed with an error of 4 %.
 _FOLLOWED = 1.0

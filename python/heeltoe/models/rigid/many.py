@@ -6,11 +6,10 @@ from collections.abc import Sequence
 from time import monotonic
 
 import numpy as np
-from numpy.typing import NDArray
 from rich.console import Console
 from rich.progress import Progress
 
-from heeltoe.arrays import Floats
+from heeltoe.arrays import Floats, Integers
 from heeltoe.kernel import BLOCK, USUAL, Limits, run_blocks
 from heeltoe.mechanics.block import Block
 from heeltoe.motion.earthquake import Earthquake
@@ -24,12 +23,12 @@ def rigid_many(
     blocks: Sequence[Block] | Floats,
     motions: Sequence[GroundMotion | tuple[GroundMotion, GroundMotion]],
     *,
-    motion_of: Sequence[int] | NDArray[np.int64] | None = None,
+    motion_of: Sequence[int] | Integers | None = None,
     scales: Sequence[float] | Floats | None = None,
     limits: Limits = USUAL,
     threads: int = 0,
     progress: bool = False,
-) -> dict[str, NDArray[np.float64]]:
+) -> dict[str, Floats]:
     """Run the rigid model on many blocks; a run that cannot continue is a value, never an exception.
 
     Parameters

@@ -14,8 +14,6 @@ from heeltoe.arrays import Floats
 from heeltoe.mechanics.loads import Resultant
 from heeltoe.models.statics.water import StillWater, force_and_moment
 
-Floats = Floats
-
 
 @dataclass(frozen=True)
 class Contact:

@@ -18,8 +18,6 @@ from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.loads import uplift_profile, water_above_crack
 
-Floats = Floats
-
 
 def force_and_moment(profile: Floats) -> tuple[float, float]:
     """Return the force of a profile on the block [N/m] and its moment about the heel, counter-clockwise [N m/m]."""

@@ -12,8 +12,6 @@ from heeltoe.errors import InputError
 from heeltoe.units.parse import acceleration_unit
 from heeltoe.warnings import Notice
 
-Floats = Floats
-
 #: A number of Fortran's, for patterns that ignore case; see :func:`real`.
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[ED][-+]?\d+)?"
 

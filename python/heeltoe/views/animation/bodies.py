@@ -8,15 +8,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats, Integers
 from heeltoe.case.model import Case
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.mesh.checks import boundary_edges
 from heeltoe.models.flexible.mesh.dam import BodyMesh
-
-Floats = NDArray[np.float64]
-Places = NDArray[np.int64]
 
 #: How far the displacements of an elastic part may be off, as a part of the largest: far below the pixel.
 ACCURACY = 2e-4
@@ -38,9 +35,9 @@ class Moments:
         (f,) sample nearest to each moment.
     """
 
-    before: Places
+    before: Integers
     share: Floats
-    nearest: Places
+    nearest: Integers
 
     @classmethod
     def of(cls, samples: Floats, wanted: Floats) -> Moments:
@@ -83,15 +80,15 @@ class Part:
     """
 
     points: Floats
-    outline: Places
-    grid: Places
-    upstream: Places
-    downstream: Places
-    crack: Places
+    outline: Integers
+    grid: Integers
+    upstream: Integers
+    downstream: Integers
+    crack: Integers
     shapes: Floats
     amplitudes: Floats
 
-    def displacements(self, points: Places) -> Floats:
+    def displacements(self, points: Integers) -> Floats:
         """Return the displacements (f, p, 2) [m] of some points at all moments."""
         found: Floats = self.amplitudes @ self.shapes[:, points].reshape(len(self.shapes), 2 * len(points))
         return found.reshape(-1, len(points), 2)
@@ -156,7 +153,7 @@ def _still(case: Case, frames: int) -> Part | None:
     heel, toe = (int(np.hypot(*(points - corner).T).argmin()) for corner in (section.heel, section.toe))
     count = len(points)
 
-    def round_to(start: int, end: int, step: int) -> Places:
+    def round_to(start: int, end: int, step: int) -> Integers:
         return (start + step * np.arange((step * (end - start)) % count + 1)) % count
 
     return Part(
@@ -211,7 +208,7 @@ def _few_shapes(field: Floats, allowed: float) -> tuple[Floats, Floats]:
     return amplitudes / scale, scale[:, None] * shapes
 
 
-def _meshed(mesh: BodyMesh) -> tuple[Part, Places]:
+def _meshed(mesh: BodyMesh) -> tuple[Part, Integers]:
     """Return the points of a mesh that are drawn, still without motion, and which of its nodes they are."""
     edges = boundary_edges(mesh.elements)
     following = {int(edge[0]): edge for edge in edges}

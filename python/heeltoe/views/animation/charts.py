@@ -9,12 +9,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.views.animation import look
 from heeltoe.views.animation.frames import Scene, Trace
-
-Floats = NDArray[np.float64]
 
 # Places as parts of the picture.
 _LEFT, _WIDTH, _TOP, _BOTTOM = 0.715, 0.269, 0.79, 0.125

@@ -9,14 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats, Integers
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.views.animation.bodies import Moments, Part, elastic_parts, rigid_parts
-
-Floats = NDArray[np.float64]
 
 #: What a point of the crack does, as `Scene.status` counts it; -1 where nothing is known or opposite.
 STATUSES = ("open", "stick", "slip downstream", "slip upstream")
@@ -85,10 +84,10 @@ class Scene:
     force_unit: str
     force_scale: float
     status: NDArray[np.int8]
-    mode: NDArray[np.int64]
+    mode: Integers
     modes: tuple[str, ...]
     history_times: Floats
-    history_mode: NDArray[np.int64]
+    history_mode: Integers
     traces: tuple[Trace, ...]
     base: float
     water: float | None

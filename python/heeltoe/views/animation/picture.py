@@ -12,15 +12,13 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import PathPatch, Polygon, Rectangle
 from matplotlib.path import Path as Outline
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.views.animation import look
 from heeltoe.views.animation.bodies import Part
 from heeltoe.views.animation.charts import Charts, animated
 from heeltoe.views.animation.frames import ARROW, CUT, Scene
 from heeltoe.views.figures.fonts import readable
-
-Floats = NDArray[np.float64]
 
 #: Of the picture [inches]; with 100 pixels to the inch 1280 x 720.
 SIZE = (12.8, 7.2)

@@ -12,11 +12,10 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.transforms import Bbox
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from heeltoe.arrays import Floats
 from heeltoe.units.systems import Scale
-
-Floats = NDArray[np.float64]
 
 _TEXT = 8.0
 # Where a label may go, seen from what it explains: direction, in the order of preference.

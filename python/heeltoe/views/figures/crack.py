@@ -7,16 +7,14 @@ from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.kernel import CONTACT_STATUSES
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.views.figures.panels import draw_slip, panels
 from heeltoe.views.figures.style import describe, styled, time_axis
-
-Floats = NDArray[np.float64]
 
 # From light to dark in black and white: nothing, open, stick, slip one way, slip the other way.
 STATUS_COLOURS = {

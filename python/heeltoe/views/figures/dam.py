@@ -10,8 +10,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.models.flexible.elastic import side_by_side
 from heeltoe.models.flexible.mesh.checks import boundary_edges
 from heeltoe.models.flexible.mesh.dam import BodyMesh
@@ -19,8 +19,6 @@ from heeltoe.models.flexible.reduced import FlexibleDam
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import number
 from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled
-
-Floats = NDArray[np.float64]
 
 _SHAPES = 4
 # The largest displacement of a shape as it is drawn, over the size of the dam.

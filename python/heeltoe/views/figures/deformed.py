@@ -10,8 +10,8 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation, TriContourSet
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.models.flexible.elastic import principal
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.mesh.checks import boundary_edges
@@ -21,8 +21,6 @@ from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import scaled
 from heeltoe.views.figures.dam import dam_axes, extent
 from heeltoe.views.figures.style import WIDTH, describe, styled
-
-Floats = NDArray[np.float64]
 
 # The largest displacement as it is drawn, over the size of the dam.
 _DRAWN = 0.06

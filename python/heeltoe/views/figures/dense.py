@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.result.response import Response
-
-Floats = NDArray[np.float64]
 
 # A picture shows about so many moments; more need no filling in.
 _ENOUGH = 400

@@ -7,15 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.result.response import Energy, Response
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import number
 from heeltoe.views.figures.panels import kind_of, largest
 from heeltoe.views.figures.style import WIDTH, describe, styled, time_axis
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.result.response import Response
 from heeltoe.units.systems import unit_system
 from heeltoe.units.write import number
@@ -32,8 +32,6 @@ from heeltoe.views.figures.style import (
     styled,
     time_axis,
 )
-
-Floats = NDArray[np.float64]
 
 # Openings of an elastic dam's crack below a hundredth of a millimetre are not worth a panel.
 _NO_OPENING = 1e-5

@@ -9,15 +9,14 @@ from typing import TypeGuard
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from heeltoe.arrays import Floats
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Units
 from heeltoe.units.write import length, number
 from heeltoe.views.figures.style import COLOURS, MODE_COLOURS, WIDTH
-
-Floats = NDArray[np.float64]
 
 # The states of an elastic dam's crack as kinds of motion.
 _KINDS = {"sliding": "slide", "rocking": "rock", "slide-rocking": "slide-rock", "drifting": "drift"}

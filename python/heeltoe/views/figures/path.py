@@ -10,9 +10,10 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from heeltoe.arrays import Floats
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Scale, unit_system
-from heeltoe.views.figures.panels import Floats, kind_of, largest, shown_rotation
+from heeltoe.views.figures.panels import kind_of, largest, shown_rotation
 from heeltoe.views.figures.style import MODE_COLOURS, WIDTH, describe, styled
 
 # In black and white width and dashes tell what colours tell otherwise.

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import shapely
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.loads import uplift_profile
@@ -14,8 +14,6 @@ from heeltoe.units.systems import Units, unit_system
 from heeltoe.views.figures.canvas import Canvas
 from heeltoe.views.figures.section_forces import draw_forces, draw_uplift
 from heeltoe.views.figures.style import COLOURS, WIDTH, styled
-
-Floats = NDArray[np.float64]
 
 # A part above the crack that is lower than this part of the dam gets a panel of its own.
 _LOW = 0.55

@@ -5,16 +5,14 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.loads import Resultant, static_forces, uplift_profile
 from heeltoe.units.systems import Units
 from heeltoe.units.write import number, scaled
 from heeltoe.views.figures.canvas import Canvas
-
-Floats = NDArray[np.float64]
 
 FORCE_COLOURS = {
     "weight": "#000000",

@@ -15,12 +15,11 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats, Integers
 from heeltoe.errors import InputError
 from heeltoe.geometry.axes import in_x_and_z, places
 from heeltoe.models.flexible.elastic import principal, stresses
 from heeltoe.models.flexible.history import CrackHistory
-
-Floats = NDArray[np.float64]
 
 #: Frames written where none are chosen: 10 s at 20 pictures per second.
 _FRAMES = 200
@@ -161,7 +160,7 @@ def _meshio(directory: Path) -> ModuleType:
     return meshio  # type: ignore[no-any-return]
 
 
-def _chosen(count: int, frames: Sequence[int] | None) -> NDArray[np.int64]:
+def _chosen(count: int, frames: Sequence[int] | None) -> Integers:
     """Return the frames to write, each once, in the order of time."""
     if frames is None:
         return np.unique(np.linspace(0, count - 1, min(count, _FRAMES)).round().astype(np.int64))

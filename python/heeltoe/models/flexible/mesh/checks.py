@@ -6,8 +6,8 @@ and 4-1. Local coordinates run from -1 to 1."""
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats, Integers
 from heeltoe.errors import InputError
 
 CORNERS = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
@@ -21,7 +21,7 @@ _SIDES = np.array([(0, 4, 1), (1, 5, 2), (2, 6, 3), (3, 7, 0)])
 _FLAT = 1e-6
 
 
-def shape_gradients(points: NDArray[np.float64]) -> NDArray[np.float64]:
+def shape_gradients(points: Floats) -> Floats:
     """Return the derivatives of the serendipity shape functions (Zienkiewicz and Taylor, The Finite Element
     Method, volume 1).
 
@@ -47,9 +47,7 @@ def shape_gradients(points: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.concatenate([np.stack(corners, axis=-1), np.stack(middles, axis=-1)], axis=1)
 
 
-def jacobians(
-    nodes: NDArray[np.float64], elements: NDArray[np.int64], points: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def jacobians(nodes: Floats, elements: Integers, points: Floats) -> Floats:
     """Return the derivatives of x and z by the local coordinates, shape (elements, points, 2, 2) [m].
 
     Parameters
@@ -59,11 +57,11 @@ def jacobians(
     points
         Local coordinates, shape (k, 2).
     """
-    found: NDArray[np.float64] = np.einsum("eni,pnj->epij", nodes[elements], shape_gradients(points), optimize=True)
+    found: Floats = np.einsum("eni,pnj->epij", nodes[elements], shape_gradients(points), optimize=True)
     return found
 
 
-def boundary_edges(elements: NDArray[np.int64]) -> NDArray[np.int64]:
+def boundary_edges(elements: Integers) -> Integers:
     """Return the edges that belong to one element alone, with the body on their left.
 
     Returns
@@ -72,11 +70,11 @@ def boundary_edges(elements: NDArray[np.int64]) -> NDArray[np.int64]:
         First corner, midside node, second corner.
     """
     edges, place, counts = _edges(elements)
-    alone: NDArray[np.int64] = edges[counts[place] == 1]
+    alone: Integers = edges[counts[place] == 1]
     return alone
 
 
-def check_elements(nodes: NDArray[np.float64], elements: NDArray[np.int64], name: str) -> None:
+def check_elements(nodes: Floats, elements: Integers, name: str) -> None:
     """Refuse elements that run clockwise or are folded over, at their corners or at a Gauss point.
 
     Parameters
@@ -101,7 +99,7 @@ def check_elements(nodes: NDArray[np.float64], elements: NDArray[np.int64], name
         raise InputError("mesh-inverted", name, f"{np.argmax(folded) + 1}", count=int(folded.sum()))
 
 
-def check_pieces(nodes: NDArray[np.float64], elements: NDArray[np.int64], name: str) -> None:
+def check_pieces(nodes: Floats, elements: Integers, name: str) -> None:
     """Refuse a mesh that does not hang together: nodes in the same place, sides that do not fit, several pieces.
 
     Raises
@@ -133,7 +131,7 @@ def check_pieces(nodes: NDArray[np.float64], elements: NDArray[np.int64], name: 
         raise InputError("mesh-pieces", name, f"{pieces}")
 
 
-def _edges(elements: NDArray[np.int64]) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+def _edges(elements: Integers) -> tuple[Integers, Integers, Integers]:
     """Return the four edges of each element, for each the number of its pair of corners, and how often that is."""
     edges = elements[:, _SIDES].reshape(-1, 3)
     _, place, counts = np.unique(np.sort(edges[:, ::2], axis=1), axis=0, return_inverse=True, return_counts=True)

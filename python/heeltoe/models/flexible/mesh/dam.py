@@ -10,8 +10,8 @@ from pathlib import Path
 
 import numpy as np
 import shapely
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats, Integers
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.geometry.axes import in_x_and_z
@@ -46,12 +46,12 @@ class BodyMesh:
         Nodes held still: the base of the lower part, none of the upper.
     """
 
-    nodes: NDArray[np.float64]
-    elements: NDArray[np.int64]
-    crack: NDArray[np.int64]
-    upstream: NDArray[np.int64]
-    downstream: NDArray[np.int64]
-    fixed: NDArray[np.int64]
+    nodes: Floats
+    elements: Integers
+    crack: Integers
+    upstream: Integers
+    downstream: Integers
+    fixed: Integers
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,9 +159,7 @@ def _said(section: CutSection) -> str:
     return f"x from {heel:g} to {toe:g} m and z from {bottom:g} to {top:g} m"
 
 
-def _body(
-    nodes: NDArray[np.float64], elements: NDArray[np.int64], section: CutSection, name: str, *, above: bool
-) -> BodyMesh:
+def _body(nodes: Floats, elements: Integers, section: CutSection, name: str, *, above: bool) -> BodyMesh:
     """Find crack, faces and base on the boundary of a mesh."""
     slack = _ON_LINE * np.ptp(nodes, axis=0).max()
     places = locate(nodes, section)
@@ -191,7 +189,7 @@ def _body(
     return BodyMesh(nodes, elements, crack[::-1], onward[::-1], back, rest[far])
 
 
-def _walked(edges: NDArray[np.int64], first: int) -> NDArray[np.int64]:
+def _walked(edges: Integers, first: int) -> Integers:
     """Return the nodes along the boundary from the start of an edge once around, the first again at the end."""
     following = {int(edge[0]): edge for edge in edges}
     path, edge = [], edges[first]
@@ -202,7 +200,7 @@ def _walked(edges: NDArray[np.int64], first: int) -> NDArray[np.int64]:
         edge = following[int(edge[2])]
 
 
-def _faces_below(case: Case) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _faces_below(case: Case) -> tuple[Floats, Floats]:
     """Return the two faces of the part below the crack, from the base up."""
     corners = shapely.get_coordinates(case.outline.exterior)[:-1]
     section = case.cut

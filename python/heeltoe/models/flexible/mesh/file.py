@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats, Integers
 from heeltoe.errors import InputError
 from heeltoe.models.flexible.mesh.checks import check_elements, check_pieces
 
@@ -20,7 +20,7 @@ from heeltoe.models.flexible.mesh.checks import check_elements, check_pieces
 _BOUNDARY = {"vertex", "line", "line3"}
 
 
-def read_quadrilaterals(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def read_quadrilaterals(path: Path) -> tuple[Floats, Integers]:
     """Read a plane mesh; quadrilaterals of four nodes get midside nodes on straight sides.
 
     Parameters
@@ -44,7 +44,7 @@ def read_quadrilaterals(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int
     """
     name = str(path)
     mesh = _read(path)
-    blocks: dict[str, list[NDArray[np.int64]]] = {}
+    blocks: dict[str, list[Integers]] = {}
     for block in mesh.cells:
         if block.type not in _BOUNDARY and len(block.data):
             blocks.setdefault(block.type, []).append(np.asarray(block.data, dtype=np.int64))
@@ -84,7 +84,7 @@ def _read(path: Path) -> Any:
         raise InputError("mesh-unreadable", str(path), reason=str(error).rstrip(".")) from None
 
 
-def _plane(points: NDArray[np.float64], name: str) -> NDArray[np.float64]:
+def _plane(points: Floats, name: str) -> Floats:
     """Return the two coordinates of a plane mesh."""
     if not np.isfinite(points).all():
         raise InputError("mesh-not-finite", name, f"{int(np.argmin(np.isfinite(points).all(axis=1))) + 1}")
@@ -97,9 +97,7 @@ def _plane(points: NDArray[np.float64], name: str) -> NDArray[np.float64]:
     raise InputError("mesh-plane", name)
 
 
-def _with_midside_nodes(
-    nodes: NDArray[np.float64], elements: NDArray[np.int64]
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def _with_midside_nodes(nodes: Floats, elements: Integers) -> tuple[Floats, Integers]:
     sides = np.stack([elements, np.roll(elements, -1, axis=1)], axis=-1).reshape(-1, 2)
     ends, place = np.unique(np.sort(sides, axis=1), axis=0, return_inverse=True)
     middles = nodes[ends].mean(axis=1)

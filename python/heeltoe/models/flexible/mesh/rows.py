@@ -12,12 +12,12 @@ import math
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats, Integers
 from heeltoe.errors import InputError
 from heeltoe.models.flexible.mesh.checks import check_elements
 
-Line = tuple[NDArray[np.float64], NDArray[np.float64]]
+Line = tuple[Floats, Floats]
 
 # Rows per element across, so that any part has about so many elements; a tip has its own instead of some of them.
 _ROWS, _ROWS_OF_TIP = 1.65, 0.75
@@ -36,9 +36,7 @@ _NEAR = 0.25
 _WEDGE = 0.02
 
 
-def meshed_rows(
-    left: NDArray[np.float64], right: NDArray[np.float64], across: int
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def meshed_rows(left: Floats, right: Floats, across: int) -> tuple[Floats, Integers]:
     """Mesh the part of a section between two faces.
 
     Parameters
@@ -96,15 +94,13 @@ def meshed_rows(
     return nodes, elements
 
 
-def _stretched(
-    points: NDArray[np.float64], given: NDArray[np.float64], wanted: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _stretched(points: Floats, given: Floats, wanted: Floats) -> Floats:
     """Return points with their heights moved as the two ends of their range are, which come out to the last bit."""
     part = (points[:, 1] - given[0]) / (given[1] - given[0])
     return np.column_stack([points[:, 0], wanted[0] * (1.0 - part) + wanted[1] * part])
 
 
-def _check_turned(lines: list[Line], nodes: NDArray[np.float64], elements: NDArray[np.int64], across: int) -> None:
+def _check_turned(lines: list[Line], nodes: Floats, elements: Integers, across: int) -> None:
     """Refuse rows that turn so much that nothing is left of their elements."""
     ends = np.array(lines)
     thinnest = np.diff(ends[:, :, 1], axis=0).min()
@@ -118,7 +114,7 @@ def _check_turned(lines: list[Line], nodes: NDArray[np.float64], elements: NDArr
         raise InputError("mesh-wedge", "crack.inclination")
 
 
-def _key_lines(left: NDArray[np.float64], right: NDArray[np.float64], across: int) -> list[Line]:
+def _key_lines(left: Floats, right: Floats, across: int) -> list[Line]:
     """Return the lines through the kinks of both faces, from bottom to top."""
     levels = np.unique(np.concatenate([left[:, 1], right[:, 1]]))
     on_left, on_right = np.isin(levels, left[:, 1]), np.isin(levels, right[:, 1])
@@ -155,7 +151,7 @@ def _graded(keys: list[Line], across: int, wanted: float) -> list[Line]:
     places = (np.arange(_STEPS) + 0.5) / _STEPS
     width = widths[:-1, None] + np.diff(widths)[:, None] * places
 
-    def rows(scale: float) -> NDArray[np.float64]:
+    def rows(scale: float) -> Floats:
         """Rows per step of each segment."""
         height = np.clip(scale * np.sqrt(width), _SQUAT * width, _SLENDER * width)
         return heights[:, None] / height / _STEPS
@@ -176,18 +172,16 @@ def _graded(keys: list[Line], across: int, wanted: float) -> list[Line]:
     return lines
 
 
-def _field(lines: list[Line], across: int) -> NDArray[np.float64]:
+def _field(lines: list[Line], across: int) -> Floats:
     """Return the points of the elements between lines, midside nodes and centres too, shape (rows, columns, 2)."""
     ends = np.array(lines)
     ends = np.insert(ends, range(1, len(ends)), (ends[1:] + ends[:-1]) / 2.0, axis=0)
     part = np.linspace(0.0, 1.0, 2 * across + 1)[:, None]
-    points: NDArray[np.float64] = ends[:, None, 0] + part * (ends[:, None, 1] - ends[:, None, 0])
+    points: Floats = ends[:, None, 0] + part * (ends[:, None, 1] - ends[:, None, 0])
     return points
 
 
-def _tip(
-    left: NDArray[np.float64], right: NDArray[np.float64], apex: NDArray[np.float64], across: int
-) -> list[NDArray[np.float64]]:
+def _tip(left: Floats, right: Floats, apex: Floats, across: int) -> list[Floats]:
     """Return the three fields of a triangle whose base has `across` elements."""
     a, b = (across + 1) // 2, across // 2
     # Each side is cut in two, from cut to cut through one point inside; the base into a and b elements, and from the
@@ -196,7 +190,7 @@ def _tip(
     flank_left, flank_right = left + (apex - left) / 2.0, right + (apex - right) * b / across
     middle = (base + flank_left + flank_right) / 3.0
 
-    def between(below: Line, above: Line, columns: int) -> NDArray[np.float64]:
+    def between(below: Line, above: Line, columns: int) -> Floats:
         part = np.linspace(0.0, 1.0, b + 1)[:, None]
         starts, ends = below[0] + part * (above[0] - below[0]), below[1] + part * (above[1] - below[1])
         return _field(list(zip(starts, ends, strict=True)), columns)
@@ -208,7 +202,7 @@ def _tip(
     ]
 
 
-def _joined(fields: list[NDArray[np.float64]]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+def _joined(fields: list[Floats]) -> tuple[Floats, Integers]:
     """Return nodes and elements of fields of points, with the nodes that two fields share made one."""
     found, start = [], 0
     for field in fields:
