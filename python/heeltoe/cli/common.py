@@ -33,6 +33,9 @@ Changes = Annotated[
     typer.Option("--set", metavar="PATH=VALUE", help="Set any field of the case, e.g. crack.friction=1.0."),
 ]
 JsonPath = Annotated[str | None, typer.Option("--json", metavar="FILE|-", help="Write the result as JSON.")]
+UnitsName = Annotated[
+    str, typer.Option("--units", metavar="si|us", help="Units of all that people read; files of numbers stay SI.")
+]
 
 
 def command_line() -> str:

@@ -14,6 +14,7 @@ from heeltoe.cli.common import (
     CasePath,
     Changes,
     JsonPath,
+    UnitsName,
     as_given,
     check_directory,
     check_json,
@@ -21,6 +22,7 @@ from heeltoe.cli.common import (
     status,
 )
 from heeltoe.errors import InputError
+from heeltoe.units.systems import unit_system
 
 if TYPE_CHECKING:
     pass
@@ -80,6 +82,7 @@ def statics(
         typer.Option(metavar="0.15m", help="Residual slip of the post-seismic case; without it that of a rigid run."),
     ] = None,
     json_: JsonPath = None,
+    units: UnitsName = "si",
 ) -> None:
     """Judge the stability before, during (pseudo-static) and after the earthquake."""
     from heeltoe.case.read import read_case
@@ -87,6 +90,7 @@ def statics(
     from heeltoe.units.parse import parse
     from heeltoe.views.terminal.statics import print_statics
 
+    unit_system(units, "--units")
     changes = [*(set_ or []), *([] if criteria is None else [f"statics.criteria={criteria}"])]
     loaded = read_case(case, changes)
     check_json(json_)
@@ -101,7 +105,7 @@ def statics(
             found = statics_after(loaded, rigid(loaded))
         else:
             found = judge(loaded)
-    finish(found.to_json(), json_, [], lambda console: print_statics(found, console))
+    finish(found.to_json(), json_, [], lambda console: print_statics(found, console, units))
 
 
 def animate(

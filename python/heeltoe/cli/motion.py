@@ -8,9 +8,11 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from heeltoe.cli.common import UnitsName
 from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.units.parse import STANDARD_GRAVITY
+from heeltoe.units.systems import unit_system
 
 
 def motion(
@@ -22,6 +24,7 @@ def motion(
         Path | None, typer.Option(metavar="FILE.png", help="Where to draw it; NAME.motion.png here if not said.")
     ] = None,
     no_figure: Annotated[bool, typer.Option("--no-figure", help="Do not draw it.")] = False,
+    units: UnitsName = "si",
     list_: Annotated[bool, typer.Option("--list", help="List the records that can be used by name.")] = False,
 ) -> None:
     """Say what is in a record: peaks, measures, origin, warnings; and draw it."""
@@ -29,6 +32,7 @@ def motion(
     from heeltoe.views.terminal.motion import print_motion
 
     console = Console(highlight=False)
+    unit_system(units, "--units")
     if list_:
         for name, where in available():
             console.print(f"{name:40s} {where}", soft_wrap=True)
@@ -44,11 +48,11 @@ def motion(
         if place.suffix.lower() not in (".png", ".svg", ".pdf"):
             raise InputError("figure-format", "--figure", place)
         try:
-            written = write_motion_figure(motions[0], STANDARD_GRAVITY, place)
+            written = write_motion_figure(motions[0], STANDARD_GRAVITY, place, units)
         except OSError as error:
             raise InputError("cannot-write", "--figure", place, reason=error.strerror or error) from None
     for each in motions:
-        print_motion(each, console)
+        print_motion(each, console, units)
         console.print()
     if written:
         console.print(f"  wrote {written}", soft_wrap=True)

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeVar
 
 import typer
-from rich.console import Console
 from typer.core import TyperCommand
 
 from heeltoe.cli.common import (
@@ -16,6 +15,7 @@ from heeltoe.cli.common import (
     CasePath,
     Changes,
     JsonPath,
+    UnitsName,
     as_given,
     check_directory,
     check_json,
@@ -24,6 +24,7 @@ from heeltoe.cli.common import (
     status,
 )
 from heeltoe.errors import InputError
+from heeltoe.units.systems import unit_system
 
 if TYPE_CHECKING:
     from heeltoe.case.model import Case
@@ -74,9 +75,7 @@ def run(
     vtk: Annotated[
         bool, typer.Option("--vtk", help="With --out: VTK files of the flexible model for ParaView.")
     ] = False,
-    units: Annotated[
-        str, typer.Option(metavar="si|us", help="Units of what is shown, figures and report; files of numbers stay SI.")
-    ] = "si",
+    units: UnitsName = "si",
     output_step: Annotated[
         str | None,
         typer.Option(
@@ -100,14 +99,13 @@ def run(
     from heeltoe.case.read import read_case
     from heeltoe.models.run import MODELS
     from heeltoe.units.parse import parse
-    from heeltoe.views.terminal.common import in_units
+    from heeltoe.views.terminal.show import show
 
     if model not in (*MODELS, *_BOTH):
         raise InputError(
             "unknown-model", "--model", model, models="rigid, decoupled, flexible, both or decoupled,flexible"
         )
-    if units not in ("si", "us"):
-        raise InputError("unknown-units", "--units", units)
+    unit_system(units, "--units")
     if report:
         from heeltoe.views.report import check_packages
 
@@ -162,7 +160,7 @@ def run(
 
                 say("writing the report")
                 written += write_report(loaded, result, out, units=units, command=command_line())
-    finish(result.to_json(), json_, written, lambda console: _print(result, in_units(console, units, result.title)))
+    finish(result.to_json(), json_, written, lambda console: show(result, console, units))
     if not result.ok:
         raise typer.Exit(NO_RESULT)
 
@@ -180,7 +178,7 @@ def _vary(
     """Run a table of runs, show and write it."""
     from heeltoe.models.run import run as run_model
     from heeltoe.study.grid import parse_variations, run_grid
-    from heeltoe.views.terminal.grid import print_grid
+    from heeltoe.views.terminal.show import show
 
     variations = parse_variations(vary)
     with status() as say:
@@ -198,7 +196,7 @@ def _vary(
 
             say("writing")
             written = write_all(grid, out, units=units)
-    finish(grid.to_json(), json_, written, lambda console: print_grid(grid, console))
+    finish(grid.to_json(), json_, written, lambda console: show(grid, console, units))
     if not grid.ok:
         raise typer.Exit(NO_RESULT)
 
@@ -249,13 +247,3 @@ def _with_spread(
         return with_spread(response, case, runs, progress=progress)
 
     return result.with_responses(vary) if isinstance(result, Comparison) else vary(result)
-
-
-def _print(result: Response | Comparison, console: Console) -> None:
-    from heeltoe.result.response import Response
-    from heeltoe.views.terminal.response import print_comparison, print_summary
-
-    if isinstance(result, Response):
-        print_summary(result, console)
-    else:
-        print_comparison(result, console)

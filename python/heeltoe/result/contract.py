@@ -19,8 +19,10 @@ class Quantity:
         Its name in the JSON.
     label
         What people call it.
+    heading
+        The same above a narrow column.
     kind
-        ``"length"`` [m] or ``"rotation"`` [rad].
+        ``"slip"`` or ``"opening"`` [m], or ``"rotation"`` [rad].
     way
         -1 where the number is negative the way that its label says, and is shown turned round; else 1.
     signed
@@ -31,7 +33,8 @@ class Quantity:
 
     key: str
     label: str
-    kind: Literal["length", "rotation"]
+    heading: str
+    kind: Literal["slip", "rotation", "opening"]
     way: Literal[1, -1]
     signed: bool
     least: float
@@ -46,12 +49,12 @@ class Quantity:
 _LENGTH, _ROTATION = 1e-5, 1e-6
 
 HEADLINES = (
-    Quantity("residual_slip_m", "residual slip", "length", 1, True, _LENGTH),
-    Quantity("peak_slip_downstream_m", "peak slip downstream", "length", 1, False, _LENGTH),
-    Quantity("peak_slip_upstream_m", "peak slip upstream", "length", -1, False, _LENGTH),
-    Quantity("rocking_downstream_rad", "rotation downstream", "rotation", 1, False, _ROTATION),
-    Quantity("rocking_upstream_rad", "rotation upstream", "rotation", 1, False, _ROTATION),
-    Quantity("opening_upstream_m", "opening, upstream face", "length", 1, False, _LENGTH),
-    Quantity("opening_downstream_m", "opening, downstream face", "length", 1, False, _LENGTH),
+    Quantity("residual_slip_m", "residual slip", "residual", "slip", 1, True, _LENGTH),
+    Quantity("peak_slip_downstream_m", "peak slip downstream", "peak\ndown", "slip", 1, False, _LENGTH),
+    Quantity("peak_slip_upstream_m", "peak slip upstream", "peak\nup", "slip", -1, False, _LENGTH),
+    Quantity("rocking_downstream_rad", "rotation downstream", "rotation\ndown", "rotation", 1, False, _ROTATION),
+    Quantity("rocking_upstream_rad", "rotation upstream", "rotation\nup", "rotation", 1, False, _ROTATION),
+    Quantity("opening_upstream_m", "opening, upstream face", "opening\nupstream", "opening", 1, False, _LENGTH),
+    Quantity("opening_downstream_m", "opening, downstream face", "opening\ndownstr.", "opening", 1, False, _LENGTH),
 )
 """In the order in which they are shown."""

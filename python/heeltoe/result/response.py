@@ -165,6 +165,11 @@ class Response(Shown):
     elastic: ClassVar[bool] = False
 
     @property
+    def responses(self) -> tuple[Response, ...]:
+        """Itself alone; a comparison has two."""
+        return (self,)
+
+    @property
     def ok(self) -> bool:
         """Whether the run ended with a result to trust."""
         return self.outcome in ("ok", "overturned")

@@ -22,7 +22,7 @@ _LAST_S = 1.0
 def verdict(response: Response, units: str = "si") -> str:
     """Say what the part above the crack does, and whether it is at rest in the end, in units ``"si"`` or ``"us"``."""
     if not response.ok:
-        return f"No result to trust ({response.outcome}): {response.advice}."
+        return f"No result to trust ({response.outcome}): {advice(response, units)}."
     if response.outcome == "overturned":
         about = response.overturned_about
         way = "downstream" if about == "toe" else "upstream"
@@ -32,6 +32,11 @@ def verdict(response: Response, units: str = "si") -> str:
     else:
         sentences = [_slip(response, units), _rocking(response, units), _end(response)]
     return " ".join(sentence for sentence in [*sentences, _limits(response, units)] if sentence)
+
+
+def advice(response: Response, units: str = "si") -> str:
+    """Say where a run without a result stopped and what to do about it; nothing where there is a result."""
+    return "" if response.advice is None else response.advice.text(units)
 
 
 def _limits(response: Response, units: str) -> str:

@@ -15,14 +15,20 @@ from heeltoe.models.run import earthquake, flexible, run
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.contract import HEADLINES, Quantity
 from heeltoe.result.response import Response
+from heeltoe.units.sentences import Sentence
 
 # From which ratio on the models differ by more than the flexible one is known to differ from its references.
 _CLOSE = 1.25
 # A slip of less is none that matters to a dam [m].
 _LITTLE = 1e-3
+_LITTLE_IN_WORDS = {"si": "a millimetre", "us": "0.04 in"}
 
-_TABLE = "Zhu 2004, table 7.8: a dam of 20, 200, 2000 and 20000 GPa slides 218, 94, 52 and 37 mm, a rigid block 36 mm"
-
+_TABLE = Sentence.of(
+    "Zhu 2004, table 7.8: a dam of {moduli_pa:g GPa} slides {slips_m:g mm}, a rigid block {slip_m:g mm}",
+    moduli_pa=(20e9, 200e9, 2000e9, 20000e9),
+    slips_m=(0.218, 0.094, 0.052, 0.037),
+    slip_m=0.036,
+)
 
 R = TypeVar("R", bound=Response)
 
@@ -60,6 +66,11 @@ class Comparison:
         return self.flexible.title
 
     @property
+    def responses(self) -> tuple[Response, FlexibleResponse]:
+        """Both, that of the rigid part first."""
+        return self.rigid, self.flexible
+
+    @property
     def ok(self) -> bool:
         """Whether both runs ended with a result to trust."""
         return self.rigid.ok and self.flexible.ok
@@ -68,27 +79,27 @@ class Comparison:
         """Return flexible over rigid for slips, rotations and openings; None where the rigid one is next to nothing."""
         return {each.key: self._ratio(each) for each in HEADLINES}
 
-    def meaning(self) -> str:
-        """Say in a sentence what the difference means."""
+    def meaning(self, units: str = "si") -> str:
+        """Say in a sentence what the difference means, in units ``"si"`` or ``"us"``."""
         if not self.ok:
             failed = [each.model for each in (self.rigid, self.flexible) if not each.ok]
             return f"There is nothing to compare: no result to trust from the {' and the '.join(failed)} model."
         block, dam = (abs(each.residual_slip_m) for each in (self.rigid, self.flexible))
         if max(block, dam) < _LITTLE:
-            return "Both say that the dam slides by less than a millimetre."
+            return f"Both say that the dam slides by less than {_LITTLE_IN_WORDS[units]}."
         if isinstance(self.rigid, DecoupledResponse):
             return self._meaning_of_decoupling(block, dam)
         if block < _LITTLE:
             return (
                 "Only the flexible dam slides: its own vibration adds to the shaking, of which a rigid block knows "
-                f"nothing. Trust the flexible model ({_TABLE})."
+                f"nothing. Trust the flexible model ({_TABLE.text(units)})."
             )
         if self.rigid.residual_slip_m * self.flexible.residual_slip_m < 0.0:
             return "They slide opposite ways: the dam's own vibration decides here. Trust the flexible model."
         if dam > _CLOSE * block:
             return (
                 f"The flexible dam slides {dam / block:.2g} times as far: its own vibration adds to the shaking, of "
-                f"which a rigid block knows nothing. Trust the flexible model ({_TABLE})."
+                f"which a rigid block knows nothing. Trust the flexible model ({_TABLE.text(units)})."
             )
         if block > _CLOSE * dam:
             share = f"{dam / block:.2g} times" if dam > 0.01 * block else "less than a hundredth of"

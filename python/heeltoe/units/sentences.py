@@ -7,7 +7,7 @@ there use for such a quantity, to as many digits. Whatever has no unit, text too
 
 from __future__ import annotations
 
-import re
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from string import Formatter
@@ -48,8 +48,8 @@ UNITS: dict[str, tuple[float, str]] = {
 }
 # The same everywhere, but not SI units themselves.
 _OTHERS = {"ms": 1e-3, "%": 1e-2}
-# Digits of what is written in full in SI (format "g"), and the fewest and most of what has fixed decimals there.
-_IN_FULL, _FEWEST, _MOST = 4, 3, 5
+# Digits of what is written in full in SI (format "g").
+_IN_FULL = 4
 
 
 def scale(quantity: str, largest: float) -> Scale:
@@ -83,33 +83,32 @@ def quantity(value: float | Sequence[float], form: str, units: str = "si") -> st
         ``"si"`` or ``"us"``.
     """
     form, _, word = form.partition("|")
-    spec, _, unit = form.partition(" ")
-    values = list(value) if isinstance(value, Sequence) else [value]
-    texts = [_in_si(each, spec, unit) for each in values]
-    if units == "us" and unit in UNITS:
-        to = scale(UNITS[unit][1], max(map(abs, values)))
-        texts = [_in_us(to(each), spec, text) for each, text in zip(values, texts, strict=True)]
-        unit = to.unit
+    texts, unit = numbers(list(value) if isinstance(value, Sequence) else [value], form, units)
     listed = texts[0] if len(texts) == 1 else f"{', '.join(texts[:-1])} {word or 'and'} {texts[-1]}"
     return f"{listed} {unit}" if unit else listed
 
 
-def _in_si(value: float, spec: str, unit: str) -> str:
-    factor = UNITS[unit][0] if unit in UNITS else _OTHERS.get(unit, 1.0)
-    if factor != 1.0:
-        value = value / factor if factor > 1.0 else value * round(1.0 / factor)
-    return format(value, spec)
+def numbers(values: Sequence[float], form: str, units: str = "si") -> tuple[list[str], str]:
+    """Write quantities of a kind, see :func:`quantity`; return the numbers and the unit that they share."""
+    spec, _, unit = form.partition(" ")
+    si = UNITS[unit][0] if unit in UNITS else _OTHERS.get(unit, 1.0)
+    if units == "us" and unit in UNITS:
+        to = scale(UNITS[unit][1], max(map(abs, values), default=0.0))
+        return [_in_us(to(each), spec, si * to.factor) for each in values], to.unit
+    # Whole factors leave round numbers round.
+    return [format(each / si if si > 1.0 else each * round(1.0 / si), spec) for each in values], unit
 
 
-def _in_us(value: float, spec: str, text: str) -> str:
-    """Write a number to as many digits as its text in SI has, as far as they say something."""
-    precision = spec.strip(".fge")
+def _in_us(value: float, spec: str, step: float) -> str:
+    """Write a number in another unit, of which `step` are one in SI, as finely as its format writes it in SI."""
+    precision = spec.strip("z.fge")
     if spec.endswith("f"):
-        count = min(_MOST, max(_FEWEST, len(text.lstrip("-0.").replace(".", ""))))
-    else:
-        count = int(precision) + spec.endswith("e") if precision else _IN_FULL
+        # Never coarser than twice what the decimals in SI tell apart.
+        decimals = max(0, math.ceil(int(precision) - math.log10(2.0 * step)))
+        return f"{value:z.{decimals}f}"
+    count = int(precision) + spec.endswith("e") if precision else _IN_FULL
     shown = number(value, count) if abs(value) < 1e6 else f"{float(f'{value:.{count}g}'):.0f}"
-    return shown.rstrip("0").rstrip(".") if spec.endswith("g") and "." in shown else shown
+    return shown.rstrip("0").rstrip(".") if spec.endswith("g") and "." in shown and "e" not in shown else shown
 
 
 @dataclass(frozen=True)
@@ -140,6 +139,11 @@ class Sentence:
         return self.text()
 
 
+def written(template: str, units: str, /, **quantities: Any) -> str:
+    """Return what a sentence with these quantities says in some units, see :class:`Sentence`."""
+    return Sentence.of(template, **quantities).text(units)
+
+
 class _Writer(Formatter):
     """Fills templates, with quantities in one system of units."""
 
@@ -150,29 +154,3 @@ class _Writer(Formatter):
         if isinstance(value, Sentence):
             return value.text(self.units)
         return value if isinstance(value, str) else quantity(value, format_spec, self.units)
-
-
-_NUMBER = r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?"
-_QUANTITIES = re.compile(
-    rf"(?<![\w.])((?:{_NUMBER}(?:,|[ \u00a0](?:and|to|or))[ \u00a0])*{_NUMBER})([ \u00a0])"
-    rf"({'|'.join(sorted(map(re.escape, UNITS), key=len, reverse=True))})(?![\w/²³^])"
-)
-
-
-def us_words(text: str) -> str:
-    """Return a sentence with what it says in SI in the units of the United States, to as many digits."""
-    return _QUANTITIES.sub(_converted, text.replace("per metre of dam", "per foot of dam"))
-
-
-def _converted(found: re.Match[str]) -> str:
-    factor, quantity = UNITS[found[3]]
-    largest = max(abs(float(each)) for each in re.findall(_NUMBER, found[1]))
-    to = scale(quantity, largest * factor)
-    values = re.sub(_NUMBER, lambda each: _number(each[0], factor * to.factor), found[1])
-    return f"{values}{found[2]}{to.unit}"
-
-
-def _number(text: str, factor: float) -> str:
-    figures = len(re.sub(r"\D", "", text.partition("e")[0]).lstrip("0"))
-    value, shown = float(text) * factor, min(4, max(2, figures))
-    return number(value, shown) if abs(value) < 1e6 else f"{float(f'{value:.{shown}g}'):.0f}"

@@ -48,7 +48,7 @@ def test_a_dry_dam_is_pushed_by_nothing():
     assert found.resultant_from_heel_m == pytest.approx(80.0 / 3.0)
     assert found.heel_stress_pa == pytest.approx(2.4 * M)
     assert found.toe_stress_pa == pytest.approx(0.0, abs=1e-6)
-    assert result.ok, [each.sentence for each in result.checks]
+    assert result.ok, [str(each.sentence) for each in result.checks]
     assert len(result.cases) == 1
 
 

@@ -12,6 +12,7 @@ from heeltoe.models.statics.contact import Contact
 from heeltoe.models.statics.criteria import UPLIFT_IN_EARTHQUAKE, Loads
 from heeltoe.models.statics.load_case import Given, Solved, solve_case
 from heeltoe.models.statics.water import still_water, water_in_earthquake
+from heeltoe.units.sentences import Sentence
 
 
 def usual(case: Case) -> Solved:
@@ -26,10 +27,11 @@ def flood(case: Case) -> Solved:
     risen = at_depth(case, choice.flood_depth)
     if choice.flood_tailwater is not None:
         risen = risen.model_copy(update={"tailwater": _water(case.tailwater, choice.flood_tailwater)})
-    said = [f"reservoir {choice.flood_depth:g} m deep, an {choice.flood_rarity} load"]
+    text = f"reservoir {{depth_m:g m}} deep, an {choice.flood_rarity} load"
+    said = [Sentence.of(text, depth_m=choice.flood_depth)]
     if case.ice is not None:
         risen = risen.model_copy(update={"ice": None})
-        said.append("no ice in the flood")
+        said.append(Sentence("no ice in the flood"))
     return _still("flood", choice.flood_rarity, risen, tuple(said))
 
 
@@ -62,9 +64,10 @@ def pseudo_static(case: Case, before: Solved) -> tuple[Solved, Solved]:
         tried = []
         for up in (-1.0, 1.0) if vertical else (0.0,):
             forces = (*_dry(case), *_inertia(case, sign * horizontal, up * vertical))
-            said = [f"uplift: {source}"]
+            said = [Sentence(f"uplift: {source}")]
             if vertical:
-                said.append(f"vertical coefficient {'down' if up > 0.0 else 'up'}ward on the block, the worse way")
+                way_up = "down" if up > 0.0 else "up"
+                said.append(Sentence(f"vertical coefficient {way_up}ward on the block, the worse way"))
             given = Given(
                 f"pseudo-static {way}", "earthquake", case.crack.mu_static, case.statics.cohesion, tuple(said)
             )
@@ -89,26 +92,31 @@ def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
     if size >= width:
         return None
     friction = choice.residual_friction if choice.residual_friction is not None else case.crack.mu_kinetic
+    way, kind = (
+        "downstream" if slip >= 0.0 else "upstream",
+        "kinetic" if choice.residual_friction is None else "residual",
+    )
     said = [
-        f"slip {size:.4f} m {'downstream' if slip >= 0.0 else 'upstream'}: {source}",
-        f"friction {friction:g}, {'residual' if choice.residual_friction is not None else 'kinetic'}; "
-        "the crack has slid: no cohesion, no tensile strength",
+        Sentence.of("slip {slip_m:.4f m} {way}: {source}", slip_m=size, way=way, source=source),
+        Sentence(f"friction {friction:g}, {kind}; the crack has slid: no cohesion, no tensile strength"),
     ]
     if size:
-        said.append(
-            f"the block stands on {width - size:.3f} m of its {width:.3f} m, whether or not the ground goes on beyond "
-            "the toe; uplift acts as its pattern on what is left, free water on the rest"
+        text = (
+            "the block stands on {left_m:.3f m} of its {width_m:.3f m}, whether or not the ground goes on beyond the "
+            "toe; uplift acts as its pattern on what is left, free water on the rest"
         )
+        said.append(Sentence.of(text, left_m=width - size, width_m=width))
     if case.uplift.pattern == "drained" and size:
         if choice.drain_diameter is None:
-            said.append("drains as before: statics.drain_diameter is not given")
+            said.append(Sentence("drains as before: statics.drain_diameter is not given"))
         else:
             share = max(0.0, 1.0 - size / choice.drain_diameter)
-            said.append(f"slip over a drain diameter of {choice.drain_diameter:g} m leaves {share:.3g} of the drainage")
+            text = "slip over a drain diameter of {diameter_m:g m} leaves {share:.3g} of the drainage"
+            said.append(Sentence.of(text, diameter_m=choice.drain_diameter, share=share))
             efficiency = share * (case.uplift.drain_efficiency or 0.0)
             case = case.model_copy(update={"uplift": case.uplift.model_copy(update={"drain_efficiency": efficiency})})
     if case.anchors and size:
-        said.append("prestress of the anchors as before the slip")
+        said.append(Sentence("prestress of the anchors as before the slip"))
     start, end = (0.0, width - size) if slip >= 0.0 else (size, width)
     contact = Contact(start, end, bonded_from=end)
     water = still_water(case, start, end)
@@ -154,7 +162,7 @@ def _inertia(case: Case, horizontal: float, vertical: float) -> tuple[Resultant,
     return tuple(forces)
 
 
-def _still(name: str, loads: Loads, case: Case, said: tuple[str, ...]) -> Solved:
+def _still(name: str, loads: Loads, case: Case, said: tuple[Sentence, ...]) -> Solved:
     """Return a case of still water on the crack as it is before the earthquake."""
     contact = _contact(case)
     water = still_water(case, contact.start, contact.end)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from heeltoe.case.options import StaticsChoice
 from heeltoe.models.statics.criteria import Criterion, criteria
 from heeltoe.models.statics.load_case import LoadCase
+from heeltoe.units.sentences import Sentence
 
 # A value that meets its limit to rounding meets it.
 _ROUNDING = 1e-9
@@ -46,7 +48,11 @@ class Check:
     met: bool
     source: str
     note: str
-    sentence: str
+    sentence: Sentence
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain numbers and strings."""
+        return {**vars(self), "sentence": str(self.sentence)}
 
 
 def check_case(found: LoadCase, choice: StaticsChoice) -> tuple[Check, ...]:
@@ -73,28 +79,32 @@ def check_case(found: LoadCase, choice: StaticsChoice) -> tuple[Check, ...]:
     return tuple(checks)
 
 
-def fallen(words: str) -> Check:
+def fallen(words: str, **quantities: float) -> Check:
     """Return the check of a block that the earthquake leaves nowhere to stand, as the words say."""
-    text = f"post-seismic: {words}"
+    text = Sentence.of(f"post-seismic: {words}", **quantities)
     return Check("post-seismic", "equilibrium", None, None, True, False, "equilibrium", "", text)
 
 
 def _equilibrium(found: LoadCase) -> Check:
+    quantities = {}
     if found.outcome == "stands":
         words = "the block stands"
         if found.cracked_length_m:
-            words += f" with {found.cracked_length_m:.2f} m of its crack open from the {found.cracked_from}"
+            words += f" with {{length_m:.2f m}} of its crack open from the {found.cracked_from}"
+            quantities["length_m"] = found.cracked_length_m
     elif found.outcome == "floats":
-        words = f"the water lifts the block with {-found.normal_force_n / 1e3:.4g} kN/m more than holds it down"
+        words = "the water lifts the block with {lift_n:.4g kN/m} more than holds it down"
+        quantities["lift_n"] = -found.normal_force_n
     else:
         words = f"the crack opens through from the {found.cracked_from}"
         eccentricity = found.eccentricity_m
         if eccentricity is not None:
             beyond = abs(eccentricity) - found.contact_width_m / 2.0
             end = "toe" if eccentricity > 0.0 else "heel"
-            words += f"; the resultant is {abs(beyond):.2f} m {'beyond' if beyond > 0.0 else 'inside'} the {end}"
+            words += f"; the resultant is {{away_m:.2f m}} {'beyond' if beyond > 0.0 else 'inside'} the {end}"
+            quantities["away_m"] = abs(beyond)
     met = found.outcome == "stands"
-    sentence = f"{found.name}: {words}"
+    sentence = Sentence.of(f"{found.name}: {words}", **quantities)
     return Check(found.name, "equilibrium", None, None, True, met, "equilibrium", "", sentence)
 
 
@@ -125,14 +135,14 @@ def _resultant(found: LoadCase, row: Criterion) -> Check:
     away = value * width - row.required * width
     digits = _digits(away)
     side = "downstream" if eccentricity >= 0.0 else "upstream"
-    place = f"{abs(eccentricity):.{digits}f} m {side} of" if round(abs(eccentricity), digits) else "in"
+    place = f"{{eccentricity_m:.{digits}f m}} {side} of" if round(abs(eccentricity), digits) else "in"
     words = (
-        f"resultant {place} the middle is {abs(away):.{digits}f} m "
+        f"resultant {place} the middle is {{away_m:.{digits}f m}} "
         f"{'outside' if away > 0.0 else 'inside'} {_ZONES[row.required]} of {row.source}"
     )
     if found.outcome != "stands":
         words += f", but the block {found.outcome}" if found.outcome == "floats" else ", but the crack opens through"
-    return _check(found, "resultant", value, row, met, words)
+    return _check(found, "resultant", value, row, met, words, eccentricity_m=abs(eccentricity), away_m=abs(away))
 
 
 def _compression(found: LoadCase, row: Criterion, strength: float) -> Check:
@@ -144,15 +154,18 @@ def _compression(found: LoadCase, row: Criterion, strength: float) -> Check:
     met = value <= row.required * (1.0 + _ROUNDING)
     digits = _digits((stress - allowed) / 1e6)
     words = (
-        f"compression {stress / 1e6:.{digits}f} MPa is {abs(stress - allowed) / 1e6:.{digits}f} MPa "
-        f"{'below' if met else 'above'} the {allowed / 1e6:.2f} MPa ({row.required:.3g} of the strength) of "
+        f"compression {{stress_pa:.{digits}f MPa}} is {{apart_pa:.{digits}f MPa}} "
+        f"{'below' if met else 'above'} the {{allowed_pa:.2f MPa}} ({row.required:.3g} of the strength) of "
         f"{row.source}"
     )
-    return _check(found, "compression", value, row, met, words)
+    stresses = {"stress_pa": stress, "apart_pa": abs(stress - allowed), "allowed_pa": allowed}
+    return _check(found, "compression", value, row, met, words, **stresses)
 
 
-def _check(found: LoadCase, name: str, value: float | None, row: Criterion, met: bool, words: str) -> Check:
-    sentence = f"{found.name}: {words}"
+def _check(
+    found: LoadCase, name: str, value: float | None, row: Criterion, met: bool, words: str, **quantities: float
+) -> Check:
+    sentence = Sentence.of(f"{found.name}: {words}", **quantities)
     return Check(found.name, name, value, row.required, row.at_least, met, row.source, row.note, sentence)
 
 

@@ -14,6 +14,7 @@ from heeltoe.mechanics.loads import Resultant, total
 from heeltoe.models.statics.contact import Contact, Settled, settle
 from heeltoe.models.statics.criteria import Loads
 from heeltoe.models.statics.water import StillWater, force_and_moment
+from heeltoe.units.sentences import Sentence
 
 
 @dataclass(frozen=True)
@@ -85,7 +86,7 @@ class LoadCase:
     cracked_from: str
     compressed_length_m: float
     iterations: int
-    assumptions: tuple[str, ...]
+    assumptions: tuple[Sentence, ...]
 
     @property
     def contact_width_m(self) -> float:
@@ -111,7 +112,7 @@ class LoadCase:
             for force in self.forces
         ]
         extra = {"contact_width_m": self.contact_width_m, "eccentricity_m": self.eccentricity_m}
-        return {**asdict(self), "forces": forces, **extra, "assumptions": list(self.assumptions)}
+        return {**asdict(self), "forces": forces, **extra, "assumptions": [str(each) for each in self.assumptions]}
 
 
 @dataclass(frozen=True, eq=False)
@@ -130,7 +131,7 @@ class Given:
     loads: Loads
     friction: float
     cohesion: float
-    assumptions: tuple[str, ...]
+    assumptions: tuple[Sentence, ...]
 
 
 def solve_case(

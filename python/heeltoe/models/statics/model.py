@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 from heeltoe.case.model import Case
@@ -76,7 +76,7 @@ class Statics:
             "site_information": self.site_information,
             "ok": self.ok,
             "cases": [each.to_json() for each in self.cases],
-            "checks": [asdict(check) for check in self.checks],
+            "checks": [check.to_json() for check in self.checks],
             "critical_acceleration_g": dict(self.critical_acceleration_g),
             "critical_water_level_m": dict(self.critical_water_level_m),
             "slip_m": self.slip_m,
@@ -136,10 +136,8 @@ def statics(
     if slip is not None and source is not None:
         after = post_seismic(case, slip, source)
         if after is None:
-            lost = (
-                f"a slip of {abs(slip):.2f} m leaves nothing of the {section.crack_width:.2f} m that the block stood on"
-            )
-            checks.append(fallen(lost))
+            lost = "a slip of {slip_m:.2f m} leaves nothing of the {width_m:.2f m} that the block stood on"
+            checks.append(fallen(lost, slip_m=abs(slip), width_m=section.crack_width))
         else:
             cases.append(after.load_case)
             checks += check_case(after.load_case, choice)

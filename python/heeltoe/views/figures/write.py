@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import singledispatch
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,7 @@ from matplotlib.figure import Figure
 from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.result.response import Response
+from heeltoe.study.comparison import Comparison
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.dense import filled_in
 from heeltoe.views.figures.energy import energy_figure
@@ -31,7 +33,6 @@ from heeltoe.views.figures.style import STYLE, laid_out, without_heading
 
 if TYPE_CHECKING:
     from heeltoe.case.model import Case
-    from heeltoe.study.comparison import Comparison
 
 #: Every name that a figure of a result can have, in the order in which they are shown.
 NAMES = (
@@ -90,15 +91,7 @@ def all_figures(
         from heeltoe.views.figures.section import section_figure
 
         drawings["section"] = lambda: section_figure(case, units)
-    if isinstance(result, Response):
-        drawings |= _drawings(result, units)
-    else:
-        if has_pictures(result.rigid) and has_pictures(result.flexible):
-            from heeltoe.views.figures.comparison import comparison_figure
-
-            drawings["comparison"] = lambda: comparison_figure(result, units)
-        for each in (result.rigid, result.flexible):
-            drawings |= {f"{each.model}/{name}": draw for name, draw in _drawings(each, units).items()}
+    drawings |= _drawings(result, units)
     figures = {name: draw() for name, draw in drawings.items() if only(name)}
     if not headings:
         figures = {name: without_heading(figure) for name, figure in figures.items()}
@@ -111,8 +104,26 @@ def has_pictures(response: Response) -> bool:
     return bool(h) and len(h["time_s"]) > 1 and all(np.isfinite(values).all() for values in h.values())
 
 
-def _drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]:
-    """Return what draws each figure of one response."""
+@singledispatch
+def _drawings(result: object, units: str) -> dict[str, Callable[[], Figure]]:
+    """Return what draws each figure of a result."""
+    raise TypeError(f"there are no figures of a {type(result).__name__}")
+
+
+@_drawings.register
+def _(both: Comparison, units: str) -> dict[str, Callable[[], Figure]]:
+    found: dict[str, Callable[[], Figure]] = {}
+    if all(map(has_pictures, both.responses)):
+        from heeltoe.views.figures.comparison import comparison_figure
+
+        found["comparison"] = lambda: comparison_figure(both, units)
+    for each in both.responses:
+        found |= {f"{each.model}/{name}": draw for name, draw in _drawings(each, units).items()}
+    return found
+
+
+@_drawings.register
+def _(response: Response, units: str) -> dict[str, Callable[[], Figure]]:
     if not has_pictures(response):
         return {}
     response = filled_in(response)

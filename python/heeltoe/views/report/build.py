@@ -13,7 +13,6 @@ from heeltoe.views.report.build_statics import static_checks
 from heeltoe.views.report.build_verdict import limits
 from heeltoe.views.report.content import Document, References, Section, without_gaps
 from heeltoe.views.report.subject import Subject
-from heeltoe.views.report.wording import reworded
 
 
 def document(subject: Subject) -> Document:
@@ -38,5 +37,5 @@ def document(subject: Subject) -> Document:
         title=subject.title,
         subtitle=f"What the dam does in the earthquake, by {models}",
         footer=f"heeltoe {build_info()['heeltoe']} · input {hashed[:12]}",
-        blocks=reworded(blocks) if subject.units == "us" else blocks,
+        blocks=blocks,
     )

@@ -3,19 +3,11 @@
 from __future__ import annotations
 
 from heeltoe.models.rigid.varying import varies
+from heeltoe.result.contract import HEADLINES
 from heeltoe.units.write import NOTHING
 from heeltoe.views.report.content import Block, Code, Inline, Section, Table, paragraph
 from heeltoe.views.report.subject import Run, Subject
 
-_SPREAD = (
-    ("Residual slip", "residual_slip_m", 1.0),
-    ("Largest slip downstream", "peak_slip_downstream_m", 1.0),
-    ("Largest slip upstream", "peak_slip_upstream_m", -1.0),
-    ("Rotation downstream", "rocking_downstream_rad", 1.0),
-    ("Rotation upstream", "rocking_upstream_rad", 1.0),
-    ("Opening, upstream face", "opening_upstream_m", 1.0),
-    ("Opening, downstream face", "opening_downstream_m", 1.0),
-)
 _ENERGY = (
     ("Put in", "input_j"),
     ("Friction", "friction_j"),
@@ -51,7 +43,7 @@ def evidence(subject: Subject) -> Section:
         blocks += _spread(subject, run)
     if any(run.response.energy is not None for run in subject.runs):
         rows = tuple(_energy_row(subject, label, name) for label, name in _ENERGY)
-        blocks.append(Table(subject.head(), _seen(rows), "Energy ledger, per metre of dam.", subject.align()))
+        blocks.append(Table(subject.head(), _seen(rows), f"Energy ledger, {subject.per_width}.", subject.align()))
         blocks += subject.figure("energy")[-1:]
     for run in subject.runs:
         if run.response.model == "flexible" and run.response.summary:
@@ -90,14 +82,15 @@ def _spread(subject: Subject, run: Run) -> list[Block]:
         ]
     n, prefix = subject.numbers, f"{run.prefix}spread."
     rows: list[tuple[Inline, ...]] = []
-    for label, name, sign in _SPREAD:
+    for each in HEADLINES:
+        name, sign = each.key, each.way
         if not n.raw(prefix + name):
             continue
-        low, high = ("min", "max") if sign > 0.0 else ("max", "min")
+        low, high = ("min", "max") if sign > 0 else ("max", "min")
         cells = [n(run.prefix + name, sign=sign), n(f"{prefix}{name}.mean", sign=sign), n(f"{prefix}{name}.std")]
         cells += [n(f"{prefix}{name}.{end}", sign=sign) for end in (low, high)]
         if any(cell != NOTHING and getattr(cell, "number", 0) for cell in cells):
-            rows.append((label, *cells))
+            rows.append((each.label.capitalize(), *cells))
     found = run.response.spread
     scales = found["scales"]
     failed = f"; {found['failed']} of them without a result" if found["failed"] else ""

@@ -10,9 +10,9 @@ import numpy as np
 from heeltoe.case.model import Case
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.write import build_info
-from heeltoe.views.report.content import Block, Code, Inline, Listing, Own, Section, Strong, Table, paragraph
+from heeltoe.views.report.content import Block, Code, Inline, Listing, Section, Strong, Table, paragraph
 from heeltoe.views.report.subject import Subject
-from heeltoe.views.words.fields import OWN_WORDS, fields
+from heeltoe.views.words.fields import fields
 
 _SYSTEMS = {"si": "SI", "us": "US"}
 # Blocks that only one model looks at.
@@ -23,7 +23,7 @@ def given_input(subject: Subject) -> Section:
     """Return the section with the drawing of the dam and all fields that the case gives."""
     rows = _rows(subject, given=True)
     text = (
-        f"All that the case says, in {_SYSTEMS[subject.units]} units per metre of dam; x points downstream, z up. "
+        f"All that the case says, in {_SYSTEMS[subject.units]} units {subject.per_width}; x points downstream, z up. "
         "What it leaves to the program’s defaults is in the appendix."
     )
     return Section(
@@ -93,7 +93,7 @@ def _command(subject: Subject) -> str:
 def _rows(subject: Subject, *, given: bool) -> tuple[tuple[Inline, ...], ...]:
     written = subject.case.model_dump(mode="json")
     return tuple(
-        (Code(path), Own(value) if path.rpartition(".")[2] in OWN_WORDS else value, meaning.replace("`", ""))
+        (Code(path), value, meaning.replace("`", ""))
         for path, value, is_given, meaning in fields(subject.case, written, units=subject.units)
         if is_given == given
     )

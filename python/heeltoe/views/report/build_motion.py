@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.units.sentences import written
 from heeltoe.units.write import NOTHING
-from heeltoe.views.report.content import Block, Code, Inline, Notes, Own, Section, Table, paragraph, without_gaps
+from heeltoe.views.report.content import Block, Code, Inline, Notes, Section, Table, paragraph, without_gaps
 from heeltoe.views.report.subject import Subject
 
 _WORDS = (
@@ -42,7 +43,7 @@ def ground_motion(subject: Subject) -> Section:
     for label, name in _WORDS:
         words = [getattr(motion, name) for motion, _ in motions.values()]
         if any(words):
-            rows.append((label, *(Own(word) if word else NOTHING for word in words)))
+            rows.append((label, *(word or NOTHING for word in words)))
     rows.append(("Processing", *("; ".join(motion.processing) or "none" for motion, _ in motions.values())))
     for label, name in _NUMBERS:
         cells = [n(f"{prefix}{key}.{name}") for _, key in motions.values()]
@@ -55,13 +56,18 @@ def ground_motion(subject: Subject) -> Section:
         "l" + "l" * len(motions),
         (3.0, *(6.0 / len(motions) for _ in motions)),
     )
-    gravity = f"One g is taken as {subject.case.gravity:.6g} m/s²."
-    blocks = (paragraph(gravity), table, _checks([motion for motion, _ in motions.values()]), *_spectrum(subject))
+    gravity = written("One g is taken as {gravity_m_s2:.6g m/s²}.", subject.units, gravity_m_s2=subject.case.gravity)
+    blocks = (
+        paragraph(gravity),
+        table,
+        _checks([motion for motion, _ in motions.values()], subject.units),
+        *_spectrum(subject),
+    )
     return Section("Ground motion", without_gaps(*blocks))
 
 
-def _checks(motions: list[GroundMotion]) -> Block:
-    said = [str(text) for motion in motions for text in motion.warnings]
+def _checks(motions: list[GroundMotion], units: str) -> Block:
+    said = [warning.text(units) for motion in motions for warning in motion.warnings]
     if said:
         return Notes("warning", "Checks of the motion", tuple((text,) for text in said))
     return paragraph(

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 
-from heeltoe.result.verdict import comes_to_rest, verdict
+from heeltoe.result.contract import HEADLINES
+from heeltoe.result.verdict import advice, comes_to_rest, verdict
 from heeltoe.study.comparison import Comparison
 from heeltoe.units.write import NOTHING, digits
 from heeltoe.views.report.content import (
@@ -12,7 +13,6 @@ from heeltoe.views.report.content import (
     Code,
     Inline,
     Notes,
-    Own,
     Section,
     Strong,
     Table,
@@ -32,7 +32,7 @@ def question(subject: Subject) -> Section:
             answers.append(paragraph(Strong(label), glued(verdict(run.response, subject.units))))
     both = subject.result
     if isinstance(both, Comparison) and both.ok:
-        answers.append(paragraph(Strong("Difference. "), glued(both.meaning())))
+        answers.append(paragraph(Strong("Difference. "), glued(both.meaning(subject.units))))
     if not any(run.response.limits for run in subject.runs) and any(run.response.ok for run in subject.runs):
         answers.append(
             paragraph(
@@ -54,7 +54,7 @@ def _question(subject: Subject) -> Block:
     return paragraph(
         Strong("Question. "),
         "What does the part of “",
-        Own(subject.title),
+        subject.title,
         "” above its crack do in the ground motion ",
         Code(subject.first.response.motion.name),
         ", ",
@@ -73,7 +73,7 @@ def _failures(subject: Subject) -> Block | None:
     items: list[tuple[Inline, ...]] = [
         (
             Strong(f"{run.model[0].upper()}{run.model[1:]}, outcome “{run.response.outcome}”: "),
-            f"{run.response.advice}.",
+            f"{advice(run.response, subject.units)}.",
         )
         for run in subject.runs
         if not run.response.ok
@@ -96,24 +96,13 @@ def _warnings(subject: Subject) -> Block | None:
     return Notes("warning", "Before using these numbers", tuple((glued(text),) for text in said)) if said else None
 
 
-#: Labels of the key numbers, their names in the JSON, and whether they are shown the other way round.
-ROWS = (
-    ("Residual slip, positive downstream", "residual_slip_m", 1.0),
-    ("Largest slip downstream on the way", "peak_slip_downstream_m", 1.0),
-    ("Largest slip upstream on the way", "peak_slip_upstream_m", -1.0),
-    ("Largest rotation downstream, about the toe", "rocking_downstream_rad", 1.0),
-    ("Largest rotation upstream, about the heel", "rocking_upstream_rad", 1.0),
-    ("Largest opening of the crack, upstream face", "opening_upstream_m", 1.0),
-    ("Largest opening of the crack, downstream face", "opening_downstream_m", 1.0),
-)
-
-
 def _numbers(subject: Subject) -> Block:
-    both = isinstance(subject.result, Comparison)
+    both = len(subject.runs) > 1
     rows: list[tuple[Inline, ...]] = []
     if any(run.response.summary for run in subject.runs):
-        for label, key, sign in ROWS:
-            rows.append(subject.row(label, key, sign=sign) + ((_ratio(subject, key),) if both else ()))
+        for each in HEADLINES:
+            row = subject.row(each.full.capitalize(), each.key, sign=each.way)
+            rows.append(row + ((_ratio(subject, each.key),) if both else ()))
         rows.append(("At the end of the run", *map(_end, subject.runs), *([""] if both else [])))
     static = subject.row("Sliding safety factor under static loads", "static.sliding_safety_factor")
     rows.append(static + (("",) if both else ()))
@@ -123,7 +112,8 @@ def _numbers(subject: Subject) -> Block:
     return Table(
         subject.head(*more),
         tuple(rows),
-        "Key numbers, per metre of dam. Openings and rotations are magnitudes.",
+        f"Key numbers, {subject.per_width}. Openings and rotations are magnitudes; rotation downstream, about the toe, "
+        "opens the crack at the upstream face.",
         subject.align(len(more)),
     )
 

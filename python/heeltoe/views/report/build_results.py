@@ -70,8 +70,8 @@ def results(subject: Subject) -> Section:
         Table(
             ("", "value"),
             static,
-            "Before the earthquake, per metre of dam; accelerations at which a rigid part above the crack starts to "
-            "move.",
+            f"Before the earthquake, {subject.per_width}; accelerations at which a rigid part above the crack starts "
+            "to move.",
             "lr",
         )
     ]
@@ -85,7 +85,7 @@ def results(subject: Subject) -> Section:
             Table(
                 subject.head(),
                 tuple(rows),
-                "How it moves, per metre of dam; modes that do not happen are left out.",
+                f"How it moves, {subject.per_width}; modes that do not happen are left out.",
                 subject.align(),
             )
         )
@@ -128,4 +128,5 @@ def _anchors(subject: Subject) -> list[Block]:
         for place in range(len(subject.case.anchors))
         if runs
     )
-    return [Table(head, rows, "Tension of the anchors, per metre of dam.", "l" + "r" * (2 + len(runs)))] if rows else []
+    caption = f"Tension of the anchors, {subject.per_width}."
+    return [Table(head, rows, caption, "l" + "r" * (2 + len(runs)))] if rows else []

@@ -52,12 +52,13 @@ def static_checks(subject: Subject) -> Section | None:
         )
     ]
     if found.warnings:
-        own = [text for text in found.warnings if all(text not in run.response.warnings for run in subject.runs)]
-        blocks += [Notes("warning", "About the static checks", tuple((str(text),) for text in own))] if own else []
+        shown = {each.code for run in subject.runs for each in run.response.warnings}
+        own = [each.text(subject.units) for each in found.warnings if each.code not in shown]
+        blocks += [Notes("warning", "About the static checks", tuple((text,) for text in own))] if own else []
     blocks += [
         _cases(subject, found),
         _checks(subject, found),
-        _missed(found),
+        _missed(found, subject.units),
         _remarks(subject, found),
         _levels(subject),
     ]
@@ -83,7 +84,7 @@ def _cases(subject: Subject, found: Statics) -> Table:
             rows.append((label, *cells))
     rows.append(("Resultant in", *(each.resultant_zone or NOTHING for each in found.cases)))
     head = ("", *(each.name for each in found.cases))
-    return Table(head, tuple(rows), "Load cases, per metre of dam.", _SHARES[: len(head)])
+    return Table(head, tuple(rows), f"Load cases, {subject.per_width}.", _SHARES[: len(head)])
 
 
 def _checks(subject: Subject, found: Statics) -> Table:
@@ -113,9 +114,9 @@ def _with(cell: Inline, unit: str, sign: str = "") -> Inline:
     return Value(cell.key, cell.number, f"{sign}{cell.text}{unit}") if isinstance(cell, Value) else cell
 
 
-def _missed(found: Statics) -> Block:
+def _missed(found: Statics, units: str) -> Block:
     """Say in words which checks are not met, and by how much."""
-    items: list[tuple[Inline, ...]] = [(f"{check.sentence}.",) for check in found.checks if not check.met]
+    items: list[tuple[Inline, ...]] = [(f"{check.sentence.text(units)}.",) for check in found.checks if not check.met]
     if not items:
         return paragraph("All static checks are met.")
     return Notes("warning", f"Not met: {len(items)} of {len(found.checks)} static checks", tuple(items))
@@ -129,7 +130,7 @@ def _remarks(subject: Subject, found: Statics) -> Notes:
         for text in filter(None, check.note.split("; ")):
             if number not in notes.setdefault(text, []):
                 notes[text].append(number)
-    remarks = [f"{each.name}: {text}." for each in found.cases for text in each.assumptions]
+    remarks = [f"{each.name}: {text.text(subject.units)}." for each in found.cases for text in each.assumptions]
     remarks += [f"{', '.join(sorted(numbers))}: {note}." for note, numbers in notes.items()]
     return Notes("note", "Taken for granted", tuple((text,) for text in dict.fromkeys(remarks)))
 

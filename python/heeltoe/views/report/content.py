@@ -23,13 +23,6 @@ class Strong:
 
 
 @dataclass(frozen=True)
-class Own:
-    """People's own words, a title or a station: whatever units stand in them, they stay as they are."""
-
-    text: str
-
-
-@dataclass(frozen=True)
 class Symbol:
     """A letter of the equations in running text, with its index."""
 
@@ -37,7 +30,7 @@ class Symbol:
     index: str = ""
 
 
-Inline = str | Value | Code | Strong | Own | Symbol
+Inline = str | Value | Code | Strong | Symbol
 """A piece of running text; plain strings are sentences, in which anything may stand."""
 
 

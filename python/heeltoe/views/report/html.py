@@ -6,7 +6,7 @@ import base64
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
-from heeltoe.views.report.content import Code, Document, FigureBlock, Inline, Own, Section, Strong, Symbol
+from heeltoe.views.report.content import Code, Document, FigureBlock, Inline, Section, Strong, Symbol
 from heeltoe.views.words.numbers import Value
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def _part(part: Inline) -> Markup:
     if isinstance(part, Symbol):
         index = Markup("<sub>{}</sub>").format(part.index) if part.index else ""
         return Markup("<i>{}{}</i>").format(part.letter, index)
-    return escape(part.text if isinstance(part, Own) else part)
+    return escape(part)
 
 
 def data(figure: FigureBlock) -> str:

@@ -70,10 +70,8 @@ class Subject:
     @cached_property
     def runs(self) -> tuple[Run, ...]:
         """Return the one response, or both."""
-        if isinstance(self.result, Response):
-            return (Run(self.result, ""),)
-        both = (self.result.rigid, self.result.flexible)
-        return tuple(Run(each, f"{each.model}.") for each in both)
+        responses = self.result.responses
+        return tuple(Run(each, f"{each.model}." if len(responses) > 1 else "") for each in responses)
 
     @cached_property
     def references(self) -> tuple[str, ...]:
@@ -90,6 +88,11 @@ class Subject:
     def units(self) -> str:
         """The name of the units, ``"si"`` or ``"us"``."""
         return self.numbers.units.name
+
+    @property
+    def per_width(self) -> str:
+        """What forces, energies and masses are per."""
+        return "per foot of dam" if self.units == "us" else "per metre of dam"
 
     @property
     def title(self) -> str:

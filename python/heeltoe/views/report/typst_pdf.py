@@ -18,7 +18,6 @@ from heeltoe.views.report.content import (
     Inline,
     Listing,
     Notes,
-    Own,
     Paragraph,
     References,
     Section,
@@ -212,7 +211,7 @@ def _part(part: Inline, most: int) -> str:
     if isinstance(part, Symbol):
         index = f"#sub({_words(part.index)})" if part.index else ""
         return f"[#emph({_words(part.letter)}){index}]"
-    return _words(part.text if isinstance(part, Own) else part, most)
+    return _words(part, most)
 
 
 def _words(text: str, most: int = _WIDE) -> str:

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from copy import copy
-from typing import Any, cast
+import math
+from collections.abc import Iterable
 
 from rich import box
 from rich.console import Console
@@ -11,40 +11,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from heeltoe.motion.ground_motion import GroundMotion
-
-
-class _InUnits:
-    """Prints what a console prints, with quantities in the units of the United States; people's own words stay."""
-
-    def __init__(self, console: Console, own: str) -> None:
-        self._console = console
-        self._own = own
-
-    def print(self, *things: Any, **options: Any) -> None:
-        self._console.print(*map(self._changed, things), **options)
-
-    def _changed(self, thing: Any) -> Any:
-        if isinstance(thing, str):
-            return self._words(thing)
-        if isinstance(thing, Table):
-            changed = copy(thing)
-            changed.caption = self._changed(thing.caption)
-            changed.columns, changed.rows = [column.copy() for column in thing.columns], []
-            cells = zip(*(column.cells for column in thing.columns), strict=True)
-            for row, texts in zip(thing.rows, cells, strict=True):
-                changed.add_row(*map(self._changed, texts), style=row.style, end_section=row.end_section)
-            return changed
-        return thing
-
-    def _words(self, text: str) -> str:
-        from heeltoe.units.sentences import us_words
-
-        return self._own.join(map(us_words, text.split(self._own))) if self._own else us_words(text)
-
-
-def in_units(console: Console, units: str, own: str) -> Console:
-    """Return what prints on a console in units ``"si"`` or ``"us"``; `own` are words in which no unit is meant."""
-    return console if units == "si" else cast(Console, _InUnits(console, escape(own)))
+from heeltoe.units.write import angle, length
 
 
 def quiet_table() -> Table:
@@ -60,11 +27,26 @@ def label_grid() -> Table:
     return grid
 
 
-def print_warnings(warnings: tuple[str, ...], console: Console) -> None:
+def label_lines(lines: Iterable[tuple[str, str]]) -> Table:
+    """Return labels beside their texts."""
+    grid = label_grid()
+    for label, text in lines:
+        grid.add_row(label, text)
+    return grid
+
+
+def headline(value: float | None, kind: str, units: str) -> str:
+    """Write a headline number; a dash where there is none, or nothing happens."""
+    if not value or not math.isfinite(value):
+        return "-"
+    return angle(value) if kind == "rotation" else length(value, units)
+
+
+def print_warnings(warnings: Iterable[str], console: Console) -> None:
     """Print warnings below what they are about."""
-    if warnings:
-        console.print()
-    for warning in warnings:
+    for place, warning in enumerate(warnings):
+        if not place:
+            console.print()
         console.print(f"[yellow]warning[/yellow]  {escape(warning)}")
 
 

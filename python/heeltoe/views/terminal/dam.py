@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from heeltoe.views.terminal.common import label_grid, quiet_table
-from heeltoe.views.terminal.response import damping_line, mesh_line
+from heeltoe.views.terminal.elastic import damping_line, mesh_line
 
 # Not at run time: neither waits for the other's parts.
 if TYPE_CHECKING:

@@ -12,41 +12,48 @@ from rich.measure import Measurement
 from rich.table import Table
 
 from heeltoe.models.decoupled.response import DecoupledResponse
+from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
-from heeltoe.result.verdict import comes_to_rest
+from heeltoe.result.verdict import advice, comes_to_rest
 from heeltoe.study.grid import Grid
+from heeltoe.units.systems import INCH
 
 
-def _mm(metres: float) -> str:
+def _length(metres: float, units: str) -> str:
+    """Write a length in mm, or in inches."""
+    if units == "us":
+        inches = metres / INCH
+        return f"{inches:.{1 if abs(inches) >= 1e2 else 2 if abs(inches) >= 1.0 else 3}f}"
     size = abs(1e3 * metres)
     return f"{1e3 * metres:.{0 if size >= 1e3 else 1 if size >= 1.0 else 2}f}"
 
 
-def _mrad(value: float) -> str:
+def _mrad(value: float, units: str) -> str:
     return f"{1e3 * value:.3g}" if value >= 1e-5 else f"{1e3 * value:.2f}"
 
 
+def _count(value: int, units: str) -> str:
+    return str(value)
+
+
 # Heading, name in the rows, sign, how to write it.
-_Column = tuple[str, str, float, Callable[[Any], str]]
+_Column = tuple[str, str, float, Callable[[Any, str], str]]
+_HEADLINES = tuple(
+    (each.heading, each.key, float(each.way), _mrad if each.kind == "rotation" else _length) for each in HEADLINES
+)
+_SLIPS = sum(each.kind == "slip" for each in HEADLINES)
 _SLIP: tuple[_Column, ...] = (
-    ("residual", "residual_slip_m", 1.0, _mm),
-    ("peak\ndown", "peak_slip_downstream_m", 1.0, _mm),
-    ("peak\nup", "peak_slip_upstream_m", -1.0, _mm),
-    ("sliding", "slip_sliding_m", 1.0, _mm),
-    ("slide-\nrocking", "slip_slide_rocking_m", 1.0, _mm),
-    ("drifting", "slip_drifting_m", 1.0, _mm),
+    *_HEADLINES[:_SLIPS],
+    ("sliding", "slip_sliding_m", 1.0, _length),
+    ("slide-\nrocking", "slip_slide_rocking_m", 1.0, _length),
+    ("drifting", "slip_drifting_m", 1.0, _length),
 )
-_ROCKING: tuple[_Column, ...] = (
-    ("rotation\ndown", "rocking_downstream_rad", 1.0, _mrad),
-    ("rotation\nup", "rocking_upstream_rad", 1.0, _mrad),
-    ("opening\nupstream", "opening_upstream_m", 1.0, _mm),
-    ("opening\ndownstr.", "opening_downstream_m", 1.0, _mm),
-    ("impacts", "impacts", 1.0, str),
-)
+_ROCKING: tuple[_Column, ...] = (*_HEADLINES[_SLIPS:], ("impacts", "impacts", 1.0, _count))
+_UNITS = {"si": "mm", "us": "inches"}
 
 
-def print_grid(grid: Grid, console: Console) -> None:
-    """Print the table: lengths in mm, rotations in mrad, slip positive downstream."""
+def print_grid(grid: Grid, console: Console, units: str = "si") -> None:
+    """Print the table: lengths in mm or inches, rotations in mrad, slip positive downstream."""
     first = grid.responses[0]
     peak = first.motion.pga / first.gravity
     console.print(f"[bold]{escape(grid.title or 'Untitled case')}[/bold]  ({grid.model} model)", soft_wrap=True)
@@ -56,44 +63,47 @@ def print_grid(grid: Grid, console: Console) -> None:
     # One table where there is room for it, else one of the slips and one of the rocking, in parts if need be.
     whole = _SLIP + _ROCKING
     groups = (
-        [whole] if _fits(grid, whole, console) else [*_parts(grid, _SLIP, console), *_parts(grid, _ROCKING, console)]
+        [whole]
+        if _fits(grid, whole, console, units)
+        else [*_parts(grid, _SLIP, console, units), *_parts(grid, _ROCKING, console, units)]
     )
     for columns in groups:
         console.print()
-        console.print(_table(grid, columns))
-    console.print("slips and openings in mm, slip positive downstream; rotations in mrad", style="dim")
-    for text in _remarks(grid):
+        console.print(_table(grid, columns, units))
+    footer = f"slips and openings in {_UNITS[units]}, slip positive downstream; rotations in mrad"
+    console.print(footer, style="dim")
+    for text in _remarks(grid, units):
         console.print(f"[yellow]warning[/yellow]  {escape(text)}")
 
 
-def _fits(grid: Grid, columns: tuple[_Column, ...], console: Console) -> bool:
+def _fits(grid: Grid, columns: tuple[_Column, ...], console: Console, units: str) -> bool:
     wide = console.options.update(max_width=10_000)
-    return Measurement.get(console, wide, _table(grid, columns)).maximum <= console.width
+    return Measurement.get(console, wide, _table(grid, columns, units)).maximum <= console.width
 
 
-def _parts(grid: Grid, columns: tuple[_Column, ...], console: Console) -> list[tuple[_Column, ...]]:
+def _parts(grid: Grid, columns: tuple[_Column, ...], console: Console, units: str) -> list[tuple[_Column, ...]]:
     """Divide columns so that no number has to be cut, as far as at least one fits beside the varied fields."""
     parts: list[tuple[_Column, ...]] = [columns[:1]]
     for column in columns[1:]:
-        if _fits(grid, (*parts[-1], column), console):
+        if _fits(grid, (*parts[-1], column), console, units):
             parts[-1] = (*parts[-1], column)
         else:
             parts.append((column,))
     return parts
 
 
-def _remarks(grid: Grid) -> list[str]:
+def _remarks(grid: Grid, units: str) -> list[str]:
     """Return all warnings, once each; what belongs to some of the runs says to which."""
     runs: dict[str, list[str]] = {}
     for cell, response in zip(grid.cells, grid.responses, strict=True):
-        said = [] if response.ok else [f"{response.outcome}: {response.advice}"]
-        said += map(str, response.warnings)
+        said = [] if response.ok else [f"{response.outcome}: {advice(response, units)}"]
+        said += [each.text(units) for each in response.warnings]
         for text in dict.fromkeys(said):
             runs.setdefault(text, []).append(", ".join(cell))
     return [text if len(which) == len(grid.cells) else f"{'; '.join(which)}: {text}" for text, which in runs.items()]
 
 
-def _table(grid: Grid, columns: tuple[_Column, ...]) -> Table:
+def _table(grid: Grid, columns: tuple[_Column, ...], units: str) -> Table:
     table = Table(
         box=box.SIMPLE_HEAD,
         show_edge=False,
@@ -108,17 +118,17 @@ def _table(grid: Grid, columns: tuple[_Column, ...]) -> Table:
         table.add_column(heading, justify="right", no_wrap=True)
     table.add_column("in the\nend", no_wrap=True)
     for cell, row, response in zip(grid.cells, grid.rows(), grid.responses, strict=True):
-        table.add_row(*map(escape, cell), *(_written(row, column) for column in columns), _end(response))
+        table.add_row(*map(escape, cell), *(_written(row, column, units) for column in columns), _end(response))
     return table
 
 
-def _written(row: Mapping[str, Any], column: _Column) -> str:
+def _written(row: Mapping[str, Any], column: _Column, units: str) -> str:
     _, name, sign, write = column
     value = row[name]
     if value is None:
         return "-"
     # A zero is no amount, of either sign.
-    return write(-value if sign < 0.0 else value) if value else "0"
+    return write(-value if sign < 0.0 else value, units) if value else "0"
 
 
 def _end(response: Response) -> str:

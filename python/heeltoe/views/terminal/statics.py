@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
-from rich import box
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
@@ -13,73 +12,63 @@ from rich.table import Table
 from heeltoe.models.statics.checks import Check
 from heeltoe.models.statics.load_case import LoadCase
 from heeltoe.models.statics.model import Statics
+from heeltoe.units.sentences import numbers, quantity
+from heeltoe.views.terminal.common import label_grid, label_lines, print_warnings, quiet_table
 
-_ROWS: tuple[tuple[str, Callable[[LoadCase], str]], ...] = (
-    ("outcome", lambda found: found.outcome),
-    ("normal force, MN/m", lambda found: f"{found.normal_force_n / 1e6:.3f}"),
-    ("shear force, MN/m", lambda found: f"{found.shear_force_n / 1e6:.3f}"),
-    ("friction", lambda found: f"{found.friction:g}"),
-    ("cohesion, MN/m", lambda found: f"{found.cohesive_force_n / 1e6:.3f}"),
-    ("sliding factor", lambda found: _number(found.sliding_factor)),
-    ("overturning factor", lambda found: _number(found.overturning_factor)),
-    ("  about the", lambda found: found.overturning_about),
-    ("flotation factor", lambda found: _number(found.flotation_factor)),
-    ("resultant at, m", lambda found: _number(found.resultant_from_heel_m)),
-    ("  within", lambda found: found.resultant_zone.replace("middle", "mid")),
-    ("stress at heel, MPa", lambda found: _number(found.heel_stress_pa, 1e6, 3)),
-    ("stress at toe, MPa", lambda found: _number(found.toe_stress_pa, 1e6, 3)),
-    ("contact B, m", lambda found: _number(found.contact_width_m)),
-    ("  compressed, m", lambda found: _number(found.compressed_length_m)),
-    ("  open, m", lambda found: _number(found.cracked_length_m or None)),
-    ("  open from the", lambda found: found.cracked_from if found.cracked_length_m else "-"),
+# Label, how numbers are written (in SI, without a minus before zero), what they are; or words without a form.
+_ROWS: tuple[tuple[str, str, Callable[[LoadCase], float | str | None]], ...] = (
+    ("outcome", "", lambda found: found.outcome),
+    ("normal force", "z.3f MN/m", lambda found: found.normal_force_n),
+    ("shear force", "z.3f MN/m", lambda found: found.shear_force_n),
+    ("friction", "g", lambda found: found.friction),
+    ("cohesion", "z.3f MN/m", lambda found: found.cohesive_force_n),
+    ("sliding factor", "z.2f", lambda found: found.sliding_factor),
+    ("overturning factor", "z.2f", lambda found: found.overturning_factor),
+    ("  about the", "", lambda found: found.overturning_about),
+    ("flotation factor", "z.2f", lambda found: found.flotation_factor),
+    ("resultant at", "z.2f m", lambda found: found.resultant_from_heel_m),
+    ("  within", "", lambda found: found.resultant_zone.replace("middle", "mid")),
+    ("stress at heel", "z.3f MPa", lambda found: found.heel_stress_pa),
+    ("stress at toe", "z.3f MPa", lambda found: found.toe_stress_pa),
+    ("contact B", "z.2f m", lambda found: found.contact_width_m),
+    ("  compressed", "z.2f m", lambda found: found.compressed_length_m),
+    ("  open", "z.2f m", lambda found: found.cracked_length_m or None),
+    ("  open from the", "", lambda found: found.cracked_from if found.cracked_length_m else "-"),
 )
 
 
-def print_statics(found: Statics, console: Console) -> None:
+def print_statics(found: Statics, console: Console, units: str = "si") -> None:
     """Print what the checks rest on, the load cases, the checks, warnings and verdict."""
     console.print(f"[bold]{escape(found.title or 'Untitled case')}[/bold]  (statics)", soft_wrap=True)
     console.print()
-    head = _grid()
-    for label, text in _head(found):
-        head.add_row(label, escape(text))
-    console.print(head)
+    console.print(label_lines((label, escape(text)) for label, text in _head(found, units)))
     console.print()
-    console.print(_cases(found))
+    console.print(_cases(found, units))
     console.print()
     console.print(_checks(found.checks))
     console.print()
     console.print("[dim]resultant: at, from the heel; checked, from the middle; f: compressive strength[/dim]")
-    said = _grid()
-    numbers = _sources(found.checks)
-    for source, number in numbers.items():
-        said.add_row(str(number), escape(source))
-    for note, of in _notes(found.checks, numbers).items():
-        said.add_row(", ".join(map(str, of)), escape(note))
-    console.print()
-    console.print(said)
-    said = _grid()
-    for label, text in _assumptions(found.cases):
-        said.add_row(label, escape(text))
-    if said.row_count:
-        console.print()
-        console.print(said)
-    if found.warnings:
-        console.print()
-    for warning in found.warnings:
-        console.print(f"[yellow]warning[/yellow]  {escape(str(warning))}")
+    sources = _sources(found.checks)
+    said = [(str(number), source) for source, number in sources.items()]
+    said += [(", ".join(map(str, of)), note) for note, of in _notes(found.checks, sources).items()]
+    for lines in (said, _assumptions(found.cases, units)):
+        if lines:
+            console.print()
+            console.print(label_lines((label, escape(text)) for label, text in lines))
+    print_warnings([warning.text(units) for warning in found.warnings], console)
     console.print()
     failed = [check for check in found.checks if not check.met]
-    verdict = _grid()
+    verdict = label_grid()
     count = (
         f"all {len(found.checks)} checks are met" if found.ok else f"{len(failed)} of {len(found.checks)} checks fail"
     )
     verdict.add_row(f"[{'bold' if found.ok else 'bold red'}]Verdict[/]", f"{count} ({found.criteria})")
     for check in failed:
-        verdict.add_row("", f"[red]{escape(check.sentence)}[/red]")
+        verdict.add_row("", f"[red]{escape(check.sentence.text(units))}[/red]")
     console.print(verdict)
 
 
-def _head(found: Statics) -> list[tuple[str, str]]:
+def _head(found: Statics, units: str) -> list[tuple[str, str]]:
     critical, water = found.critical_acceleration_g, found.critical_water_level_m
     lines = [("criteria", f"{found.criteria}, {found.structure} structure, {found.site_information} site information")]
     for kind in ("sliding", "rocking"):
@@ -92,35 +81,46 @@ def _head(found: Statics) -> list[tuple[str, str]]:
         ("flotation", "floats at"),
     ):
         level = water[key]
-        lines.append((label, "none up to the crest" if level is None else f"{level:.2f} m of water"))
+        depth = "none up to the crest" if level is None else f"{quantity(level, '.2f m', units)} of water"
+        lines.append((label, depth))
     if found.slip_m is not None:
-        lines.append(("residual slip", f"{found.slip_m:.4f} m: {found.slip_source}"))
+        lines.append(("residual slip", f"{quantity(found.slip_m, '.4f m', units)}: {found.slip_source}"))
     return lines
 
 
-def _assumptions(cases: tuple[LoadCase, ...]) -> list[tuple[str, str]]:
+def _assumptions(cases: tuple[LoadCase, ...], units: str) -> list[tuple[str, str]]:
     """Return each assumption once, beside the load cases that share it."""
     shared: dict[str, list[str]] = {}
     for each in cases:
         for text in each.assumptions:
-            shared.setdefault(text, []).append(each.name)
+            shared.setdefault(text.text(units), []).append(each.name)
     # The two ways of the earthquake share nearly all.
     return [(names[0] if len(names) == 1 else names[0].split()[0], text) for text, names in shared.items()]
 
 
-def _cases(found: Statics) -> Table:
-    table = _table()
+def _cases(found: Statics, units: str) -> Table:
+    table = quiet_table()
     table.add_column("", no_wrap=True)
     for each in found.cases:
         # Five cases with long names are to fit beside each other.
         table.add_column(each.name.replace(" ", "\n").replace("-", "-\n"), justify="right", no_wrap=True)
-    for label, text in _ROWS:
-        table.add_row(label, *(text(each) for each in found.cases))
+    for label, form, read in _ROWS:
+        table.add_row(*_row(label, form, [read(each) for each in found.cases], units))
     return table
 
 
+def _row(label: str, form: str, cells: Sequence[float | str | None], units: str) -> list[str]:
+    """Return a row: words, or numbers whose unit stands beside the label; a dash where there is no number."""
+    values = [cell for cell in cells if isinstance(cell, float)]
+    if not form:
+        return [label, *map(str, cells)]
+    texts, unit = numbers(values, form, units)
+    left = iter(texts)
+    return [f"{label}, {unit}" if unit else label, *("-" if cell is None else next(left) for cell in cells)]
+
+
 def _checks(checks: tuple[Check, ...]) -> Table:
-    table = _table()
+    table = quiet_table()
     table.add_column("load case")
     table.add_column("check")
     table.add_column("is", justify="right")
@@ -165,21 +165,5 @@ def _value(check: Check, value: float | None) -> str:
     return f"{value:.3f}{of}" if of else f"{value:.2f}"
 
 
-def _number(value: float | None, unit: float = 1.0, digits: int = 2) -> str:
-    # Rounded first and added to zero: there is no minus zero.
-    return "-" if value is None else f"{round(value / unit, digits) + 0.0:.{digits}f}"
-
-
 def _acceleration(value: float) -> str:
     return f"{value:.4f} g" if math.isfinite(value) else "no acceleration"
-
-
-def _table() -> Table:
-    return Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, header_style="dim", border_style="dim")
-
-
-def _grid() -> Table:
-    grid = Table.grid(padding=(0, 2))
-    grid.add_column(style="dim", no_wrap=True)
-    grid.add_column()
-    return grid

@@ -1,0 +1,25 @@
+"""What the terminal shows of a run, whatever it is: one response, two, or a table of many."""
+
+from __future__ import annotations
+
+from functools import singledispatch
+
+from rich.console import Console
+
+from heeltoe.result.response import Response
+from heeltoe.study.comparison import Comparison
+from heeltoe.study.grid import Grid
+from heeltoe.views.terminal.comparison import print_comparison
+from heeltoe.views.terminal.grid import print_grid
+from heeltoe.views.terminal.response import print_summary
+
+
+@singledispatch
+def show(result: object, console: Console, units: str = "si") -> None:
+    """Print a result in units ``"si"`` or ``"us"``."""
+    raise TypeError(f"nothing shows a {type(result).__name__} on the terminal")
+
+
+show.register(Response, print_summary)
+show.register(Comparison, print_comparison)
+show.register(Grid, print_grid)
