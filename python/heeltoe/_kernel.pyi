@@ -131,8 +131,8 @@ CRACK_OUTCOMES: Final[list[str]]
 CRACK_STATES: Final[list[str]]
 CONTACT_STATUSES: Final[list[str]]
 
-class CrackPart(Protocol):
-    """One elastic part: m modes, k nodes on the crack; see :class:`heeltoe.models.flexible.reduced.Part`."""
+class ReducedBody(Protocol):
+    """One elastic body in its modes: m modes, k nodes on the crack; see :class:`heeltoe.models.flexible.reduced.Part`."""
 
     @property
     def omega_squared(self) -> Floats: ...
@@ -153,7 +153,7 @@ class CrackPart(Protocol):
     @property
     def position(self) -> Floats: ...
 
-class CrackWater(Protocol):
+class FollowingWater(Protocol):
     """Water in the crack; see :class:`heeltoe.models.flexible.inside.CrackWater`."""
 
     @property
@@ -198,11 +198,11 @@ class CrackedDam:
 
     def __init__(
         self,
-        upper: CrackPart,
-        lower: CrackPart | None,
+        upper: ReducedBody,
+        lower: ReducedBody | None,
         friction: tuple[float, float],
         contactors: int,
-        water: CrackWater | None = None,
+        water: FollowingWater | None = None,
         anchors: Sequence[CrackAnchor] = (),
     ) -> None: ...
     def run(

@@ -1,23 +1,17 @@
 //! The flexible model, bound to Python.
 
-use numpy::ndarray::{Array1, Array2};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
-use pyo3::exceptions::PyValueError;
+use heeltoe::flexible::{
+    many, simulate, Dam, FaceAnchor, Inside, Modes, Penalty, Point, Scheme, Shaking, Sides, Summary, Wanted,
+};
+use heeltoe::inside::Law;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
-use rayon::prelude::*;
 
-use heeltoe::flexible::body::{Body, Modes, LANES};
-use heeltoe::flexible::dam::{Dam, Options};
-use heeltoe::flexible::idce::{self, Idce};
-use heeltoe::flexible::inside::{Anchor, Inside, Law, Water};
-use heeltoe::flexible::result::{Frames, Summary};
-use heeltoe::flexible::step;
+use crate::tables::{named, pool, rows, shaped, wrong, Numbers};
 
-type Numbers<'py> = PyReadonlyArray1<'py, f64>;
-
-/// One part as Python gives it, in the order of `Modes`.
+/// A body in its modes as Python gives it, by the names of `Modes`.
 #[derive(FromPyObject)]
-pub struct Part<'py> {
+pub struct ReducedBody<'py> {
     omega_squared: Numbers<'py>,
     damping_sticking: Numbers<'py>,
     damping_free: Numbers<'py>,
@@ -29,8 +23,8 @@ pub struct Part<'py> {
     position: Numbers<'py>,
 }
 
-impl Part<'_> {
-    fn body(&self) -> PyResult<Body> {
+impl ReducedBody<'_> {
+    fn body(&self) -> PyResult<heeltoe::flexible::ReducedBody> {
         let modes = Modes {
             omega_squared: self.omega_squared.as_slice()?,
             damping: [self.damping_sticking.as_slice()?, self.damping_free.as_slice()?],
@@ -43,68 +37,43 @@ impl Part<'_> {
             shapes: self.shapes.as_slice()?,
             position: self.position.as_slice()?,
         };
-        let count = modes.omega_squared.len();
-        let others = [
-            modes.damping[0],
-            modes.damping[1],
-            modes.load,
-            modes.participation[0],
-            modes.participation[1],
-            modes.start,
-        ];
-        let columns = modes.position.len();
-        if count == 0 || columns < 4 || !columns.is_multiple_of(2) {
-            return Err(PyValueError::new_err(
-                "a part needs modes and two crack nodes or more",
-            ));
-        }
-        if others.iter().any(|v| v.len() != count) || modes.shapes.len() != count * columns {
-            return Err(PyValueError::new_err(
-                "the arrays of a part must agree in the number of modes and of crack nodes",
-            ));
-        }
-        Ok(Body::new(&modes))
+        heeltoe::flexible::ReducedBody::new(&modes).map_err(wrong)
     }
 }
 
-/// Water in the crack as Python gives it, in the order of `Water`.
+/// Water in the crack as Python gives it.
 #[derive(FromPyObject)]
-pub struct CrackWater<'py> {
+pub struct FollowingWater<'py> {
     law: String,
     opening: f64,
     still: Vec<Numbers<'py>>,
     full: Vec<Numbers<'py>>,
 }
 
-impl CrackWater<'_> {
-    /// Take the forces of the nodes of each face; a face that is not there has none.
-    fn water(&self, counts: [usize; 2]) -> PyResult<Water> {
-        let law = Law::named(&self.law).ok_or_else(|| PyValueError::new_err("no such law of the water"))?;
-        let forces = |given: &[Numbers]| -> PyResult<[Vec<f64>; 2]> {
-            let mut found = [Vec::new(), Vec::new()];
-            for (face, numbers) in found.iter_mut().zip(given) {
-                face.extend_from_slice(numbers.as_slice()?);
-            }
-            if [found[0].len(), found[1].len()] != counts {
-                return Err(PyValueError::new_err(
-                    "the water needs a force for each crack node",
-                ));
-            }
-            Ok(found)
-        };
-        Ok(Water {
-            law,
+impl FollowingWater<'_> {
+    fn water(&self) -> PyResult<heeltoe::flexible::FollowingWater> {
+        Ok(heeltoe::flexible::FollowingWater {
+            law: named(&self.law, Law::named, &Law::NAMES)?,
             opening: self.opening,
-            still: forces(&self.still)?,
-            full: forces(&self.full)?,
+            still: faces(&self.still)?,
+            full: faces(&self.full)?,
         })
     }
 }
 
-/// An anchor as Python gives it, in the order of `Anchor`.
+/// Numbers of the nodes of each face; a face that is not there has none.
+fn faces(given: &[Numbers]) -> PyResult<[Vec<f64>; 2]> {
+    let mut found = [Vec::new(), Vec::new()];
+    for (face, numbers) in found.iter_mut().zip(given) {
+        face.extend_from_slice(numbers.as_slice()?);
+    }
+    Ok(found)
+}
+
+/// An anchor as Python gives it.
 #[derive(FromPyObject)]
 pub struct CrackAnchor {
-    points: Vec<[(usize, f64); 3]>,
+    points: Vec<Point>,
     axis: [f64; 2],
     prestress: f64,
     axial_stiffness: f64,
@@ -112,33 +81,16 @@ pub struct CrackAnchor {
 }
 
 impl CrackAnchor {
-    fn anchor(&self, counts: [usize; 2]) -> PyResult<Anchor> {
-        let mut points = [[(0, 0.0); 3]; 2];
-        points
-            .iter_mut()
-            .zip(&self.points)
-            .for_each(|(mine, given)| *mine = *given);
-        let outside = points
-            .iter()
-            .zip(counts)
-            .any(|(point, count)| point.iter().any(|(node, _)| *node >= count.max(1)));
-        if outside {
-            return Err(PyValueError::new_err("an anchor needs nodes that are there"));
-        }
-        Ok(Anchor {
-            points,
+    fn anchor(&self) -> FaceAnchor {
+        let point = |face: usize| self.points.get(face).copied().unwrap_or_default();
+        FaceAnchor {
+            place: [point(0), point(1)],
             axis: self.axis,
             prestress: self.prestress,
-            axial: self.axial_stiffness,
-            shear: self.shear_stiffness,
-        })
+            axial_stiffness: self.axial_stiffness,
+            shear_stiffness: self.shear_stiffness,
+        }
     }
-}
-
-/// See `_kernel.pyi`.
-#[pyclass(frozen)]
-pub struct CrackedDam {
-    dam: Dam,
 }
 
 type Run<'py> = (
@@ -152,32 +104,25 @@ type Run<'py> = (
     Bound<'py, PyArray2<f64>>,
 );
 
-impl CrackedDam {
-    /// Refuse what the penalty method does not know.
-    fn check(&self, penalty: Option<[f64; 3]>) -> PyResult<()> {
-        if penalty.is_some() && !self.dam.inside.is_empty() {
-            return Err(PyValueError::new_err(
-                "the penalty method knows contact alone in the crack",
-            ));
-        }
-        Ok(())
-    }
+/// See `_kernel.pyi`.
+#[pyclass(frozen)]
+pub struct CrackedDam {
+    dam: Dam,
+}
 
-    /// Run one scheme or the other.
-    fn simulate(
-        &self,
-        ground: &[[f64; 2]],
-        options: &Options,
-        penalty: Option<[f64; 3]>,
-        frames: Option<&mut Frames>,
-    ) -> Summary {
-        match penalty {
-            None => step::simulate(&self.dam, ground, options, frames),
-            Some([penalty, gamma, beta]) => {
-                let idce = Idce { penalty, gamma, beta };
-                idce::simulate(&self.dam, ground, options, &idce, frames)
-            }
+impl CrackedDam {
+    fn scheme(&self, theta: f64, penalty: Option<[f64; 3]>) -> PyResult<Scheme> {
+        let Some([stiffness, gamma, beta]) = penalty else {
+            return Ok(Scheme::Exact(theta));
+        };
+        if !self.dam.inside.is_empty() {
+            return Err(wrong("the penalty method knows contact alone in the crack"));
         }
+        Ok(Scheme::Penalty(Penalty {
+            stiffness,
+            gamma,
+            beta,
+        }))
     }
 }
 
@@ -186,32 +131,27 @@ impl CrackedDam {
     #[new]
     #[pyo3(signature = (upper, lower, friction, contactors, water=None, anchors=Vec::new()))]
     fn new(
-        upper: Part,
-        lower: Option<Part>,
+        upper: ReducedBody,
+        lower: Option<ReducedBody>,
         friction: [f64; 2],
         contactors: u8,
-        water: Option<CrackWater>,
+        water: Option<FollowingWater>,
         anchors: Vec<CrackAnchor>,
     ) -> PyResult<Self> {
-        let upper = upper.body()?;
-        let lower = lower.map(|part| part.body()).transpose()?;
-        let counts = [upper.nodes, lower.as_ref().map_or(0, |body| body.nodes)];
-        let inside = Inside {
-            water: water.map(|water| water.water(counts)).transpose()?,
-            anchors: anchors
-                .iter()
-                .map(|anchor| anchor.anchor(counts))
-                .collect::<PyResult<_>>()?,
-        };
-        Ok(CrackedDam {
-            dam: Dam {
-                upper,
-                lower,
-                friction,
-                contactors,
-                inside,
+        let dam = Dam {
+            bodies: Sides {
+                upper: upper.body()?,
+                lower: lower.map(|body| body.body()).transpose()?,
             },
-        })
+            friction,
+            contactors,
+            inside: Inside {
+                water: water.map(|water| water.water()).transpose()?,
+                anchors: anchors.iter().map(CrackAnchor::anchor).collect(),
+            },
+        };
+        dam.check().map_err(wrong)?;
+        Ok(CrackedDam { dam })
     }
 
     /// See `_kernel.pyi`.
@@ -228,33 +168,25 @@ impl CrackedDam {
         scale: [f64; 2],
         penalty: Option<[f64; 3]>,
     ) -> PyResult<Run<'py>> {
-        self.check(penalty)?;
-        let options = Options {
-            dt,
-            theta,
+        let scheme = self.scheme(theta, penalty)?;
+        let ground = rows(ground.as_slice()?, "ground")?;
+        let shaking = Shaking { ground, dt, scale };
+        let wanted = Wanted {
             stride,
-            keep_modes,
-            scale,
+            modes: keep_modes,
         };
-        let ground = pairs(ground.as_slice()?)?;
-        let mut frames = Frames::default();
-        let wanted = (stride > 0).then_some(&mut frames);
-        let summary = py.detach(|| self.simulate(ground, &options, penalty, wanted));
+        let run = py.detach(|| simulate(&self.dam, &shaking, &scheme, wanted));
+        let frames = run.frames;
         let count = frames.rows.len();
-        let table = |values: Vec<f64>| -> PyResult<Bound<'py, PyArray2<f64>>> { shaped(py, values, count) };
-        let rows = frames.rows.as_flattened().to_vec();
         Ok((
-            Array1::from(summary.row()).into_pyarray(py),
-            table(rows)?,
-            table(frames.upper)?,
-            table(frames.lower)?,
-            table(frames.force)?,
+            numbers(&run.summary).into_pyarray(py),
+            shaped(py, frames.rows.as_flattened().to_vec(), count)?,
+            shaped(py, frames.upper, count)?,
+            shaped(py, frames.lower, count)?,
+            shaped(py, frames.force, count)?,
             shaped(py, frames.status, count)?,
-            table(unpadded(frames.modes_upper, &self.dam.upper))?,
-            table(match &self.dam.lower {
-                Some(body) => unpadded(frames.modes_lower, body),
-                None => Vec::new(),
-            })?,
+            shaped(py, frames.modes_upper, count)?,
+            shaped(py, frames.modes_lower, count)?,
         ))
     }
 
@@ -271,58 +203,19 @@ impl CrackedDam {
         threads: usize,
         penalty: Option<[f64; 3]>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        self.check(penalty)?;
-        let ground = pairs(ground.as_slice()?)?;
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(threads)
-            .build()
-            .map_err(|e| PyValueError::new_err(e.to_string()))?;
-        let rows: Vec<f64> = py.detach(|| {
-            pool.install(|| {
-                scales
-                    .par_iter()
-                    .flat_map_iter(|scale| {
-                        let options = Options {
-                            dt,
-                            theta,
-                            stride: 0,
-                            keep_modes: false,
-                            scale: *scale,
-                        };
-                        self.simulate(ground, &options, penalty, None).row()
-                    })
-                    .collect()
-            })
-        });
-        shaped(py, rows, scales.len())
+        let scheme = self.scheme(theta, penalty)?;
+        let shaking = Shaking {
+            ground: rows(ground.as_slice()?, "ground")?,
+            dt,
+            scale: [1.0; 2],
+        };
+        let pool = pool(threads)?;
+        let runs = py.detach(|| pool.install(|| many::run(&self.dam, &shaking, &scheme, &scales)));
+        shaped(py, runs.iter().flat_map(numbers).collect(), scales.len())
     }
 }
 
-/// Pairs of horizontal and vertical acceleration.
-fn pairs(values: &[f64]) -> PyResult<&[[f64; 2]]> {
-    match values.as_chunks::<2>() {
-        (pairs, []) => Ok(pairs),
-        _ => Err(PyValueError::new_err("ground must have shape (steps, 2)")),
-    }
-}
-
-/// Take out the modes that fill up the last group.
-fn unpadded(values: Vec<f64>, body: &Body) -> Vec<f64> {
-    let (padded, count) = (body.groups() * LANES, body.modes);
-    values
-        .chunks_exact(padded)
-        .flat_map(|row| &row[..count])
-        .copied()
-        .collect()
-}
-
-fn shaped<T: numpy::Element>(
-    py: Python<'_>,
-    values: Vec<T>,
-    rows: usize,
-) -> PyResult<Bound<'_, PyArray2<T>>> {
-    let columns = values.len() / rows.max(1);
-    Array2::from_shape_vec((rows, columns), values)
-        .map(|array| array.into_pyarray(py))
-        .map_err(|e| PyValueError::new_err(e.to_string()))
+/// The columns of a summary, then the tensions of the anchors.
+fn numbers(summary: &Summary) -> Vec<f64> {
+    [&summary.row(), &summary.tensions[..]].concat()
 }

@@ -4,7 +4,7 @@ mod flexible;
 mod rigid;
 mod tables;
 
-use heeltoe::flexible::{coulomb, observe, result};
+use heeltoe::flexible::{self as elastic, Frames, State, Status};
 use heeltoe::rigid::varying::VaryingNumbers;
 use heeltoe::rigid::{BlockNumbers, Event, EventKind, Mode, Moment, Outcome, Shaking, Summary};
 use numpy::PyArray2;
@@ -53,11 +53,11 @@ mod _kernel {
         m.add("MODES", Mode::NAMES.to_vec())?;
         m.add("EVENT_KINDS", EventKind::NAMES.to_vec())?;
         m.add("OUTCOMES", Outcome::NAMES.to_vec())?;
-        m.add("CRACK_SUMMARY_FIELDS", result::Summary::FIELDS.to_vec())?;
-        m.add("FRAME_FIELDS", result::Frames::FIELDS.to_vec())?;
-        m.add("CRACK_OUTCOMES", result::Outcome::NAMES.to_vec())?;
-        m.add("CRACK_STATES", observe::STATES.to_vec())?;
-        m.add("CONTACT_STATUSES", coulomb::Status::NAMES.to_vec())?;
+        m.add("CRACK_SUMMARY_FIELDS", elastic::Summary::FIELDS.to_vec())?;
+        m.add("FRAME_FIELDS", Frames::FIELDS.to_vec())?;
+        m.add("CRACK_OUTCOMES", elastic::Outcome::NAMES.to_vec())?;
+        m.add("CRACK_STATES", State::NAMES.to_vec())?;
+        m.add("CONTACT_STATUSES", Status::NAMES.to_vec())?;
         m.add("VERSION", env!("CARGO_PKG_VERSION"))?;
         m.add(
             "PROFILE",

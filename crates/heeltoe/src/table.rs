@@ -31,7 +31,7 @@ macro_rules! columns {
             pub const FIELDS: [&'static str; [$($name),+].len()] = [$($name),+];
 
             /// The numbers, one for each column.
-            pub fn row(&self) -> [f64; Self::FIELDS.len()] {
+            pub fn row(&self) -> [f64; [$($name),+].len()] {
                 let $of = self;
                 [$($value),+]
             }

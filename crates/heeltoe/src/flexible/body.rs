@@ -1,4 +1,4 @@
-//! One elastic part of the dam in its own vibration modes, and what the crack feels of it.
+//! One elastic body of the dam, reduced to its vibration modes, and what the crack feels of it.
 //!
 //! Each mode obeys
 //!
@@ -10,49 +10,77 @@
 //! are counted along it (all first) and across it, away from the lower part.
 
 /// Modes are kept in groups this wide, so that one instruction works on a group.
-pub const LANES: usize = 8;
+pub(super) const LANES: usize = 8;
 /// Groups are worked on in bundles of so many, so that their sums run side by side.
-pub const BUNDLE: usize = 4;
+pub(super) const BUNDLE: usize = 4;
 /// One number for each mode of a group.
-pub type Group = [f64; LANES];
+pub(super) type Group = [f64; LANES];
 
-/// The numbers of one part; they do not change during a run, and many runs may share them.
-pub struct Body {
+/// The numbers of one body in its modes; they do not change during a run, and many runs may share them.
+pub struct ReducedBody {
     /// Number of modes, without those that fill up the last group.
-    pub modes: usize,
+    pub(super) modes: usize,
     /// Number of nodes on the crack.
-    pub nodes: usize,
+    pub(super) nodes: usize,
     /// Squared circular frequency.
-    pub omega_squared: Vec<Group>,
+    pub(super) omega_squared: Vec<Group>,
     /// Damping coefficient while some node sticks, and while none does.
-    pub damping: [Vec<Group>; 2],
+    pub(super) damping: [Vec<Group>; 2],
     /// Static loads.
-    pub load: Vec<Group>,
+    pub(super) load: Vec<Group>,
     /// Share in the horizontal and in the vertical motion of the ground.
-    pub participation: [Vec<Group>; 2],
+    pub(super) participation: [Vec<Group>; 2],
     /// Modes of the state at the start.
-    pub start: Vec<Group>,
+    pub(super) start: Vec<Group>,
     /// Motion of the crack nodes in each mode: for each group of modes all `2 nodes` components.
-    pub shapes: Vec<Group>,
+    pub(super) shapes: Vec<Group>,
     /// Where the nodes are at the start: along the crack, then across it.
-    pub position: Vec<f64>,
+    pub(super) position: Vec<f64>,
 }
 
 /// What one body is made from; each slice has one number for each mode.
 pub struct Modes<'a> {
+    /// Squared circular frequency [1/s2].
     pub omega_squared: &'a [f64],
+    /// Damping coefficient while some node sticks, and while none does [1/s].
     pub damping: [&'a [f64]; 2],
+    /// Static loads.
     pub load: &'a [f64],
+    /// Share in the horizontal and in the vertical motion of the ground.
     pub participation: [&'a [f64]; 2],
+    /// Amplitudes at the start.
     pub start: &'a [f64],
-    /// `modes x 2 nodes`, row by row.
+    /// Motion of the crack nodes in each mode, `modes x 2 nodes`, row by row.
     pub shapes: &'a [f64],
+    /// Where the crack nodes are at the start: along the crack, then across it [m].
     pub position: &'a [f64],
 }
 
-impl Body {
+impl Modes<'_> {
+    fn agree(&self) -> Result<(), &'static str> {
+        let count = self.omega_squared.len();
+        let columns = self.position.len();
+        if count == 0 || columns < 4 || !columns.is_multiple_of(2) {
+            return Err("a body needs modes and two crack nodes or more");
+        }
+        let each = [self.load, self.start]
+            .into_iter()
+            .chain(self.damping)
+            .chain(self.participation);
+        if each.into_iter().any(|v| v.len() != count) || self.shapes.len() != count * columns {
+            return Err("the arrays of a body must agree in the number of modes and of crack nodes");
+        }
+        Ok(())
+    }
+}
+
+impl ReducedBody {
     /// Put the modes into groups and bundles; the last is filled up with modes that never move.
-    pub fn new(modes: &Modes) -> Self {
+    ///
+    /// # Errors
+    /// No modes, less than two crack nodes, or arrays that do not agree in their number.
+    pub fn new(modes: &Modes) -> Result<Self, &'static str> {
+        modes.agree()?;
         let columns = modes.position.len();
         let groups = group_count(modes.omega_squared.len());
         let mut shapes = vec![[0.0; LANES]; groups * columns];
@@ -61,7 +89,7 @@ impl Body {
                 shapes[mode / LANES * columns + c][mode % LANES] = *value;
             }
         }
-        Body {
+        Ok(ReducedBody {
             modes: modes.omega_squared.len(),
             nodes: columns / 2,
             omega_squared: grouped(modes.omega_squared),
@@ -71,21 +99,26 @@ impl Body {
             start: grouped(modes.start),
             shapes,
             position: modes.position.to_vec(),
-        }
+        })
+    }
+
+    /// Number of nodes on the crack.
+    pub fn nodes(&self) -> usize {
+        self.nodes
     }
 
     /// Number of groups of modes.
-    pub fn groups(&self) -> usize {
+    pub(super) fn groups(&self) -> usize {
         self.omega_squared.len()
     }
 
     /// Number of components of motion on the crack.
-    pub fn columns(&self) -> usize {
+    pub(super) fn columns(&self) -> usize {
         2 * self.nodes
     }
 
     /// `shapes^T diag(weight) shapes`: how the crack answers to forces on itself, row by row.
-    pub fn compliance(&self, weight: &[Group]) -> Vec<f64> {
+    pub(super) fn compliance(&self, weight: &[Group]) -> Vec<f64> {
         let columns = self.columns();
         let mut matrix = vec![0.0; columns * columns];
         for (group, weight) in self.shapes.chunks_exact(columns).zip(weight) {
@@ -99,7 +132,7 @@ impl Body {
     }
 
     /// Motion of the crack that belongs to an amplitude of each mode.
-    pub fn at_crack(&self, amplitude: &[Group]) -> Vec<f64> {
+    pub(super) fn at_crack(&self, amplitude: &[Group]) -> Vec<f64> {
         let mut motion = vec![0.0; self.columns()];
         for (group, amplitude) in self.shapes.chunks_exact(self.columns()).zip(amplitude) {
             for (value, a) in motion.iter_mut().zip(group) {
@@ -110,7 +143,7 @@ impl Body {
     }
 
     /// Strain and kinetic energy.
-    pub fn energy(&self, q: &[Group], v: &[Group]) -> f64 {
+    pub(super) fn energy(&self, q: &[Group], v: &[Group]) -> f64 {
         let mut sum = 0.0;
         for ((q, v), w) in q.iter().zip(v).zip(&self.omega_squared) {
             for l in 0..LANES {
@@ -136,7 +169,7 @@ fn grouped(values: &[f64]) -> Vec<Group> {
 
 /// `a b + c`, in one rounding where the machine has it.
 #[inline(always)]
-pub fn fma<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
+pub(super) fn fma<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
     if FUSED {
         a.mul_add(b, c)
     } else {

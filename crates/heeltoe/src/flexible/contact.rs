@@ -12,7 +12,7 @@
 
 /// Weights of crack nodes in the motion of the upper face against the lower one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pair {
+pub(super) struct Pair {
     /// Two nodes of the upper face with their weights.
     pub upper: [(usize, f64); 2],
     /// Two nodes of the lower face with their weights, which are negative; not used on a rigid plane.
@@ -21,7 +21,7 @@ pub struct Pair {
 
 /// A node that is watched.
 #[derive(Clone, Copy, Debug)]
-pub struct Contactor {
+pub(super) struct Contactor {
     node: usize,
     /// Whether it belongs to the upper face.
     of_upper: bool,
@@ -32,7 +32,7 @@ pub struct Contactor {
 }
 
 /// The state of all contactors: their pairs and gaps.
-pub struct Contacts {
+pub(super) struct Contacts {
     pub contactors: Vec<Contactor>,
     /// None where the node is beyond the end of the other face.
     pub pairs: Vec<Option<Pair>>,
@@ -46,7 +46,7 @@ impl Contacts {
     /// Choose the contactors, by the five kinds of Zhu (2004), section 6.3: 1 all nodes of the upper face, 2 of the
     /// lower, 3 all of the upper and the ends of the lower, 4 the reverse, 5 all of both. On a rigid plane, without
     /// `lower` nodes, those of the upper face are watched.
-    pub fn new(kind: u8, upper: usize, lower: usize) -> Self {
+    pub(super) fn new(kind: u8, upper: usize, lower: usize) -> Self {
         let all = |count: usize, of_upper: bool, closed: bool| {
             (0..count).map(move |node| Contactor {
                 node,
@@ -75,19 +75,14 @@ impl Contacts {
     }
 
     /// Number of contactors, whether they meet anything or not.
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.contactors.len()
-    }
-
-    /// Whether there are none; there always are some.
-    pub fn is_empty(&self) -> bool {
-        self.contactors.is_empty()
     }
 
     /// Find every contactor's place on the other face. Positions are all along the crack, then all across it;
     /// `sticks` says which nodes keep their place.
     #[inline(always)]
-    pub fn update(&mut self, upper: &[f64], lower: &[f64], sticks: impl Fn(usize) -> bool) {
+    pub(super) fn update(&mut self, upper: &[f64], lower: &[f64], sticks: impl Fn(usize) -> bool) {
         if self.rigid_plane {
             let nodes = upper.len() / 2;
             self.changed = self.pairs[0].is_none();
@@ -159,13 +154,13 @@ impl Contactor {
 
 /// Gap of a pair.
 #[inline(always)]
-pub fn across(pair: &Pair, upper: &[f64], lower: &[f64]) -> f64 {
+pub(super) fn across(pair: &Pair, upper: &[f64], lower: &[f64]) -> f64 {
     relative(pair, upper, lower, 1)
 }
 
 /// Motion of the upper face against the lower one: `direction` 0 along the crack, 1 across it.
 #[inline(always)]
-pub fn relative(pair: &Pair, upper: &[f64], lower: &[f64], direction: usize) -> f64 {
+pub(super) fn relative(pair: &Pair, upper: &[f64], lower: &[f64], direction: usize) -> f64 {
     let of = |motion: &[f64], nodes: &[(usize, f64); 2]| {
         let offset = direction * (motion.len() / 2);
         nodes
@@ -183,7 +178,7 @@ pub fn relative(pair: &Pair, upper: &[f64], lower: &[f64], direction: usize) -> 
 
 /// Add the force `value` that a contact exerts, up on the upper face and down on the lower one.
 #[inline(always)]
-pub fn spread(pair: &Pair, direction: usize, value: f64, upper: &mut [f64], lower: &mut [f64]) {
+pub(super) fn spread(pair: &Pair, direction: usize, value: f64, upper: &mut [f64], lower: &mut [f64]) {
     let offset = direction * (upper.len() / 2);
     for (node, weight) in pair.upper {
         upper[offset + node] += weight * value;

@@ -8,13 +8,14 @@
 //!
 //! as [`super::coulomb`] needs them.
 
-use super::contact::{relative, spread, Contacts};
-use super::coulomb::{Problem, Solver, Status};
-use super::dam::{Dam, Options};
-use super::observe::Faces;
+use super::contact::{relative, spread, Contacts, Pair};
+use super::coulomb::{Problem, Solver};
+use super::dam::Dam;
+use super::sides::{Faces, Sides};
+use super::status::Status;
 
 /// The contact problem of a step, in terms of the faces.
-pub struct Crack {
+pub(super) struct Crack {
     pub contacts: Contacts,
     pub problem: Problem,
     pub solver: Solver,
@@ -26,9 +27,9 @@ pub struct Crack {
 }
 
 impl Crack {
-    pub fn new(dam: &Dam) -> Self {
-        let lower = dam.lower.as_ref().map_or(0, |body| body.nodes);
-        let contacts = Contacts::new(dam.contactors, dam.upper.nodes, lower);
+    pub(super) fn new(dam: &Dam) -> Self {
+        let lower = dam.bodies.lower.as_ref().map_or(0, |body| body.nodes);
+        let contacts = Contacts::new(dam.contactors, dam.bodies.upper.nodes, lower);
         let m = contacts.len();
         Crack {
             problem: Problem {
@@ -46,16 +47,28 @@ impl Crack {
         }
     }
 
-    /// Write how each contact answers to an impulse at any other, with the crack's own answers of either part for this
-    /// state of damping; `softness` is added to the answer to itself, and gets the largest of them to go by.
+    /// Find where the nodes of both faces meet; where `G` is of other pairs, or of another state of damping, put it together
+    /// from the crack's `answers`. `softness` is added to the answer to itself, and gets the largest of them to go by.
     #[inline(always)]
-    pub fn assemble(
+    pub(super) fn meet<'w>(
         &mut self,
-        upper: Answer,
-        lower: Option<Answer>,
+        position: Faces,
         damping: usize,
+        answers: impl Fn() -> Sides<Answer<'w>>,
         softness: impl Fn(f64) -> f64,
     ) {
+        let status = &self.solver.status;
+        self.contacts
+            .update(position.upper, position.lower, |k| status[k] == Status::Stick);
+        if self.contacts.changed || self.assembled != Some(damping) {
+            self.assemble(answers(), softness);
+            self.assembled = Some(damping);
+        }
+    }
+
+    /// Write how each contact answers to an impulse at any other.
+    #[inline(always)]
+    fn assemble(&mut self, answers: Sides<Answer>, softness: impl Fn(f64) -> f64) {
         let size = self.problem.b.len();
         self.problem.g.fill(0.0);
         let mut largest = 0.0_f64;
@@ -64,8 +77,8 @@ impl Crack {
             for (j, other) in self.contacts.pairs[..=i].iter().enumerate() {
                 let Some(other) = other else { continue };
                 let mut block = [[0.0; 2]; 2];
-                couple(&mut block, &one.upper, &other.upper, upper);
-                if let Some(lower) = lower {
+                couple(&mut block, &one.upper, &other.upper, answers.upper);
+                if let Some(lower) = answers.lower {
                     couple(&mut block, &one.lower, &other.lower, lower);
                 }
                 for (a, row) in block.iter().enumerate() {
@@ -86,13 +99,19 @@ impl Crack {
             }
         }
         self.solver.forget();
-        self.assembled = Some(damping);
     }
 }
 
-/// How the crack nodes of a part answer to impulses on them, row by row.
+/// What a contact does in a step without impulses: motion along and across, the room it has, and how fast it opens.
+pub(super) struct WithoutContact {
+    pub b: [f64; 2],
+    pub h: f64,
+    pub approach: f64,
+}
+
+/// How the crack nodes of a body answer to impulses on them, row by row.
 #[derive(Clone, Copy)]
-pub struct Answer<'a> {
+pub(super) struct Answer<'a> {
     pub w: &'a [f64],
     pub nodes: usize,
 }
@@ -117,10 +136,14 @@ fn couple(block: &mut [[f64; 2]; 2], one: &[(usize, f64); 2], other: &[(usize, f
 }
 
 impl Crack {
-    /// Write the contact problem of the step, from the velocities without contact and those before it.
+    /// Write the contact problem of the step; `without` says what becomes of a contact without further impulses, from its
+    /// pair, its gap and the impulse it has had.
     #[inline(always)]
-    pub fn set_up(&mut self, dam: &Dam, free: Faces, before: Faces, options: &Options) {
-        let back = (1.0 - options.theta) / options.theta;
+    pub(super) fn set_up(
+        &mut self,
+        friction: [f64; 2],
+        without: impl Fn(&Pair, f64, &[f64]) -> WithoutContact,
+    ) {
         for (k, pair) in self.contacts.pairs.iter().enumerate() {
             let status = self.solver.status[k];
             self.closed[k] = status.closed();
@@ -134,18 +157,17 @@ impl Crack {
             if status == Status::Absent {
                 self.solver.status[k] = Status::Open;
             }
-            self.problem.b[2 * k] = relative(pair, free.upper, free.lower, 0);
-            self.problem.b[2 * k + 1] = relative(pair, free.upper, free.lower, 1);
-            self.approach[k] = relative(pair, before.upper, before.lower, 1);
-            self.problem.h[k] = (self.contacts.gaps[k].max(0.0) / options.dt).max(back * self.approach[k]);
-            let slips = matches!(status, Status::SlipDownstream | Status::SlipUpstream);
-            self.problem.mu_stick[k] = dam.friction[usize::from(slips)];
+            let found = without(pair, self.contacts.gaps[k], &self.solver.p[2 * k..2 * k + 2]);
+            self.problem.b[2 * k..2 * k + 2].copy_from_slice(&found.b);
+            self.problem.h[k] = found.h;
+            self.approach[k] = found.approach;
+            self.problem.mu_stick[k] = friction[usize::from(status.slips())];
         }
     }
 
     /// Put the impulses on both faces and return their sums along and across the crack.
     #[inline(always)]
-    pub fn impulses(&self, upper: &mut [f64], lower: &mut [f64]) -> [f64; 2] {
+    pub(super) fn impulses(&self, upper: &mut [f64], lower: &mut [f64]) -> [f64; 2] {
         upper.fill(0.0);
         lower.fill(0.0);
         let mut sum = [0.0; 2];
@@ -164,7 +186,7 @@ impl Crack {
 
     /// Work of the impulses on given velocities, along and across the crack.
     #[inline(always)]
-    pub fn work(&self, velocity: Faces) -> [f64; 2] {
+    pub(super) fn work(&self, velocity: Faces) -> [f64; 2] {
         let mut work = [0.0; 2];
         for (k, pair) in self.contacts.pairs.iter().enumerate() {
             let Some(pair) = pair else { continue };

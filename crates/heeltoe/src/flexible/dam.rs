@@ -1,36 +1,74 @@
 //! What is shaken, and how.
 
-use super::body::Body;
-use super::inside::Inside;
+use super::acting::{FaceAnchor, Inside};
+use super::body::ReducedBody;
+use super::idce::Penalty;
+use super::sides::Sides;
 
-/// Two parts, and the crack between them.
+/// Two bodies, and the crack between them.
 pub struct Dam {
-    pub upper: Body,
-    /// None: the crack is on a rigid plane.
-    pub lower: Option<Body>,
+    /// Above and below the crack.
+    pub bodies: Sides<ReducedBody>,
     /// Coefficients of friction of a node that sticks and of one that slips.
     pub friction: [f64; 2],
-    /// Which nodes are watched; see [`Contacts::new`].
+    /// Which nodes are watched, by the five kinds of Zhu (2004), section 6.3: 1 all nodes of the upper face, 2 of the
+    /// lower, 3 all of the upper and the ends of the lower, 4 the reverse, 5 all of both. On a rigid plane those of the
+    /// upper face are.
     pub contactors: u8,
     /// What acts in the crack beside contact.
     pub inside: Inside,
 }
 
 impl Dam {
-    pub fn parts(&self) -> impl Iterator<Item = &Body> {
-        std::iter::once(&self.upper).chain(&self.lower)
+    /// Whether water and anchors are at nodes that are there.
+    ///
+    /// # Errors
+    /// Says what is not.
+    pub fn check(&self) -> Result<(), &'static str> {
+        let lower = self.bodies.lower.as_ref().map_or(0, ReducedBody::nodes);
+        let counts = [self.bodies.upper.nodes(), lower];
+        let forces = |of: &[Vec<f64>; 2]| [of[0].len(), of[1].len()] == counts;
+        let water = self.inside.water.as_ref();
+        if water.is_some_and(|water| !forces(&water.still) || !forces(&water.full)) {
+            return Err("the water needs a force for each crack node");
+        }
+        let there = |anchor: &FaceAnchor| {
+            let mut faces = anchor.place.iter().zip(counts);
+            faces.all(|(point, count)| point.iter().all(|(node, _)| *node < count.max(1)))
+        };
+        if !self.inside.anchors.iter().all(there) {
+            return Err("an anchor needs nodes that are there");
+        }
+        Ok(())
     }
 }
 
-/// How to walk.
-#[derive(Clone, Copy)]
-pub struct Options {
+/// Accelerations of the ground, step by step.
+#[derive(Clone, Copy, Debug)]
+pub struct Shaking<'a> {
+    /// Horizontal and vertical acceleration [m/s2]: the mean in each step or, for the penalty method, at both ends of all
+    /// steps, one more than there are steps.
+    pub ground: &'a [[f64; 2]],
+    /// Length of a step [s].
     pub dt: f64,
-    pub theta: f64,
+    /// Factors on the two accelerations.
+    pub scale: [f64; 2],
+}
+
+/// How to step through time.
+#[derive(Clone, Copy, Debug)]
+pub enum Scheme {
+    /// Exact contact, with this weight of the new state within a step, 0.5 to 1.
+    Exact(f64),
+    /// Springs at the contacts, for comparison; knows neither water nor anchors that follow the crack.
+    Penalty(Penalty),
+}
+
+/// What is wanted of a run beside its summary.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Wanted {
     /// Steps from frame to frame; 0 for no frames.
     pub stride: usize,
-    /// Whether frames keep the modes too.
-    pub keep_modes: bool,
-    /// Factors on the ground's motion.
-    pub scale: [f64; 2],
+    /// Whether frames keep the amplitudes of all modes, too.
+    pub modes: bool,
 }

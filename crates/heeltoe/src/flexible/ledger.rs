@@ -24,11 +24,13 @@ pub struct Ledger {
     pub penalty: f64,
     /// Work of the static loads, of pressure that changes, and of the ground on the motion relative to it.
     pub input: f64,
+    /// Lost to damping in the concrete.
     pub damping: f64,
     /// Taken by the scheme itself.
     pub numerical: f64,
-    /// Work of the contact forces across the crack, and along it.
+    /// Lost to contact across the crack.
     pub impact: f64,
+    /// Lost to contact along it.
     pub friction: f64,
     /// What contact has added in steps in which its work was positive; it ought to add nothing.
     pub gained: f64,
@@ -38,7 +40,7 @@ pub struct Ledger {
 
 impl Ledger {
     /// Loss that only the scheme itself can explain.
-    pub fn unexplained(&self) -> f64 {
+    pub(super) fn unexplained(&self) -> f64 {
         let change = self.stored + self.penalty - self.start;
         self.input - self.damping - self.impact - self.friction - change
     }
@@ -54,9 +56,9 @@ impl Ledger {
     }
 }
 
-/// Sums of one part of the dam, mode group by mode group.
+/// Sums of one body, mode group by mode group.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Sums {
+pub(super) struct Sums {
     pub input: Group,
     pub turnover: Group,
     pub damping: Group,
@@ -65,7 +67,7 @@ pub struct Sums {
 
 impl Sums {
     /// Add these sums to a ledger.
-    pub fn book(&self, ledger: &mut Ledger) {
+    pub(super) fn book(&self, ledger: &mut Ledger) {
         for l in 0..LANES {
             ledger.input += self.input[l];
             ledger.turnover += self.turnover[l];

@@ -1,17 +1,46 @@
-//! The flexible model: two elastic parts, and a frictional crack between them.
+//! The flexible model: two elastic bodies in their vibration modes, and a frictional crack between them.
+//!
+//! Each mode obeys `w'' + c w' + omega^2 w = f - gamma a(t) + shapes^T p`, with the forces p of contact found in every step,
+//! so that nothing passes through the crack and friction is Coulomb's.
 
-pub mod body;
-pub mod contact;
-pub mod coulomb;
-pub mod coupling;
-pub mod dam;
-pub mod frames;
-pub mod idce;
-pub mod inside;
-pub mod ledger;
-pub mod observe;
-pub mod part;
-pub mod result;
-pub mod step;
+mod acting;
+mod body;
+mod contact;
+mod coulomb;
+mod coupling;
+mod dam;
+mod factors;
+mod frames;
+mod idce;
+mod ledger;
+pub mod many;
+mod moving;
+mod newmark;
+mod observe;
+mod result;
+mod sides;
+mod status;
+mod step;
+mod sweep;
 #[cfg(test)]
 mod tests;
+mod walk;
+
+pub use acting::{FaceAnchor, FollowingWater, Inside, Point};
+pub use body::{Modes, ReducedBody};
+pub use dam::{Dam, Scheme, Shaking, Wanted};
+pub use frames::Frames;
+pub use idce::Penalty;
+pub use ledger::Ledger;
+pub use observe::State;
+pub use result::{Outcome, Run, Summary};
+pub use sides::Sides;
+pub use status::Status;
+
+/// Shake a dam.
+pub fn simulate(dam: &Dam, shaking: &Shaking, scheme: &Scheme, wanted: Wanted) -> Run {
+    match scheme {
+        Scheme::Exact(theta) => step::simulate(dam, shaking, *theta, wanted),
+        Scheme::Penalty(penalty) => idce::simulate(dam, shaking, penalty, wanted),
+    }
+}

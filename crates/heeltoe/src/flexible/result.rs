@@ -1,199 +1,137 @@
 //! What a run of the flexible model leaves behind.
 
 use super::coulomb::Report;
+use super::frames::Frames;
 use super::ledger::Ledger;
+use super::observe::State;
+use crate::table::{columns, named};
 
-/// How a run ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
-#[repr(u8)]
-pub enum Outcome {
-    #[default]
-    Ok,
-    /// The upper part has slid or flown beyond the lower one, or off any scale.
-    Lost,
-    /// Numbers beyond what a computer can hold: energy made from nothing.
-    BlownUp,
+named! {
+    /// How a run ended.
+    #[derive(Default)]
+    Outcome {
+        /// At the end of the record.
+        #[default]
+        Ok = "ok",
+        /// The upper part has slid or flown beyond the lower one, or off any scale.
+        Lost = "lost",
+        /// Numbers beyond what a computer can hold: energy made from nothing.
+        BlownUp = "blown up",
+    }
 }
 
-impl Outcome {
-    pub const NAMES: [&'static str; 3] = ["ok", "lost", "blown up"];
+/// What a run leaves behind.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// Its end, peaks and sums.
+    pub summary: Summary,
+    /// States at equal distances in time, if they were asked for.
+    pub frames: Frames,
 }
 
 /// Peaks and sums over all steps.
 #[derive(Clone, Debug, Default)]
 pub struct Summary {
+    /// How it ended.
     pub outcome: Outcome,
+    /// When [s].
     pub end_time: f64,
-    /// Mean motion of the upper face against the lower one, positive downstream.
+    /// Mean motion [m] of the upper face against the lower one, positive downstream.
     pub slip: f64,
+    /// Largest slip.
     pub slip_max: f64,
+    /// Least slip.
     pub slip_min: f64,
+    /// In the last step [m/s].
     pub slip_velocity: f64,
-    /// Rotation of the chord of the upper face against that of the lower one, positive counter-clockwise.
+    /// Largest rotation of the chord of the upper face against that of the lower one, positive counter-clockwise.
     pub rotation_max: f64,
+    /// Least rotation.
     pub rotation_min: f64,
+    /// Largest opening at the heel [m].
     pub opening_heel: f64,
+    /// Largest opening at the toe [m].
     pub opening_toe: f64,
-    /// Largest depth to which a watched node has gone into the other face.
+    /// Largest depth [m] to which a watched node has gone into the other face.
     pub penetration: f64,
-    /// Slip while all watched nodes touch, while some do, and while none does.
+    /// Slip [m] while all watched nodes touch, while some do, and while none does.
     pub slip_by_state: [f64; 3],
-    /// Time in each of the states of [`super::observe`].
+    /// Time in each [`State`] [s].
     pub time_by_state: [f64; 5],
+    /// How many nodes have come down.
     pub impacts: u64,
+    /// The fastest of them [m/s].
     pub impact_velocity: f64,
+    /// Largest sum of the normal forces of contact [N].
     pub peak_normal_force: f64,
+    /// Where the energy went.
     pub ledger: Ledger,
+    /// Steps taken.
     pub steps: u64,
+    /// Sets of states tried in all steps.
     pub iterations: u64,
+    /// Most sets tried in a step.
     pub most_iterations: u32,
+    /// Steps in which sweeps had to help.
     pub sweeps: u64,
+    /// Largest violation of the conditions of contact; see [`super::coulomb`].
     pub residual: f64,
     /// State of the crack in the last step.
-    pub final_state: u8,
-    /// Largest tension of each anchor.
+    pub final_state: State,
+    /// Largest tension of each anchor [N].
     pub tensions: Vec<f64>,
 }
 
+columns!(Summary, s => {
+    "outcome": f64::from(s.outcome as u8),
+    "end_time": s.end_time,
+    "slip": s.slip,
+    "slip_max": s.slip_max,
+    "slip_min": s.slip_min,
+    "slip_velocity": s.slip_velocity,
+    "rotation_max": s.rotation_max,
+    "rotation_min": s.rotation_min,
+    "opening_heel": s.opening_heel,
+    "opening_toe": s.opening_toe,
+    "penetration": s.penetration,
+    "slip_sliding": s.slip_by_state[0],
+    "slip_slide_rocking": s.slip_by_state[1],
+    "slip_drifting": s.slip_by_state[2],
+    "time_rest": s.time_by_state[0],
+    "time_sliding": s.time_by_state[1],
+    "time_rocking": s.time_by_state[2],
+    "time_slide_rocking": s.time_by_state[3],
+    "time_drifting": s.time_by_state[4],
+    "impacts": s.impacts as f64,
+    "largest_impact_velocity": s.impact_velocity,
+    "peak_normal_force": s.peak_normal_force,
+    "energy_start": s.ledger.start,
+    "energy_stored": s.ledger.stored,
+    "energy_penalty": s.ledger.penalty,
+    "energy_input": s.ledger.input,
+    "energy_damping": s.ledger.damping,
+    "energy_numerical": s.ledger.numerical,
+    "energy_impact": s.ledger.impact,
+    "energy_friction": s.ledger.friction,
+    "energy_gained": s.ledger.gained,
+    "energy_turnover": s.ledger.turnover,
+    "energy_residual": s.ledger.residual(),
+    "steps": s.steps as f64,
+    "iterations": s.iterations as f64,
+    "most_iterations": f64::from(s.most_iterations),
+    "sweeps": s.sweeps as f64,
+    "contact_residual": s.residual,
+    "final_state": f64::from(s.final_state as u8),
+});
+
 impl Summary {
-    pub const FIELDS: [&'static str; 39] = [
-        "outcome",
-        "end_time",
-        "slip",
-        "slip_max",
-        "slip_min",
-        "slip_velocity",
-        "rotation_max",
-        "rotation_min",
-        "opening_heel",
-        "opening_toe",
-        "penetration",
-        "slip_sliding",
-        "slip_slide_rocking",
-        "slip_drifting",
-        "time_rest",
-        "time_sliding",
-        "time_rocking",
-        "time_slide_rocking",
-        "time_drifting",
-        "impacts",
-        "largest_impact_velocity",
-        "peak_normal_force",
-        "energy_start",
-        "energy_stored",
-        "energy_penalty",
-        "energy_input",
-        "energy_damping",
-        "energy_numerical",
-        "energy_impact",
-        "energy_friction",
-        "energy_gained",
-        "energy_turnover",
-        "energy_residual",
-        "steps",
-        "iterations",
-        "most_iterations",
-        "sweeps",
-        "contact_residual",
-        "final_state",
-    ];
-
-    /// The numbers in the order of `FIELDS`, then the tensions.
-    pub fn row(&self) -> Vec<f64> {
-        let mut row = self.numbers().to_vec();
-        row.extend(&self.tensions);
-        row
-    }
-
-    fn numbers(&self) -> [f64; 39] {
-        let (e, t, s) = (&self.ledger, self.time_by_state, self.slip_by_state);
-        [
-            f64::from(self.outcome as u8),
-            self.end_time,
-            self.slip,
-            self.slip_max,
-            self.slip_min,
-            self.slip_velocity,
-            self.rotation_max,
-            self.rotation_min,
-            self.opening_heel,
-            self.opening_toe,
-            self.penetration,
-            s[0],
-            s[1],
-            s[2],
-            t[0],
-            t[1],
-            t[2],
-            t[3],
-            t[4],
-            self.impacts as f64,
-            self.impact_velocity,
-            self.peak_normal_force,
-            e.start,
-            e.stored,
-            e.penalty,
-            e.input,
-            e.damping,
-            e.numerical,
-            e.impact,
-            e.friction,
-            e.gained,
-            e.turnover,
-            e.residual(),
-            self.steps as f64,
-            self.iterations as f64,
-            f64::from(self.most_iterations),
-            self.sweeps as f64,
-            self.residual,
-            f64::from(self.final_state),
-        ]
-    }
-
     /// Count how a step's contact problem was solved.
     #[inline(always)]
-    pub fn note(&mut self, report: Report) {
+    pub(super) fn note(&mut self, report: Report) {
         self.steps += 1;
         self.iterations += u64::from(report.iterations);
         self.most_iterations = self.most_iterations.max(report.iterations);
         self.sweeps += u64::from(report.swept);
         self.residual = self.residual.max(report.residual);
     }
-}
-
-/// States of the run at equal distances in time, beginning with the start.
-#[derive(Default)]
-pub struct Frames {
-    pub rows: Vec<[f64; 16]>,
-    /// Positions of the crack nodes: along the crack, then across it.
-    pub upper: Vec<f64>,
-    pub lower: Vec<f64>,
-    /// Mean forces on the nodes of the upper face since the frame before.
-    pub force: Vec<f64>,
-    /// Status of each contactor.
-    pub status: Vec<u8>,
-    /// Amplitudes of all modes, on request.
-    pub modes_upper: Vec<f64>,
-    pub modes_lower: Vec<f64>,
-}
-
-impl Frames {
-    pub const FIELDS: [&'static str; 16] = [
-        "time",
-        "slip",
-        "slip_velocity",
-        "rotation",
-        "opening_heel",
-        "opening_toe",
-        "normal_force",
-        "friction_force",
-        "touching",
-        "state",
-        "energy_stored",
-        "energy_input",
-        "energy_damping",
-        "energy_impact",
-        "energy_friction",
-        "energy_numerical",
-    ];
 }

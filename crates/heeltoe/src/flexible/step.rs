@@ -18,284 +18,253 @@
 //! be thrown back so that contact would do positive work. Nothing rebounds at a node: the waves in the concrete do
 //! that.
 
-use super::coulomb::Status;
-use super::coupling::{Answer, Crack};
-use super::dam::{Dam, Options};
-use super::frames::{keep, Since, Snapshot};
-use super::inside::Acting;
+use super::acting::Acting;
+use super::contact::relative;
+use super::coupling::{Answer, WithoutContact};
+use super::dam::{Dam, Shaking, Wanted};
 use super::ledger::Ledger;
-use super::observe::{self, Faces, Motion};
-use super::part::{Drive, Part};
-use super::result::{Frames, Outcome, Summary};
+use super::moving::{Drive, Moving, TimeStep};
+use super::result::Run;
+use super::sides::Sides;
+use super::status::Status;
+use super::walk::Walk;
 
-/// Shake the dam. `ground` has the horizontal and vertical mean acceleration of each step.
-pub fn simulate(dam: &Dam, ground: &[[f64; 2]], options: &Options, frames: Option<&mut Frames>) -> Summary {
+/// Nodes of both faces that meet say the same twice; this part of the largest answer to itself makes them share.
+const SOFTNESS: f64 = 1e-9;
+
+/// Shake the dam; `theta` is the weight of the new state within a step.
+pub(super) fn simulate(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run {
     #[cfg(target_arch = "x86_64")]
     {
         if is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("fma") {
             // Safety: the machine has what the function is compiled for.
-            return unsafe { simulate_avx512(dam, ground, options, frames) };
+            return unsafe { simulate_avx512(dam, shaking, theta, wanted) };
         }
         if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
             // Safety: as above.
-            return unsafe { simulate_avx2(dam, ground, options, frames) };
+            return unsafe { simulate_avx2(dam, shaking, theta, wanted) };
         }
     }
-    walk::<false>(dam, ground, options, frames)
+    run::<false>(dam, shaking, theta, wanted)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx2,fma")]
-fn simulate_avx512(
-    dam: &Dam,
-    ground: &[[f64; 2]],
-    options: &Options,
-    frames: Option<&mut Frames>,
-) -> Summary {
-    walk::<true>(dam, ground, options, frames)
+fn simulate_avx512(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run {
+    run::<true>(dam, shaking, theta, wanted)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
-fn simulate_avx2(dam: &Dam, ground: &[[f64; 2]], options: &Options, frames: Option<&mut Frames>) -> Summary {
-    walk::<true>(dam, ground, options, frames)
+fn simulate_avx2(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run {
+    run::<true>(dam, shaking, theta, wanted)
 }
 
 #[inline(always)]
-fn walk<const FUSED: bool>(
-    dam: &Dam,
-    ground: &[[f64; 2]],
-    options: &Options,
-    mut frames: Option<&mut Frames>,
-) -> Summary {
-    let dt = options.dt;
-    let mut upper = Part::new(&dam.upper, options);
-    let mut lower = dam.lower.as_ref().map(|body| Part::new(body, options));
-    let mut crack = Crack::new(dam);
-    let mut summary = Summary::default();
-    let mut ledger = Ledger {
-        start: energy(&upper, lower.as_ref()),
-        ..Ledger::default()
-    };
-    let zero = observe::mean_along(&upper.position)
-        - lower.as_ref().map_or(0.0, |l| observe::mean_along(&l.position));
-    let mut motion = Motion::of(faces(&upper, lower.as_ref(), |part| &part.position), zero);
-    let reach = 100.0 * (upper.position[dam.upper.nodes - 1] - upper.position[0]);
-    let mut acting = Acting::new(&dam.inside, faces(&upper, lower.as_ref(), |part| &part.position));
-    // The dam has been standing: it starts with the damping of a crack that sticks.
-    let mut drive = Drive {
-        ground: [0.0; 2],
-        damping: 0,
-    };
-    let next_ground = |step: usize| {
-        let a = ground.get(step).copied().unwrap_or([0.0; 2]);
-        [options.scale[0] * a[0] * dt, options.scale[1] * a[1] * dt]
-    };
-    drive.ground = next_ground(0);
-    upper.advance::<FUSED>(None, drive, options);
-    if let Some(lower) = &mut lower {
-        lower.advance::<FUSED>(None, drive, options);
+fn run<const FUSED: bool>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run {
+    let mut moreau = Moreau::new(dam, shaking, theta, wanted);
+    moreau.go_on::<FUSED>(None, 0, 0);
+    if moreau.walk.observed() {
+        moreau.ledger.stored = moreau.ledger.start;
+        let start = moreau.ledger;
+        moreau.keep(&start);
     }
-    let mut since = Since::new(&dam.upper);
-    if let Some(frames) = &mut frames {
-        ledger.stored = ledger.start;
-        keep(
-            frames,
-            &snapshot(&upper, lower.as_ref(), &crack, &motion, &since, &summary, &ledger),
-            options.keep_modes,
-        );
+    for step in 0..shaking.ground.len() {
+        moreau.set_up::<FUSED>();
+        let impulse = moreau.contact::<FUSED>();
+        let position = moreau.bodies.faces(|body| &body.position);
+        moreau.walk.book(step, position, impulse[1] / shaking.dt);
+        if moreau.walk.observed() {
+            moreau.walk.gather(&moreau.bodies.upper.impulse, impulse);
+        }
+        if moreau.acting.is_some() {
+            moreau.bodies.iter_mut().for_each(Moving::join_push);
+        }
+        // The modes follow, and begin the next step.
+        let sticks = moreau.walk.crack.solver.status.contains(&Status::Stick);
+        moreau.go_on::<FUSED>(Some(moreau.drive), step + 1, usize::from(!sticks));
+        if moreau.walk.due(step) {
+            let now = moreau.balance();
+            moreau.keep(&now);
+        }
+        if moreau.walk.lost() {
+            break;
+        }
     }
-    for step in 0..ground.len() {
-        // Where the nodes are, and how they would go on without contact.
-        let status = &crack.solver.status;
-        let below: &[f64] = lower.as_ref().map_or(&[], |l| &l.position);
-        crack
-            .contacts
-            .update(&upper.position, below, |k| status[k] == Status::Stick);
-        if crack.contacts.changed || crack.assembled != Some(drive.damping) {
-            // Nodes of both faces that meet say the same twice; a little softness makes them share.
-            let softness = if dam.contactors == 5 && lower.is_some() {
-                1e-9
-            } else {
-                0.0
-            };
-            let answers = [Some(&upper), lower.as_ref()].map(|part| {
-                part.map(|part| Answer {
-                    w: &part.operator.w[drive.damping],
-                    nodes: part.body.nodes,
-                })
-            });
-            if let [Some(above), below] = answers {
-                crack.assemble(above, below, drive.damping, |largest| softness * largest);
+    let ledger = moreau.balance();
+    let tensions = moreau.acting.map_or_else(Vec::new, |acting| acting.peaks);
+    moreau.walk.end(ledger, tensions)
+}
+
+/// The dam on its way.
+struct Moreau<'a> {
+    walk: Walk<'a>,
+    bodies: Sides<Moving<'a>>,
+    acting: Option<Acting<'a>>,
+    ledger: Ledger,
+    drive: Drive,
+    shaking: &'a Shaking<'a>,
+    step: TimeStep,
+}
+
+impl<'a> Moreau<'a> {
+    fn new(dam: &'a Dam, shaking: &'a Shaking, theta: f64, wanted: Wanted) -> Self {
+        let dt = shaking.dt;
+        let step = TimeStep { dt, theta };
+        let bodies = dam.bodies.map(|body| Moving::new(body, step));
+        let start = energy(&bodies);
+        Moreau {
+            walk: Walk::new(dam, dt, wanted),
+            acting: Acting::new(&dam.inside, dam.bodies.faces(|body| &body.position)),
+            ledger: Ledger {
+                start,
+                ..Ledger::default()
+            },
+            // The dam has been standing: it starts with the damping of a crack that sticks.
+            drive: Drive {
+                ground: [0.0; 2],
+                damping: 0,
+            },
+            bodies,
+            shaking,
+            step,
+        }
+    }
+
+    /// Let the modes finish the step `now`, unless this is the start, and begin another with this state of damping.
+    #[inline(always)]
+    fn go_on<const FUSED: bool>(&mut self, now: Option<Drive>, next: usize, damping: usize) {
+        let Shaking { ground, dt, scale } = self.shaking;
+        let a = ground.get(next).copied().unwrap_or([0.0; 2]);
+        self.drive = Drive {
+            ground: [scale[0] * a[0] * dt, scale[1] * a[1] * dt],
+            damping,
+        };
+        for body in self.bodies.iter_mut() {
+            body.advance::<FUSED>(now, self.drive, self.step);
+        }
+    }
+
+    /// Write the contact problem of the step, with what else acts in the crack.
+    #[inline(always)]
+    fn set_up<const FUSED: bool>(&mut self) {
+        let (dam, damping) = (self.walk.dam, self.drive.damping);
+        let softness = if dam.contactors == 5 && self.bodies.lower.is_some() {
+            SOFTNESS
+        } else {
+            0.0
+        };
+        let bodies = &self.bodies;
+        let answers = || {
+            bodies.map(|body| Answer {
+                w: &body.operator.w[damping],
+                nodes: body.body.nodes,
+            })
+        };
+        let position = bodies.faces(|body| &body.position);
+        let crack = &mut self.walk.crack;
+        crack.meet(position, damping, answers, |largest| softness * largest);
+        self.act::<FUSED>();
+        let TimeStep { dt, theta } = self.step;
+        let back = (1.0 - theta) / theta;
+        let free = self.bodies.faces(|body| &body.free);
+        let before = self.bodies.faces(|body| &body.velocity);
+        self.walk.crack.set_up(dam.friction, |pair, gap, _| {
+            let approach = relative(pair, before.upper, before.lower, 1);
+            WithoutContact {
+                b: [0, 1].map(|d| relative(pair, free.upper, free.lower, d)),
+                h: (gap.max(0.0) / dt).max(back * approach),
+                approach,
             }
+        });
+    }
+
+    /// Let what is in the crack beside contact push the nodes of both faces.
+    #[inline(always)]
+    fn act<const FUSED: bool>(&mut self) {
+        let Some(acting) = &mut self.acting else {
+            return;
+        };
+        let mut above = std::mem::take(&mut self.bodies.upper.push);
+        let mut below = match &mut self.bodies.lower {
+            Some(body) => std::mem::take(&mut body.push),
+            None => Vec::new(),
+        };
+        let position = self.bodies.faces(|body| &body.position);
+        let velocity = self.bodies.faces(|body| &body.velocity);
+        acting.push(position, velocity, self.step, &mut above, &mut below);
+        self.bodies.upper.push = above;
+        if let Some(lower) = &mut self.bodies.lower {
+            lower.push = below;
         }
-        if let Some(acting) = &mut acting {
-            act::<FUSED>(acting, &mut upper, lower.as_mut(), drive.damping, options);
+        for body in self.bodies.iter_mut() {
+            body.push_crack::<FUSED>(self.drive.damping);
         }
-        let free = faces(&upper, lower.as_ref(), |part| &part.free);
-        let before = faces(&upper, lower.as_ref(), |part| &part.velocity);
-        crack.set_up(dam, free, before, options);
-        summary.note(crack.solver.solve::<FUSED>(&crack.problem));
-        // The nodes move; the parts get their impulses.
-        let old = crack.work(faces(&upper, lower.as_ref(), |part| &part.velocity));
-        let acted = acting
-            .as_ref()
-            .map(|acting| acting.work(faces(&upper, lower.as_ref(), |part| &part.velocity)));
-        let impulse = crack.impulses(
-            &mut upper.impulse,
-            lower.as_mut().map_or(&mut [][..], |part| &mut part.impulse),
-        );
-        upper.move_crack::<FUSED>(drive.damping, options);
-        if let Some(lower) = &mut lower {
-            lower.move_crack::<FUSED>(drive.damping, options);
+    }
+
+    /// Solve the contact problem and move the nodes; the bodies get their impulses, the ledger its works. Returns the sum
+    /// of the impulses along and across the crack.
+    #[inline(always)]
+    fn contact<const FUSED: bool>(&mut self) -> [f64; 2] {
+        let crack = &mut self.walk.crack;
+        let report = crack.solver.solve::<FUSED>(&crack.problem);
+        self.walk.summary.note(report);
+        let before = self.works();
+        let (upper, lower) = (&mut self.bodies.upper, &mut self.bodies.lower);
+        let none = &mut [][..];
+        let below = lower.as_mut().map_or(none, |body| &mut body.impulse);
+        let impulse = self.walk.crack.impulses(&mut upper.impulse, below);
+        for body in self.bodies.iter_mut() {
+            body.move_crack::<FUSED>(self.drive.damping, self.step);
         }
-        let new = crack.work(faces(&upper, lower.as_ref(), |part| &part.velocity));
-        let work = [0, 1].map(|d| (1.0 - options.theta) * old[d] + options.theta * new[d]);
+        let after = self.works();
+        let theta = self.step.theta;
+        let mean = |k: usize, d: usize| (1.0 - theta) * before[k][d] + theta * after[k][d];
+        let ledger = &mut self.ledger;
+        let work = [mean(0, 0), mean(0, 1)];
         ledger.friction -= work[0];
         ledger.impact -= work[1];
         ledger.gained += (work[0] + work[1]).max(0.0);
         ledger.turnover += work[0].abs() + work[1].abs();
-        if let (Some(acting), Some(old)) = (&mut acting, acted) {
-            let new = acting.work(faces(&upper, lower.as_ref(), |part| &part.velocity));
-            let work = [0, 1].map(|k| (1.0 - options.theta) * old[k] + options.theta * new[k]);
-            let taken_up = acting.settle(faces(&upper, lower.as_ref(), |part| &part.position));
+        if let Some(acting) = &mut self.acting {
+            let work = [mean(1, 0), mean(1, 1)];
+            let taken_up = acting.settle(self.bodies.faces(|body| &body.position));
             ledger.input += work[0];
             // What the anchors have not taken up of their work is the scheme's doing.
             ledger.numerical -= work[1] + taken_up;
             ledger.springs = acting.stored;
             ledger.turnover += work[0].abs() + work[1].abs();
         }
-        let after = Motion::of(faces(&upper, lower.as_ref(), |part| &part.position), zero);
-        let state = observe::state(&crack.solver.status);
-        summary.end_time = (step + 1) as f64 * dt;
-        observe::book(&mut summary, dt, &motion, &after, state, impulse[1] / dt);
-        observe::strikes(
-            &mut summary,
-            &crack.contacts,
-            &crack.closed,
-            &crack.solver.status,
-            &crack.approach,
-        );
-        motion = after;
-        if frames.is_some() {
-            since.add(&upper.impulse, impulse, dt);
-        }
-        if acting.is_some() {
-            upper.join_push();
-            if let Some(lower) = &mut lower {
-                lower.join_push();
-            }
-        }
-        // The modes follow, and begin the next step.
-        let sticks = crack.solver.status.contains(&Status::Stick);
-        let next = Drive {
-            ground: next_ground(step + 1),
-            damping: usize::from(!sticks),
-        };
-        upper.advance::<FUSED>(Some(drive), next, options);
-        if let Some(lower) = &mut lower {
-            lower.advance::<FUSED>(Some(drive), next, options);
-        }
-        drive = next;
-        if let Some(frames) = &mut frames {
-            if (step + 1).is_multiple_of(options.stride) {
-                let now = balance(ledger, &upper, lower.as_ref());
-                keep(
-                    frames,
-                    &snapshot(&upper, lower.as_ref(), &crack, &motion, &since, &summary, &now),
-                    options.keep_modes,
-                );
-                since.clear();
-            }
-        }
-        if !(motion.slip.abs() < reach && motion.opening_heel.abs() < reach) {
-            summary.outcome = if motion.slip.is_finite() {
-                Outcome::Lost
-            } else {
-                Outcome::BlownUp
-            };
-            break;
-        }
+        impulse
     }
-    summary.ledger = balance(ledger, &upper, lower.as_ref());
-    summary.tensions = acting.map_or_else(Vec::new, |acting| acting.peaks);
-    summary
-}
 
-/// Let what is in the crack beside contact push the nodes of both faces.
-#[inline(always)]
-fn act<const FUSED: bool>(
-    acting: &mut Acting,
-    upper: &mut Part,
-    mut lower: Option<&mut Part>,
-    damping: usize,
-    options: &Options,
-) {
-    let mut above = std::mem::take(&mut upper.push);
-    let mut below = lower
-        .as_mut()
-        .map_or_else(Vec::new, |part| std::mem::take(&mut part.push));
-    let position = faces(upper, lower.as_deref(), |part| &part.position);
-    let velocity = faces(upper, lower.as_deref(), |part| &part.velocity);
-    acting.push(
-        position,
-        velocity,
-        options.dt,
-        options.theta,
-        &mut above,
-        &mut below,
-    );
-    upper.push = above;
-    upper.push_crack::<FUSED>(damping);
-    if let Some(lower) = lower {
-        lower.push = below;
-        lower.push_crack::<FUSED>(damping);
+    /// Work of the impulses on the velocities as they are: of contact along and across the crack, of water and anchors.
+    #[inline(always)]
+    fn works(&self) -> [[f64; 2]; 2] {
+        let velocity = self.bodies.faces(|body| &body.velocity);
+        let acted = self.acting.as_ref().map(|acting| acting.work(velocity));
+        [self.walk.crack.work(velocity), acted.unwrap_or_default()]
+    }
+
+    /// Keep a frame.
+    fn keep(&mut self, ledger: &Ledger) {
+        let position = self.bodies.faces(|body| &body.position);
+        let modes = self.bodies.map(|body| &body.q[..]);
+        self.walk.keep(position, &modes, ledger);
+    }
+
+    /// The ledger with the sums of both bodies and the energy they hold; the sums go on, so that frames change nothing.
+    fn balance(&self) -> Ledger {
+        let mut ledger = self.ledger;
+        for body in self.bodies.iter() {
+            body.sums.book(&mut ledger);
+        }
+        ledger.stored = energy(&self.bodies) + ledger.springs;
+        ledger
     }
 }
 
-/// The ledger with the sums of both parts and the energy they hold; the sums go on, so that frames change nothing.
-fn balance(mut ledger: Ledger, upper: &Part, lower: Option<&Part>) -> Ledger {
-    for part in std::iter::once(upper).chain(lower) {
-        part.sums.book(&mut ledger);
-    }
-    ledger.stored = energy(upper, lower) + ledger.springs;
-    ledger
-}
-
-fn energy(upper: &Part, lower: Option<&Part>) -> f64 {
-    let of = |part: &Part| part.body.energy(&part.q, &part.v);
-    of(upper) + lower.map_or(0.0, of)
-}
-
-/// One quantity of the crack nodes of both faces.
-#[inline(always)]
-fn faces<'a>(
-    upper: &'a Part,
-    lower: Option<&'a Part>,
-    what: impl for<'p> Fn(&'p Part) -> &'p [f64],
-) -> Faces<'a> {
-    Faces {
-        upper: what(upper),
-        lower: lower.map_or(&[], what),
-    }
-}
-
-fn snapshot<'a>(
-    upper: &'a Part,
-    lower: Option<&'a Part>,
-    crack: &'a Crack,
-    motion: &'a Motion,
-    since: &'a Since,
-    summary: &'a Summary,
-    ledger: &'a Ledger,
-) -> Snapshot<'a> {
-    Snapshot {
-        faces: faces(upper, lower, |part| &part.position),
-        modes: [&upper.q, lower.map_or(&[], |part| &part.q)],
-        status: &crack.solver.status,
-        motion,
-        since,
-        summary,
-        ledger,
-    }
+fn energy(bodies: &Sides<Moving>) -> f64 {
+    let of = |body: &Moving| body.body.energy(&body.q, &body.v);
+    of(&bodies.upper) + bodies.lower.as_ref().map_or(0.0, of)
 }

@@ -1,6 +1,7 @@
 //! The contact problem against its own conditions, on random problems and on those with a known answer.
 
-use super::coulomb::{Problem, Report, Solver, Status};
+use super::coulomb::{Problem, Report, Solver};
+use super::status::Status;
 
 /// Numbers from -1 to 1 that are the same each time.
 struct Dice(u64);

@@ -1,22 +1,33 @@
-//! One part of the dam on its way through time; the equations are those of [`super::step`].
+//! One body of the dam on its way through time by the scheme of [`super::step`]:
+//!
+//! ```text
+//! v_f = d (v + dt f - gamma dV - dt (c late v + omega^2 (q + dt theta late v))),      late = 1 - theta
+//! v' = v_f + d shapes^T p,      q' = q + dt v*,      d = 1 / (1 + theta dt c + theta^2 dt^2 omega^2)
+//! ```
 //!
 //! The last half of one step and the first half of the next go over the mode shapes together, as reading them is what a
 //! step costs.
 
-use super::body::{fma, Body, Group, BUNDLE, LANES};
-use super::dam::Options;
+use super::body::{fma, Group, ReducedBody, BUNDLE, LANES};
 use super::ledger::Sums;
 
-/// What a part needs for a given step, for both states of damping.
-pub struct Operator {
+/// Length of a step, and weight of the new state in it.
+#[derive(Clone, Copy)]
+pub(super) struct TimeStep {
+    pub dt: f64,
+    pub theta: f64,
+}
+
+/// What a body needs for a given step, for both states of damping.
+pub(super) struct Operator {
     d: [Vec<Group>; 2],
     /// Answer of the crack nodes to impulses on them, row by row.
     pub w: [Vec<f64>; 2],
 }
 
 impl Operator {
-    fn new(body: &Body, options: &Options) -> Self {
-        let (dt, theta) = (options.dt, options.theta);
+    fn new(body: &ReducedBody, step: TimeStep) -> Self {
+        let TimeStep { dt, theta } = step;
         let d = [0, 1].map(|state| {
             let pairs = body.damping[state].iter().zip(&body.omega_squared);
             pairs
@@ -30,9 +41,9 @@ impl Operator {
     }
 }
 
-/// The state of a part, and room for a step.
-pub struct Part<'a> {
-    pub body: &'a Body,
+/// The state of a body, and room for a step.
+pub(super) struct Moving<'a> {
+    pub body: &'a ReducedBody,
     pub operator: Operator,
     pub q: Vec<Group>,
     pub v: Vec<Group>,
@@ -52,18 +63,18 @@ pub struct Part<'a> {
 
 /// One step's ground: changes of velocity and the state of damping.
 #[derive(Clone, Copy)]
-pub struct Drive {
+pub(super) struct Drive {
     pub ground: [f64; 2],
     pub damping: usize,
 }
 
-impl<'a> Part<'a> {
-    pub fn new(body: &'a Body, options: &Options) -> Self {
+impl<'a> Moving<'a> {
+    pub(super) fn new(body: &'a ReducedBody, step: TimeStep) -> Self {
         let columns = body.columns();
         let zeros = vec![0.0; columns];
-        Part {
+        Moving {
             body,
-            operator: Operator::new(body, options),
+            operator: Operator::new(body, step),
             q: body.start.clone(),
             v: vec![[0.0; LANES]; body.groups()],
             v_free: vec![[0.0; LANES]; body.groups()],
@@ -80,7 +91,7 @@ impl<'a> Part<'a> {
 
     /// Finish the step `now` with the impulses found, unless this is the start, and begin the step `next`.
     #[inline(always)]
-    pub fn advance<const FUSED: bool>(&mut self, now: Option<Drive>, next: Drive, options: &Options) {
+    pub(super) fn advance<const FUSED: bool>(&mut self, now: Option<Drive>, next: Drive, step: TimeStep) {
         let columns = self.body.columns();
         let touched = self.impulse.iter().any(|p| *p != 0.0);
         self.lanes.fill([0.0; LANES]);
@@ -98,12 +109,12 @@ impl<'a> Part<'a> {
                     push[2..].copy_from_slice(&pushes::<FUSED>(s2, s3, &self.impulse));
                 }
                 for (k, push) in push.iter().enumerate() {
-                    self.finish::<FUSED>(first + k, push, now, options);
+                    self.finish::<FUSED>(first + k, push, now, step);
                 }
             }
             let mut v = [[0.0; LANES]; BUNDLE];
             for (k, v) in v.iter_mut().enumerate() {
-                *v = self.begin::<FUSED>(first + k, next, options);
+                *v = self.begin::<FUSED>(first + k, next, step);
             }
             for (sum, (((a, b), c), d)) in self.lanes.iter_mut().zip(rows) {
                 let mut new = *sum;
@@ -121,8 +132,8 @@ impl<'a> Part<'a> {
 
     /// Move the modes of a group to the end of the step and book their energies; `push` is the impulse on each.
     #[inline(always)]
-    fn finish<const FUSED: bool>(&mut self, group: usize, push: &Group, now: Drive, options: &Options) {
-        let (dt, theta) = (options.dt, options.theta);
+    fn finish<const FUSED: bool>(&mut self, group: usize, push: &Group, now: Drive, step: TimeStep) {
+        let TimeStep { dt, theta } = step;
         let body = self.body;
         // Copies, so that the compiler sees that nothing overlaps, and uses wide registers.
         let (w, load) = (body.omega_squared[group], body.load[group]);
@@ -150,8 +161,8 @@ impl<'a> Part<'a> {
 
     /// Return, and keep, the velocities that the modes of a group would have after the step without contact.
     #[inline(always)]
-    fn begin<const FUSED: bool>(&mut self, group: usize, next: Drive, options: &Options) -> Group {
-        let (dt, theta) = (options.dt, options.theta);
+    fn begin<const FUSED: bool>(&mut self, group: usize, next: Drive, step: TimeStep) -> Group {
+        let TimeStep { dt, theta } = step;
         let late = 1.0 - theta;
         let body = self.body;
         let (w, load) = (body.omega_squared[group], body.load[group]);
@@ -171,13 +182,13 @@ impl<'a> Part<'a> {
 
     /// Add to the velocities of the crack nodes without contact what `push` changes in them.
     #[inline(always)]
-    pub fn push_crack<const FUSED: bool>(&mut self, damping: usize) {
+    pub(super) fn push_crack<const FUSED: bool>(&mut self, damping: usize) {
         answered::<FUSED>(&self.operator.w[damping], &self.push, &mut self.free);
     }
 
     /// Count `push` with the impulses of contact, which have been used by themselves where they must be.
     #[inline(always)]
-    pub fn join_push(&mut self) {
+    pub(super) fn join_push(&mut self) {
         for (impulse, push) in self.impulse.iter_mut().zip(&self.push) {
             *impulse += push;
         }
@@ -185,10 +196,10 @@ impl<'a> Part<'a> {
 
     /// Velocities and positions of the crack nodes at the end of the step.
     #[inline(always)]
-    pub fn move_crack<const FUSED: bool>(&mut self, damping: usize, options: &Options) {
+    pub(super) fn move_crack<const FUSED: bool>(&mut self, damping: usize, step: TimeStep) {
         self.answer.copy_from_slice(&self.free);
         answered::<FUSED>(&self.operator.w[damping], &self.impulse, &mut self.answer);
-        let (dt, theta) = (options.dt, options.theta);
+        let TimeStep { dt, theta } = step;
         for ((x, u), new) in self.position.iter_mut().zip(&mut self.velocity).zip(&self.answer) {
             *x += dt * fma::<FUSED>(theta, *new, (1.0 - theta) * *u);
             *u = *new;

@@ -1,0 +1,17 @@
+//! Many runs of one dam side by side, each in the same ground with other factors on it.
+
+use super::dam::{Dam, Scheme, Shaking, Wanted};
+use super::result::Summary;
+use super::simulate;
+use crate::parallel::each;
+
+/// Shake the dam once for each pair of factors on the horizontal and the vertical acceleration.
+pub fn run(dam: &Dam, shaking: &Shaking, scheme: &Scheme, scales: &[[f64; 2]]) -> Vec<Summary> {
+    each(scales.len(), 1, |k| {
+        let shaking = Shaking {
+            scale: scales[k],
+            ..*shaking
+        };
+        simulate(dam, &shaking, scheme, Wanted::default()).summary
+    })
+}

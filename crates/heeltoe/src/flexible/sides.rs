@@ -1,0 +1,46 @@
+//! What there is twice: for the part above the crack and, unless this is on a rigid plane, for the part below it.
+
+/// Of the part above the crack, and of the part below it.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Sides<T> {
+    /// Of the part above.
+    pub upper: T,
+    /// Of the part below; none where the crack is on a rigid plane.
+    pub lower: Option<T>,
+}
+
+impl<T> Sides<T> {
+    #[inline(always)]
+    pub(super) fn iter(&self) -> impl Iterator<Item = &T> {
+        std::iter::once(&self.upper).chain(&self.lower)
+    }
+
+    #[inline(always)]
+    pub(super) fn iter_mut(&mut self) -> impl Iterator<Item = &mut T> {
+        std::iter::once(&mut self.upper).chain(&mut self.lower)
+    }
+
+    pub(super) fn map<'a, U>(&'a self, mut of: impl FnMut(&'a T) -> U) -> Sides<U> {
+        Sides {
+            upper: of(&self.upper),
+            lower: self.lower.as_ref().map(of),
+        }
+    }
+
+    /// One quantity of the crack nodes of both.
+    #[inline(always)]
+    pub(super) fn faces<'a>(&'a self, of: impl Fn(&'a T) -> &'a [f64]) -> Faces<'a> {
+        Faces {
+            upper: of(&self.upper),
+            lower: self.lower.as_ref().map_or(&[], of),
+        }
+    }
+}
+
+/// Numbers of the nodes of both faces of the crack, all along it and then all across it.
+#[derive(Clone, Copy)]
+pub(super) struct Faces<'a> {
+    pub upper: &'a [f64],
+    /// Empty on a rigid plane.
+    pub lower: &'a [f64],
+}

@@ -1,0 +1,97 @@
+//! The contact problem by sweeps over the contacts (Gauss and Seidel): slow but safe.
+//!
+//! Each contact is solved with the others held, `u = G_ii p_i + (u - G_ii p_i)_held`, until nothing changes.
+
+use super::coulomb::{Problem, Solver};
+use super::status::Status;
+
+/// Most sweeps.
+const SWEEPS: u32 = 5000;
+
+impl Solver {
+    /// Sweep until nothing changes.
+    #[inline(always)]
+    pub(super) fn sweep<const FUSED: bool>(&mut self, problem: &Problem) {
+        let size = problem.b.len();
+        for contact in 0..self.status.len() {
+            let p_n = self.p[2 * contact + 1].max(0.0);
+            let limit = problem.mu_stick[contact] * p_n;
+            self.p[2 * contact + 1] = if self.status[contact].closed() { p_n } else { 0.0 };
+            self.p[2 * contact] = if self.status[contact].closed() {
+                self.p[2 * contact].clamp(-limit, limit)
+            } else {
+                0.0
+            };
+        }
+        for _ in 0..SWEEPS {
+            self.velocities::<FUSED>(problem);
+            let (mut change, mut largest) = (0.0_f64, 0.0_f64);
+            for contact in 0..self.status.len() {
+                if self.status[contact] == Status::Absent {
+                    continue;
+                }
+                let i = 2 * contact;
+                let g = |r: usize, c: usize| problem.g[(i + r) * size + i + c];
+                let (p_t, p_n) = (self.p[i], self.p[i + 1]);
+                let free_t = self.u[i] - g(0, 0) * p_t - g(0, 1) * p_n;
+                let free_n = self.u[i + 1] + problem.h[contact] - g(1, 0) * p_t - g(1, 1) * p_n;
+                let local = Local {
+                    g: [[g(0, 0), g(0, 1)], [g(1, 0), g(1, 1)]],
+                    free: [free_t, free_n],
+                    mu_stick: problem.mu_stick[contact],
+                    mu_slip: problem.mu_slip,
+                };
+                let (status, new_t, new_n) = local.solve();
+                self.status[contact] = status;
+                let (dt, dn) = (new_t - p_t, new_n - p_n);
+                change = change.max(dt.abs()).max(dn.abs());
+                largest = largest.max(new_n.abs());
+                self.p[i] = new_t;
+                self.p[i + 1] = new_n;
+                for (row, u) in self.u.iter_mut().enumerate() {
+                    *u += problem.g[i * size + row] * dt + problem.g[(i + 1) * size + row] * dn;
+                }
+            }
+            if change <= 1e-13 * largest {
+                break;
+            }
+        }
+        self.velocities::<FUSED>(problem);
+        self.forget();
+    }
+}
+
+/// The problem of a single contact, the others held.
+struct Local {
+    g: [[f64; 2]; 2],
+    free: [f64; 2],
+    mu_stick: f64,
+    mu_slip: f64,
+}
+
+impl Local {
+    /// Return the state that fits with its impulses.
+    fn solve(&self) -> (Status, f64, f64) {
+        let [[tt, tn], [nt, nn]] = self.g;
+        let [free_t, free_n] = self.free;
+        if free_n >= 0.0 {
+            return (Status::Open, 0.0, 0.0);
+        }
+        let det = tt * nn - tn * nt;
+        let stick_t = (-free_t * nn + free_n * tn) / det;
+        let stick_n = (-free_n * tt + free_t * nt) / det;
+        if stick_n >= 0.0 && stick_t.abs() <= self.mu_stick * stick_n {
+            return (Status::Stick, stick_t, stick_n);
+        }
+        for (status, sign) in [(Status::SlipDownstream, 1.0), (Status::SlipUpstream, -1.0)] {
+            let mu = -sign * self.mu_slip;
+            let p_n = -free_n / (nn + mu * nt);
+            let u_t = free_t + (tn + mu * tt) * p_n;
+            if p_n >= 0.0 && sign * u_t >= 0.0 {
+                return (status, mu * p_n, p_n);
+            }
+        }
+        // Friction so strong that no state fits alone: let the normal impulse decide, the others will move on.
+        (Status::Stick, 0.0, -free_n / nn)
+    }
+}
