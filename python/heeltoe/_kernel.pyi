@@ -132,7 +132,7 @@ CRACK_STATES: Final[list[str]]
 CONTACT_STATUSES: Final[list[str]]
 
 class ReducedBody(Protocol):
-    """One elastic body in its modes: m modes, k nodes on the crack; see :class:`heeltoe.models.flexible.reduced.Part`."""
+    """An elastic body: m modes, k nodes on the crack; see :class:`heeltoe.models.flexible.reduced.ReducedBody`."""
 
     @property
     def omega_squared(self) -> Floats: ...
@@ -154,7 +154,7 @@ class ReducedBody(Protocol):
     def position(self) -> Floats: ...
 
 class FollowingWater(Protocol):
-    """Water in the crack; see :class:`heeltoe.models.flexible.inside.CrackWater`."""
+    """Water in the crack; see :class:`heeltoe.models.flexible.inside.FollowingWater`."""
 
     @property
     def law(self) -> str: ...

@@ -13,7 +13,7 @@ from heeltoe import _kernel
 from heeltoe.arrays import Floats, Integers
 
 if TYPE_CHECKING:
-    from heeltoe._kernel import CrackAnchor, CrackPart, CrackWater
+    from heeltoe._kernel import CrackAnchor, FollowingWater, ReducedBody
 
 VERSION = _kernel.VERSION
 #: "release" or "debug".
@@ -326,11 +326,11 @@ class CrackedDam:
 
     def __init__(
         self,
-        upper: CrackPart,
-        lower: CrackPart | None,
+        upper: ReducedBody,
+        lower: ReducedBody | None,
         friction: tuple[float, float],
         contactors: int,
-        water: CrackWater | None = None,
+        water: FollowingWater | None = None,
         anchors: Sequence[CrackAnchor] = (),
     ) -> None:
         self._dam = _kernel.CrackedDam(upper, lower, friction, contactors, water, anchors)
