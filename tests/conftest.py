@@ -11,10 +11,9 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import pytest
 from hypothesis import HealthCheck, settings
 
-from heeltoe import Comparison, Response, compare
+import heeltoe
 from heeltoe.errors import CATALOGUE as ERRORS
 from heeltoe.errors import InputError
-from heeltoe.views.files.write import write_all
 from heeltoe.warnings import CATALOGUE as WARNINGS
 from heeltoe.warnings import Notice
 from shared.dams import FAST, ROOT, SHORT, example
@@ -89,26 +88,28 @@ def records() -> Path:
 
 
 @pytest.fixture(scope="session")
-def typical_both() -> Comparison:
+def typical_both() -> heeltoe.Comparison:
     """The typical dam as a rigid block and as an elastic dam, for 3 s."""
-    return compare(example("typical-base", *FAST))
+    return heeltoe.compare(example("typical-base", *FAST))
 
 
 @pytest.fixture(scope="session")
 def typical_written(typical_both, tmp_path_factory) -> tuple[Path, list[Path]]:
     """All files of both, figures too: the directory, and what was said to be written."""
+    from heeltoe.views.files.write import write_all
+
     directory = tmp_path_factory.mktemp("typical")
     return directory, write_all(typical_both, directory)
 
 
 @pytest.fixture(scope="session")
-def koyna_both() -> Comparison:
+def koyna_both() -> heeltoe.Comparison:
     """Koyna by the decoupled chain and by the flexible model, for 4 s."""
-    return compare(example("koyna", *SHORT, "flexible.convergence_check=false"), block="decoupled")
+    return heeltoe.compare(example("koyna", *SHORT, "flexible.convergence_check=false"), block="decoupled")
 
 
 @pytest.fixture(scope="session")
-def koyna(koyna_both) -> Response:
+def koyna(koyna_both) -> heeltoe.Response:
     """Koyna by the decoupled chain."""
     return koyna_both.rigid
 

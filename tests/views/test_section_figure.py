@@ -46,7 +46,7 @@ def annotations(figure):
 
 def check(figure):
     renderer = FigureCanvasAgg(figure).get_renderer()
-    figure.draw(renderer)
+    figure.draw_without_rendering()
     for axes in figure.axes:
         assert "[" in axes.get_xlabel()
         inside = axes.get_window_extent(renderer).padded(2.0)
