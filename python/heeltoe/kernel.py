@@ -366,8 +366,7 @@ class CrackedDam:
         row, frames, upper, lower, force, status, above, below = self._dam.run(
             ground, step, theta, stride, stride > 0, scale, penalty
         )
-        names = _kernel.CRACK_SUMMARY_FIELDS
-        numbers = row.tolist()
+        names, numbers = _kernel.CRACK_SUMMARY_FIELDS, row.tolist()
         return DamRun(
             summary=dict(zip(names, numbers, strict=False)),
             tension=tuple(numbers[len(names) :]),

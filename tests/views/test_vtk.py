@@ -1,4 +1,4 @@
-"""VTK files: read back they are the record; they are written whole or not at all."""
+"""VTK files: read back they are the history; they are written whole or not at all."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from shared.shaken import EXAMPLES, shaken
 
 
 @pytest.fixture(scope="module", params=EXAMPLES)
-def record(request):
+def history(request):
     return shaken(request.param, output_step=0.005).crack
 
 
 @pytest.fixture(scope="module")
-def series(record, tmp_path_factory):
+def series(history, tmp_path_factory):
     """Frames and what was read back of them: grids of the dam and of the crack."""
     directory = tmp_path_factory.mktemp("vtk") / "new" / "series"
-    frames = [0, 3, 100, 250, len(record.time) - 1]
-    assert write_vtk_series(record, directory, frames=frames) == directory / "dam.pvd"
+    frames = [0, 3, 100, 250, len(history.time) - 1]
+    assert write_vtk_series(history, directory, frames=frames) == directory / "dam.pvd"
     return frames, read(directory, "dam"), read(directory, "crack")
 
 
@@ -49,8 +49,8 @@ def flat(vectors):
     return vectors[:, :2]
 
 
-def test_grids_are_the_meshes(record, series):
-    meshes = [body.mesh for body in record.dam.bodies]
+def test_grids_are_the_meshes(history, series):
+    meshes = [body.mesh for body in history.dam.bodies]
     for grid in series[1]:
         assert flat(grid.points) == pytest.approx(np.vstack([mesh.nodes for mesh in meshes]), abs=0.0)
         (block,) = grid.cells
@@ -69,12 +69,12 @@ def test_grids_are_the_meshes(record, series):
         assert np.unique(grid.cell_data["part"][0]).tolist() == list(range(len(meshes)))
 
 
-def test_grids_hold_the_state(record, series):
+def test_grids_hold_the_state(history, series):
     for frame, grid in zip(*series[:2], strict=True):
         data = grid.point_data
         assert set(data) == {"displacement", "sxx", "szz", "sxz", "principal_major", "principal_minor"}
-        assert np.array_equal(flat(data["displacement"]), np.vstack(record.displacements(frame)))
-        stress = np.vstack(record.stresses(frame))
+        assert np.array_equal(flat(data["displacement"]), np.vstack(history.displacements(frame)))
+        stress = np.vstack(history.stresses(frame))
         assert np.array_equal(np.column_stack([data["sxx"], data["szz"], data["sxz"]]), stress)
         major, minor, _ = principal(stress)
         assert np.array_equal(data["principal_major"], major)
@@ -83,8 +83,8 @@ def test_grids_hold_the_state(record, series):
         assert major + minor == pytest.approx(stress[:, 0] + stress[:, 1], rel=1e-9, abs=1.0)
 
 
-def test_crack(record, series):
-    counts = [face.shape[2] for face in record.faces]
+def test_crack(history, series):
+    counts = [face.shape[2] for face in history.faces]
     for frame, grid in zip(series[0], series[2], strict=True):
         vertices, lines = grid.cells
         assert (vertices.type, lines.type) == ("vertex", "line")
@@ -98,21 +98,21 @@ def test_crack(record, series):
         assert np.array_equal(parts[0][lines.data[:, 0]], parts[1])
         assert np.array_equal(parts[0][lines.data[:, 1]], parts[1])
         data = grid.point_data
-        now = flat(grid.points + data["displacement"]) - record.dam.section.heel
-        assert now == pytest.approx(np.hstack([face[frame] for face in record.faces]).T, rel=0.0, abs=1e-12)
+        now = flat(grid.points + data["displacement"]) - history.dam.section.heel
+        assert now == pytest.approx(np.hstack([face[frame] for face in history.faces]).T, rel=0.0, abs=1e-12)
         force = flat(data["force"])
-        assert np.array_equal(force[: counts[0]], record.forces()[frame].T)
+        assert np.array_equal(force[: counts[0]], history.forces()[frame].T)
         assert not force[counts[0] :].any()
-        assert np.array_equal(data["gap"], np.hstack([gap[frame] for gap in record.node_gaps()]), equal_nan=True)
-        assert np.array_equal(data["status"], np.hstack([status[frame] for status in record.node_status()]))
+        assert np.array_equal(data["gap"], np.hstack([gap[frame] for gap in history.node_gaps()]), equal_nan=True)
+        assert np.array_equal(data["status"], np.hstack([status[frame] for status in history.node_status()]))
         assert data["status"].dtype.kind == "i"
 
 
-def test_both_series_deform_alike(record, series):
+def test_both_series_deform_alike(history, series):
     nodes = np.concatenate(
         [
             body.mesh.crack + first
-            for body, first in zip(record.dam.bodies, (0, len(record.dam.bodies[0].mesh.nodes)), strict=False)
+            for body, first in zip(history.dam.bodies, (0, len(history.dam.bodies[0].mesh.nodes)), strict=False)
         ]
     )
     for dam, crack in zip(*series[1:], strict=True):
@@ -120,57 +120,57 @@ def test_both_series_deform_alike(record, series):
         assert deformed[1] == pytest.approx(deformed[0][nodes], rel=0.0, abs=1e-9)
 
 
-def test_about_two_hundred_frames_without_a_choice(record, tmp_path):
-    assert len(record.time) > 300
-    write_vtk_series(record, tmp_path)
+def test_about_two_hundred_frames_without_a_choice(history, tmp_path):
+    assert len(history.time) > 300
+    write_vtk_series(history, tmp_path)
     for name in ("dam", "crack"):
         times, files = listed(tmp_path / f"{name}.pvd")
         assert len(times) == len(set(files)) == 200
         assert times[0] == 0.0
-        assert times[-1] == record.time[-1]
-        assert set(times) <= set(record.time)
-        assert np.ptp(np.diff(times)) < 1.01 * record.time[1]
+        assert times[-1] == history.time[-1]
+        assert set(times) <= set(history.time)
+        assert np.ptp(np.diff(times)) < 1.01 * history.time[1]
         assert sorted(files) == files == sorted(tmp_path.glob(f"{name}-*.vtu"))
     # The bound of the docstring, with room for what grids take whatever their size.
-    nodes = sum(len(body.mesh.nodes) for body in record.dam.bodies)
+    nodes = sum(len(body.mesh.nodes) for body in history.dam.bodies)
     assert sum(path.stat().st_size for path in tmp_path.iterdir()) < 200 * (100 * nodes + 6000)
 
 
-def test_all_frames_of_a_short_run(record, tmp_path):
+def test_all_frames_of_a_short_run(history, tmp_path):
     first = replace(
-        record,
-        time=record.time[:1],
-        upper_position=record.upper_position[:1],
-        lower_position=None if record.lower_position is None else record.lower_position[:1],
-        force=record.force[:1],
-        status=record.status[:1],
-        modes=tuple(each[:1] for each in record.modes),
+        history,
+        time=history.time[:1],
+        upper_position=history.upper_position[:1],
+        lower_position=None if history.lower_position is None else history.lower_position[:1],
+        force=history.force[:1],
+        status=history.status[:1],
+        modes=tuple(each[:1] for each in history.modes),
     )
     write_vtk_series(first, tmp_path)
     assert sorted(path.name for path in tmp_path.iterdir()) == ["crack-0.vtu", "crack.pvd", "dam-0.vtu", "dam.pvd"]
 
 
-def test_chosen_frames_come_once_and_in_order(record, tmp_path):
-    write_vtk_series(record, tmp_path, frames=[-1, 7, 0, 7])
+def test_chosen_frames_come_once_and_in_order(history, tmp_path):
+    write_vtk_series(history, tmp_path, frames=[-1, 7, 0, 7])
     times, files = listed(tmp_path / "dam.pvd")
-    assert times == [record.time[0], record.time[7], record.time[-1]]
+    assert times == [history.time[0], history.time[7], history.time[-1]]
     assert files[1].name == "dam-007.vtu"
     with pytest.raises(IndexError):
-        write_vtk_series(record, tmp_path, frames=[len(record.time)])
+        write_vtk_series(history, tmp_path, frames=[len(history.time)])
 
 
-def test_an_earlier_series_is_replaced(record, tmp_path):
+def test_an_earlier_series_is_replaced(history, tmp_path):
     (tmp_path / "dam-notes.txt").write_text("mine")
-    write_vtk_series(record, tmp_path, frames=range(5))
-    write_vtk_series(record, tmp_path, frames=[0, 9])
+    write_vtk_series(history, tmp_path, frames=range(5))
+    write_vtk_series(history, tmp_path, frames=[0, 9])
     assert sorted(path.name for path in tmp_path.iterdir()) == [
         *("crack-000.vtu", "crack-009.vtu", "crack.pvd"),
         *("dam-000.vtu", "dam-009.vtu", "dam-notes.txt", "dam.pvd"),
     ]
 
 
-def test_a_failure_leaves_what_was_there(record, tmp_path, monkeypatch):
-    write_vtk_series(record, tmp_path, frames=[0, 1])
+def test_a_failure_leaves_what_was_there(history, tmp_path, monkeypatch):
+    write_vtk_series(history, tmp_path, frames=[0, 1])
     before = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
     plain, calls = meshio.write, []
 
@@ -182,22 +182,22 @@ def test_a_failure_leaves_what_was_there(record, tmp_path, monkeypatch):
 
     monkeypatch.setattr(meshio, "write", full)
     with pytest.raises(InputError, match=r"cannot be written \(No space left on device\); give a place where") as error:
-        write_vtk_series(record, tmp_path, frames=[3, 4, 5])
+        write_vtk_series(history, tmp_path, frames=[3, 4, 5])
     assert error.value.code == "cannot-write"
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == before
 
 
-def test_no_place_to_write(record, tmp_path):
+def test_no_place_to_write(history, tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(InputError, match=r"directory: .*file cannot be written \(.*\)") as error:
-        write_vtk_series(record, tmp_path / "file")
+        write_vtk_series(history, tmp_path / "file")
     assert error.value.code == "cannot-write"
     with pytest.raises(InputError, match="cannot be written"):
-        write_vtk_series(record, tmp_path / "file" / "vtk")
+        write_vtk_series(history, tmp_path / "file" / "vtk")
 
 
-def test_missing_package(record, tmp_path, monkeypatch):
+def test_missing_package(history, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "meshio", None)
     with pytest.raises(InputError, match=r"pip install heeltoe\[mesh\]"):
-        write_vtk_series(record, tmp_path / "vtk")
+        write_vtk_series(history, tmp_path / "vtk")
     assert not (tmp_path / "vtk").exists()

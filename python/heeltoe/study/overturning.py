@@ -21,7 +21,7 @@ from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.kernel import Shaking
-from heeltoe.mechanics.block import Block, build_block
+from heeltoe.mechanics.block import Block, CriticalAccelerations, build_block
 from heeltoe.models.rigid.walk import walk
 from heeltoe.result.write import build_info
 
@@ -148,10 +148,7 @@ def overturning_map(
         raise InputError("pulse-count", "count", count, most=_MOST)
     if case.analysis.rotation == "small":
         case = case.model_copy(update={"analysis": case.analysis.model_copy(update={"rotation": "finite"})})
-    block = build_block(case)
-    critical = block.critical_accelerations()
-    if min(critical.rocking, critical.sliding) <= 0.0 or block.normal_force <= 0.0:
-        raise InputError("pulse-unstable", "case")
+    block, critical = _standing(case)
     rate, slenderness = _inverted_pendulum(block)
     if frequencies_hz is None:
         frequencies_hz = np.linspace(0.5, 8.0, count) * rate / (2.0 * math.pi)
@@ -177,6 +174,15 @@ def overturning_map(
         frequency_parameter_1_s=rate,
         slenderness_rad=slenderness,
     )
+
+
+def _standing(case: Case) -> tuple[Block, CriticalAccelerations]:
+    """Return a block that stands without a pulse, and what moves it."""
+    block = build_block(case)
+    critical = block.critical_accelerations()
+    if min(critical.rocking, critical.sliding) <= 0.0 or block.normal_force <= 0.0:
+        raise InputError("pulse-unstable", "case")
+    return block, critical
 
 
 def _inverted_pendulum(block: Block) -> tuple[float, float]:

@@ -104,7 +104,7 @@ class CrackHistory:
         watched = _watched(counts, self.contactors)
         total = sum(nodes.size for _, nodes in watched)
         if total != self.status.shape[1]:
-            raise ValueError(f"contactors {self.contactors} are {total} nodes, the record has {self.status.shape[1]}")
+            raise ValueError(f"contactors {self.contactors} are {total} nodes, the history has {self.status.shape[1]}")
         found = tuple(np.full((len(self.time), count), UNWATCHED, dtype=np.int8) for count in counts)
         first = 0
         for face, nodes in watched:
@@ -117,7 +117,7 @@ class CrackHistory:
         return list(CONTACT_STATUSES)
 
 
-def crack_table(record: CrackHistory) -> pa.Table:
+def crack_table(history: CrackHistory) -> pa.Table:
     """Return what the nodes of the crack did as a table with one row for each frame and node.
 
     Columns, with null, never NaN, where there is nothing to say:
@@ -131,21 +131,21 @@ def crack_table(record: CrackHistory) -> pa.Table:
     - ``gap_m`` to the other face; null beyond its end;
     - ``status``: a name of :meth:`CrackHistory.status_names`; null where the node is not watched.
     """
-    counts = [face.shape[2] for face in record.faces]
+    counts = [face.shape[2] for face in history.faces]
     # Single nodes of the lower face, which need not stand below those of the upper, have no force of their own.
-    force = [record.forces(), *(np.full_like(face, np.nan) for face in record.faces[1:])]
+    force = [history.forces(), *(np.full_like(face, np.nan) for face in history.faces[1:])]
     return pa.table(
         {
-            "time_s": np.repeat(record.time, sum(counts)),
-            "node": _every_frame(record, [np.arange(count, dtype=np.int32) for count in counts]),
-            "x_m": _every_frame(record, [body.mesh.nodes[body.mesh.crack, 0] for body in record.dam.bodies]),
-            "side": _named(_every_frame(record, [np.full(count, k) for k, count in enumerate(counts)]), _SIDES),
-            "along_m": _rows([face[:, 0] for face in record.faces]),
-            "across_m": _rows([face[:, 1] for face in record.faces]),
+            "time_s": np.repeat(history.time, sum(counts)),
+            "node": _every_frame(history, [np.arange(count, dtype=np.int32) for count in counts]),
+            "x_m": _every_frame(history, [body.mesh.nodes[body.mesh.crack, 0] for body in history.dam.bodies]),
+            "side": _named(_every_frame(history, [np.full(count, k) for k, count in enumerate(counts)]), _SIDES),
+            "along_m": _rows([face[:, 0] for face in history.faces]),
+            "across_m": _rows([face[:, 1] for face in history.faces]),
             "force_along_n": _nullable(_rows([each[:, 0] for each in force])),
             "force_across_n": _nullable(_rows([each[:, 1] for each in force])),
-            "gap_m": _nullable(_rows(record.node_gaps())),
-            "status": _named(_rows(record.node_status()), record.status_names()),
+            "gap_m": _nullable(_rows(history.node_gaps())),
+            "status": _named(_rows(history.node_status()), history.status_names()),
         }
     )
 
@@ -158,9 +158,9 @@ def _rows(values: Sequence[NDArray[Any]]) -> NDArray[Any]:
     return np.hstack(values).reshape(-1)
 
 
-def _every_frame(record: CrackHistory, values: Sequence[NDArray[Any]]) -> NDArray[Any]:
+def _every_frame(history: CrackHistory, values: Sequence[NDArray[Any]]) -> NDArray[Any]:
     """Return values (k,) of each face, the same in all frames."""
-    return np.tile(np.concatenate(values), len(record.time))
+    return np.tile(np.concatenate(values), len(history.time))
 
 
 def _nullable(values: Floats) -> pa.Array:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from time import monotonic
 
 import numpy as np
@@ -76,8 +76,11 @@ def rigid_many(
     def run(part: slice) -> dict[str, Floats]:
         return run_blocks(parameters[part], shakings, which[part], factors[part], limits, threads)
 
-    if not progress:
-        return run(slice(None))
+    return _in_parts(run, n) if progress else run(slice(None))
+
+
+def _in_parts(run: Callable[[slice], dict[str, Floats]], n: int) -> dict[str, Floats]:
+    """Run part by part, with a bar on standard error."""
     parts = []
     began = monotonic()
     with Progress(console=Console(stderr=True), transient=True) as bar:

@@ -168,14 +168,14 @@ def _still(case: Case, frames: int) -> Part | None:
     )
 
 
-def elastic_parts(record: CrackHistory, moments: Moments) -> tuple[Part, ...]:
+def elastic_parts(history: CrackHistory, moments: Moments) -> tuple[Part, ...]:
     """Return the elastic parts of a run of the flexible model.
 
     Hundreds of modes move together; of their displacements the few shapes are taken that hold them to
     :data:`ACCURACY` (proper orthogonal decomposition), which an animation can carry along.
     """
     parts, fields = [], []
-    for body, basis, amplitude in zip(record.dam.bodies, record.dam.modes, record.modes, strict=True):
+    for body, basis, amplitude in zip(history.dam.bodies, history.dam.modes, history.modes, strict=True):
         part, shown = _meshed(body.mesh)
         rows = np.column_stack([2 * shown, 2 * shown + 1]).reshape(-1)
         parts.append(part)

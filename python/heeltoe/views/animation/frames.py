@@ -179,24 +179,24 @@ def _slips(mode: str) -> int:
     return STATUSES.index("slip upstream" if mode.endswith("upstream") else "slip downstream")
 
 
-def _nodes(section: CutSection, record: CrackHistory, moments: Moments) -> tuple[Floats, NDArray[np.int8]]:
+def _nodes(section: CutSection, history: CrackHistory, moments: Moments) -> tuple[Floats, NDArray[np.int8]]:
     """Return contact stresses [Pa] and status of the nodes of the upper face.
 
     A node's force counts on the length over which an even stress gives it that force: of an element of length L the
     ends have L/6, the node in its middle 2 L/3 (Simpson's rule).
     """
-    mesh = record.dam.bodies[0].mesh
+    mesh = history.dam.bodies[0].mesh
     along = np.hypot(*(mesh.nodes[mesh.crack] - mesh.nodes[mesh.crack[0]]).T)
     lengths = np.zeros(along.size)
     elements = along[2::2] - along[:-2:2]
     lengths[:-2:2] += elements / 6.0
     lengths[1::2] += elements * (2.0 / 3.0)
     lengths[2::2] += elements / 6.0
-    force = record.forces()[moments.nearest] / lengths
-    names = record.status_names()
+    force = history.forces()[moments.nearest] / lengths
+    names = history.status_names()
     known = np.array([STATUSES.index(name) if name in STATUSES else -1 for name in names] + [-1], dtype=np.int8)
     # -1, of nodes that are not watched, finds the last.
-    status = known[record.node_status()[0][moments.nearest]]
+    status = known[history.node_status()[0][moments.nearest]]
     return _turned(section, force[:, 0], force[:, 1]), status
 
 

@@ -32,12 +32,12 @@ _COLUMNS = 1500
 @styled
 def crack_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     """Draw which part of an elastic dam's crack sticks, slips and opens over time, with the slip above it."""
-    record = response.crack
+    history = response.crack
     system = unit_system(units)
     figure, (slip, crack) = panels([1.0, 1.8], 1.55)
     describe(figure, response)
     draw_slip(slip, response, system)
-    seen = _status_map(crack, record, system.scale("length"))
+    seen = _status_map(crack, history, system.scale("length"))
     time_axis(crack, response.histories["time_s"][-1])
     names = {"absent": "nothing opposite"}
     handles = [
@@ -49,17 +49,17 @@ def crack_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     return figure
 
 
-def _status_map(axes: Axes, record: CrackHistory, scale: Scale) -> list[str]:
+def _status_map(axes: Axes, history: CrackHistory, scale: Scale) -> list[str]:
     """Colour every watched node of one whole face at every moment by its status; return which there are."""
     names = CONTACT_STATUSES
-    along = record.upper_position[0, 0]
+    along = history.upper_position[0, 0]
     # The nodes of a face that is watched as a whole come first; those of its ends that follow say nothing new.
-    status = record.status[:, : along.size]
+    status = history.status[:, : along.size]
     if status.shape[1] < along.size:
-        assert record.lower_position is not None
-        along = record.lower_position[0, 0, : status.shape[1]]
+        assert history.lower_position is not None
+        along = history.lower_position[0, 0, : status.shape[1]]
     axes.pcolormesh(
-        borders(record.time),
+        borders(history.time),
         scale(borders(along)),
         status.T,
         cmap=ListedColormap([STATUS_COLOURS[name] for name in names]),
@@ -78,9 +78,9 @@ def pressure_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     Pressures are the nodes' forces over the lengths that belong to them, mean from frame to frame. Single blows may
     lie beyond the end of the colours.
     """
-    record = response.crack
+    history = response.crack
     system = unit_system(units)
-    time, pressure = contact_pressure(record)
+    time, pressure = contact_pressure(history)
     length = system.scale("length")
     figure, (slip, crack) = panels([1.0, 2.2], 1.55)
     describe(figure, response)
@@ -91,14 +91,14 @@ def pressure_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     most = float(np.percentile(inner, _SHOWN)) if inner.size else 1.0
     scale = system.scale("pressure", most)
     crack.set_facecolor("white")
-    heel, toe = length(borders(record.upper_position[0, 0])[[0, -1]])
+    heel, toe = length(borders(history.upper_position[0, 0])[[0, -1]])
     # Behind the map, which leaves out what does not press.
     crack.fill_between(
         [0.0, float(time[-1])], heel, toe, facecolor="white", edgecolor="#999999", hatch="////", linewidth=0.0
     )
     image = crack.pcolormesh(
         borders(time),
-        length(borders(record.upper_position[0, 0])),
+        length(borders(history.upper_position[0, 0])),
         np.ma.masked_where(~pressed, scale(pressure)).T,
         cmap="YlGnBu",
         vmin=0.0,
@@ -116,26 +116,26 @@ def pressure_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     return figure
 
 
-def contact_pressure(record: CrackHistory) -> tuple[Floats, Floats]:
+def contact_pressure(history: CrackHistory) -> tuple[Floats, Floats]:
     """Return moments (f,) [s] and the pressure (f, k) [Pa] on the nodes of the upper face, compression positive.
 
     A node's length is that over which an even pressure gives it its force: on an element of length L with a node in
     the middle, L/6 at the ends and 2 L/3 in between. Where there are more frames than a picture shows, neighbours are
     averaged.
     """
-    along = record.upper_position[0, 0]
+    along = history.upper_position[0, 0]
     sizes = along[2::2] - along[:-2:2]
     tributary = np.zeros(along.size)
     np.add.at(tributary, np.arange(0, along.size - 2, 2), sizes / 6.0)
     np.add.at(tributary, np.arange(1, along.size - 1, 2), 2.0 * sizes / 3.0)
     np.add.at(tributary, np.arange(2, along.size, 2), sizes / 6.0)
-    pressure = record.forces()[:, 1] / tributary
-    several = -(-len(record.time) // _COLUMNS)
+    pressure = history.forces()[:, 1] / tributary
+    several = -(-len(history.time) // _COLUMNS)
     if several == 1:
-        return record.time, pressure
-    starts = np.arange(0, len(record.time), several)
-    counts = np.diff(starts, append=len(record.time))
-    return record.time[starts], np.add.reduceat(pressure, starts, axis=0) / counts[:, None]
+        return history.time, pressure
+    starts = np.arange(0, len(history.time), several)
+    counts = np.diff(starts, append=len(history.time))
+    return history.time[starts], np.add.reduceat(pressure, starts, axis=0) / counts[:, None]
 
 
 def _label_crack(axes: Axes, scale: Scale) -> None:

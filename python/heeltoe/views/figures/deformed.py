@@ -50,16 +50,16 @@ def deformed_figure(response: FlexibleResponse, time: float | None = None, units
     units
         ``"si"`` or ``"us"``.
     """
-    record = response.crack
+    history = response.crack
     system = unit_system(units)
-    frame, why = _chosen(response, record) if time is None else (record.frame_at(time), "")
-    moved = record.displacements(frame)
-    major, minor, angle = zip(*(principal(each) for each in record.stresses(frame)), strict=True)
-    low, high = extent(record.dam)
+    frame, why = _chosen(response, history) if time is None else (history.frame_at(time), "")
+    moved = history.displacements(frame)
+    major, minor, angle = zip(*(principal(each) for each in history.stresses(frame)), strict=True)
+    low, high = extent(history.dam)
     exaggeration = _round(_DRAWN * max(high - low) / max(float(np.hypot(*each.T).max()) for each in moved))
     length = system.scale("length")
     places = [
-        length(body.mesh.nodes + exaggeration * each) for body, each in zip(record.dam.bodies, moved, strict=True)
+        length(body.mesh.nodes + exaggeration * each) for body, each in zip(history.dam.bodies, moved, strict=True)
     ]
     ratio = (high - low)[1] / (high - low)[0]
     figure = Figure(figsize=(WIDTH, float(np.clip(2.9 * ratio + 1.7, 3.2, 7.5))), layout="constrained")
@@ -73,25 +73,25 @@ def deformed_figure(response: FlexibleResponse, time: float | None = None, units
     tops = [max(float(np.percentile(np.concatenate(values), _SHOWN)), 1e-9) for values, *_ in both]
     stress = system.scale("pressure", max(tops))
     for axes, most, (values, direction, colours, name) in zip(panels, tops, both, strict=True):
-        image = _stress_map(axes, record, places, tuple(stress(each) for each in values), stress(most), colours)
-        _crosses(axes, record, places, values, direction, 0.1 * most)
-        _outlines(axes, record, places, length)
+        image = _stress_map(axes, history, places, tuple(stress(each) for each in values), stress(most), colours)
+        _crosses(axes, history, places, values, direction, 0.1 * most)
+        _outlines(axes, history, places, length)
         bar = figure.colorbar(image, ax=axes, location="bottom", aspect=30, pad=0.02)
         bar.set_label(f"{name} [{stress.unit}]; largest {scaled(max(float(each.max()) for each in values), stress)}")
         dam_axes(axes, length)
     panels[1].set_ylabel("")
-    moment = f"t = {record.time[frame]:.2f} s{why}; displacements exaggerated {exaggeration:g} times"
+    moment = f"t = {history.time[frame]:.2f} s{why}; displacements exaggerated {exaggeration:g} times"
     key = "short lines: direction of the stress; dashed line: where it is zero; dotted outline: undeformed"
     figure.supxlabel(f"{moment}\n{key}", fontsize=9)
     return figure
 
 
-def _chosen(response: Response, record: CrackHistory) -> tuple[int, str]:
+def _chosen(response: Response, history: CrackHistory) -> tuple[int, str]:
     h = response.histories
     if float(np.ptp(h["slip_m"])) > _SLIDES:
         return int(np.argmax(np.abs(h["slip_velocity_m_s"]))), ", the fastest slip"
-    frames = np.unique(np.linspace(0, len(record.time) - 1, _LOOKED_AT).astype(int))
-    tension = [max(float(principal(each)[0].max()) for each in record.stresses(int(frame))) for frame in frames]
+    frames = np.unique(np.linspace(0, len(history.time) - 1, _LOOKED_AT).astype(int))
+    tension = [max(float(principal(each)[0].max()) for each in history.stresses(int(frame))) for frame in frames]
     return int(frames[int(np.argmax(tension))]), ", the largest tension"
 
 
@@ -102,13 +102,13 @@ def _round(value: float) -> float:
 
 
 def _stress_map(
-    axes: Axes, record: CrackHistory, places: list[Floats], values: tuple[Floats, ...], most: float, colours: str
+    axes: Axes, history: CrackHistory, places: list[Floats], values: tuple[Floats, ...], most: float, colours: str
 ) -> TriContourSet:
     """Fill contours of the positive part; what is not positive stays white."""
     # Round numbers up to the last one below the largest that is shown.
     ticks = MaxNLocator(_LEVELS, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, most)
     levels = np.asarray(ticks)[np.asarray(ticks) <= most * (1.0 + 1e-9)]
-    for body, place, each in zip(record.dam.bodies, places, values, strict=True):
+    for body, place, each in zip(history.dam.bodies, places, values, strict=True):
         triangles = np.vstack([body.mesh.elements[:, corners] for corners in _TRIANGLES])
         net = Triangulation(place[:, 0], place[:, 1], triangles)
         image = axes.tricontourf(net, np.maximum(each, -1e-12), levels=levels, cmap=colours, extend="max")
@@ -118,14 +118,14 @@ def _stress_map(
 
 def _crosses(
     axes: Axes,
-    record: CrackHistory,
+    history: CrackHistory,
     places: list[Floats],
     values: tuple[Floats, ...],
     direction: tuple[Floats, ...],
     least: float,
 ) -> None:
     """Draw the direction of the stress in each element where it is more than next to nothing."""
-    for body, place, value, angle in zip(record.dam.bodies, places, values, direction, strict=True):
+    for body, place, value, angle in zip(history.dam.bodies, places, values, direction, strict=True):
         elements = body.mesh.elements
         # Directions are averaged by the double angle, since they have no sense.
         turn = np.arctan2(np.sin(2.0 * angle)[elements].mean(axis=1), np.cos(2.0 * angle)[elements].mean(axis=1)) / 2.0
@@ -138,13 +138,13 @@ def _crosses(
         axes.add_collection(LineCollection(list(lines), colors="#000000", linewidths=0.6), autolim=False)
 
 
-def _outlines(axes: Axes, record: CrackHistory, places: list[Floats], length: Scale) -> None:
-    for body, place in zip(record.dam.bodies, places, strict=True):
+def _outlines(axes: Axes, history: CrackHistory, places: list[Floats], length: Scale) -> None:
+    for body, place in zip(history.dam.bodies, places, strict=True):
         outline = boundary_edges(body.mesh.elements)
         still = length(body.mesh.nodes)[outline]
         axes.add_collection(LineCollection(list(still), colors="#777777", linewidths=0.6, linestyles=":"))
         axes.add_collection(LineCollection(list(place[outline]), colors="#000000", linewidths=1.0))
-    corners = np.vstack([*places, *(length(body.mesh.nodes) for body in record.dam.bodies)])
+    corners = np.vstack([*places, *(length(body.mesh.nodes) for body in history.dam.bodies)])
     room = 0.03 * np.ptp(corners, axis=0).max()
     axes.set_xlim(corners[:, 0].min() - room, corners[:, 0].max() + room)
     axes.set_ylim(corners[:, 1].min() - room, corners[:, 1].max() + room)

@@ -27,7 +27,7 @@ _FRAMES = 200
 _OWN = re.compile(r"(dam|crack)(-\d+\.vtu|\.pvd)")
 
 
-def write_vtk_series(record: CrackHistory, directory: Path, *, frames: Sequence[int] | None = None) -> Path:
+def write_vtk_series(history: CrackHistory, directory: Path, *, frames: Sequence[int] | None = None) -> Path:
     """Write frames of a run as VTK XML files (.vtu), with a collection (.pvd) that knows their times.
 
     ``dam.pvd`` lists grids of both parts: eight-node quadrilaterals where they are drawn, in the plane x downstream, y
@@ -46,12 +46,12 @@ def write_vtk_series(record: CrackHistory, directory: Path, *, frames: Sequence[
 
     Parameters
     ----------
-    record
+    history
         Of a response of the flexible model.
     directory
         Where; it is made if it is not there. An earlier series in it is replaced, by a whole one or not at all.
     frames
-        Places in ``record.time``, negative ones from the end; without them at most 200 at equal distances, the first
+        Places in ``history.time``, negative ones from the end; without them at most 200 at equal distances, the first
         and the last among them.
 
     Returns
@@ -65,10 +65,10 @@ def write_vtk_series(record: CrackHistory, directory: Path, *, frames: Sequence[
         Where the files cannot be written, or the package meshio is missing.
     """
     meshio = _meshio(directory)
-    chosen = _chosen(len(record.time), frames)
-    digits = len(str(len(record.time) - 1))
+    chosen = _chosen(len(history.time), frames)
+    digits = len(str(len(history.time) - 1))
     names = [f"{frame:0{digits}d}.vtu" for frame in chosen]
-    dam, crack = _Dam(record), _Crack(record)
+    dam, crack = _Dam(history), _Crack(history)
     try:
         directory.mkdir(parents=True, exist_ok=True)
         # Within the directory, so that moving the files is only renaming them.
@@ -80,7 +80,7 @@ def write_vtk_series(record: CrackHistory, directory: Path, *, frames: Sequence[
                     meshio.write(fresh / f"{series.name}-{name}", grid, "vtu", binary=True, compression="zlib")
             for series in (dam, crack):
                 files = [f"{series.name}-{name}" for name in names]
-                _write_collection(fresh / f"{series.name}.pvd", files, record.time[chosen])
+                _write_collection(fresh / f"{series.name}.pvd", files, history.time[chosen])
             _replace(fresh, directory)
     except OSError as error:
         raise InputError("cannot-write", "directory", directory, reason=error.strerror or error) from None
@@ -92,9 +92,9 @@ class _Dam:
 
     name = "dam"
 
-    def __init__(self, record: CrackHistory) -> None:
-        self.record = record
-        meshes = [body.mesh for body in record.dam.bodies]
+    def __init__(self, history: CrackHistory) -> None:
+        self.history = history
+        meshes = [body.mesh for body in history.dam.bodies]
         self.points = _spatial(np.vstack([mesh.nodes for mesh in meshes]))
         first = np.cumsum([0, *(len(mesh.nodes) for mesh in meshes)])
         # Our order of nodes is VTK's: corners counter-clockwise, then midsides from that between the first two.
@@ -103,8 +103,8 @@ class _Dam:
         self.cell_data = {"part": [_parts([len(mesh.elements) for mesh in meshes])]}
 
     def point_data(self, frame: int) -> dict[str, NDArray[Any]]:
-        moved = self.record.displacements(frame)
-        bodies = self.record.dam.bodies
+        moved = self.history.displacements(frame)
+        bodies = self.history.dam.bodies
         stress = np.vstack([stresses(body, each.reshape(-1)) for body, each in zip(bodies, moved, strict=True)])
         major, minor, _ = principal(stress)
         return {
@@ -120,11 +120,11 @@ class _Crack:
 
     name = "crack"
 
-    def __init__(self, record: CrackHistory) -> None:
-        self.faces = record.faces
-        drawn = [body.mesh.nodes[body.mesh.crack] for body in record.dam.bodies]
+    def __init__(self, history: CrackHistory) -> None:
+        self.faces = history.faces
+        drawn = [body.mesh.nodes[body.mesh.crack] for body in history.dam.bodies]
         self.points = _spatial(np.vstack(drawn))
-        self.section = record.dam.section
+        self.section = history.dam.section
         self.start = [places(nodes, self.section).T for nodes in drawn]
         counts = [len(nodes) for nodes in drawn]
         first = np.cumsum([0, *counts])
@@ -133,9 +133,9 @@ class _Crack:
         lines = [np.column_stack([nodes[a : b - 1], nodes[a + 1 : b]]) for a, b in pairwise(first)]
         self.cells = [("vertex", nodes[:, None]), ("line", np.vstack(lines))]
         self.cell_data = {"part": [_parts(counts), _parts([len(each) for each in lines])]}
-        self.force = record.forces()
-        self.gaps = np.hstack(record.node_gaps())
-        self.status = np.hstack(record.node_status()).astype(np.int32)
+        self.force = history.forces()
+        self.gaps = np.hstack(history.node_gaps())
+        self.status = np.hstack(history.node_status()).astype(np.int32)
 
     def point_data(self, frame: int) -> dict[str, NDArray[Any]]:
         moved = [
