@@ -60,6 +60,7 @@ test-slow: check $(VENV)/.built
 lint: check $(VENV)/.built
 	cargo fmt --check
 	cargo clippy --workspace --release --locked --all-targets --quiet
+	RUSTDOCFLAGS="-D warnings" cargo doc --locked --quiet -p heeltoe --no-deps
 	@tree=$$(cargo tree --locked -p heeltoe --prefix none) || exit 1; \
 	! echo "$$tree" | grep -w pyo3 || { echo "crates/heeltoe is for users without Python: no pyo3"; exit 1; }
 	@if [ -d "$$(rustc --print target-libdir --target $(WASM))" ]; then \

@@ -1,9 +1,9 @@
-//! Kernels of heeltoe: what a cracked concrete gravity dam does in an earthquake. They know numbers only: no files, no
-//! units.
+#![doc = include_str!("../README.md")]
+#![deny(missing_docs)]
 
 pub mod flexible;
 pub mod inside;
-pub mod parallel;
+mod parallel;
 pub mod rigid;
 pub mod spectrum;
 mod table;

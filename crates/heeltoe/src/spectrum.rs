@@ -14,7 +14,9 @@ use crate::parallel::each;
 /// Largest relative displacement and largest total acceleration of one oscillator.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Peak {
+    /// In m, for accelerations in m/s2.
     pub displacement: f64,
+    /// Of ground and oscillator together.
     pub total_acceleration: f64,
 }
 

@@ -21,9 +21,9 @@ use crate::inside::{Anchor, Law};
 pub struct FollowingWater {
     /// What its pressure does as the crack opens.
     pub law: Law,
-    /// Opening over which it does [m].
+    /// Opening over which it does (m).
     pub opening: f64,
-    /// Forces at the static pressure [N].
+    /// Forces at the static pressure (N).
     pub still: [Vec<f64>; 2],
     /// Forces at the reservoir's.
     pub full: [Vec<f64>; 2],

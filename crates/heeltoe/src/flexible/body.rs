@@ -40,9 +40,9 @@ pub struct ReducedBody {
 
 /// What one body is made from; each slice has one number for each mode.
 pub struct Modes<'a> {
-    /// Squared circular frequency [1/s2].
+    /// Squared circular frequency (1/s2).
     pub omega_squared: &'a [f64],
-    /// Damping coefficient while some node sticks, and while none does [1/s].
+    /// Damping coefficient while some node sticks, and while none does (1/s).
     pub damping: [&'a [f64]; 2],
     /// Static loads.
     pub load: &'a [f64],
@@ -52,7 +52,7 @@ pub struct Modes<'a> {
     pub start: &'a [f64],
     /// Motion of the crack nodes in each mode, `modes x 2 nodes`, row by row.
     pub shapes: &'a [f64],
-    /// Where the crack nodes are at the start: along the crack, then across it [m].
+    /// Where the crack nodes are at the start: along the crack, then across it (m).
     pub position: &'a [f64],
 }
 

@@ -46,10 +46,10 @@ impl Dam {
 /// Accelerations of the ground, step by step.
 #[derive(Clone, Copy, Debug)]
 pub struct Shaking<'a> {
-    /// Horizontal and vertical acceleration [m/s2]: the mean in each step or, for the penalty method, at both ends of all
+    /// Horizontal and vertical acceleration (m/s2): the mean in each step or, for the penalty method, at both ends of all
     /// steps, one more than there are steps.
     pub ground: &'a [[f64; 2]],
-    /// Length of a step [s].
+    /// Length of a step (s).
     pub dt: f64,
     /// Factors on the two accelerations.
     pub scale: [f64; 2],

@@ -14,11 +14,11 @@ use crate::table::columns;
 pub struct Frames {
     /// One row of [`Frames::FIELDS`] for each.
     pub rows: Vec<[f64; Self::FIELDS.len()]>,
-    /// Positions of the crack nodes of the upper face, all along the crack, then all across it [m].
+    /// Positions of the crack nodes of the upper face, all along the crack, then all across it (m).
     pub upper: Vec<f64>,
     /// The same of the lower face.
     pub lower: Vec<f64>,
-    /// Mean forces on the nodes of the upper face since the frame before [N].
+    /// Mean forces on the nodes of the upper face since the frame before (N).
     pub force: Vec<f64>,
     /// Status of each contactor, by its place among [`Status::NAMES`].
     pub status: Vec<u8>,

@@ -37,7 +37,7 @@ use super::walk::Walk;
 /// The numbers of the method.
 #[derive(Clone, Copy, Debug)]
 pub struct Penalty {
-    /// Stiffness of the spring at a contact [N/m].
+    /// Stiffness of the spring at a contact (N/m).
     pub stiffness: f64,
     /// Newmark's gamma.
     pub gamma: f64,

@@ -34,35 +34,35 @@ pub struct Run {
 pub struct Summary {
     /// How it ended.
     pub outcome: Outcome,
-    /// When [s].
+    /// When (s).
     pub end_time: f64,
-    /// Mean motion [m] of the upper face against the lower one, positive downstream.
+    /// Mean motion (m) of the upper face against the lower one, positive downstream.
     pub slip: f64,
     /// Largest slip.
     pub slip_max: f64,
     /// Least slip.
     pub slip_min: f64,
-    /// In the last step [m/s].
+    /// In the last step (m/s).
     pub slip_velocity: f64,
     /// Largest rotation of the chord of the upper face against that of the lower one, positive counter-clockwise.
     pub rotation_max: f64,
     /// Least rotation.
     pub rotation_min: f64,
-    /// Largest opening at the heel [m].
+    /// Largest opening at the heel (m).
     pub opening_heel: f64,
-    /// Largest opening at the toe [m].
+    /// Largest opening at the toe (m).
     pub opening_toe: f64,
-    /// Largest depth [m] to which a watched node has gone into the other face.
+    /// Largest depth (m) to which a watched node has gone into the other face.
     pub penetration: f64,
-    /// Slip [m] while all watched nodes touch, while some do, and while none does.
+    /// Slip (m) while all watched nodes touch, while some do, and while none does.
     pub slip_by_state: [f64; 3],
-    /// Time in each [`State`] [s].
+    /// Time in each [`State`] (s).
     pub time_by_state: [f64; 5],
     /// How many nodes have come down.
     pub impacts: u64,
-    /// The fastest of them [m/s].
+    /// The fastest of them (m/s).
     pub impact_velocity: f64,
-    /// Largest sum of the normal forces of contact [N].
+    /// Largest sum of the normal forces of contact (N).
     pub peak_normal_force: f64,
     /// Where the energy went.
     pub ledger: Ledger,
@@ -74,11 +74,11 @@ pub struct Summary {
     pub most_iterations: u32,
     /// Steps in which sweeps had to help.
     pub sweeps: u64,
-    /// Largest violation of the conditions of contact; see [`super::coulomb`].
+    /// Largest violation of the conditions of contact, over the largest impulse.
     pub residual: f64,
     /// State of the crack in the last step.
     pub final_state: State,
-    /// Largest tension of each anchor [N].
+    /// Largest tension of each anchor (N).
     pub tensions: Vec<f64>,
 }
 

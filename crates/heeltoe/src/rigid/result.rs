@@ -50,7 +50,7 @@ named! {
 /// One event: state after it and, for an impact, what it did.
 #[derive(Clone, Copy, Debug)]
 pub struct Event {
-    /// When [s].
+    /// When (s).
     pub time: f64,
     /// What.
     pub kind: EventKind,
@@ -58,9 +58,9 @@ pub struct Event {
     pub before: Mode,
     /// Mode after it.
     pub after: Mode,
-    /// Slip and gaps [m].
+    /// Slip and gaps (m).
     pub position: Vector,
-    /// Their velocities after it [m/s].
+    /// Their velocities after it (m/s).
     pub velocity: Vector,
     /// Velocities right before (equal to `velocity` where nothing strikes).
     pub approach: Vector,
@@ -95,13 +95,13 @@ columns!(Event, e => {
 pub struct Moment {
     /// Mode of motion.
     pub mode: Mode,
-    /// Slip and gaps [m].
+    /// Slip and gaps (m).
     pub position: Vector,
-    /// Their velocities [m/s].
+    /// Their velocities (m/s).
     pub velocity: Vector,
-    /// Their accelerations [m/s2].
+    /// Their accelerations (m/s2).
     pub acceleration: Vector,
-    /// Friction and normal forces at heel and toe [N/m].
+    /// Friction and normal forces at heel and toe (N/m).
     pub reaction: Vector,
 }
 
@@ -129,7 +129,7 @@ pub struct Run {
     pub moments: Vec<Moment>,
     /// What happened, if that was asked for.
     pub events: Vec<Event>,
-    /// Largest tension of each anchor that stretches [N/m]; the exact walk knows none.
+    /// Largest tension of each anchor that stretches (N/m); the exact walk knows none.
     pub tensions: Vec<f64>,
 }
 
@@ -138,29 +138,29 @@ pub struct Run {
 pub struct Summary {
     /// How it ended.
     pub outcome: Outcome,
-    /// When [s].
+    /// When (s).
     pub end_time: f64,
     /// Mode of motion at the end.
     pub mode: Mode,
-    /// Slip and gaps at the end [m].
+    /// Slip and gaps at the end (m).
     pub position: Vector,
-    /// Their velocities [m/s].
+    /// Their velocities (m/s).
     pub velocity: Vector,
-    /// Least and largest slip [m].
+    /// Least and largest slip (m).
     pub slip_range: [f64; 2],
     /// Most negative (downstream, about the toe) and most positive (upstream, about the heel) rotation.
     pub rotation_range: [f64; 2],
-    /// Largest gap at the heel and at the toe [m].
+    /// Largest gap at the heel and at the toe (m).
     pub largest_gap: [f64; 2],
     /// Slip gathered in rest, slide, rock, slide-rock, drift (the first and third stay zero).
     pub slip_by_mode: [f64; 5],
-    /// Time spent in each of them [s].
+    /// Time spent in each of them (s).
     pub time_by_mode: [f64; 5],
     /// Number of impacts.
     pub impacts: u64,
     /// Number of all events.
     pub events: u64,
-    /// Largest velocity with which a corner struck [m/s].
+    /// Largest velocity with which a corner struck (m/s).
     pub largest_impact_velocity: f64,
     /// Impacts whose restitution had to be lowered for energy not to grow.
     pub energy_limited: u64,

@@ -52,7 +52,7 @@ pub struct Piece<const N: usize> {
     pub ground: [f64; N],
     /// Their change per second.
     pub rate: [f64; N],
-    /// How long the piece goes on [s].
+    /// How long the piece goes on (s).
     pub left: f64,
 }
 

@@ -13,7 +13,7 @@ use super::shaking::Piece;
 use super::step::{middle, step, State};
 use super::walk::Varying;
 
-/// A step that is short enough for its polynomials to say that a motion ends as it begins [s].
+/// A step that is short enough for its polynomials to say that a motion ends as it begins (s).
 const SHORT: f64 = 1e-7;
 
 /// A step that has been tried: the state and its rate of change at both ends.

@@ -101,8 +101,8 @@ pub struct TurningBlock {
 }
 
 impl TurningBlock {
-    /// A block whose crack holds water by this law and pressure while it is closed (distance from the heel [m], pressure
-    /// [Pa]; straight in between), and anchors by their distance from the heel.
+    /// A block whose crack holds water by this law and pressure while it is closed (distance from the heel in m, pressure
+    /// in Pa; straight in between), and anchors by their distance from the heel.
     pub fn new(
         p: &VaryingNumbers,
         rotation: Rotation,

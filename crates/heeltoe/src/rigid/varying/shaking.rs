@@ -16,7 +16,7 @@ pub struct TurningShaking<'a> {
 }
 
 impl<'a> TurningShaking<'a> {
-    /// Add a rotational acceleration about the middle of the crack [rad/s2], if there is one, to the others.
+    /// Add a rotational acceleration about the middle of the crack (rad/s2), if there is one, to the others.
     ///
     /// # Errors
     /// Not as many accelerations as moments.

@@ -12,11 +12,11 @@ use crate::inside::Law;
 pub struct FollowingWater {
     /// How it does.
     pub law: Law,
-    /// Distance from the heel [m] and pressure while the crack is closed [Pa]; straight in between.
+    /// Distance from the heel (m) and pressure while the crack is closed (Pa); straight in between.
     pub points: Vec<[f64; 2]>,
-    /// Opening over which the pressure changes [m].
+    /// Opening over which the pressure changes (m).
     pub opening: f64,
-    /// Pressure of the reservoir [Pa].
+    /// Pressure of the reservoir (Pa).
     pub full: f64,
 }
 
