@@ -45,16 +45,19 @@ class Quantity:
         return f"{self.label}, + downstream" if self.signed else self.label
 
 
-# A hundredth of a millimetre and a thousandth of a milliradian: nobody measures less on a dam.
-_LENGTH, _ROTATION = 1e-5, 1e-6
+#: A hundredth of a millimetre and a thousandth of a milliradian: nobody measures less on a dam.
+LEAST_M, LEAST_RAD = 1e-5, 1e-6
+#: What a joint meter on a dam is read to: slips that differ by less differ by nothing, and both ends of the crack of an
+#: elastic dam shift by hundredths of a millimetre in every earthquake, with nothing happening to the dam.
+JOINT_METER_M = 1e-4
 
 HEADLINES = (
-    Quantity("residual_slip_m", "residual slip", "residual", "slip", 1, True, _LENGTH),
-    Quantity("peak_slip_downstream_m", "peak slip downstream", "peak\ndown", "slip", 1, False, _LENGTH),
-    Quantity("peak_slip_upstream_m", "peak slip upstream", "peak\nup", "slip", -1, False, _LENGTH),
-    Quantity("rocking_downstream_rad", "rotation downstream", "rotation\ndown", "rotation", 1, False, _ROTATION),
-    Quantity("rocking_upstream_rad", "rotation upstream", "rotation\nup", "rotation", 1, False, _ROTATION),
-    Quantity("opening_upstream_m", "opening, upstream face", "opening\nupstream", "opening", 1, False, _LENGTH),
-    Quantity("opening_downstream_m", "opening, downstream face", "opening\ndownstr.", "opening", 1, False, _LENGTH),
+    Quantity("residual_slip_m", "residual slip", "residual", "slip", 1, True, LEAST_M),
+    Quantity("peak_slip_downstream_m", "peak slip downstream", "peak\ndown", "slip", 1, False, LEAST_M),
+    Quantity("peak_slip_upstream_m", "peak slip upstream", "peak\nup", "slip", -1, False, LEAST_M),
+    Quantity("rocking_downstream_rad", "rotation downstream", "rotation\ndown", "rotation", 1, False, LEAST_RAD),
+    Quantity("rocking_upstream_rad", "rotation upstream", "rotation\nup", "rotation", 1, False, LEAST_RAD),
+    Quantity("opening_upstream_m", "opening, upstream face", "opening\nupstream", "opening", 1, False, LEAST_M),
+    Quantity("opening_downstream_m", "opening, downstream face", "opening\ndownstr.", "opening", 1, False, LEAST_M),
 )
 """In the order in which they are shown."""

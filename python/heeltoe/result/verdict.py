@@ -4,15 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
+from heeltoe.result.contract import JOINT_METER_M, LEAST_M, LEAST_RAD
 from heeltoe.result.response import Response
 from heeltoe.units.write import angle, length, speed
 
-# Below these nobody measures anything on a dam: a hundredth of a millimetre, a thousandth of a milliradian.
-_SLIP_M = 1e-5
-_ROTATION_RAD = 1e-6
-# Of an elastic dam a tenth of a millimetre, what a joint meter on a dam is read to: both ends of its crack shift by
-# hundredths of a millimetre in every earthquake, with nothing happening to the dam.
-_ELASTIC_M = 1e-4
 # Less time in the air in all [s] is a few bounces, which the strikes tell of.
 _IN_THE_AIR_S = 0.05
 # Whether a dam that vibrates is still on its way is seen over this time [s].
@@ -76,7 +71,7 @@ def comes_to_rest(response: Response) -> bool:
     in the state of rest: it has stopped where its slip changes by nothing measurable any more.
     """
     if response.elastic:
-        return last_change(response)[1] < _ELASTIC_M
+        return last_change(response)[1] < JOINT_METER_M
     return bool(response.final_mode == "rest")
 
 
@@ -96,23 +91,23 @@ def _slip(response: Response, units: str) -> str:
     down, up = response.peak_slip_downstream_m, -response.peak_slip_upstream_m
     if max(down, up) == 0.0:
         return "The dam does not slide."
-    if abs(slip) < _SLIP_M:
+    if abs(slip) < LEAST_M:
         return f"The dam slides to and fro by up to {length(max(down, up), units)} and ends where it began."
     text = f"The dam slides {length(abs(slip), units)} {_way(slip)}{_spread(response, units)}"
-    return text + _on_the_way(slip, down, up, _SLIP_M, units) + "."
+    return text + _on_the_way(slip, down, up, LEAST_M, units) + "."
 
 
 def _elastic_slip(response: Response, units: str) -> str:
     slip: float = response.residual_slip_m
     down, up = response.peak_slip_downstream_m, -response.peak_slip_upstream_m
     largest = max(down, up)
-    if largest < _ELASTIC_M:
+    if largest < JOINT_METER_M:
         return "The dam does not slide."
-    if abs(slip) < _ELASTIC_M:
+    if abs(slip) < JOINT_METER_M:
         return f"The dam does not slide: its crack shifts by up to {length(largest, units)} and comes back."
     if response.lets_go():
         text = f"The dam slides {length(abs(slip), units)} {_way(slip)}{_spread(response, units)}"
-        return text + _on_the_way(slip, down, up, _ELASTIC_M, units) + "."
+        return text + _on_the_way(slip, down, up, JOINT_METER_M, units) + "."
     return (
         f"The dam creeps {length(abs(slip), units)} {_way(slip)}{_spread(response, units)}: parts of the crack slip in "
         "turn, while the rest holds."
@@ -131,7 +126,7 @@ def _on_the_way(slip: float, down: float, up: float, least: float, units: str) -
 def _openings(response: Response, units: str) -> str:
     """Say how far an elastic dam's crack opens, and how it closes."""
     faces = {"upstream": response.opening_upstream_m, "downstream": response.opening_downstream_m}
-    open_ = [f"{length(gap, units)} at the {face} face" for face, gap in faces.items() if gap >= _ELASTIC_M]
+    open_ = [f"{length(gap, units)} at the {face} face" for face, gap in faces.items() if gap >= JOINT_METER_M]
     if not open_:
         return (
             "The crack stays closed at both faces."
@@ -168,15 +163,15 @@ def _rocking(response: Response, units: str) -> str:
     down, up = response.rocking_downstream_rad, response.rocking_upstream_rad
     if max(response.largest_gap_heel_m, response.largest_gap_toe_m) == 0.0:
         return "It does not rock."
-    if max(down, up) < _ROTATION_RAD and response.time_by_mode_s["drifting"] == 0.0:
+    if max(down, up) < LEAST_RAD and response.time_by_mode_s["drifting"] == 0.0:
         return "It lifts off by less than anyone could measure."
     parts = []
-    if down >= _ROTATION_RAD:
+    if down >= LEAST_RAD:
         parts.append(
             f"downstream by {angle(down)}, opening the crack {length(response.opening_upstream_m, units)} at the "
             "upstream face"
         )
-    if up >= _ROTATION_RAD:
+    if up >= LEAST_RAD:
         parts.append(
             f"upstream by {angle(up)}, opening it {length(response.opening_downstream_m, units)} at the downstream face"
         )

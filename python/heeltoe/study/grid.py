@@ -161,8 +161,8 @@ def run_grid(
 def _numbers(response: Response) -> dict[str, Any]:
     found = response.summary if response.ok else {}
     by_mode = found.get("slip_by_mode_m", {})
-    slips = [each.key for each in HEADLINES if "slip" in each.key]
-    others = [each.key for each in HEADLINES if "slip" not in each.key]
+    slips = [each.key for each in HEADLINES if each.kind == "slip"]
+    others = [each.key for each in HEADLINES if each.kind != "slip"]
     return {
         **{name: found.get(name) for name in slips},
         **{f"slip_{name}_m": by_mode.get(name) for name in _MODES},

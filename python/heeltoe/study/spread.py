@@ -22,7 +22,7 @@ from heeltoe.models.rigid.tables import opening
 from heeltoe.models.rigid.varying import varies
 from heeltoe.models.rigid.walk import limits_of, walk
 from heeltoe.models.run import earthquake
-from heeltoe.result.contract import HEADLINES
+from heeltoe.result.contract import HEADLINES, JOINT_METER_M
 from heeltoe.result.response import Response
 from heeltoe.warnings import Notice
 
@@ -41,8 +41,6 @@ WEAKEST, STRONGEST = 0.99, 1.01
 _SAME = 0.01
 #: A standard deviation of the slip above this part of its mean is said as a warning.
 _LARGE = 0.10
-#: Slips of less vary by nothing anyone could measure [m].
-_NOTHING = 1e-4
 
 # What both kernels call the headline numbers, and the factor; the block has no openings, but rotations of a base that
 # stays straight.
@@ -212,6 +210,6 @@ def _warnings(spread: Mapping[str, Any]) -> list[Notice]:
     if spread["failed"]:
         said.append(Notice("spread-failures", failed=spread["failed"], runs=spread["runs"]))
     slip = spread["residual_slip_m"]
-    if slip is not None and slip["std"] > max(_LARGE * abs(slip["mean"]), _NOTHING):
+    if slip is not None and slip["std"] > max(_LARGE * abs(slip["mean"]), JOINT_METER_M):
         said.append(Notice("spread-large", slips_m=(slip["min"], slip["max"]), scales=(WEAKEST, STRONGEST)))
     return said

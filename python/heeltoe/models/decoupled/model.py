@@ -19,6 +19,7 @@ from heeltoe.models.rigid.walk import walk
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.references import cited
+from heeltoe.result.contract import JOINT_METER_M
 from heeltoe.result.response import Response
 from heeltoe.warnings import Notice
 
@@ -30,7 +31,7 @@ _SHOWN = 5
 # Longest spacing of the histories [s], where it is not given: the dam vibrates faster than records are sampled.
 _OUTPUT_STEP = 0.005
 # From which difference on a step of the crack's motion twice as long matters.
-_CHANGE, _NOTHING = 0.02, 1e-4
+_CHANGE = 0.02
 
 
 def run_decoupled(case: Case, earthquake: Earthquake, output_step: float | None = None) -> DecoupledResponse:
@@ -145,7 +146,7 @@ def _of_half_the_modes(part: Chain, found: CrackMotion, earthquake: Earthquake) 
 
 def _change(slip: float, coarser: float, step: float) -> dict[str, float]:
     """Return what a step of the crack's motion twice as long does to the slip."""
-    change = abs(slip - coarser) / max(abs(slip), _NOTHING / _CHANGE)
+    change = abs(slip - coarser) / max(abs(slip), JOINT_METER_M / _CHANGE)
     return {"coarser_step_s": step, "coarser_residual_slip_m": coarser, "change": change}
 
 

@@ -15,6 +15,7 @@ from heeltoe.models.flexible.modes import part_periods
 from heeltoe.models.flexible.reduced import FlexibleDam
 from heeltoe.models.flexible.step import longest_step
 from heeltoe.motion.moments import step_ends, step_means
+from heeltoe.result.contract import JOINT_METER_M
 
 #: A blow lasts about as long as the part above the crack takes for one vibration; the step is this part of it.
 _STEPS_PER_PERIOD = 100.0
@@ -27,8 +28,6 @@ _ENOUGH_STEPS, _FEWEST_STEPS = 30.0, 8.0
 _HALVINGS = 2
 #: By how much half the step may change the slip: more at a height, where the dam strikes and bounces.
 _CHANGE_AT_BASE, _CHANGE_AT_HEIGHT = 0.03, 0.10
-#: Slips that differ by less than this differ by nothing anyone could measure [m].
-NOTHING = 1e-4
 
 
 @dataclass(frozen=True)
@@ -56,7 +55,7 @@ class Convergence:
     @property
     def change(self) -> float:
         """Difference over the slip, or over 0.1 mm where the slip is less than that says anything."""
-        return abs(self.slip - self.coarser_slip) / max(abs(self.slip), NOTHING / self.allowed)
+        return abs(self.slip - self.coarser_slip) / max(abs(self.slip), JOINT_METER_M / self.allowed)
 
     def to_json(self) -> dict[str, float]:
         """Return the numbers of the contract."""

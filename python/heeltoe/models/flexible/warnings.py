@@ -11,8 +11,9 @@ from heeltoe.kernel import DamRun
 from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.reduced import FlexibleDam
-from heeltoe.models.flexible.shaken import NOTHING, Convergence, ShakenDam
+from heeltoe.models.flexible.shaken import Convergence, ShakenDam
 from heeltoe.models.flexible.tables import anchors_of
+from heeltoe.result.contract import JOINT_METER_M
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings import Notice
 
@@ -83,7 +84,7 @@ def _about_the_concrete(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
 
 def _about_the_end(case: Case, run: DamRun) -> Iterator[Notice]:
     change = last_change(run)
-    if run.outcome == "ok" and change > NOTHING:
+    if run.outcome == "ok" and change > JOINT_METER_M:
         yield Notice("dam-still-moves", time_s=run.summary["end_time"], change_m=change)
     for number, anchor in enumerate(anchors_of(case, run), start=1):
         tension, capacity = anchor["peak_tension_n"] or 0.0, anchor["capacity_n"]
