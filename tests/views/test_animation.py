@@ -238,7 +238,7 @@ def test_arrows_point_where_the_force_goes():
 def test_a_video_has_its_frames(pair, tmp_path):
     imageio_ffmpeg = pytest.importorskip("imageio_ffmpeg")
     case, response = pair
-    path = animate(case, response, tmp_path / "dam.mp4", frames_per_second=10, start=0.2, end=0.8, speed=0.5)
+    path = animate(case, response, tmp_path / "dam.mp4", frames_per_second=10, window=(0.2, 0.8), speed=0.5)
     # Decoded by a process of our own, as the package's reader leaves its pipes open.
     command = [imageio_ffmpeg.get_ffmpeg_exe(), "-i", path, "-f", "rawvideo", "-pix_fmt", "rgb24", "-"]
     done = subprocess.run(command, capture_output=True, check=True, timeout=60)
@@ -277,7 +277,7 @@ def test_a_long_gif_has_fewer_pictures():
 @BOTH
 def test_the_page_holds_what_the_response_says(pair, tmp_path):
     case, response = pair
-    path = animate(case, response, tmp_path / "dam.html", end=0.9)
+    path = animate(case, response, tmp_path / "dam.html", window=(0.0, 0.9))
     scene = page_scene(path)
     times = unpacked(scene["times"])
     assert times[0] == 0.0

@@ -157,7 +157,7 @@ def animate(
         if response.histories:
             say("drawing")
             write_animation(
-                loaded, response, place, exaggerate=many, frames_per_second=fps, speed=speed, start=start, end=end
+                loaded, response, place, exaggerate=many, frames_per_second=fps, speed=speed, window=(start, end)
             )
         drawn = perf_counter()
     console = Console(highlight=False)

@@ -30,8 +30,7 @@ def animate(
     exaggerate: float | None = None,
     frames_per_second: float = 30.0,
     speed: float = 1.0,
-    start: float = 0.0,
-    end: float | None = None,
+    window: tuple[float, float | None] = (0.0, None),
 ) -> Path:
     """Write what a dam did in an earthquake as an animation.
 
@@ -52,8 +51,8 @@ def animate(
         Of a video. A GIF has at most 300 pictures, and then fewer per second; a page draws as fast as the screen.
     speed
         Seconds of the earthquake per second of the animation.
-    start, end
-        The time that is shown [s]; all of it where they are not given.
+    window
+        From when to when it is shown [s]; without an end, to the last.
 
     Returns
     -------
@@ -71,11 +70,11 @@ def animate(
     if not response.histories:
         raise InputError("animation-nothing", "response", response.outcome)
     suffix = place.suffix.lower()
-    first, last = _window(response, start, end)
+    shown = _window(response, *window)
     try:
         with TemporaryDirectory(dir=place.parent) as aside:
             fresh = Path(aside) / f"fresh{suffix}"
-            _write(case, response, fresh, exaggerate, frames_per_second, speed, first, last)
+            _write(case, response, fresh, exaggerate, frames_per_second, speed, shown)
             return fresh.replace(place)
     except OSError as error:
         # ffmpeg says what it has to say in many lines.
@@ -128,9 +127,9 @@ def _write(
     exaggerate: float | None,
     frames_per_second: float,
     speed: float,
-    first: float,
-    last: float,
+    window: tuple[float, float],
 ) -> None:
+    first, last = window
     # matplotlib and pillow only where they are needed.
     from heeltoe.views.animation.frames import build_scene
 
