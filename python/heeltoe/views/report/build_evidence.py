@@ -46,7 +46,7 @@ def evidence(subject: Subject) -> Section:
         blocks.append(Table(subject.head(), _seen(rows), f"Energy ledger, {subject.per_width}.", subject.align()))
         blocks += subject.figure("energy")[-1:]
     for run in subject.runs:
-        if run.response.model == "flexible" and run.response.summary:
+        if run.response.elastic and run.response.summary:
             blocks += _convergence(subject, run)
         elif run.response.model == "rigid" and run.response.summary:
             blocks.append(paragraph(_WALK[varies(subject.case)]))

@@ -131,7 +131,7 @@ def _loads(writer: _Writer, subject: Subject) -> None:
         )
         writer.show("anchors")
     if subject.numbers.raw(subject.first.prefix + "static.virtual_mass_kg"):
-        if any(run.response.model != "flexible" for run in subject.runs):
+        if not all(run.response.elastic for run in subject.runs):
             writer.say(
                 "Water moves with the upstream face as Westergaard’s virtual mass, horizontally; $D$ is the "
                 "depth of the "
