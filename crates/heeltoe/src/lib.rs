@@ -1,3 +1,6 @@
+//! Kernels of heeltoe: what a cracked concrete gravity dam does in an earthquake. They know numbers only: no files, no
+//! units.
+
 #![doc = include_str!("../README.md")]
 #![deny(missing_docs)]
 
