@@ -94,8 +94,7 @@ class ShakenDam:
         given = self.case.flexible.time_step
         shortest = max(_SHORTEST_OF_ALL, min(_SHORTEST_STEP, period / _ENOUGH_STEPS))
         wanted = given or float(np.clip(period / _STEPS_PER_PERIOD, shortest, _LONGEST_STEP))
-        dam = self.dam
-        step, field = longest_step(dam.reduced, dam.water, dam.anchors, self.case.flexible.theta, wanted)
+        step, field = longest_step(self.dam, self.case.flexible.theta, wanted)
         if step < (wanted if given else _SHORTEST_OF_ALL):
             raise InputError("step-stiff", field, step=f"{step:.2g} s")
         if given is None:

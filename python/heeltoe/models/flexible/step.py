@@ -2,38 +2,28 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from heeltoe.arrays import Floats
 from heeltoe.models.flexible.inside import CrackAnchor, FollowingWater
-
-if TYPE_CHECKING:
-    from heeltoe.models.flexible.reduced import ReducedBody
-
+from heeltoe.models.flexible.reduced import FlexibleDam, ReducedBody
 
 # Up to dt^2 stiffness / mass = 4 / (4 theta - 1) a spring is stable, at this it is followed with an error of 4 %.
 _FOLLOWED = 1.0
 
 
-def longest_step(
-    bodies: tuple[ReducedBody, ...],
-    water: FollowingWater | None,
-    anchors: tuple[CrackAnchor, ...],
-    theta: float,
-    step: float,
-) -> tuple[float, str]:
-    """Return a step [s], `step` or a shorter one, that follows these forces, and the field that asks for it.
+def longest_step(dam: FlexibleDam, theta: float, step: float) -> tuple[float, str]:
+    """Return a step [s], `step` or a shorter one, that follows water and anchors, and the field that asks for it.
 
     Each is a spring of stiffness k between the faces. With W, the velocities of the crack nodes by unit impulses on
     them within a step of dt, ``dt^2 W k`` has no eigenvalue above 1. Shorter steps have a larger W: a body answers
     more freely at once.
     """
+    bodies = dam.reduced
     for _ in range(20):
         springs = [
-            ("uplift.opening", _water_rate(bodies, water, theta, step)),
-            ("anchors", max((_anchor_rate(bodies, anchor, theta, step) for anchor in anchors), default=0.0)),
+            ("uplift.opening", _water_rate(bodies, dam.water, theta, step)),
+            ("anchors", max((_anchor_rate(bodies, anchor, theta, step) for anchor in dam.anchors), default=0.0)),
         ]
         field, rate = max(springs, key=lambda spring: spring[1])
         if step * step * rate <= _FOLLOWED:
