@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from contextlib import nullcontext
 from pathlib import Path
 
 # Several processes test at once, and matrices are small: threads of the linear algebra would only wait for each other.
@@ -117,13 +118,12 @@ def koyna(koyna_both) -> heeltoe.Response:
 @pytest.fixture
 def no_figures(monkeypatch):
     """Leave out figures, which take most of the time, where words and numbers alone are looked at."""
-    monkeypatch.setattr("heeltoe.views.report.drawings.drawings", lambda case, result, units: {})
-    for name in ("write_figures", "write_comparison_figure"):
-        monkeypatch.setattr(f"heeltoe.views.files.write.{name}", lambda *_, **__: [])
+    monkeypatch.setattr("heeltoe.views.report.drawings.drawings", lambda figures: {})
+    monkeypatch.setattr("heeltoe.views.files.write.save_all", lambda figures, directory: [])
 
 
 @pytest.fixture
 def empty_figures(monkeypatch):
     """Write figures as empty files, where it matters alone which there are."""
-    monkeypatch.setattr("heeltoe.views.figures.write.laid_out", lambda figure: figure)
+    monkeypatch.setattr("heeltoe.views.figures.write.laid_out", lambda figure: nullcontext())
     monkeypatch.setattr("heeltoe.views.figures.write.save", lambda figure, path: path.touch())

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 
 import pytest
+from matplotlib.figure import Figure
 
 from shared.command import command, options
 from shared.dams import BASE, FAST
@@ -21,6 +22,25 @@ def test_the_command_line_writes_a_report(tmp_path):
     data = json.loads((place / "result.json").read_text())
     assert reader.numbers["residual_slip_m"][0] == data["residual_slip_m"]
     assert "--duration 3s --report" in reader.text
+
+
+@pytest.mark.parametrize("model", ["rigid", "both"])
+def test_each_figure_is_drawn_once_for_files_and_report(model, tmp_path, monkeypatch):
+    plain, drawn = Figure.__init__, []
+
+    def counting(self, *arguments, **options):
+        drawn.append(self)
+        plain(self, *arguments, **options)
+
+    monkeypatch.setattr(Figure, "__init__", counting)
+    arguments = ["--model", model, *options([*FAST, "motion.duration=1s"]), "--out", tmp_path, "--report"]
+    result = command("run", BASE, *arguments, "--spread", "none")
+    assert result.returncode == 0, result.stderr
+    files = {path.relative_to(tmp_path) for path in tmp_path.rglob("*.png")}
+    assert len(drawn) == len(files) > 3
+    # The files have headings, which the report has taken off.
+    assert all("Typical dam" in path.read_text() for path in tmp_path.rglob("response.svg"))
+    assert Reader((tmp_path / "report.html").read_text()).text.count("Figure") > 3
 
 
 @pytest.mark.parametrize(

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TypeVar
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 from typer.core import TyperCommand
@@ -30,11 +31,7 @@ if TYPE_CHECKING:
     from heeltoe.case.model import Case
     from heeltoe.result.response import Response
     from heeltoe.study.comparison import Comparison
-
-R = TypeVar("R", bound="Response")
-
-# What --model takes beside one model: the first is the rigid and the flexible one.
-_BOTH = ("both", "rigid,flexible", "decoupled,flexible")
+    from heeltoe.study.grid import Grid
 
 
 class Run(TyperCommand):
@@ -96,154 +93,124 @@ def run(
     ] = False,
 ) -> None:
     """Run a case and say what the dam does."""
-    from heeltoe.case.read import read_case
-    from heeltoe.models.run import MODELS
-    from heeltoe.units.parse import parse
-    from heeltoe.views.terminal.show import show
-
-    if model not in (*MODELS, *_BOTH):
-        raise InputError(
-            "unknown-model", "--model", model, models="rigid, decoupled, flexible, both or decoupled,flexible"
-        )
-    unit_system(units, "--units")
-    if report:
-        from heeltoe.views.report import check_packages
-
-        check_packages()
-    # What asks for a report alone gets its figures in it.
-    figures = out is not None
-    if report and out is None:
-        out = Path(f"{Path(case).stem}-report")
-    if vtk and out is None:
-        raise InputError("vtk-without-out", "--vtk")
-    if vtk and model in ("rigid", "decoupled"):
-        raise InputError("vtk-rigid", "--vtk")
-    for option, given in (("--vtk", vtk), ("--spread", spread is not None), ("--report", report)):
-        if vary and given:
-            raise InputError("vary-option", option)
-    if vary and model in _BOTH:
-        raise InputError("vary-option", "--model", model)
-    runs = None
-    if spread not in (None, "none"):
-        from heeltoe.study.spread import RUNS, check_runs
-
-        runs = check_runs(spread or RUNS, "--spread")
-
+    asked = _Asked(model, spread, json_, out, units, csv, vtk, vary, report)
     changes = list(set_ or [])
     options = (("file", motion and json.dumps(as_given(motion))), ("pga", pga), ("duration", duration))
     changes += [f"motion.{name}={value}" for name, value in options if value is not None]
-    loaded = read_case(case, changes)
-    if reverse and loaded.motion is not None:
-        changes.append(f"motion.reverse={'false' if loaded.motion.reverse else 'true'}")
-        loaded = read_case(case, changes)
+    _run(case, changes, reverse, output_step, asked)
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """What is asked for beside the case, as it was typed."""
+
+    model: str
+    spread: str | None
+    json: str | None
+    out: Path | None
+    units: str
+    csv: bool
+    vtk: bool
+    vary: list[str] | None
+    report: bool
+
+    def check(self) -> None:
+        """Refuse what cannot be, or does not go together, before anything is read."""
+        from heeltoe.study.analysis import BOTH, check_model
+
+        check_model(self.model, "--model")
+        unit_system(self.units, "--units")
+        if self.report:
+            from heeltoe.views.report import check_packages
+
+            check_packages()
+        if self.vtk and self.out is None and not self.report:
+            raise InputError("vtk-without-out", "--vtk")
+        if self.vtk and self.model in ("rigid", "decoupled"):
+            raise InputError("vtk-rigid", "--vtk")
+        if self.vary:
+            for option, given in (
+                ("--vtk", self.vtk),
+                ("--spread", self.spread is not None),
+                ("--report", self.report),
+            ):
+                if given:
+                    raise InputError("vary-option", option)
+            if self.model in BOTH:
+                raise InputError("vary-option", "--model", self.model)
+
+    def runs(self) -> int | Literal["cheap"] | None:
+        """Return how many runs with the shaking varied are asked for; a report has what costs little without asking."""
+        if self.spread is None:
+            return "cheap" if self.report else None
+        if self.spread == "none":
+            return None
+        from heeltoe.study.spread import RUNS, check_runs
+
+        return check_runs(self.spread or RUNS, "--spread")
+
+
+def _run(path: str, changes: list[str], reverse: bool, output_step: str | None, asked: _Asked) -> None:
+    """Read the case with its changes, run it, write and show what is asked for."""
+    from heeltoe.case.read import read_case
+    from heeltoe.units.parse import parse
+    from heeltoe.views.terminal.show import show
+
+    asked.check()
+    runs = asked.runs()
+    case = read_case(path, changes)
+    if reverse and case.motion is not None:
+        changes.append(f"motion.reverse={'false' if case.motion.reverse else 'true'}")
+        case = read_case(path, changes)
     step = None if output_step is None else parse(output_step, "duration", "--output-step")
-    if out is not None:
-        check_directory(out)
-    check_json(json_)
-    if vary:
-        _vary(case, changes, vary, model, step, json_, out, units)
-        return
+    place = asked.out or (Path(f"{Path(path).stem}-report") if asked.report else None)
+    if place is not None:
+        check_directory(place)
+    check_json(asked.json)
     with status() as say:
-        result = _analysis(loaded, model, step, runs, say)
-        if report and spread is None:
-            result = _with_cheap_spread(result, loaded, say)
+        result: Response | Comparison | Grid
+        if asked.vary:
+            result = _table(path, changes, asked, step, say)
+        else:
+            from heeltoe.study.analysis import analyse
+
+            result = analyse(case, asked.model, output_step=step, spread=runs, say=say)
         # Files first: if they cannot be written that is all there is to say.
-        written = []
-        if out is not None:
-            from heeltoe.views.files.write import write_all
-
-            say("writing")
-            suffix = ".csv" if csv else ".parquet"
-            written = write_all(result, out, loaded, units, suffix=suffix, vtk=vtk, figures=figures)
-            if report:
-                from heeltoe.views.report import write_report
-
-                say("writing the report")
-                written += write_report(loaded, result, out, units=units, command=command_line())
-    finish(result.to_json(), json_, written, lambda console: show(result, console, units))
+        written = [] if place is None else _write(result, case, asked, place, say)
+    finish(result.to_json(), asked.json, written, lambda console: show(result, console, asked.units))
     if not result.ok:
         raise typer.Exit(NO_RESULT)
 
 
-def _vary(
-    case: str,
-    changes: list[str],
-    vary: list[str],
-    model: str,
-    step: float | None,
-    json_: str | None,
-    out: Path | None,
-    units: str,
-) -> None:
-    """Run a table of runs, show and write it."""
+def _table(path: str, changes: list[str], asked: _Asked, step: float | None, say: Callable[[str], None]) -> Grid:
+    """Run a table of runs."""
     from heeltoe.models.run import run as run_model
     from heeltoe.study.grid import parse_variations, run_grid
-    from heeltoe.views.terminal.show import show
 
-    variations = parse_variations(vary)
-    with status() as say:
+    def run_one(each: Case) -> Response:
+        return run_model(each, asked.model, output_step=step)
 
-        def run_one(each: Case) -> Response:
-            return run_model(each, model, output_step=step)
+    def progress(done: int, of: int) -> None:
+        say(f"running the {asked.model} model, {done} of {of} runs done")
 
-        def progress(done: int, of: int) -> None:
-            say(f"running the {model} model, {done} of {of} runs done")
-
-        grid = run_grid(case, changes, variations, run_one, progress=progress)
-        written = []
-        if out is not None:
-            from heeltoe.views.files.write import write_all
-
-            say("writing")
-            written = write_all(grid, out, units=units)
-    finish(grid.to_json(), json_, written, lambda console: show(grid, console, units))
-    if not grid.ok:
-        raise typer.Exit(NO_RESULT)
+    return run_grid(path, changes, parse_variations(asked.vary or []), run_one, progress=progress)
 
 
-def _analysis(
-    case: Case, model: str, step: float | None, runs: int | None, say: Callable[[str], None]
-) -> Response | Comparison:
-    """Run what is asked for; `say` is told what goes on."""
-    result: Response | Comparison
-    if model in _BOTH:
-        from heeltoe.study.comparison import compare
+def _write(
+    result: Response | Comparison | Grid, case: Case, asked: _Asked, place: Path, say: Callable[[str], None]
+) -> list[Path]:
+    """Write files and report; what asks for a report alone has its figures in it."""
+    from heeltoe.study.grid import Grid
+    from heeltoe.views.files.write import figures_of, write_all
 
-        say("running both models")
-        result = compare(case, output_step=step, block="decoupled" if model.startswith("decoupled") else "rigid")
-    else:
-        from heeltoe.models.run import run as run_model
+    say("writing")
+    figures = figures_of(result, case, asked.units)
+    suffix = ".csv" if asked.csv else ".parquet"
+    written = write_all(result, place, suffix=suffix, vtk=asked.vtk, figures=figures if asked.out else {})
+    if asked.report and not isinstance(result, Grid):
+        from heeltoe.views.report import build_report, write_document
 
-        say(f"running the {model} model")
-        result = run_model(case, model, output_step=step)
-    return result if runs is None else _with_spread(result, case, runs, say)
-
-
-def _with_cheap_spread(result: Response | Comparison, case: Case, say: Callable[[str], None]) -> Response | Comparison:
-    """Give a result the spread that costs milliseconds: that of a rigid block which stands, whatever shakes it."""
-    from heeltoe.study.spread import RUNS
-
-    return _with_spread(result, case, RUNS, say, lambda each: each.ok and not each.elastic)
-
-
-def _with_spread(
-    result: Response | Comparison,
-    case: Case,
-    runs: int,
-    say: Callable[[str], None],
-    wanted: Callable[[Response], bool] = lambda response: True,
-) -> Response | Comparison:
-    """Vary the shaking of the responses that are wanted."""
-    from heeltoe.study.comparison import Comparison
-    from heeltoe.study.spread import with_spread
-
-    def vary(response: R) -> R:
-        if not wanted(response):
-            return response
-
-        def progress(done: int, of: int) -> None:
-            say(f"varying the shaking of the {response.model} model, {done} of {of} runs done")
-
-        return with_spread(response, case, runs, progress=progress)
-
-    return result.with_responses(vary) if isinstance(result, Comparison) else vary(result)
+        say("writing the report")
+        document = build_report(case, result, units=asked.units, command=command_line(), figures=figures)
+        written += write_document(document, place)
+    return written

@@ -10,6 +10,15 @@ if TYPE_CHECKING:
     from heeltoe.case.options import Limits
 
 
+# What the fields of ``limits`` limit.
+_LABELS = {
+    "residual_slip": "residual slip",
+    "peak_slip": "largest slip",
+    "opening_upstream": "opening at the upstream face",
+    "opening_downstream": "opening at the downstream face",
+}
+
+
 @dataclass(frozen=True)
 class LimitCheck:
     """A result beside what the user allows.
@@ -25,6 +34,11 @@ class LimitCheck:
     name: str
     value_m: float
     allowed_m: float
+
+    @property
+    def label(self) -> str:
+        """What people call the result."""
+        return _LABELS[self.name]
 
     @property
     def met(self) -> bool:

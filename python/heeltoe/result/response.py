@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from types import MappingProxyType
@@ -13,6 +13,7 @@ import pyarrow as pa
 from heeltoe.arrays import Floats
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.limits import LimitCheck
+from heeltoe.result.verdict import verdict
 from heeltoe.result.write import build_info, motion_json, write_table
 from heeltoe.shown import Shown
 from heeltoe.units.sentences import Sentence
@@ -169,6 +170,10 @@ class Response(Shown):
         """Itself alone; a comparison has two."""
         return (self,)
 
+    def with_responses(self, change: Callable[[Self], Self]) -> Self:
+        """Return itself changed; a comparison changes two."""
+        return change(self)
+
     @property
     def ok(self) -> bool:
         """Whether the run ended with a result to trust."""
@@ -192,6 +197,7 @@ class Response(Shown):
             "title": self.title,
             "outcome": self.outcome,
             "advice": None if self.advice is None else str(self.advice),
+            "verdict": verdict(self),
             "warnings": [each.to_json() for each in self.warnings],
             **self.summary,
             "critical_acceleration_g": dict(self.static["critical_acceleration_g"]),

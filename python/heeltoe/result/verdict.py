@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from heeltoe.result.contract import JOINT_METER_M, LEAST_M, LEAST_RAD
-from heeltoe.result.response import Response
 from heeltoe.units.write import angle, length, speed
+
+# Not at run time: a response says its verdict in its JSON.
+if TYPE_CHECKING:
+    from heeltoe.result.response import Response
 
 # Less time in the air in all [s] is a few bounces, which the strikes tell of.
 _IN_THE_AIR_S = 0.05
@@ -39,22 +44,13 @@ def _limits(response: Response, units: str) -> str:
     if not response.limits:
         return ""
     broken = [
-        f"{_LIMITS[check.name]} of {length(check.value_m, units)} is more than the "
-        f"{length(check.allowed_m, units)} allowed"
+        f"{check.label} of {length(check.value_m, units)} is more than the {length(check.allowed_m, units)} allowed"
         for check in response.limits
         if not check.met
     ]
     if broken:
         return f"It does not keep within its limits: its {' and its '.join(broken)}."
     return "It keeps within its limits."
-
-
-_LIMITS = {
-    "residual_slip": "residual slip",
-    "peak_slip": "largest slip",
-    "opening_upstream": "opening at the upstream face",
-    "opening_downstream": "opening at the downstream face",
-}
 
 
 def last_change(response: Response) -> tuple[float, float]:

@@ -6,20 +6,21 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from heeltoe.units.systems import unit_system
+from heeltoe.views.figures.all import NAMES, all_figures
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.energy import energy_figure
 from heeltoe.views.figures.histories import acceleration_figure, force_figure, response_figure, slip_by_mode_figure
 from heeltoe.views.figures.path import path_figure
 from heeltoe.views.figures.spectrum import spectrum_figure
 from heeltoe.views.figures.style import COLOURS, STYLE
-from heeltoe.views.figures.write import NAMES, all_figures, save, save_all, write_comparison_figure, write_figures
+from heeltoe.views.figures.write import save, save_all
 
 if TYPE_CHECKING:
     from heeltoe.views.figures.comparison import comparison_figure
     from heeltoe.views.figures.crack import crack_figure, pressure_figure
     from heeltoe.views.figures.dam import mesh_figure, modes_figure
     from heeltoe.views.figures.deformed import deformed_figure
-    from heeltoe.views.figures.runs import slips_figure, write_grid_figures
+    from heeltoe.views.figures.runs import grid_figures, slips_figure
     from heeltoe.views.figures.section import section_figure
 
 __all__ = [
@@ -34,6 +35,7 @@ __all__ = [
     "deformed_figure",
     "energy_figure",
     "force_figure",
+    "grid_figures",
     "mesh_figure",
     "modes_figure",
     "path_figure",
@@ -46,9 +48,6 @@ __all__ = [
     "slips_figure",
     "spectrum_figure",
     "unit_system",
-    "write_comparison_figure",
-    "write_figures",
-    "write_grid_figures",
 ]
 
 # Those that need the elastic parts, or shapes; the figures of a rigid block need not wait for these.
@@ -61,7 +60,7 @@ _HOME = {
     "pressure_figure": "crack",
     "section_figure": "section",
     "slips_figure": "runs",
-    "write_grid_figures": "runs",
+    "grid_figures": "runs",
 }
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 from matplotlib.figure import Figure
@@ -15,7 +14,6 @@ from heeltoe.units.write import length
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.panels import largest
 from heeltoe.views.figures.style import heading, styled
-from heeltoe.views.figures.write import save_all
 
 # Okabe and Ito's colours with dashes beside them, so that lines differ in print as well.
 _LINES = (
@@ -30,8 +28,8 @@ _LINES = (
 )
 
 
-def write_grid_figures(grid: Grid, directory: Path, units: str = "si") -> list[Path]:
-    """Write the figure ``slips`` of a table of runs, and ``crack-level`` of its first run that has one."""
+def grid_figures(grid: Grid, units: str = "si") -> dict[str, Figure]:
+    """Return the figure ``slips`` of a table of runs, and ``crack-level`` of its first run that has one."""
     figures = {}
     if any(each.histories for each in grid.responses):
         figures["slips"] = slips_figure(grid, units)
@@ -39,7 +37,7 @@ def write_grid_figures(grid: Grid, directory: Path, units: str = "si") -> list[P
         if isinstance(response, DecoupledResponse) and response.summary:
             figures["crack-level"] = crack_level_figure(response)
             break
-    return save_all(figures, directory)
+    return figures
 
 
 @styled

@@ -6,7 +6,8 @@ mean is also told by line style, hatch, place or lightness.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from functools import wraps
 from typing import Any, ParamSpec
 
@@ -101,14 +102,18 @@ def without_heading(figure: Figure) -> Figure:
     return figure
 
 
-def laid_out(figure: Figure) -> Figure:
-    """Lay a figure out once and for all; it would be done, with a drawing for nothing, for every file otherwise."""
+@contextmanager
+def laid_out(figure: Figure) -> Iterator[None]:
+    """Lay a figure out once for all files that are made of it; each would do it anew, with a drawing for nothing."""
     engine = figure.get_layout_engine()
-    if engine is not None:
-        with mpl.rc_context(STYLE | {"figure.constrained_layout.use": False, "figure.autolayout": False}):
+    with mpl.rc_context(STYLE | {"figure.constrained_layout.use": False, "figure.autolayout": False}):
+        if engine is not None:
             engine.execute(figure)
-            figure.set_layout_engine(None)
-    return figure
+        figure.set_layout_engine(None)
+    try:
+        yield
+    finally:
+        figure.set_layout_engine(engine)
 
 
 def time_axis(axes: Axes, end: float) -> None:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib.util import find_spec
 from pathlib import Path
-from shutil import rmtree
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from heeltoe.errors import InputError
+from heeltoe.views.files.whole import write_whole
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from heeltoe.case.model import Case
     from heeltoe.models.statics.model import Statics
     from heeltoe.result.response import Response
@@ -38,20 +39,30 @@ def check_packages(kinds: Sequence[str] = ("pdf", "html"), field: str = "--repor
 
 
 def build_report(
-    case: Case, result: Response | Comparison, *, statics: Statics | None = None, units: str = "si", command: str = ""
+    case: Case,
+    result: Response | Comparison,
+    *,
+    statics: Statics | None = None,
+    units: str = "si",
+    command: str = "",
+    figures: Mapping[str, Figure] | None = None,
 ) -> Document:
-    """Return what a report says, apart from how it looks; parameters as of :func:`write_report`."""
+    """Return what a report says, apart from how it looks.
+
+    Parameters as of :func:`write_report`; `figures` are those of the result, drawn before, which are changed here to
+    what a report needs. They are drawn where they are not given.
+    """
     from heeltoe.models.statics.after import statics_after
-    from heeltoe.result.response import Response
+    from heeltoe.views.figures import all_figures
     from heeltoe.views.report.build import document
     from heeltoe.views.report.drawings import drawings
     from heeltoe.views.report.subject import Subject
     from heeltoe.views.words.numbers import Numbers
 
-    runs = (result,) if isinstance(result, Response) else (result.flexible, result.rigid)
-    found = statics_after(case, *runs) if statics is None else statics
+    found = statics_after(case, *reversed(result.responses)) if statics is None else statics
     numbers = Numbers({**result.to_json(), "statics": found.to_json()}, units)
-    return document(Subject(case, result, numbers, drawings(case, result, units), found, command))
+    shown = drawings(all_figures(case, result, units) if figures is None else figures)
+    return document(Subject(case, result, numbers, shown, found, command))
 
 
 def write_report(
@@ -96,20 +107,19 @@ def write_report(
         Where the directory cannot be written, or a package is not installed (``pip install heeltoe[report]``).
     """
     check_packages(kinds, "kinds")
-    directory = Path(directory)
     document = build_report(case, result, statics=statics, units=units, command=command)
-    made = next((place for place in (*reversed(directory.parents), directory) if not place.exists()), None)
-    try:
-        directory.mkdir(parents=True, exist_ok=True)
-        with TemporaryDirectory(dir=directory) as name:
-            fresh = Path(name)
-            for kind in kinds:
-                (fresh / f"report.{kind}").write_bytes(_rendered(document, kind))
-            return [(fresh / f"report.{kind}").replace(directory / f"report.{kind}") for kind in kinds]
-    except OSError as error:
-        if made is not None:
-            rmtree(made, ignore_errors=True)
-        raise InputError("cannot-write", "--report", directory, reason=error.strerror or error) from None
+    return write_document(document, directory, kinds)
+
+
+def write_document(document: Document, directory: Path | str, kinds: Sequence[str] = ("pdf", "html")) -> list[Path]:
+    """Write what a report says as ``report.pdf`` and ``report.html``, both or none; see :func:`write_report`."""
+
+    def write(fresh: Path) -> None:
+        for kind in kinds:
+            (fresh / f"report.{kind}").write_bytes(_rendered(document, kind))
+
+    write_whole(write, Path(directory), (), field="--report")
+    return [Path(directory) / f"report.{kind}" for kind in kinds]
 
 
 def _rendered(document: Document, kind: str) -> bytes:

@@ -5,14 +5,6 @@ from __future__ import annotations
 from heeltoe.views.report.content import Block, Code, Inline, Section, Table, paragraph
 from heeltoe.views.report.subject import Subject
 
-_LIMITS = {
-    "residual_slip": "Residual slip, either way",
-    "peak_slip": "Largest slip, either way",
-    "opening_upstream": "Opening at the upstream face",
-    "opening_downstream": "Opening at the downstream face",
-}
-
-
 _EXAMPLE = {"si": "100 mm", "us": "4 in"}
 
 
@@ -23,7 +15,7 @@ def limits(subject: Subject) -> Section:
     for run in subject.runs:
         for place, check in enumerate(run.response.limits):
             key = f"{run.prefix}limits.{place}."
-            label = _LIMITS.get(check.name, check.name)
+            label = check.label.capitalize()
             rows.append(
                 (
                     label if len(subject.runs) == 1 else f"{label}, {run.name}",
@@ -34,7 +26,9 @@ def limits(subject: Subject) -> Section:
             )
     blocks: list[Block] = []
     if rows:
-        blocks.append(Table(("", "result", "allowed", "met"), tuple(rows), "Results beside the limits.", "lrrl"))
+        blocks.append(
+            Table(("", "result", "allowed", "met"), tuple(rows), "Results beside the limits, slips either way.", "lrrl")
+        )
     elif any(run.response.ok for run in subject.runs):
         blocks.append(
             paragraph(

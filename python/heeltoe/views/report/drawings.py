@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from heeltoe.views.report.content import FigureBlock
@@ -11,9 +12,6 @@ from heeltoe.views.report.subject import NAMES
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from heeltoe.case.model import Case
-    from heeltoe.result.response import Response
-    from heeltoe.study.comparison import Comparison
 
 CAPTIONS = {
     "section": "Section of the dam with its crack, water levels and the pressure in the crack.",
@@ -48,11 +46,12 @@ _OF_BOTH = {
 }
 
 
-def drawings(case: Case, result: Response | Comparison, units: str) -> dict[str, FigureBlock]:
-    """Return the figures of a result by name, ``flexible/response`` where it is one of two models."""
-    from heeltoe.views.figures import all_figures
+def drawings(figures: Mapping[str, Figure]) -> dict[str, FigureBlock]:
+    """Return the figures of a result that a report shows, by name: ``flexible/response`` where it is one of two models.
 
-    return {name: _block(name, figure) for name, figure in all_figures(case, result, units, only=_wanted).items()}
+    They lose their headings, and some are made lower: what is to be written as a file is to be written before.
+    """
+    return {name: _block(name, figures[name]) for name in figures if _wanted(name)}
 
 
 def _wanted(name: str) -> bool:
@@ -74,17 +73,17 @@ def caption(name: str) -> str:
 def _block(name: str, figure: Figure) -> FigureBlock:
     import matplotlib as mpl
 
-    from heeltoe.views.figures.style import laid_out
+    from heeltoe.views.figures.style import laid_out, without_heading
 
     own = name.rpartition("/")[2]
+    without_heading(figure)
     width, height = figure.get_size_inches()
     if own in _LOWER and height > _LEAST_HEIGHT:
         height = max(_LEAST_HEIGHT, _LOWER[own] * height)
         figure.set_size_inches(width, height)
-    laid_out(figure)
+    file = io.BytesIO()
     # Letters as outlines look the same wherever the report is read.
-    with mpl.rc_context({"svg.fonttype": "path", "svg.hashsalt": "heeltoe"}):
-        file = io.BytesIO()
+    with laid_out(figure), mpl.rc_context({"svg.fonttype": "path", "svg.hashsalt": "heeltoe"}):
         figure.savefig(file, format="svg", metadata={"Date": None})
     share = _SHARES.get(own, 1.0) if height > _FLAT * width else 1.0
     return FigureBlock(name, caption(name), file.getvalue(), (float(width), float(height)), share)

@@ -1,0 +1,180 @@
+"""Which figures a result has."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from functools import singledispatch
+from typing import TYPE_CHECKING
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from heeltoe.models.decoupled.response import DecoupledResponse
+from heeltoe.models.flexible.response import FlexibleResponse
+from heeltoe.result.response import Response
+from heeltoe.study.comparison import Comparison
+from heeltoe.units.systems import unit_system
+from heeltoe.views.figures.crack_level import crack_level_figure
+from heeltoe.views.figures.dense import filled_in
+from heeltoe.views.figures.energy import energy_figure
+from heeltoe.views.figures.histories import (
+    NO_SLIP,
+    acceleration_figure,
+    force_figure,
+    lifts_off,
+    response_figure,
+    slip_by_mode_figure,
+)
+from heeltoe.views.figures.panels import is_elastic
+from heeltoe.views.figures.path import path_figure
+from heeltoe.views.figures.spectrum import spectrum_figure
+
+if TYPE_CHECKING:
+    from heeltoe.case.model import Case
+
+#: Every name that a figure of a result can have, in the order in which they are shown.
+NAMES = (
+    "section",
+    "comparison",
+    "response",
+    "slip-by-mode",
+    "accelerations",
+    "forces",
+    "energy",
+    "path",
+    "spectrum",
+    "crack-level",
+    "slips",
+    "crack",
+    "pressure",
+    "deformed",
+    "mesh",
+    "modes",
+)
+#: Lift-offs below this [m] have no picture of their own.
+_NO_LIFT = 1e-5
+
+
+class Figures(Mapping[str, Figure]):
+    """Figures by name, each drawn when it is first asked for, and kept.
+
+    Parameters
+    ----------
+    drawings
+        What draws each, by name, in the order in which they are shown.
+    """
+
+    def __init__(self, drawings: Mapping[str, Callable[[], Figure]]) -> None:
+        self._drawings = drawings
+        self._drawn: dict[str, Figure] = {}
+
+    def __getitem__(self, name: str) -> Figure:
+        if name not in self._drawn:
+            self._drawn[name] = self._drawings[name]()
+        return self._drawn[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._drawings
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._drawings)
+
+    def __len__(self) -> int:
+        return len(self._drawings)
+
+
+def all_figures(case: Case | None, result: Response | Comparison, units: str = "si") -> Figures:
+    """Return the figures that make sense for a result, by name, in the order in which they are shown.
+
+    Parameters
+    ----------
+    case
+        Of the result; without it there is no figure of the section.
+    result
+        Of one model, or of both: then ``comparison`` comes with the figures of each under ``rigid/...`` and
+        ``flexible/...``. A run that never started has the section alone.
+    units
+        ``"si"`` or ``"us"``.
+
+    Returns
+    -------
+    Figures
+        Each says above itself which case, motion and model it shows; ``without_heading`` of
+        :mod:`heeltoe.views.figures.style` takes that off.
+
+    Raises
+    ------
+    InputError
+        Where the units are unknown.
+    """
+    unit_system(units)
+    drawings: dict[str, Callable[[], Figure]] = {}
+    if case is not None:
+        from heeltoe.views.figures.section import section_figure
+
+        drawings["section"] = lambda: section_figure(case, units)
+    return Figures(drawings | _drawings(result, units))
+
+
+def has_pictures(response: Response) -> bool:
+    """Whether there are histories to draw: more than their first moment, and no number that has left all bounds."""
+    h = response.histories
+    return bool(h) and len(h["time_s"]) > 1 and all(np.isfinite(values).all() for values in h.values())
+
+
+@singledispatch
+def _drawings(result: object, units: str) -> dict[str, Callable[[], Figure]]:
+    """Return what draws each figure of a result."""
+    raise TypeError(f"there are no figures of a {type(result).__name__}")
+
+
+@_drawings.register
+def _(both: Comparison, units: str) -> dict[str, Callable[[], Figure]]:
+    found: dict[str, Callable[[], Figure]] = {}
+    if all(map(has_pictures, both.responses)):
+        from heeltoe.views.figures.comparison import comparison_figure
+
+        found["comparison"] = lambda: comparison_figure(both, units)
+    for each in both.responses:
+        found |= {f"{each.model}/{name}": draw for name, draw in _drawings(each, units).items()}
+    return found
+
+
+@_drawings.register
+def _(response: Response, units: str) -> dict[str, Callable[[], Figure]]:
+    if not has_pictures(response):
+        return {}
+    response = filled_in(response)
+    found: dict[str, Callable[[], Figure]] = {"response": lambda: response_figure(response, units)}
+    if any(abs(slip) > NO_SLIP for slip in response.slip_by_mode_m.values()):
+        found["slip-by-mode"] = lambda: slip_by_mode_figure(response, units)
+    if is_elastic(response):
+        found["forces"] = lambda: force_figure(response, units)
+    else:
+        found["accelerations"] = lambda: acceleration_figure(response, units)
+    if response.energy is not None and response.energy.input_j:
+        found["energy"] = lambda: energy_figure(response, units)
+    if lifts_off(response, _NO_LIFT):
+        found["path"] = lambda: path_figure(response, units)
+    found["spectrum"] = lambda: spectrum_figure(response, units)
+    if isinstance(response, DecoupledResponse):
+        chained = response
+        found["crack-level"] = lambda: crack_level_figure(chained)
+    if isinstance(response, FlexibleResponse):
+        found |= _elastic_drawings(response, units)
+    return found
+
+
+def _elastic_drawings(response: FlexibleResponse, units: str) -> dict[str, Callable[[], Figure]]:
+    from heeltoe.views.figures.crack import crack_figure, pressure_figure
+    from heeltoe.views.figures.dam import mesh_figure, modes_figure
+    from heeltoe.views.figures.deformed import deformed_figure
+
+    dam = response.crack.dam
+    return {
+        "crack": lambda: crack_figure(response, units),
+        "pressure": lambda: pressure_figure(response, units),
+        "deformed": lambda: deformed_figure(response, units=units),
+        "mesh": lambda: mesh_figure(dam, units),
+        "modes": lambda: modes_figure(dam, units),
+    }
