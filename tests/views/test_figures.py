@@ -78,8 +78,8 @@ def check(figure, name):
         for label in (tick.label1, tick.label2)
     }
     for text in texts(figure):
-        box = text.get_window_extent(renderer)
         if text not in ticks:
+            box = text.get_window_extent(renderer)
             assert canvas.x0 <= box.x0, (name, text.get_text())
             assert box.x1 <= canvas.x1, (name, text.get_text())
             assert canvas.y0 <= box.y0, (name, text.get_text())
