@@ -226,7 +226,7 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
     "dam-still-moves": (
         "caution",
         "motion.duration",
-        "the dam still moves when the run ends: in the last second its slip changes by {change_m:.3g mm}; the residual "
+        "the dam still moves when the run ends: in the last {span} its slip changes by {change_m:.3g mm}; the residual "
         "slip is that of this moment, and a longer motion.duration lets it come to rest",
     ),
     "anchor-yields": (

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from heeltoe.arrays import Floats
 from heeltoe.result.contract import JOINT_METER_M, LEAST_M, LEAST_RAD
 from heeltoe.units.write import angle, length, speed
 
@@ -53,9 +54,8 @@ def _limits(response: Response, units: str) -> str:
     return "It keeps within its limits."
 
 
-def last_change(response: Response) -> tuple[float, float]:
+def last_change(time: Floats, slip: Floats) -> tuple[float, float]:
     """Return how long [s] the last second of a run is, half of a shorter one, and by how much the slip varies in it."""
-    time, slip = response.histories["time_s"], response.histories["slip_m"]
     since = max(time[-1] - _LAST_S, time[-1] / 2.0)
     return float(time[-1] - since), float(np.ptp(slip[time >= since]))
 
@@ -67,7 +67,7 @@ def comes_to_rest(response: Response) -> bool:
     in the state of rest: it has stopped where its slip changes by nothing measurable any more.
     """
     if response.elastic:
-        return last_change(response)[1] < JOINT_METER_M
+        return last_change(response.histories["time_s"], response.histories["slip_m"])[1] < JOINT_METER_M
     return bool(response.final_mode == "rest")
 
 
@@ -150,7 +150,7 @@ def _elastic_end(response: Response, units: str) -> str:
     factor = response.static["sliding_safety_factor"]
     if factor is not None and factor < 1.0:
         return "It slides away: its static loads alone move it, and nothing stops it."
-    seconds, change = last_change(response)
+    seconds, change = last_change(response.histories["time_s"], response.histories["slip_m"])
     moved = length(change, units)
     return f"It has not come to rest when the run ends: in the last {seconds:.2g} s its slip changes by {moved}."
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from heeltoe import GroundMotion, InputError, flexible, read_case
+from heeltoe import GroundMotion, InputError, flexible, read_case, verdict
+from heeltoe.result.verdict import comes_to_rest
 
 FIELDS = {
     "section": {"height": "30 m", "crest_width": "4 m", "base_width": "24 m"},
@@ -88,3 +89,18 @@ def test_every_number_is_an_attribute_of_the_response():
     response = flexible(read_case({**FIELDS, "anchors": [{"distance": "6 m", "prestress": "1 MN/m"}]}), MOTION)
     for name, value in response.summary.items():
         assert getattr(response, name) == value
+
+
+def test_the_warning_of_a_dam_on_its_way_is_that_of_the_verdict():
+    # It slides until 0.4 s. Of a run of 1.3 s both look at the second half, not at the last second.
+    case = changed(crack={"friction": 0.7}, reservoir={"depth": "5 m"})
+    motion = GroundMotion.from_points([0.0, 0.05, 0.2, 0.25, 1.3], [0.0, -10.0, -10.0, 0.0, 0.0])
+    stopped = flexible(case, motion)
+    assert stopped.residual_slip_m > 0.1
+    assert comes_to_rest(stopped)
+    assert "dam-still-moves" not in [each.code for each in stopped.warnings]
+    moving = flexible(case, motion.cut(0.3))
+    assert not comes_to_rest(moving)
+    (said,) = [str(each) for each in moving.warnings if each.code == "dam-still-moves"]
+    assert "in the last 0.15 s its slip changes" in said
+    assert "in the last 0.15 s its slip changes" in verdict(moving)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
-import numpy as np
-
 from heeltoe.case.model import Case
 from heeltoe.kernel import DamRun
 from heeltoe.mechanics.loads import water_above_crack
@@ -14,6 +12,7 @@ from heeltoe.models.flexible.reduced import FlexibleDam
 from heeltoe.models.flexible.shaken import Convergence, ShakenDam
 from heeltoe.models.flexible.tables import anchors_of
 from heeltoe.result.contract import JOINT_METER_M
+from heeltoe.result.verdict import last_change
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings import Notice
 
@@ -83,9 +82,10 @@ def _about_the_concrete(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
 
 
 def _about_the_end(case: Case, run: DamRun) -> Iterator[Notice]:
-    change = last_change(run)
+    seconds, change = last_change(run.frames["time"], run.frames["slip"])
     if run.outcome == "ok" and change > JOINT_METER_M:
-        yield Notice("dam-still-moves", time_s=run.summary["end_time"], change_m=change)
+        span = "second" if seconds == 1.0 else f"{seconds:.2g} s"
+        yield Notice("dam-still-moves", time_s=run.summary["end_time"], span=span, change_m=change)
     for number, anchor in enumerate(anchors_of(case, run), start=1):
         tension, capacity = anchor["peak_tension_n"] or 0.0, anchor["capacity_n"]
         if capacity is not None and tension > capacity:
@@ -107,9 +107,3 @@ def _about_the_contact(case: Case, run: DamRun, history: CrackHistory) -> Iterat
     largest = max(-raw["rotation_min"], raw["rotation_max"])
     if largest > 0.1:
         yield Notice("rotation-beyond-model", rotation_rad=largest)
-
-
-def last_change(run: DamRun) -> float:
-    """Return by how much the slip changes in the last second of a run [m]."""
-    time, slip = run.frames["time"], run.frames["slip"]
-    return float(np.ptp(slip[time >= time[-1] - 1.0]))
