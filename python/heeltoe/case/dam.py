@@ -213,8 +213,8 @@ class Uplift(Fields):
     """What the pressure does where the crack opens in the earthquake: stays (USACE); vanishes (USBR); becomes the
     reservoir's; or falls as the water that is there fills the wider crack (after Javanmardi and others 2005)."""
     opening: Annotated[Length, Field(ge=1e-6, le=0.1)] | None = None
-    """How far the crack opens until the pressure has vanished, is the reservoir's, or has fallen to half; 0.1 mm
-    where it is not given."""
+    """How far the crack opens until the pressure has vanished, is the reservoir's, or has fallen to half; a tenth of
+    a millimetre where it is not given."""
 
     @model_validator(mode="after")
     @collected
