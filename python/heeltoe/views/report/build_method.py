@@ -11,14 +11,11 @@ _PATTERNS = {
     "none": "There is no water pressure in the crack.",
     "uniform": "The pressure in the crack is that of the heel over its whole width",
     "triangular": "The pressure in the crack falls in a straight line from that of the reservoir at the heel to "
-    "that of "
-    "the tailwater at the toe",
-    "cut-off": "The pressure in the crack falls in a straight line from that of the reservoir at the heel to "
-    "that of the "
-    "tailwater at a part of its width, and stays there",
-    "drained": "The pressure in the crack falls in straight lines from that of the reservoir at the heel to "
-    "that at the "
-    "drains, and on to that of the tailwater at the toe",
+    "that of the tailwater at the toe",
+    "cut-off": "The pressure in the crack falls in a straight line from that of the reservoir at the heel to that "
+    "of the tailwater at a part of its width, and stays there",
+    "drained": "The pressure in the crack falls in straight lines from that of the reservoir at the heel to that at "
+    "the drains, and on to that of the tailwater at the toe",
     "profile": "The pressure in the crack is the profile of the case",
 }
 _SHAKING = {
@@ -29,20 +26,19 @@ _SHAKING = {
     ),
     "follows opening": (
         "opening follows",
-        "Where the crack opens by $g$, the water that is there fills the wider crack, and the pressure falls; "
-        "it is halved "
-        "at the opening $w$:",
+        "Where the crack opens by $g$, the water that is there fills the wider crack, and the pressure falls; it is "
+        "halved at the opening $w$:",
     ),
 }
 _ROTATION = {
     "small": "Rotations are small: the moment of the weight about a corner does not change with the rotation.",
-    "p-delta": "Rotations are small, but the moment of the weight that changes with the rotation counts (P-Delta), so "
-    "that the block can overturn.",
+    "p-delta": "Rotations are small, but the moment of the weight that changes with the rotation counts (P-Delta), "
+    "so that the block can overturn.",
 }
 _DAMPING = {
     "deformation": "on deformation alone, at all times; rigid-body motion is not damped",
-    "thesis": "on all motion while any node of the crack sticks, and below the crack alone while none does, as in Zhu "
-    "(2004)",
+    "thesis": "on all motion while any node of the crack sticks, and below the crack alone while none does, as in "
+    "Zhu (2004)",
 }
 
 
@@ -125,17 +121,15 @@ def _loads(writer: _Writer, subject: Subject) -> None:
         writer.show(name)
     if case.anchors:
         writer.say(
-            "An anchor with prestress $F_0$ and axis $a$ pulls the block as its upper end moves by $u$, never "
-            "with compression, "
-            "and resists slip as a dowel:"
+            "An anchor with prestress $F_0$ and axis $a$ pulls the block as its upper end moves by $u$, never with "
+            "compression, and resists slip as a dowel:"
         )
         writer.show("anchors")
     if subject.numbers.raw(subject.first.prefix + "static.virtual_mass_kg"):
         if not all(run.response.elastic for run in subject.runs):
             writer.say(
-                "Water moves with the upstream face as Westergaard’s virtual mass, horizontally; $D$ is the "
-                "depth of the "
-                "reservoir, $h$ that above the crack:"
+                "Water moves with the upstream face as Westergaard’s virtual mass, horizontally; $D$ is the depth "
+                "of the reservoir, $h$ that above the crack:"
             )
             writer.show("virtual mass")
         if subject.ran("flexible"):
@@ -155,34 +149,30 @@ def _rigid(writer: _Writer, subject: Subject) -> None:
     case = subject.case
     finite, inclined = case.analysis.rotation == "finite", bool(case.crack.inclination)
     writer.say(
-        "The part above the crack is one rigid block on a plane. With $y$, $z$ and $θ$ the motion of its "
-        "reference point "
-        "downstream, upward and counter-clockwise, $s$ its slip and $g_h$ and $g_t$ the gaps at heel and toe:"
+        "The part above the crack is one rigid block on a plane. With $y$, $z$ and $θ$ the motion of its reference "
+        "point downstream, upward and counter-clockwise, $s$ its slip and $g_h$ and $g_t$ the gaps at heel and toe:"
         if not inclined
-        else "The part above the crack is one rigid block on an inclined plane. With $y$ and $z$ its motion "
-        "along and across "
-        "the crack, $θ$ its rotation counter-clockwise, $s$ its slip and $g_h$ and $g_t$ the gaps at heel and toe:"
+        else "The part above the crack is one rigid block on an inclined plane. With $y$ and $z$ its motion along "
+        "and across the crack, $θ$ its rotation counter-clockwise, $s$ its slip and $g_h$ and $g_t$ the gaps at "
+        "heel and toe:"
     )
     writer.show("contact")
     forces = (
         "$T$ is the friction, $N_h$ and $N_t$ the normal forces at heel and toe, $P$ the horizontal load, $N_0$ "
-        "what weight, uplift "
-        "and vertical motion press on the crack, $M_0$ the moment of the static loads, $B_h$ and $B_t$ the "
-        "distances of the "
-        "centroid from heel and toe:"
+        "what weight, uplift and vertical motion press on the crack, $M_0$ the moment of the static loads, $B_h$ "
+        "and $B_t$ the distances of the centroid from heel and toe:"
     )
     if finite:
         writer.say(
-            "Rotations may be of any size. $M$ is the mass about one corner, $p$ the lever of the centroid as "
-            "the block has "
-            "turned by $θ$, $r$ that of the virtual water, $R$ the rotation, $Q$ the loads; $G$ leads to slip and gaps:"
+            "Rotations may be of any size. $M$ is the mass about one corner, $p$ the lever of the centroid as the "
+            "block has turned by $θ$, $r$ that of the virtual water, $R$ the rotation, $Q$ the loads; $G$ leads to "
+            "slip and gaps:"
         )
         writer.show("finite")
     elif inclined:
         writer.say(
-            "Virtual water moves horizontally with the block and so couples its motion along and across the "
-            "crack; $M$ is "
-            "the mass, $f$ the loads and the ground’s inertia forces, $G$ leads to slip and gaps:"
+            "Virtual water moves horizontally with the block and so couples its motion along and across the crack; "
+            "$M$ is the mass, $f$ the loads and the ground’s inertia forces, $G$ leads to slip and gaps:"
         )
         writer.show("inclined")
     else:
@@ -191,19 +181,17 @@ def _rigid(writer: _Writer, subject: Subject) -> None:
     writer.say(_ROTATION.get(case.analysis.rotation, ""), "Friction is Coulomb’s:")
     writer.show("friction")
     writer.say(
-        "A corner $i$ that strikes leaves with Newton’s restitution $e$; $j$ is the other corner, which stays "
-        "down if it can. "
-        "Where that would create energy, $e$ is lowered for this one impact to the largest value that does not:"
+        "A corner $i$ that strikes leaves with Newton’s restitution $e$; $j$ is the other corner, which stays down "
+        "if it can. Where that would create energy, $e$ is lowered for this one impact to the largest value that "
+        "does not:"
     )
     writer.show("impact")
     writer.say(
-        "Between events the motion is integrated with a method of order 8, to a relative error of 10⁻¹² a step, "
-        "and the "
-        "next event is found on it."
+        "Between events the motion is integrated with a method of order 8, to a relative error of 10⁻¹² a step, and "
+        "the next event is found on it."
         if integrated(subject)
-        else "The ground acceleration is linear between samples, so that every motion is a cubic in time and "
-        "the response "
-        "is computed exactly from event to event, without a time step.",
+        else "The ground acceleration is linear between samples, so that every motion is a cubic in time and the "
+        "response is computed exactly from event to event, without a time step.",
         "The energy $E$ is checked by a ledger of the work done:",
     )
     writer.show("rigid energy")
@@ -217,8 +205,7 @@ def _decoupled(writer: _Writer, subject: Subject) -> None:
     felt = f"The block feels the {' and the '.join(more)} of the crack too." if more else ""
     writer.say(
         "The part below the crack is elastic and carries the part above as a rigid body that does not slip. Its "
-        "motion at "
-        "the crack, summed over the modes $k$, shakes the block; what the block does does not act back.",
+        "motion at the crack, summed over the modes $k$, shakes the block; what the block does does not act back.",
         felt,
     )
     writer.show("crack motion")
@@ -233,9 +220,8 @@ def _flexible(writer: _Writer, subject: Subject) -> None:
     )
     writer.say(
         f"The {bodies} in plane {options.plane}, made of eight-node quadrilaterals with consistent mass. Before the "
-        "earthquake the dam is in static equilibrium with its crack bonded; at time zero the crack is let go. "
-        "In the modes "
-        "of each part, with $p$ the forces on the nodes of the crack:"
+        "earthquake the dam is in static equilibrium with its crack bonded; at time zero the crack is let go. In "
+        "the modes of each part, with $p$ the forces on the nodes of the crack:"
     )
     writer.show("modes")
     if options.damping == "modal":
@@ -243,26 +229,23 @@ def _flexible(writer: _Writer, subject: Subject) -> None:
         writer.show("modal")
     else:
         writer.say(
-            f"Damping is Rayleigh’s, {100 * concrete.damping:g} % at the first and third period of the intact "
-            f"dam, and acts "
-            f"{_DAMPING[options.damping]}:"
+            f"Damping is Rayleigh’s, {100 * concrete.damping:g} % at the first and third period of the intact dam, "
+            f"and acts {_DAMPING[options.damping]}:"
         )
         writer.show("rayleigh")
     if options.contact == "coulomb":
         writer.say(
-            f"Velocities are stepped with exact contact (Moreau-Jean) and $θ$ = {options.theta:g}; $h$ is the "
-            f"step, Δ$V$ the "
-            "exact change of the ground’s velocity in it:"
+            f"Velocities are stepped with exact contact (Moreau-Jean) and $θ$ = {options.theta:g}; $h$ is the step, "
+            "Δ$V$ the exact change of the ground’s velocity in it:"
         )
         writer.show("step")
         writer.say("At every node of the crack, with $b$ what the gap leaves:")
         writer.show("signorini")
     else:
         writer.say(
-            f"Contact is by penalties, as in Zhu (2004): Newmark’s scheme with $γ$ = {options.newmark_gamma:g}, "
-            f"and a spring "
-            f"of {options.penalty_factor:g} times the largest diagonal term of the stiffness at every closed contact. "
-            "This is meant for comparison; penalties can create energy."
+            f"Contact is by penalties, as in Zhu (2004): Newmark’s scheme with $γ$ = {options.newmark_gamma:g}, and "
+            f"a spring of {options.penalty_factor:g} times the largest diagonal term of the stiffness at every "
+            "closed contact. This is meant for comparison; penalties can create energy."
         )
         writer.show("penalty")
     watched = {

@@ -71,9 +71,8 @@ def _checks(motions: list[GroundMotion], units: str) -> Block:
     if said:
         return Notes("warning", "Checks of the motion", tuple((text,) for text in said))
     return paragraph(
-        "Checks of the motion (finite samples in order of time, a plausible peak, velocity and displacement at "
-        "the end) "
-        "found nothing to warn of."
+        "Checks of the motion (finite samples in order of time, a plausible peak, velocity and displacement at the "
+        "end) found nothing to warn of."
     )
 
 

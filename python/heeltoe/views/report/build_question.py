@@ -112,8 +112,8 @@ def _numbers(subject: Subject) -> Block:
     return Table(
         subject.head(*more),
         tuple(rows),
-        f"Key numbers, {subject.per_width}. Openings and rotations are magnitudes; rotation downstream, about the toe, "
-        "opens the crack at the upstream face.",
+        f"Key numbers, {subject.per_width}. Openings and rotations are magnitudes; rotation downstream, about the "
+        "toe, opens the crack at the upstream face.",
         subject.align(len(more)),
     )
 

@@ -25,8 +25,7 @@ EQUATIONS: dict[str, tuple[str, str]] = {
     "inclined": (
         r"M dot.double(q) = f(t) + G^top (T, N_h, N_t), quad q = (y, z, theta)",
         "<i>M</i> q̈ = <i>f</i>(<i>t</i>) + <i>G</i><sup>⊤</sup> (<i>T</i>, <i>N<sub>h</sub></i>, "
-        "<i>N<sub>t</sub></i>), "
-        "&emsp;<i>q</i> = (<i>y</i>, <i>z</i>, <i>θ</i>)",
+        "<i>N<sub>t</sub></i>), &emsp;<i>q</i> = (<i>y</i>, <i>z</i>, <i>θ</i>)",
     ),
     "finite": (
         r"M &= m mat(1, 0, p_1; 0, 1, p_2; p_1, p_2, p dot p) + J_c + m_w r r^top \ M dot.double(q) &= Q + "
@@ -47,16 +46,15 @@ EQUATIONS: dict[str, tuple[str, str]] = {
     "friction": (
         r"|T| <= mu_s N #text[ at rest], quad T = -mu_k N op(#text[sign]) dot(s) #text[ while it slides], quad "
         r"N = N_h + N_t, quad N_h, N_t >= 0",
-        "|<i>T</i>| ≤ <i>μ<sub>s</sub> N</i> at rest, &emsp;<i>T</i> = −<i>μ<sub>k</sub> N</i> sign ṡ while it slides, "
-        "&emsp;<i>N</i> = <i>N<sub>h</sub></i> + <i>N<sub>t</sub></i>, &emsp;<i>N<sub>h</sub></i>, "
+        "|<i>T</i>| ≤ <i>μ<sub>s</sub> N</i> at rest, &emsp;<i>T</i> = −<i>μ<sub>k</sub> N</i> sign ṡ while it "
+        "slides, &emsp;<i>N</i> = <i>N<sub>h</sub></i> + <i>N<sub>t</sub></i>, &emsp;<i>N<sub>h</sub></i>, "
         "<i>N<sub>t</sub></i> ≥ 0",
     ),
     "impact": (
         r"M (v_2 - v_1) = n_i p_i + n_j p_j + t p_T, quad n_i dot v_2 = -e n_i dot v_1",
         "<i>M</i> (<i>v</i><sub>2</sub> − <i>v</i><sub>1</sub>) = <i>n<sub>i</sub> p<sub>i</sub></i> + "
         "<i>n<sub>j</sub> p<sub>j</sub></i> + <i>t p<sub>T</sub></i>, "
-        "&emsp;<i>n<sub>i</sub></i>·<i>v</i><sub>2</sub> = "
-        "−<i>e n<sub>i</sub></i>·<i>v</i><sub>1</sub>",
+        "&emsp;<i>n<sub>i</sub></i>·<i>v</i><sub>2</sub> = −<i>e n<sub>i</sub></i>·<i>v</i><sub>1</sub>",
     ),
     "rigid energy": (
         r"E(t) - E(0) = W_#text[input] - W_#text[friction] - W_#text[impact]",
@@ -65,9 +63,8 @@ EQUATIONS: dict[str, tuple[str, str]] = {
     ),
     "virtual mass": (
         r"m_w = 7 / 12 rho_w sqrt(D) h^(3 slash 2), quad #text[acting ] 0.4 h #text[ above the crack]",
-        "<i>m<sub>w</sub></i> = (7/12) <i>ρ<sub>w</sub></i> √<i>D</i> <i>h</i><sup>3/2</sup>, &emsp;acting "
-        "0.4 <i>h</i> "
-        "above the crack",
+        "<i>m<sub>w</sub></i> = (7/12) <i>ρ<sub>w</sub></i> √<i>D</i> <i>h</i><sup>3/2</sup>, &emsp;acting 0.4 "
+        "<i>h</i> above the crack",
     ),
     "virtual mass along face": (
         r"m(eta) = 7 / 8 rho_w sqrt(D (D - eta))",
@@ -114,8 +111,8 @@ EQUATIONS: dict[str, tuple[str, str]] = {
     ),
     "opening full": (
         r"p(x, g) = p(x) + (p_#text[full] - p(x)) min(1, g slash w)",
-        "<i>p</i>(<i>x</i>, <i>g</i>) = <i>p</i>(<i>x</i>) + (<i>p</i><sub>full</sub> − <i>p</i>(<i>x</i>)) "
-        "min(1, <i>g</i>/<i>w</i>)",
+        "<i>p</i>(<i>x</i>, <i>g</i>) = <i>p</i>(<i>x</i>) + (<i>p</i><sub>full</sub> − <i>p</i>(<i>x</i>)) min(1, "
+        "<i>g</i>/<i>w</i>)",
     ),
     "opening follows": (
         r"p(x, g) = p(x) w / (w + g)",
@@ -126,9 +123,8 @@ EQUATIONS: dict[str, tuple[str, str]] = {
         r"omega_k^2 q_k "
         r"= -gamma_k a(t)",
         "<i>a<sub>c</sub></i>(<i>t</i>) = <i>a</i>(<i>t</i>) + Σ<sub><i>k</i></sub> <i>φ<sub>k</sub></i> "
-        "q̈<sub><i>k</i></sub>"
-        "(<i>t</i>), &emsp;q̈<sub><i>k</i></sub> + 2 <i>ξ<sub>k</sub> ω<sub>k</sub></i> q̇<sub><i>k</i></sub> + "
-        "<i>ω<sub>k</sub></i>² <i>q<sub>k</sub></i> = −<i>γ<sub>k</sub> a</i>(<i>t</i>)",
+        "q̈<sub><i>k</i></sub>(<i>t</i>), &emsp;q̈<sub><i>k</i></sub> + 2 <i>ξ<sub>k</sub> ω<sub>k</sub></i> "
+        "q̇<sub><i>k</i></sub> + <i>ω<sub>k</sub></i>² <i>q<sub>k</sub></i> = −<i>γ<sub>k</sub> a</i>(<i>t</i>)",
     ),
     "anchors": (
         r"F = max(0, F_0 + k_a a dot u), quad F_s = -k_s u_t",
