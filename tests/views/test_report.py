@@ -13,7 +13,7 @@ from hypothesis import example as tried
 from hypothesis import strategies as st
 from pypdf import PdfReader
 
-from heeltoe import InputError, compare, decoupled, flexible, read_case, rigid, with_spread
+from heeltoe import InputError, compare, decoupled, flexible, read_case, rigid, statics, with_spread
 from heeltoe.result.write import json_text
 from heeltoe.views.report import build_report, check_packages, write_report
 from heeltoe.views.report.build_input import fields, input_hash
@@ -365,7 +365,7 @@ def test_nothing_is_left_half_written(tmp_path, block):
     assert found.value.code == "cannot-write"
 
 
-def test_notebooks_show_case_motion_and_response(block):
+def test_notebooks_show_cases_motions_and_results(block, typical_both):
     case, response = block
     for shown_object, words in (
         (case, ("2650 kg/m³", "reservoir.depth", "<svg")),
@@ -378,6 +378,11 @@ def test_notebooks_show_case_motion_and_response(block):
             assert each in found
         # A page of a notebook is no place for a megabyte.
         assert len(found) < 60_000
+    for result, words in (
+        (typical_both, ("The dam slides", "difference", "(rigid)", "(flexible)")),
+        (statics(case, 0.1), ("USACE", "checks", "not met", "sliding factor")),
+    ):
+        assert all(each in result._repr_html_() for each in words)
     never = rigid(read_case(BASE, ["crack.friction=0.2"]))
     assert "No result to trust" in never._repr_html_()
     assert "<b>" not in replace(response, title="<b>")._repr_html_()

@@ -15,6 +15,7 @@ from heeltoe.models.run import earthquake, flexible, run
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.contract import HEADLINES, Quantity
 from heeltoe.result.response import Response
+from heeltoe.shown import Shown
 from heeltoe.units.sentences import Sentence
 
 # From which ratio on the models differ by more than the flexible one is known to differ from its references.
@@ -40,7 +41,7 @@ class Change(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Comparison:
+class Comparison(Shown):
     """Two models on one case.
 
     Attributes

@@ -1,4 +1,4 @@
-"""What a notebook shows of a case, a motion and a result: small tables with units, and one drawing."""
+"""What a notebook shows of a case, a motion and a result: a small table with units, and a drawing."""
 
 from __future__ import annotations
 
@@ -9,14 +9,17 @@ import numpy as np
 
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
+from heeltoe.models.statics.model import Statics
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.verdict import verdict
+from heeltoe.study.comparison import Comparison
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.write import digits
 from heeltoe.views.words.fields import fields
 from heeltoe.views.words.numbers import Numbers, Value
+from heeltoe.views.words.warnings import listed
 
 _WIDTH, _HEIGHT = 420, 90
 # A column of pixels shows no more than the least and the most in it.
@@ -62,7 +65,7 @@ def _(response: Response) -> str:
     """Show verdict, warnings and key numbers of a response, and the slip over time."""
     numbers = Numbers(response.to_json())
     rows = [("model", response.model), ("verdict", verdict(response))]
-    rows += [("warning", str(text)) for text in response.warnings]
+    rows += [("warning", text) for text in listed([response])]
     for each in HEADLINES:
         cell = numbers(each.key, sign=each.way)
         if isinstance(cell, Value):
@@ -72,6 +75,34 @@ def _(response: Response) -> str:
         time = response.histories["time_s"]
         drawing = line(time, response.histories["slip_m"], f"slip, + downstream, over {digits(float(time[-1]), 2)} s")
     return _page(response.title or "Untitled case", rows, drawing)
+
+
+@html.register
+def _(both: Comparison) -> str:
+    """Show verdicts of both models, what their difference means, and their key numbers."""
+    rows = [(each.model, verdict(each)) for each in both.responses]
+    rows += [("difference", both.meaning())]
+    rows += [("warning", text) for text in listed(both.responses)]
+    numbers = Numbers(both.to_json())
+    for each in HEADLINES:
+        cells = {model: numbers(f"{model}.{each.key}", sign=each.way) for model in both.seconds}
+        texts = [f"{cell.text} ({model})" for model, cell in cells.items() if isinstance(cell, Value)]
+        if texts:
+            rows.append((each.full, ", ".join(texts)))
+    return _page(both.title or "Untitled case", rows, "")
+
+
+@html.register
+def _(found: Statics) -> str:
+    """Show which static checks are not met, and the warnings."""
+    missed = [str(check.sentence) for check in found.checks if not check.met]
+    rows = [
+        ("criteria", found.criteria),
+        ("checks", f"{len(found.checks) - len(missed)} of {len(found.checks)} are met"),
+    ]
+    rows += [("not met", text) for text in missed]
+    rows += [("warning", str(warning)) for warning in found.warnings]
+    return _page(found.title or "Untitled case", rows, "")
 
 
 def line(x: Floats, y: Floats, label: str) -> str:

@@ -16,11 +16,12 @@ from heeltoe.models.statics.levels import critical_water_levels
 from heeltoe.models.statics.load_case import LoadCase
 from heeltoe.references import REFERENCES
 from heeltoe.result.write import build_info
+from heeltoe.shown import Shown
 from heeltoe.warnings import Notice
 
 
 @dataclass(frozen=True)
-class Statics:
+class Statics(Shown):
     """Result of the static checks.
 
     Attributes

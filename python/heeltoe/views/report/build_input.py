@@ -87,7 +87,8 @@ def _command(subject: Subject) -> str:
     models = [run.response.model for run in subject.runs]
     model = models[0] if len(models) == 1 else "both"
     spread = " --spread" if any(run.response.spread is not None for run in subject.runs) else ""
-    return f"heeltoe run CASE.toml --model {model}{spread} --report"
+    units = "" if subject.units == "si" else f" --units {subject.units}"
+    return f"heeltoe run CASE.toml --model {model}{spread}{units} --report"
 
 
 def _rows(subject: Subject, *, given: bool) -> tuple[tuple[Inline, ...], ...]:
