@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from itertools import combinations
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.image import imread
-from matplotlib.text import Text
 
 from heeltoe import flexible, read_case, rigid, with_spread
 from heeltoe.errors import InputError
@@ -36,6 +34,7 @@ from heeltoe.views.figures.panels import draw_ribbon, ground_motion
 from heeltoe.views.figures.style import without_heading
 from heeltoe.views.files.write import write_all
 from shared.dams import ALL_EXAMPLES, BASE, BLOCK, FAST, example
+from shared.drawn import check, texts
 
 ROCKING = ["reservoir.depth=60m", "motion.pga=1.2g", "motion.duration=8s"]
 
@@ -48,51 +47,6 @@ def both(typical_both):
 @pytest.fixture(scope="module")
 def rocking():
     return rigid(example("typical-base", *ROCKING))
-
-
-def texts(figure):
-    """Return all texts of a figure that are seen."""
-    found = [text for axes in figure.axes for text in axes.findobj(Text)]
-    found += list(figure.texts) + ([figure._suptitle] if figure._suptitle else [])
-    found += [text for legend in figure.legends for text in legend.get_texts()]
-    return [text for text in found if text.get_text().strip() and text.get_visible()]
-
-
-def check(figure, name):
-    """Everything has its unit and its place."""
-    renderer = FigureCanvasAgg(figure).get_renderer()
-    figure.draw(renderer)
-    canvas = figure.bbox.padded(1.0)
-    for axes in figure.axes:
-        for label in (axes.get_xlabel(), axes.get_ylabel()):
-            assert "[" in label or label in ("", "mode"), (name, label)
-        assert axes.get_xlabel() or axes.get_ylabel() or name.endswith(("path", "deformed", "modes", "energy", "mode"))
-        # Nothing is drawn in an empty panel.
-        assert axes.lines or axes.collections or axes.patches or axes.images, name
-    # Ticks beyond the limits of an axis are not drawn.
-    ticks = {
-        label
-        for axes in figure.axes
-        for axis in (axes.xaxis, axes.yaxis)
-        for tick in axis.get_major_ticks() + axis.get_minor_ticks()
-        for label in (tick.label1, tick.label2)
-    }
-    for text in texts(figure):
-        if text not in ticks:
-            box = text.get_window_extent(renderer)
-            assert canvas.x0 <= box.x0, (name, text.get_text())
-            assert box.x1 <= canvas.x1, (name, text.get_text())
-            assert canvas.y0 <= box.y0, (name, text.get_text())
-            assert box.y1 <= canvas.y1, (name, text.get_text())
-    boxes = [(legend, legend.get_window_extent(renderer)) for legend in figure.legends]
-    for legend, box in boxes:
-        for axes in figure.axes:
-            assert not box.overlaps(axes.get_window_extent(renderer)), (name, legend)
-            for label in (axes.xaxis.label, axes.yaxis.label):
-                assert not label.get_text() or not box.padded(-0.5).overlaps(label.get_window_extent(renderer)), name
-    labels = [axes.yaxis.label for axes in figure.axes if axes.get_ylabel()]
-    for one, other in combinations(labels, 2):
-        assert not one.get_window_extent(renderer).overlaps(other.get_window_extent(renderer)), name
 
 
 # One example with parts of every kind and forces of a large dam, and one of a small block, in both systems of units.

@@ -13,7 +13,7 @@ from hypothesis import example as tried
 from hypothesis import strategies as st
 from pypdf import PdfReader
 
-from heeltoe import InputError, compare, decoupled, flexible, read_case, rigid, statics, with_spread
+from heeltoe import InputError, read_case, rigid, with_spread
 from heeltoe.result.write import json_text
 from heeltoe.views.report import build_report, check_packages, write_report
 from heeltoe.views.report.build_input import fields, input_hash
@@ -23,8 +23,8 @@ from heeltoe.views.report.html import html
 from heeltoe.views.report.typst_pdf import pages, pdf, source
 from heeltoe.views.words.numbers import Value
 from heeltoe.warnings import Notice
-from shared.dams import BASE, BLOCK, FAST, ROOT, SLENDER, example
-from shared.report_reader import Reader, lookup, pdf_text, squeezed
+from shared.dams import BASE, BLOCK, FAST, SLENDER
+from shared.report_reader import Reader, check_numbers, lookup, pdf_text, read_back, squeezed, values
 
 
 @pytest.fixture(scope="module")
@@ -44,61 +44,6 @@ def both(typical_both):
 def document(typical_both):
     """The report of both."""
     return build_report(read_case(BASE, FAST), typical_both)
-
-
-def values(blocks):
-    """All numbers of a tree of blocks."""
-    for each in blocks:
-        if isinstance(each, Section):
-            yield from values(each.blocks)
-        else:
-            parts = getattr(each, "parts", ())
-            for row in getattr(each, "rows", ()):
-                parts = (*parts, *row)
-            yield from (part for part in parts if isinstance(part, Value))
-
-
-UNITS = {
-    "mm": 1e-3,
-    "mrad": 1e-3,
-    "MN/m": 1e6,
-    "kN/m": 1e3,
-    "MJ/m": 1e6,
-    "kJ/m": 1e3,
-    "t/m": 1e3,
-    "MPa": 1e6,
-    "kPa": 1e3,
-}
-UNITS |= {"%": 0.01}
-UNITS |= {"ft": 0.3048, "in": 0.0254, "ft/s": 0.3048, "ft/s²": 0.3048, "psi": 6894.757, "ksi": 6894757.0}
-UNITS |= {"kip/ft": 14593.903, "ft-kip/ft": 4448.2216, "ton/ft": 2976.3279}
-
-
-def read_back(text):
-    """The number that a text shows in SI, and half of its last digit."""
-    text = text.removeprefix("≥ ").removeprefix("≤ ")
-    number, _, unit = text.partition(" ")
-    mantissa, _, exponent = number.partition("·10")
-    power = int(exponent.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")) or 0)
-    decimals = len(mantissa.partition(".")[2])
-    factor = UNITS.get(unit, 1.0) * 10.0**power
-    return float(mantissa) * factor, 0.5 * 10.0**-decimals * factor
-
-
-def check_numbers(document, result):
-    data = json.loads(json_text(result.to_json()))
-    reader = Reader(html(document))
-    printed = squeezed(pdf_text(pdf(document)))
-    assert len(reader.numbers) > 40
-    for key, (number, text) in reader.numbers.items():
-        if not key.startswith("statics."):
-            assert number == lookup(data, key), key
-        if text != "under 0.01 mm":
-            shown_number, half = read_back(text)
-            # Digits that are zero may be left out, angles have three digits.
-            assert abs(shown_number) == pytest.approx(abs(number), abs=half * 1.0001, rel=1e-3), (key, text)
-        assert squeezed(text) in printed, (key, text)
-    return reader, printed
 
 
 def test_numbers_of_one_run_equal_those_of_the_json(block):
@@ -363,77 +308,3 @@ def test_nothing_is_left_half_written(tmp_path, block):
     with pytest.raises(InputError) as found:
         write_report(*block, tmp_path / "file" / "below", kinds=("html",))
     assert found.value.code == "cannot-write"
-
-
-def test_notebooks_show_cases_motions_and_results(block, typical_both):
-    case, response = block
-    for shown_object, words in (
-        (case, ("2650 kg/m³", "reservoir.depth", "<svg")),
-        (response.motion, ("peak acceleration", "1 g", "m/s", "<polyline")),
-        (response, ("residual slip", "mm", "The dam slides", "<polyline")),
-    ):
-        found = shown_object._repr_html_()
-        Reader(found)
-        for each in words:
-            assert each in found
-        # A page of a notebook is no place for a megabyte.
-        assert len(found) < 60_000
-    for result, words in (
-        (typical_both, ("The dam slides", "difference", "(rigid)", "(flexible)")),
-        (statics(case, 0.1), ("USACE", "checks", "not met", "sliding factor")),
-    ):
-        assert all(each in result._repr_html_() for each in words)
-    never = rigid(read_case(BASE, ["crack.friction=0.2"]))
-    assert "No result to trust" in never._repr_html_()
-    assert "<b>" not in replace(response, title="<b>")._repr_html_()
-    bare = read_case(BLOCK)
-    assert "Block pushed once" in bare._repr_html_()
-    assert rigid(bare)._repr_html_()
-
-
-EXAMPLES = [("typical-base", rigid), ("typical-base", flexible), ("typical-height", flexible), ("triangular", flexible)]
-EXAMPLES += [("koyna", decoupled), ("anchored", rigid), ("slender", rigid), ("typical-base", compare)]
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("name", "run"), EXAMPLES)
-def test_reports_of_the_examples_at_full_length(name, run, tmp_path):
-    case = example(name)
-    result = run(case)
-    check_numbers(build_report(case, result), result)
-    write_report(case, result, directory := ROOT / "out" / "reports" / f"{name}-{run.__name__}")
-    for number, data in enumerate(pages(build_report(case, result)), start=1):
-        (directory / f"page-{number}.png").write_bytes(data)
-
-
-@pytest.mark.parametrize(("name", "run"), EXAMPLES[:-1])
-def test_reports_of_the_examples(name, run, tmp_path):
-    case = example(name, *FAST)
-    for path in write_report(case, run(case), tmp_path):
-        assert path.stat().st_size > 100_000
-
-
-def pages_of(document):
-    """The room for text and figures of every page of a PDF, as shades of grey."""
-    import numpy as np
-    from PIL import Image
-
-    for data in pages(document, 30.0):
-        page = np.asarray(Image.open(io.BytesIO(data)).convert("L")).astype(int)
-        one = len(page) / 297.0
-        yield page[int(20 * one) : int(275 * one) - 2]
-
-
-def test_pages_are_full(document):
-    import numpy as np
-
-    blank = []
-    for page in pages_of(document):
-        inked = np.flatnonzero((page < 250).any(axis=1))
-        # Bands of less than 10 mm part what belongs apart.
-        bands = np.diff(inked) - 1
-        inner = bands[bands > 10.0 * len(page) / 255.0].sum()
-        blank.append(1.0 - (inked[-1] + 1 - inner) / len(page))
-    # The last page ends where the report does; a figure or a table that is kept whole may need the next page.
-    assert np.mean(blank[:-1]) < 0.12
-    assert max(blank[:-1]) < 0.3
