@@ -13,6 +13,7 @@ import pytest
 from heeltoe import GroundMotion, InputError, decoupled, read_case, rigid, verdict, with_spread
 from heeltoe.models.decoupled.model import crack_earthquake
 from heeltoe.models.run import earthquake
+from heeltoe.references import REFERENCES
 from heeltoe.result.write import json_text
 from heeltoe.views.files.write import write_all
 from shared.command import command, options
@@ -119,6 +120,9 @@ def test_a_block_that_feels_the_rotation_of_its_crack(koyna):
     felt = turned.histories["ground_rotation_rad_s2"]
     assert np.abs(felt).max() == pytest.approx(turned.crack_level["peak_rotation_rad_s2"], rel=0.05)
     assert turned.residual_slip_m != koyna.residual_slip_m
+    # Only integration follows it.
+    assert REFERENCES["integration"] in turned.citation()
+    assert REFERENCES["integration"] not in koyna.citation()
     # A stiff dam turns as little as its foundation.
     stiff, level = (
         decoupled(read_case(KOYNA, [*STIFF, f"decoupled.rotation={felt}"])).residual_slip_m
