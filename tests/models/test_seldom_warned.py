@@ -1,0 +1,76 @@
+"""Warnings that hardly any run earns: each from the numbers that make it, with what it must leave unsaid beside it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+
+import heeltoe
+from heeltoe.case.warnings import case_warnings
+from heeltoe.models.decoupled import model as decoupled
+from heeltoe.models.flexible import warnings as flexible
+from heeltoe.models.flexible.shaken import Convergence
+from heeltoe.models.rigid.walk import walk
+from heeltoe.models.rigid.warnings import warnings_of
+from heeltoe.models.run import earthquake
+from shared.dams import FAST, example
+
+
+def codes(said):
+    return {each.code for each in said}
+
+
+@pytest.mark.parametrize(
+    ("code", "changes"),
+    [
+        ("ice-below-crack", ["reservoir.depth=90.5m", 'ice={depth="1 m", force="100 kN/m"}']),
+        ("silt-below-crack", ['silt={depth="20 m"}']),
+    ],
+)
+def test_what_ends_below_the_crack(code, changes):
+    assert code in codes(case_warnings(example("typical-height", *changes)))
+    low = [change for change in changes if not change.startswith("reservoir")]
+    assert code not in codes(case_warnings(example("typical-base", *low)))
+
+
+def test_impacts_of_a_rigid_block():
+    case = example("typical-base", *FAST)
+    block = heeltoe.build_block(case)
+    run = walk(case, block, earthquake(case).shaking)
+    both = {"restitution-lowered", "paradox-jammed"}
+    assert not both & codes(warnings_of(case, block, run))
+    changed = replace(run, summary={**run.summary, "energy_limited_impacts": 2.0, "jams": 1.0})
+    said = {each.code: str(each) for each in warnings_of(case, block, changed)}
+    assert both <= set(said)
+    assert said["restitution-lowered"].startswith("2 ")
+    assert said["paradox-jammed"].startswith("1 ")
+
+
+@pytest.mark.parametrize(("coarser", "warned"), [(0.105, False), (0.12, True)])
+def test_a_step_that_matters_to_an_elastic_dam(typical_both, coarser, warned):
+    dam = typical_both.flexible.crack.dam
+    evidence = Convergence(time_step=1e-4, coarser_step=2e-4, slip=0.1, coarser_slip=coarser, allowed=0.1)
+    assert ("not-converged" in codes(flexible._about_the_slip(dam, evidence, None))) is warned
+
+
+@pytest.mark.parametrize(("error", "warned"), [(0.019, False), (0.021, True)])
+def test_too_few_modes(typical_both, error, warned):
+    dam = replace(typical_both.flexible.crack.dam, basis_error=error)
+    assert ("modes-few" in codes(flexible._about_the_concrete(example("typical-base"), dam))) is warned
+
+
+@pytest.mark.parametrize(("rotation", "warned"), [(0.09, False), (0.11, True)])
+def test_rotations_beyond_the_elastic_model(typical_both, rotation, warned):
+    case, history = example("typical-base", *FAST), typical_both.flexible.crack
+    numbers = dict.fromkeys(("contact_residual", "energy_residual", "energy_gained", "rotation_max"), 0.0)
+    run = SimpleNamespace(summary={**numbers, "energy_turnover": 1.0, "rotation_min": -rotation})
+    assert ("rotation-beyond-model" in codes(flexible._about_the_contact(case, run, history))) is warned
+
+
+@pytest.mark.parametrize("warned", [False, True])
+def test_sampling_of_the_motion_at_the_crack(warned):
+    change = decoupled._change(0.1, 0.2 if warned else 0.1, 0.01)
+    said = decoupled._warnings({"convergence": {"step_s": 0.005, **change}})
+    assert codes(said) == ({"sampling-matters"} if warned else set())
