@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from rich.console import Console
 
 from heeltoe.cli.common import UnitsName
 from heeltoe.errors import InputError
-from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.systems import unit_system
+
+if TYPE_CHECKING:
+    from heeltoe.motion.ground_motion import GroundMotion
 
 
 def motion(
