@@ -7,19 +7,23 @@ from functools import singledispatch
 from rich.console import Console
 
 from heeltoe.result.response import Response
-from heeltoe.study.comparison import Comparison
-from heeltoe.study.grid import Grid
-from heeltoe.views.terminal.comparison import print_comparison
-from heeltoe.views.terminal.grid import print_grid
 from heeltoe.views.terminal.response import print_summary
 
 
 @singledispatch
 def show(result: object, console: Console, units: str = "si") -> None:
     """Print a result in units ``"si"`` or ``"us"``."""
-    raise TypeError(f"nothing shows a {type(result).__name__} on the terminal")
+    # Loaded when there is one to show: most commands end with a single response.
+    from heeltoe.study.comparison import Comparison
+    from heeltoe.study.grid import Grid
+    from heeltoe.views.terminal.comparison import print_comparison
+    from heeltoe.views.terminal.grid import print_grid
+
+    show.register(Comparison, print_comparison)
+    show.register(Grid, print_grid)
+    if not isinstance(result, Comparison | Grid):
+        raise TypeError(f"nothing shows a {type(result).__name__} on the terminal")
+    show(result, console, units)
 
 
 show.register(Response, print_summary)
-show.register(Comparison, print_comparison)
-show.register(Grid, print_grid)
