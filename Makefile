@@ -21,7 +21,7 @@ help:
 	@echo "make test-slow  the long ones"
 	@echo "make lint       formatting, lints, types and directions of imports"
 	@echo "make validate   the reference cases as tables"
-	@echo "make bench      ours against named peers; writes benchmarks/results.md"
+	@echo "make bench      ours against named peers; writes benchmarks/results.md (PART=crack_dam for one part)"
 	@echo "make clean      remove what was built"
 
 check:
@@ -76,7 +76,8 @@ validate: check $(VENV)/.built
 
 bench: check $(VENV)/.built
 	$(BIN)/pip install --quiet --disable-pip-version-check -r requirements-bench.lock
-	$(BIN)/python benchmarks/run.py
+	$(BIN)/python benchmarks/run.py $(PART)
+	@$(ELAPSED)
 
 format:
 	cargo fmt

@@ -114,6 +114,7 @@ def report() -> str:
     require(PROFILE == "release", "the kernel is a debug build")
     own = ours(ALONG) + ours(ALONG // 2)
     found, said = peers()
+    require(len(found) > 0, "no peer ran: " + " ".join(said))
     text = (
         f"Elastic block of 4 m by 1 m, {MODULUS / 1e9:g} GPa, no damping, pushed and shaken for {DURATION:g} s; errors "
         "are the largest at any tenth of a second against the exact slip of a rigid one, "

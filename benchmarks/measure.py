@@ -14,7 +14,7 @@ from statistics import median, quantiles
 from typing import Any
 
 # Shorter than this [s] is mostly the clock's own grain; longer than that is not worth repeating.
-SHORTEST, LONGEST = 0.02, 12.0
+SHORTEST, LONGEST = 0.02, 4.0
 
 
 class NothingMeasured(Exception):

@@ -11,7 +11,7 @@ from problems import DURATION, STEP, Ensemble, Floats, G, dam, el_centro, slende
 from heeltoe import kernel, rigid
 
 MODES = ("rest", "sliding", "rocking", "slide_rocking", "drifting")
-REPETITIONS = 5
+REPETITIONS = 3
 #: Runs of the whole ensemble between which memory must not grow.
 ROUNDS = 6
 

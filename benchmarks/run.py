@@ -1,33 +1,67 @@
-"""Run all benchmarks and write their tables to results.md: ``python benchmarks/run.py``."""
+"""Run the benchmarks, all or those that are named, and write their tables to results.md.
+
+python benchmarks/run.py                      # all parts, one after the other
+python benchmarks/run.py crack_dam crack_peers
+"""
 
 from __future__ import annotations
 
+import argparse
+import re
+import sys
+import time
+from importlib import import_module
 from pathlib import Path
 
-import crack_dam
-import crack_peers
-import rigid_ensemble
-import rigid_peers
-import rocking_peers
-import spectra_peers
+from measure import NothingMeasured
 
+#: Modules with a `report`, and the title of the section that each writes; each is meant to stay below five minutes.
+PARTS = {
+    "rigid_ensemble": "Rigid ensemble",
+    "rigid_peers": "Rigid peers",
+    "rocking_peers": "Rotations of any size",
+    "spectra_peers": "Response spectra",
+    "crack_dam": "Flexible dams",
+    "crack_peers": "Elastic block beside peers",
+}
 TITLE = "# Measured results\n\nWritten by `python benchmarks/run.py`; what the numbers mean is in the README beside it."
+TARGET = Path(__file__).with_name("results.md")
+
+
+def renewed(text: str, report: str) -> str:
+    """Return the results with one section put in, in place of the one with its title; in the order of the parts."""
+    sections = dict(_titled(section) for section in re.split(r"^(?=## )", text, flags=re.M)[1:])
+    title, section = _titled(report)
+    if title not in PARTS.values():
+        raise NothingMeasured(f"no part writes a section {title!r}")
+    sections[title] = section
+    return "\n\n".join([TITLE, *(sections[name] for name in PARTS.values() if name in sections)]) + "\n"
+
+
+def _titled(section: str) -> tuple[str, str]:
+    return section.split("\n", 1)[0].removeprefix("## "), section.strip()
 
 
 def main() -> None:
-    """Run everything before anything is written: a benchmark that fails leaves the old results alone."""
-    parts = [
-        TITLE,
-        rigid_ensemble.report(),
-        rigid_peers.report(),
-        rocking_peers.report(),
-        spectra_peers.report(),
-        crack_dam.report(),
-        crack_peers.report(),
-    ]
-    target = Path(__file__).with_name("results.md")
-    target.write_text("\n\n".join(parts) + "\n", encoding="utf-8")
-    print(f"wrote {target}")
+    """Run the parts. One that measures nothing leaves its old section alone, and the whole fails in the end."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("part", nargs="*", metavar="part", help=f"of {', '.join(PARTS)}; all without")
+    wanted = parser.parse_args().part or list(PARTS)
+    if unknown := set(wanted) - set(PARTS):
+        parser.error(f"there is no part {', '.join(sorted(unknown))}")
+    failed = False
+    for part in wanted:
+        start = time.perf_counter()
+        try:
+            report = import_module(part).report()
+        except NothingMeasured as reason:
+            print(f"{part}: nothing measured: {reason}", file=sys.stderr)
+            failed = True
+            continue
+        old = TARGET.read_text(encoding="utf-8") if TARGET.exists() else ""
+        TARGET.write_text(renewed(old, report), encoding="utf-8")
+        print(f"{part}: {time.perf_counter() - start:.0f} s, written to {TARGET}")
+    sys.exit(failed)
 
 
 if __name__ == "__main__":

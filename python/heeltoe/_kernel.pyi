@@ -152,6 +152,10 @@ class ReducedBody(Protocol):
     def shapes(self) -> Floats: ...
     @property
     def position(self) -> Floats: ...
+    @property
+    def dampers(self) -> Floats: ...
+    @property
+    def damper_signs(self) -> Floats: ...
 
 class FollowingWater(Protocol):
     """Water in the crack; see :class:`heeltoe.models.flexible.inside.FollowingWater`."""
@@ -194,6 +198,9 @@ class CrackedDam:
         Where its pressure follows the opening.
     anchors
         Those with stiffness. Neither goes with the penalty method.
+    give
+        Rotation of the crack's faces [rad] and gap [m] that elastic deformation alone accounts for: rocking and
+        drifting are what goes beyond.
     """
 
     def __init__(
@@ -204,7 +211,17 @@ class CrackedDam:
         contactors: int,
         water: FollowingWater | None = None,
         anchors: Sequence[CrackAnchor] = (),
+        give: tuple[float, float] = (0.0, 0.0),
     ) -> None: ...
+    def still(self) -> tuple[float, int, Floats, Floats, Floats] | None:
+        """Return the state before the earthquake with the crack let go; None where friction does not hold the dam.
+
+        Returns
+        -------
+        slip, open contacts, amplitudes of the upper and of the lower part, force
+            Slip since the crack was bonded [m]; forces on the nodes of the upper face, all along the crack, then all
+            across it [N].
+        """
     def run(
         self,
         ground: Floats,

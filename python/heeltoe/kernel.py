@@ -307,6 +307,28 @@ class DamRun:
         return DAM_STATES[int(self.summary["final_state"])]
 
 
+@dataclass(frozen=True, eq=False)
+class AtRest:
+    """An elastic dam before the earthquake, its crack let go; k nodes on the crack, m modes.
+
+    Attributes
+    ----------
+    slip
+        Since the crack was bonded [m].
+    open_contacts
+        How many of the watched nodes are open.
+    modes
+        (m,) amplitudes of the upper and of the lower part.
+    force
+        (2, k) forces on the nodes of the upper face, along and across the crack [N].
+    """
+
+    slip: float
+    open_contacts: int
+    modes: tuple[Floats, Floats]
+    force: Floats
+
+
 class CrackedDam:
     """Two elastic parts with a frictional crack between them; immutable, so that many runs may share one.
 
@@ -322,6 +344,8 @@ class CrackedDam:
         Where its pressure follows the opening.
     anchors
         Those with stiffness. Neither goes with the penalty method.
+    give
+        Rotation [rad] and gap [m] of the crack's faces that elastic deformation alone accounts for.
     """
 
     def __init__(
@@ -332,8 +356,17 @@ class CrackedDam:
         contactors: int,
         water: FollowingWater | None = None,
         anchors: Sequence[CrackAnchor] = (),
+        give: tuple[float, float] = (0.0, 0.0),
     ) -> None:
-        self._dam = _kernel.CrackedDam(upper, lower, friction, contactors, water, anchors)
+        self._dam = _kernel.CrackedDam(upper, lower, friction, contactors, water, anchors, give)
+
+    def still(self) -> AtRest | None:
+        """Return the state before the earthquake; None where friction does not hold the dam."""
+        found = self._dam.still()
+        if found is None:
+            return None
+        slip, opened, above, below, force = found
+        return AtRest(slip, opened, (above, below), force.reshape(2, -1))
 
     def run(
         self,

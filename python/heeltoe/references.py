@@ -14,6 +14,10 @@ REFERENCES = {
     "water": (
         'H. M. Westergaard, "Water pressures on dams during earthquakes", Transactions of the ASCE 98 (1933), 418-433'
     ),
+    "sloped water": (
+        'C. N. Zangar, "Hydrodynamic pressures on dams due to horizontal earthquake effects", Engineering Monograph '
+        "11, US Bureau of Reclamation, 1952"
+    ),
     "rocking": (
         'G. W. Housner, "The behavior of inverted pendulum structures during earthquakes", Bulletin of the '
         "Seismological Society of America 53 (1963), 403-417"

@@ -210,6 +210,18 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "the dam slides under its static loads alone (sliding safety factor {factor:.3f}): its slip grows as long as "
         "the run lasts",
     ),
+    "no-rest": (
+        "grave",
+        "",
+        "no state of rest was found in which friction holds the crack before the earthquake; the run starts from the "
+        "dam with its crack bonded",
+    ),
+    "self-excited": (
+        "grave",
+        "concrete.damping",
+        "self-excited sliding: a vibration of the sliding dam grows by {growth_1_s:.3g 1/s}, for {sliding_s:.3g s} of "
+        "sliding, so that the slip depends on damping: {slip_m:.4g mm}, with twice the damping {damped_slip_m:.4g mm}",
+    ),
     "damping-hardly": (
         "grave",
         "concrete.damping",

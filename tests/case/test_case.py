@@ -52,7 +52,7 @@ def test_defaults():
     flexible = case.flexible
     assert (flexible.plane, flexible.damping, flexible.virtual_mass, flexible.contact) == (
         "stress",
-        "deformation",
+        "relative",
         "complete",
         "coulomb",
     )

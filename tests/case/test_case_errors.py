@@ -144,7 +144,8 @@ REFUSED = [
     ),
     (
         dam(flexible={"damping": "thesys"}),
-        'flexible.damping: "thesys" is not a choice; choose "deformation", "thesis" or "modal"',
+        'flexible.damping: "thesys" is not a choice; choose "relative", "stiffness", "modal", "thesis" or '
+        '"deformation"',
     ),
     (dam(motion={"file": ""}), 'motion.file: "" is of the wrong type; give a text that is not empty'),
     (

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from heeltoe.mechanics import loads
+from heeltoe.mechanics import loads, virtual_water
 from shared.dams import TYPICAL
 from shared.outlines import by_strips, dams, make
 
@@ -40,7 +40,7 @@ def test_typical_dam_by_hand():
 def test_typical_dam_about_its_reference_point():
     # The reference point of the rigid model is as high as the common centre of concrete and virtual water.
     case = solved(TYPICAL, reservoir=deep(100.0), concrete={"density": "2650 kg/m^3"})
-    water = loads.virtual_mass(case)
+    water = virtual_water.virtual_mass(case)
     assert water.mass == pytest.approx(7 / 12 * 1000 * 100**2)
     assert water.height == pytest.approx(40.0)
     mass = loads.concrete_mass(case)
@@ -190,13 +190,13 @@ def test_uplift_patterns(uplift, tail, points):
 def test_water_below_the_crack_does_nothing():
     case = solved(RECTANGLE, 6.0, reservoir=deep(6.0), tailwater=deep(5.0))
     assert all(force.moment == force.vertical == force.horizontal == 0.0 for force in loads.static_forces(case)[1:])
-    assert loads.virtual_mass(case) == loads.VirtualMass(0.0, 0.0)
+    assert virtual_water.virtual_mass(case) == virtual_water.VirtualMass(0.0, 0.0)
 
 
 def test_dry_dam():
     case = solved(RECTANGLE)
     assert loads.total("water", loads.static_forces(case)[1:]) == loads.Resultant("water", 0.0, 0.0, 0.0)
-    assert loads.virtual_mass(case) == loads.VirtualMass(0.0, 0.0)
+    assert virtual_water.virtual_mass(case) == virtual_water.VirtualMass(0.0, 0.0)
 
 
 @pytest.mark.parametrize(("crack", "depth"), [(0.0, 12.0), (3.0, 10.0), (9.0, 12.0)])
@@ -204,7 +204,7 @@ def test_virtual_mass_against_numeric_integration(crack, depth):
     case = solved(RECTANGLE, crack, reservoir=deep(depth))
     eta = crack + (depth - crack) * (np.arange(1_000_000) + 0.5) / 1_000_000
     strip = 7 / 8 * 1000 * np.sqrt(depth * (depth - eta)) * (depth - crack) / 1_000_000
-    water = loads.virtual_mass(case)
+    water = virtual_water.virtual_mass(case)
     assert water.mass == pytest.approx(math.fsum(strip), rel=1e-7)
     assert water.height == pytest.approx(math.fsum(strip * (eta - crack)) / math.fsum(strip), rel=1e-7)
 

@@ -29,10 +29,6 @@ def with_slip(response: Response, *slips: float) -> Response:
     return replace(response, histories={**response.histories, "slip_m": slip})
 
 
-def with_status(response: Response, status: np.ndarray) -> Response:
-    return replace(response, crack=replace(response.crack, status=status))
-
-
 def test_slides(response):
     assert verdict(response).startswith(f"The dam slides {1e3 * response.residual_slip_m:.1f} mm downstream.")
     back = told(response, residual_slip_m=-0.02, peak_slip_upstream_m=-0.03)
@@ -46,16 +42,25 @@ def test_elastic_to_and_fro_is_no_sliding(response):
     assert "does not slide: its crack shifts by up to 0.90 mm and comes back." in told(response, **back)
 
 
+def with_times(response: Response, **seconds: float) -> Response:
+    """The same with these times by mode, else at rest [s]."""
+    times = dict.fromkeys(response.time_by_mode_s, 0.0) | {"rest": 3.0} | seconds
+    return replace(response, summary={**response.summary, "time_by_mode_s": times})
+
+
 def test_a_crack_that_never_lets_go_creeps(response):
-    held = np.array(response.crack.status)
-    held[:, -1] = 2
-    assert "creeps" in verdict(with_status(response, held))
-    assert "while the rest holds" in verdict(with_status(response, held))
-    # One frame of 0.01 s in which nothing sticks is no sliding yet, three are.
-    for frames, word in ((1, "creeps"), (3, "slides")):
-        loose = held.copy()
-        loose[100 : 100 + frames] = 3
-        assert word in verdict(with_status(response, loose))
+    assert "creeps" in verdict(with_times(response))
+    assert "while the rest holds" in verdict(with_times(response))
+    # A hundredth of a second in which half of the crack lets go is no sliding yet, three are.
+    for seconds, word in ((0.01, "creeps"), (0.03, "slides")):
+        assert word in verdict(with_times(response, sliding=seconds))
+
+
+def test_a_crack_that_opens_in_part_does_not_rock(response):
+    assert "It does not rock" in verdict(with_times(response, sliding=1.0, rocking=0.01))
+    rocks = verdict(with_times(response, sliding=1.0, rocking=0.4, slide_rocking=0.23))
+    assert "It rocks, standing on one end of the crack, for 0.63 s in all." in rocks
+    assert "not rock" not in rocks
 
 
 def test_a_quiet_dam_stays_where_it_is():

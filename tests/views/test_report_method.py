@@ -33,8 +33,9 @@ def test_the_method_is_that_of_the_options(changes, words):
     ("changes", "words"),
     [
         (["flexible.damping=modal"], "same damping ratio"),
-        (["flexible.damping=deformation"], "deformation alone"),
-        (["flexible.contact=idce"], "Contact is by penalties"),
+        (["flexible.damping=relative"], "relative to a rigid slide"),
+        (["flexible.damping=deformation"], "deformation of the parts by themselves"),
+        (["flexible.contact=idce", "flexible.damping=thesis"], "Contact is by penalties"),
     ],
 )
 @pytest.mark.usefixtures("no_figures")

@@ -1,7 +1,8 @@
 //! The flexible model, bound to Python.
 
 use heeltoe::flexible::{
-    many, simulate, Dam, FaceAnchor, Inside, Modes, Penalty, Point, Scheme, Shaking, Sides, Summary, Wanted,
+    many, simulate, Dam, FaceAnchor, Give, Inside, Modes, Penalty, Point, Scheme, Shaking, Sides, Summary,
+    Wanted,
 };
 use heeltoe::inside::Law;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
@@ -21,6 +22,8 @@ pub struct ReducedBody<'py> {
     start: Numbers<'py>,
     shapes: PyReadonlyArray2<'py, f64>,
     position: Numbers<'py>,
+    dampers: PyReadonlyArray2<'py, f64>,
+    damper_signs: Numbers<'py>,
 }
 
 impl ReducedBody<'_> {
@@ -36,6 +39,8 @@ impl ReducedBody<'_> {
             start: self.start.as_slice()?,
             shapes: self.shapes.as_slice()?,
             position: self.position.as_slice()?,
+            dampers: self.dampers.as_slice()?,
+            damper_signs: self.damper_signs.as_slice()?,
         };
         heeltoe::flexible::ReducedBody::new(&modes).map_err(wrong)
     }
@@ -93,6 +98,15 @@ impl CrackAnchor {
     }
 }
 
+/// Slip, number of open contacts, amplitudes of both bodies, forces on the nodes of the upper face.
+type Rest<'py> = (
+    f64,
+    usize,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray1<f64>>,
+);
+
 type Run<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray2<f64>>,
@@ -118,6 +132,9 @@ impl CrackedDam {
         if !self.dam.inside.is_empty() {
             return Err(wrong("the penalty method knows contact alone in the crack"));
         }
+        if self.dam.bodies.upper.dampers() > 0 {
+            return Err(wrong("the penalty method has no dashpots between the modes"));
+        }
         Ok(Scheme::Penalty(Penalty {
             stiffness,
             gamma,
@@ -129,7 +146,8 @@ impl CrackedDam {
 #[pymethods]
 impl CrackedDam {
     #[new]
-    #[pyo3(signature = (upper, lower, friction, contactors, water=None, anchors=Vec::new()))]
+    #[pyo3(signature = (upper, lower, friction, contactors, water=None, anchors=Vec::new(), give=(0.0, 0.0)))]
+    #[allow(clippy::too_many_arguments)]
     fn new(
         upper: ReducedBody,
         lower: Option<ReducedBody>,
@@ -137,6 +155,7 @@ impl CrackedDam {
         contactors: u8,
         water: Option<FollowingWater>,
         anchors: Vec<CrackAnchor>,
+        give: (f64, f64),
     ) -> PyResult<Self> {
         let dam = Dam {
             bodies: Sides {
@@ -149,9 +168,27 @@ impl CrackedDam {
                 water: water.map(|water| water.water()).transpose()?,
                 anchors: anchors.iter().map(CrackAnchor::anchor).collect(),
             },
+            give: Give {
+                rotation: give.0,
+                gap: give.1,
+            },
+            still: None,
         };
         dam.check().map_err(wrong)?;
-        Ok(CrackedDam { dam })
+        Ok(CrackedDam { dam: dam.rested() })
+    }
+
+    /// See `_kernel.pyi`.
+    fn still<'py>(&self, py: Python<'py>) -> Option<Rest<'py>> {
+        let still = self.dam.still.as_ref()?;
+        let [above, below] = still.amplitudes(&self.dam);
+        Some((
+            still.slip,
+            still.open(),
+            above.into_pyarray(py),
+            below.into_pyarray(py),
+            still.force[0].clone().into_pyarray(py),
+        ))
     }
 
     /// See `_kernel.pyi`.

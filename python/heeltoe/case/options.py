@@ -19,12 +19,16 @@ class Flexible(Fields):
     """Plane stress (dams with open joints between monoliths) or plane strain."""
     elements_across: Annotated[int, Field(strict=True, ge=1, le=200)] = 8
     """Number of elements along the crack."""
-    damping: Literal["deformation", "thesis", "modal"] = "deformation"
-    """Rayleigh on deformation only; as in Zhu (2004), on all motion while the crack sticks; or one ratio for
-    every deformation mode."""
+    damping: Literal["relative", "stiffness", "modal", "thesis", "deformation"] = "relative"
+    """Rayleigh's on the motion relative to a rigid slide along the crack; its stiffness term alone; one ratio for the
+    modes of the intact dam; as in Zhu (2004), Rayleigh's on all motion while the crack sticks; or, for comparison,
+    on the deformation of the free parts, which leaves the intact dam's first mode less than it says."""
+    damping_on_water: Truth = True
+    """Whether the mass term of damping `relative` acts on the virtual water too, or on the concrete alone; the first
+    and third mode of the intact dam get their ratio either way."""
     virtual_mass: Literal["complete", "thesis"] = "complete"
-    """Virtual water on both parts of the dam; or, as in Zhu (2004), above the crack only, its depth counted
-    from the crack."""
+    """Virtual water of reservoir and tailwater on both parts of the dam, along the normals of their faces; or, as in
+    Zhu (2004), of the reservoir alone, horizontally and above the crack only, its depth counted from the crack."""
     contact: Literal["coulomb", "idce"] = "coulomb"
     """Exact contact on velocity level; or the penalty method of Zhu (2004), for comparison."""
     time_step: TimeSpan | None = None
@@ -38,8 +42,8 @@ class Flexible(Fields):
     mesh_below: str | None = Field(default=None, strict=True, min_length=1)
     """Mesh of the part below the crack from a file."""
     modes: Count | None = None
-    """Number of vibration modes to keep in each part, beside the static shapes of the crack; all, where the mesh
-    is small enough, if not given."""
+    """Number of vibration modes to keep in each part, beside the static shapes of the crack; where it is not given, as
+    many as the flexibility of the crack needs."""
     contactors: Annotated[int, Field(strict=True, ge=1, le=5)] = 3
     """Which nodes are watched for contact, after Zhu (2004): 1 those of the upper face, 2 of the lower, 3 of the
     upper and the ends of the lower, 4 the reverse, 5 all."""
@@ -52,6 +56,15 @@ class Flexible(Fields):
     """Of `idce`: Newmark's gamma; more than 0.5 damps fast vibrations. With 0.5 contact makes energy at every blow."""
     newmark_beta: Annotated[DimensionlessNumber, Field(ge=0.25, le=1.0)] | None = None
     """Of `idce`: Newmark's beta; (gamma + 1/2)^2 / 4 where it is not given."""
+
+    @model_validator(mode="after")
+    @collected
+    def _go_together(self) -> Self:
+        if self.contact == "idce" and self.damping in ("relative", "modal"):
+            raise InputError("contradiction", "damping", shown(self.damping), other='contact = "idce"')
+        if not self.damping_on_water and self.damping != "relative":
+            raise InputError("contradiction", "damping_on_water", "false", other=f'damping = "{self.damping}"')
+        return self
 
 
 class Analysis(Fields):

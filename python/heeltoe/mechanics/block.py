@@ -18,7 +18,8 @@ from heeltoe import kernel
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
-from heeltoe.mechanics.loads import Resultant, VirtualMass, concrete_mass, face_at, static_forces, total, virtual_mass
+from heeltoe.mechanics.loads import Resultant, concrete_mass, face_at, static_forces, total
+from heeltoe.mechanics.virtual_water import VirtualMass, virtual_mass
 
 #: A sum of forces that is a smaller part of them is none.
 ROUNDING_OF_FORCES = 1e-13

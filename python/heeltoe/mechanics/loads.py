@@ -1,4 +1,4 @@
-"""Static forces on the part of a dam above the crack, and the water that moves with it; per metre of dam."""
+"""Static forces on the part of a dam above the crack; per metre of dam."""
 
 from __future__ import annotations
 
@@ -42,14 +42,6 @@ class Resultant:
     def moment_about(self, x: float, z: float) -> float:
         """Return the moment [N m/m] about a point `x` downstream of the heel and `z` above the crack [m]."""
         return self.moment - x * self.vertical + z * self.horizontal
-
-
-@dataclass(frozen=True)
-class VirtualMass:
-    """Water that moves horizontally with the dam: mass [kg/m], height of its centre above the crack [m]."""
-
-    mass: float
-    height: float
 
 
 def total(name: str, forces: Iterable[Resultant]) -> Resultant:
@@ -175,20 +167,6 @@ def uplift(case: Case) -> Resultant:
         vertical,
         float(np.sum(length * _mean_product(x[:-1], x[1:], pressure[:-1], pressure[1:]))),
     )
-
-
-def virtual_mass(case: Case) -> VirtualMass:
-    """Return the water that Westergaard (1931) lets move with a vertical upstream face, from the crack to the
-    surface.
-
-    Per unit height it is ``7/8 rho sqrt(D (D - eta))``, eta from the bottom of a reservoir of depth D; with h
-    of water above the crack the integral is ``7/12 rho sqrt(D) h^(3/2)``, its centre 0.4 h above the crack. A
-    slope of the face and the tailwater are left out."""
-    water = case.reservoir
-    depth = water_above_crack(case, water)
-    if water is None or depth == 0.0:
-        return VirtualMass(0.0, 0.0)
-    return VirtualMass(7.0 / 12.0 * water.density * math.sqrt(water.depth) * depth**1.5, 0.4 * depth)
 
 
 def water_above_crack(case: Case, water: Water | None, *, toe: bool = False) -> float:

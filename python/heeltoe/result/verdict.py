@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 # Less time in the air in all [s] is a few bounces, which the strikes tell of.
 _IN_THE_AIR_S = 0.05
+# Less time on one end of the crack in all [s] is a blow, and no rocking.
+_ROCKS_S = 0.02
 # Whether a dam that vibrates is still on its way is seen over this time [s].
 _LAST_S = 1.0
 
@@ -138,7 +140,12 @@ def _openings(response: Response, units: str) -> str:
         count = "once" if strikes == 1 else f"{strikes} times"
         text += f"; nodes of the crack strike {count}{fastest} at {speed(response.largest_impact_velocity_m_s, units)}"
     text += "."
-    in_the_air = response.time_by_mode_s["drifting"]
+    times = response.time_by_mode_s
+    rocking, in_the_air = times["rocking"] + times["slide_rocking"], times["drifting"]
+    if rocking >= _ROCKS_S:
+        text += f" It rocks, standing on one end of the crack, for {rocking:.2f} s in all."
+    else:
+        text += " It does not rock: an elastic dam gives that much."
     if in_the_air >= _IN_THE_AIR_S:
         text += f" For {in_the_air:.2f} s in all it touches nothing."
     return text

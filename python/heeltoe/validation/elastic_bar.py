@@ -53,8 +53,12 @@ def bouncing_bar() -> Iterator[Row]:
                 relative=False,
                 remark=nothing_rebounds,
             )
-        yield Row(f"{what}: energy made by contact, over turnover", 0.0, one.gained, 1e-12, relative=False)
-        yield Row(f"{what}: ledger, unexplained over turnover", 0.0, one.residual, 1e-12, relative=False)
+        yield Row(
+            f"{what}: energy made by contact, over turnover", 0.0, one.gained, 1e-12, relative=False, kind="condition"
+        )
+        yield Row(
+            f"{what}: ledger, unexplained over turnover", 0.0, one.residual, 1e-12, relative=False, kind="condition"
+        )
 
 
 @dataclass(frozen=True)
@@ -120,6 +124,8 @@ def _two_bars() -> ReducedBody:
         omega_squared=both(squares),
         damping_sticking=nothing,
         damping_free=nothing,
+        dampers=np.empty((0, nothing.size)),
+        damper_signs=np.empty(0),
         load=both(-_GRAVITY * uniform),
         participation_horizontal=nothing,
         participation_vertical=nothing,

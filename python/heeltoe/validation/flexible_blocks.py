@@ -44,13 +44,13 @@ def elastic_impulse() -> Iterator[Row]:
         slips[modulus] = runs.slip_mm(case, motion)
     limit = 1e3 * rigid(case, motion).residual_slip_m
     # A printed 116.5 is 116.45 to 116.55.
-    yield Row("our rigid model", 116.5, limit, 5e-4)
+    yield Row("our rigid model", 116.5, limit, 5e-4, remark="good for its four digits", kind="prototype")
     within = "the thesis has its stiff block within 0.104 % of rigid theory"
-    yield Row("2000 GPa, against our rigid model", limit, slips[2000.0], 1.04e-3, remark=within)
+    yield Row("2000 GPa, against our rigid model", limit, slips[2000.0], 1.04e-3, remark=within, kind="own run")
     slower = "the start of the pulse runs up the block as a wave; what that costs goes as the root of the modulus"
-    yield Row("200 GPa, against our rigid model", limit, slips[200.0], None, remark=slower)
+    yield Row("200 GPa, against our rigid model", limit, slips[200.0], None, remark=slower, kind="own run")
     # The prototype's own distance from rigid theory.
-    yield Row("20 GPa, against the prototype", 117.0, slips[20.0], 0.5 / 116.5, remark=slower)
+    yield Row("20 GPa, against the prototype", 117.0, slips[20.0], 0.5 / 116.5, remark=slower, kind="prototype")
     yield from runs.energy()
 
 
@@ -71,7 +71,7 @@ def elastic_sliding() -> Iterator[Row]:
         what = f"Poisson's ratio {poisson:g}, against"
         # As far as the prototypes are from it.
         yield Row(f"{what} the exact rigid slip", 1.0538997745, slip, 1e-3)
-        yield Row(f"{what} the middle of the prototypes", 1.05305, slip, 1e-3)
+        yield Row(f"{what} the middle of the prototypes", 1.05305, slip, 1e-3, kind="prototype")
     yield from runs.energy()
 
 
@@ -108,8 +108,8 @@ def elastic_rocking() -> Iterator[Row]:
         yield Row(
             f"{what}: peak 1", (least + most) / 2.0, found[0], (most - least) / 2.0, relative=False, remark=spread
         )
-        yield Row(f"{what}: peak 2", peaks[1], found[1], None, remark=later if damping else chaos)
-        yield Row(f"{what}: energy made by contact, over turnover", 0.0, gained, 1e-4, relative=False)
+        yield Row(f"{what}: peak 2", peaks[1], found[1], None, remark=later if damping else chaos, kind="own run")
+        yield Row(f"{what}: energy made by contact, over turnover", 0.0, gained, 1e-4, relative=False, kind="condition")
 
 
 def contactors() -> Iterator[Row]:
@@ -137,12 +137,18 @@ def contactors() -> Iterator[Row]:
         )
         slip = float(found[3].residual_slip_m)
         for kind in (4, 5):
-            yield Row(f"{way}, type {kind}: slip against type 3 [m]", slip, float(found[kind].residual_slip_m), 1e-3)
+            yield Row(
+                f"{way}, type {kind}: slip against type 3 [m]",
+                slip,
+                float(found[kind].residual_slip_m),
+                1e-3,
+                kind="own run",
+            )
         for kind in (blind, 3, 4, 5):
             warns = float(any(each.code == "faces-penetrate" for each in found[kind].warnings))
             expected = float(kind == blind)
             what = f"{way}, type {kind}: the result warns of penetration ({expected:.0f})"
-            yield Row(what, expected, warns, 0.0, relative=False, remark=remark)
+            yield Row(what, expected, warns, 0.0, relative=False, remark=remark, kind="condition")
     yield from runs.energy()
 
 

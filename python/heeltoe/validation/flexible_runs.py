@@ -39,6 +39,8 @@ class Runs:
             "in steps in which a slipping node turns round, friction works on the mean of both velocities, the first "
             "of which may be the wrong way"
         )
-        yield Row("worst ledger, unexplained over turnover", 0.0, self._residual, 1e-9, relative=False)
+        yield Row(
+            "worst ledger, unexplained over turnover", 0.0, self._residual, 1e-9, relative=False, kind="condition"
+        )
         what = "most energy made by contact, over what it takes"
-        yield Row(what, 0.0, self._gained, GAINED, relative=False, remark=remark)
+        yield Row(what, 0.0, self._gained, GAINED, relative=False, remark=remark, kind="condition")

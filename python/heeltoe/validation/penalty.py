@@ -28,6 +28,7 @@ def penalty() -> Iterator[Row]:
                 1e3 * other.residual_slip_m,
                 _AGREED if gamma >= 0.7 else None,
                 remark=_remark(other),
+                kind="own run",
             )
         wild = _run(elevation, depth, step, {"contact": "idce", "newmark_gamma": 0.5})
         yield Row(
@@ -36,12 +37,14 @@ def penalty() -> Iterator[Row]:
             1e3 * wild.residual_slip_m,
             None,
             remark=f"average acceleration with a penalty is unstable: {_remark(wild)}",
+            kind="own run",
         )
         yield Row(
             f"{name}, gamma 0.5: the result says so (1)",
             1.0,
             float(wild.outcome != "ok" or any(each.code == "energy-made" for each in wild.warnings)),
             0.0,
+            kind="condition",
         )
 
 

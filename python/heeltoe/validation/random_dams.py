@@ -85,7 +85,7 @@ def draw(rng: np.random.Generator) -> Drawn:
         },
         "flexible": {
             "elements_across": int(rng.integers(1, 5)),
-            "damping": str(rng.choice(["deformation", "thesis", "modal"])),
+            "damping": str(rng.choice(["relative", "stiffness", "modal", "thesis", "deformation"])),
             "contactors": int(rng.integers(1, 6)),
             "theta": float(rng.choice([0.5, 0.52, 0.52, 0.7, 1.0])),
         },
@@ -118,7 +118,15 @@ def random_dams() -> Iterator[Row]:
         made[name] = max(made[name], found["energy_gained"] / found["energy_turnover"])
         left[name] = max(left[name], -(found["energy_friction"] + found["energy_impact"]) / found["energy_turnover"])
     ledger = "1e-12 of the turnover and 1e-15 of it times the square of step times highest frequency"
-    yield Row("unexplained, over what rounding may leave", 0.0, unexplained, 1.0, relative=False, remark=ledger)
+    yield Row(
+        "unexplained, over what rounding may leave",
+        0.0,
+        unexplained,
+        1.0,
+        relative=False,
+        remark=ledger,
+        kind="condition",
+    )
     ordinary = (
         f"friction up to {FRICTION:g}, damping from {DAMPING:.1%}, steps up to {STEP:.0%} of the first period. Of 4000 "
         "other draws none made more than 2.6e-5, or left over more than 2.8e-6 (contactors of type 5, whose load is "
@@ -133,4 +141,12 @@ def random_dams() -> Iterator[Row]:
         remark = ordinary if name == "ordinary" else beyond
         for what, share, limit in (("made by contact", made, MADE), ("left over by contact", left, LEFT)):
             tolerance = limit if name == "ordinary" else None
-            yield Row(f"{name}: {what}, over turnover", 0.0, share[name], tolerance, relative=False, remark=remark)
+            yield Row(
+                f"{name}: {what}, over turnover",
+                0.0,
+                share[name],
+                tolerance,
+                relative=False,
+                remark=remark,
+                kind="condition",
+            )

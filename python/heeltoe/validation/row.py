@@ -3,6 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
+
+#: What a number is compared with: mathematics; what the thesis prints; an independent program; another model or
+#: another run of ours; a condition that a result must meet.
+Kind = Literal["closed form", "thesis", "prototype", "own run", "condition"]
 
 
 class Skipped(Exception):
@@ -20,11 +25,16 @@ class Row:
     reference, ours
         The two numbers.
     tolerance
-        Largest deviation allowed; None where the reference cannot be reproduced and `remark` says why.
+        What the reference is good for: a larger deviation is none of its own doing. None where the reference cannot
+        be reproduced and `remark` says why.
     relative
         Whether deviation and tolerance are relative to the reference.
     remark
-        Where the reference comes from, or the reason of a deviation.
+        Where the reference comes from, why it is good for no more, the reason of a deviation.
+    kind
+        What kind of reference it is.
+    explained
+        Largest deviation that `remark` explains, where it is more than the tolerance: it is said, and no failure.
     """
 
     what: str
@@ -33,6 +43,8 @@ class Row:
     tolerance: float | None
     relative: bool = True
     remark: str = ""
+    kind: Kind = "closed form"
+    explained: float | None = None
 
     @property
     def deviation(self) -> float:
@@ -41,20 +53,37 @@ class Row:
         return difference / abs(self.reference) if self.relative else difference
 
     @property
+    def deviates(self) -> bool:
+        """Whether the deviation is more than the reference is good for, but explained."""
+        return (
+            self.tolerance is not None
+            and self.explained is not None
+            and self.tolerance < abs(self.deviation) <= self.explained
+        )
+
+    @property
     def holds(self) -> bool | None:
-        """Whether the deviation is within the tolerance; None where none applies."""
-        return None if self.tolerance is None else abs(self.deviation) <= self.tolerance
+        """Whether the deviation is within the tolerance; None where none applies, or where it is explained."""
+        if self.tolerance is None or self.deviates:
+            return None
+        return abs(self.deviation) <= self.tolerance
 
     @property
     def verdict(self) -> str:
         """The verdict in words."""
         if self.tolerance is None:
             return "no verdict"
-        if self.tolerance == 0.0:
-            limit = "exactly"
-        else:
-            limit = f"within {self.tolerance:.0%}" if self.tolerance >= 0.01 else f"within {self.tolerance:.0e}"
-        return f"ok, {limit}" if self.holds else f"NOT {limit}"
+        if self.deviates:
+            return f"deviates: {self._share(abs(self.deviation))}, reference good for {self._share(self.tolerance)}"
+        limit = "exactly" if self.tolerance == 0.0 else f"within {self._share(self.tolerance)}"
+        if self.holds:
+            return f"ok, {limit}"
+        return f"NOT {limit}" if self.explained is None else f"NOT within {self._share(self.explained)}, all explained"
+
+    def _share(self, value: float) -> str:
+        if not self.relative:
+            return f"{value:.2g}"
+        return f"{100.0 * value:.3g}%" if value >= 0.01 else f"{value:.0e}"
 
     @property
     def reference_text(self) -> str:

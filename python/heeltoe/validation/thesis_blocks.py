@@ -12,6 +12,9 @@ from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.validation.plain import rectangle, run, sampled
 from heeltoe.validation.row import Row
 
+_PRINTED = "printed as parabolas, exact"
+_TWO = "two prototypes, good for the digits in which they agree"
+
 
 def impulse() -> Iterator[Row]:
     """Block 1 x 1 m, friction 0.2, ground 0.8 g for 0.1 s: the printed parabolas."""
@@ -28,8 +31,10 @@ def impulse() -> Iterator[Row]:
     t, g = response.histories["time_s"], case.gravity
     printed = np.where(t <= 0.1, -0.3 * g * t**2, 0.1 * g * t**2 - 0.08 * g * t + 0.004 * g)
     worst = float(np.abs(response.histories["slip_m"] - printed).max())
-    yield Row("largest distance from the parabolas [m]", 0.0, worst, 1e-9, relative=False)
-    yield Row("slip after 0.4 s [m]", -0.012 * g, response.residual_slip_m, 1e-12)
+    yield Row(
+        "largest distance from the parabolas [m]", 0.0, worst, 1e-9, relative=False, remark=_PRINTED, kind="thesis"
+    )
+    yield Row("slip after 0.4 s [m]", -0.012 * g, response.residual_slip_m, 1e-12, remark=_PRINTED, kind="thesis")
 
 
 def sine() -> Iterator[Row]:
@@ -40,7 +45,15 @@ def sine() -> Iterator[Row]:
     printed = (0.026198, 0.261845, 0.454995, 0.657297, 0.856571, 1.056805, 1.256730, 1.456755)
     times = found.times_of("slip starts")[:1] + found.times_of("slip stops")
     for k, (reference, ours) in enumerate(zip(printed, times, strict=False), 1):
-        yield Row(f"zero velocity {k} [s]", reference, ours, 1e-6, relative=False)
+        yield Row(
+            f"zero velocity {k} [s]",
+            reference,
+            ours,
+            1e-6,
+            relative=False,
+            remark="printed with six decimals",
+            kind="thesis",
+        )
 
 
 def drifting() -> Iterator[Row]:
@@ -56,8 +69,8 @@ def drifting() -> Iterator[Row]:
     )
     ground = sampled(lambda t: np.where(t < 0.4, -1.5 * 9.81 * np.sin(np.pi * t / 0.4), 0.0), 0.005, 3.0)
     response = rigid(case, GroundMotion.from_points(*ground, name="half sine"))
-    remark = "two prototypes"
-    yield Row("slip [mm]", 20.839, 1e3 * response.residual_slip_m, 1e-4, remark=remark)
+    remark = _TWO
+    yield Row("slip [mm]", 20.839, 1e3 * response.residual_slip_m, 1e-4, remark=remark, kind="prototype")
     part = 1e3 * response.slip_by_mode_m["drifting"]
     yield Row(
         "drifting part [mm]",
@@ -65,10 +78,13 @@ def drifting() -> Iterator[Row]:
         part,
         0.02,
         remark=f"{remark}; the part depends on when bouncing is called contact",
+        kind="prototype",
     )
-    yield Row("rocking upstream [rad]", 6.352e-3, response.rocking_upstream_rad, 1e-3, remark=remark)
-    yield Row("rocking downstream [rad]", 4.0988e-2, response.rocking_downstream_rad, 1e-3, remark=remark)
-    yield Row("at rest in the end", 1.0, float(response.final_mode == "rest"), 0.0)
+    yield Row("rocking upstream [rad]", 6.352e-3, response.rocking_upstream_rad, 1e-3, remark=remark, kind="prototype")
+    yield Row(
+        "rocking downstream [rad]", 4.0988e-2, response.rocking_downstream_rad, 1e-3, remark=remark, kind="prototype"
+    )
+    yield Row("at rest in the end", 1.0, float(response.final_mode == "rest"), 0.0, kind="prototype")
 
 
 def dry_block() -> Iterator[Row]:
@@ -79,6 +95,6 @@ def dry_block() -> Iterator[Row]:
         block = rectangle(1.0, 3.0, 1.0, gravity=9.81, restitution=restitution)
         summary = run(block, time, ground).summary
         label = f"e = {restitution:g}: rocking"
-        yield Row(f"{label} upstream [rad]", 0.023497, summary["rotation_max"], 1e-4, remark="two prototypes")
-        yield Row(f"{label} downstream [rad]", reference, -summary["rotation_min"], 5e-4, remark="two prototypes")
-        yield Row(f"e = {restitution:g}: slip [m]", 0.0, summary["slip"], 0.0, relative=False)
+        yield Row(f"{label} upstream [rad]", 0.023497, summary["rotation_max"], 1e-4, remark=_TWO, kind="prototype")
+        yield Row(f"{label} downstream [rad]", reference, -summary["rotation_min"], 5e-4, remark=_TWO, kind="prototype")
+        yield Row(f"e = {restitution:g}: slip [m]", 0.0, summary["slip"], 0.0, relative=False, kind="prototype")

@@ -45,21 +45,24 @@ def run(one, a, dt, theta=0.52, stride=1):
 # A twin
 
 
-def twin(part, friction, a, dt, theta):
-    """Step one part on a rigid plane, with matrices as they stand in the theory and contact by sweeps; all states."""
+def twin(part, start, friction, a, dt, theta):
+    """Step one part on a rigid plane from modes and places at the start, with matrices as they stand in the theory and
+    contact by sweeps; all states."""
     count = part.position.size // 2
     square, b = part.omega_squared, part.shapes
     ratio = 1.0 / theta - 1.0
-    q, v, w = part.start.copy(), np.zeros_like(part.start), np.zeros(2 * count)
-    place = part.position.copy()
+    v, w = np.zeros_like(part.start), np.zeros(2 * count)
+    q, place = start[0].copy(), start[1].copy()
     damping, states = part.damping_sticking, [q.copy()]
+    coupling = part.dampers.T @ part.dampers
     slipping = np.zeros(count, dtype=bool)
     for across, up in a:
-        d = 1.0 / (1.0 + theta * dt * damping + (theta * dt) ** 2 * square)
+        c = np.diag(damping) + coupling
+        d = np.linalg.inv(np.eye(square.size) + theta * dt * c + (theta * dt) ** 2 * np.diag(square))
         drive = dt * (part.load - across * part.participation_horizontal - up * part.participation_vertical)
-        spring = square * (q + theta * (1.0 - theta) * dt * v) + (1.0 - theta) * damping * v
-        free = d * (v + drive - dt * spring)
-        g = (b.T * d) @ b
+        spring = square * (q + theta * (1.0 - theta) * dt * v) + (1.0 - theta) * c @ v
+        free = d @ (v + drive - dt * spring)
+        g = b.T @ d @ b
         u, p = b.T @ free, np.zeros(2 * count)
         ahead = np.maximum(np.maximum(place[count:], 0.0) / dt, ratio * w[count:])
         for _ in range(20_000):
@@ -71,7 +74,7 @@ def twin(part, friction, a, dt, theta):
                 p[i] = np.clip(p[i] - (u[i] + g[i] @ p) / g[i, i], -limit, limit)
             if np.abs(p - before).max() <= 1e-15 * max(1.0, np.abs(p).max()):
                 break
-        new = free + d * (b @ p)
+        new = free + d @ (b @ p)
         w_new = b.T @ new
         place += dt * (theta * w_new + (1.0 - theta) * w)
         q, v, w = q + dt * (theta * new + (1.0 - theta) * v), new, w_new
@@ -83,12 +86,12 @@ def twin(part, friction, a, dt, theta):
 
 
 @pytest.mark.parametrize("theta", [0.5, 0.52, 1.0])
-@pytest.mark.parametrize("damping", ["deformation", "thesis", "modal"])
+@pytest.mark.parametrize("damping", ["relative", "stiffness", "modal", "thesis", "deformation"])
 def test_twin(theta, damping):
     one = dam(across=1, damping=damping)
     a = ground(400, 1e-3)
     ours = run(one, a, 1e-3, theta)
-    states, place = twin(one.reduced[0], FRICTION, a, 1e-3, theta)
+    states, place = twin(one.reduced[0], (ours.modes[0][0], ours.upper[0]), FRICTION, a, 1e-3, theta)
     # It did something: slid, and opened.
     assert abs(ours.summary["slip"]) > 1e-3
     assert ours.summary["opening_heel"] > 1e-4
@@ -184,7 +187,14 @@ def test_a_lower_part_that_cannot_move_is_a_plane(contactors):
     one, a, dt = dam(across=3), ground(1000, 1e-3), 1e-3
     nothing = np.zeros(1)
     face = np.array([-50.0, 3.3, 80.0, 0.0, 0.0, 0.0])
-    still = ReducedBody(np.ones(1), *[nothing] * 6, shapes=np.zeros((1, 6)), position=face)
+    still = ReducedBody(
+        np.ones(1),
+        *[nothing] * 6,
+        shapes=np.zeros((1, 6)),
+        position=face,
+        dampers=np.zeros((3, 1)),
+        damper_signs=np.ones(3),
+    )
     found = CrackedDam(one.reduced[0], still, (FRICTION, FRICTION), contactors).run(a, dt, 0.52, stride=1)
     plane = run(one, a, dt)
     assert abs(plane.summary["slip"]) > 0.05

@@ -6,9 +6,20 @@ import numpy as np
 import pytest
 import scipy.linalg
 
+from heeltoe import flexible, read_case
 from heeltoe.models.flexible.elastic import bonded_state, dofs
-from heeltoe.models.flexible.modes import intact_periods, part_periods, rayleigh, reduce, residual_error
-from shared.dams import TYPICAL
+from heeltoe.models.flexible.modes import (
+    ENOUGH,
+    enough_modes,
+    error_frequency,
+    intact_periods,
+    part_periods,
+    rayleigh,
+    reduce,
+    residual_error,
+)
+from heeltoe.models.flexible.reduced import build_flexible_dam
+from shared.dams import BASE, TYPICAL
 from shared.elastic import built, deep, parts
 
 KOYNA = [(0.0, 0.0), (70.2, 0.0), (20.36, 66.5), (14.8, 103.0), (0.0, 103.0)]
@@ -178,14 +189,17 @@ def test_static_flexibility_against_a_direct_solution(cracked):
 
 
 def test_residual_error(cracked):
+    circular = error_frequency(cracked)
+    assert circular == pytest.approx(15.0 * 2.0 * np.pi / intact_periods(cracked, 1)[0])
     for body in parts(cracked):
-        assert residual_error(body, reduce(body)) == pytest.approx(0.0, abs=1e-12)
-        modes, whole = reduce(body, 40), reduce(body)
-        assert residual_error(body, modes) < 0.01
-        # By its definition, from all modes: s is half the highest frequency kept.
-        crack, square = dofs(body.mesh.crack), whole.omega_squared[modes.kept - 1] / 4.0
+        assert residual_error(body, reduce(body), circular) == 0.0
+        modes, whole = reduce(body, 12), reduce(body)
+        assert modes.truncated
+        # By its definition, from all modes.
+        crack, square = dofs(body.mesh.crack), circular**2
         found, exact = (m.shapes[crack] @ (m.shapes[crack] / (m.omega_squared + square)).T for m in (modes, whole))
-        assert residual_error(body, modes) == pytest.approx(scipy.linalg.eigvalsh(exact - found, exact)[-1], rel=1e-4)
+        expected = scipy.linalg.eigvalsh(exact - found, exact)[-1]
+        assert residual_error(body, modes, circular) == pytest.approx(expected, rel=1e-4)
         # Without the static shapes some patterns of forces meet a crack that does not give at all.
         bare = type(modes)(
             modes.omega_squared[: modes.kept],
@@ -195,7 +209,7 @@ def test_residual_error(cracked):
             modes.total,
             modes.truncated,
         )
-        assert residual_error(body, bare) > 0.9
+        assert residual_error(body, bare, circular) > 0.9
 
 
 def test_all_modes_where_as_many_are_asked_for(cracked):
@@ -207,11 +221,12 @@ def test_all_modes_where_as_many_are_asked_for(cracked):
     assert reduce(body, total - extra - 1).truncated
 
 
-def test_large_meshes_keep_the_lowest_modes():
-    body = built(TYPICAL, reservoir=deep(95.0), flexible={"elements_across": 12})[2].upper
-    modes = reduce(body)
-    assert (modes.kept, modes.truncated) == (203, True)
-    check_basis(body, modes)
+def test_meshes_keep_as_many_of_the_lowest_modes_as_the_crack_needs():
+    dam = built(TYPICAL, reservoir=deep(95.0), flexible={"elements_across": 12})[2]
+    modes, error = enough_modes(dam.upper, dam)
+    assert (modes.kept, modes.truncated) == (53, True)
+    assert 0.0 < error == residual_error(dam.upper, modes, error_frequency(dam)) < ENOUGH
+    check_basis(dam.upper, modes)
 
 
 def test_weight_alone_adds_no_shape_to_the_accelerations():
@@ -237,3 +252,17 @@ def test_same_result_every_time(cracked):
     once, again = reduce(cracked.upper, 20), reduce(cracked.upper, 20)
     assert np.array_equal(once.omega_squared, again.omega_squared)
     assert np.array_equal(once.shapes, again.shapes)
+
+
+def test_few_modes_show_in_the_error_and_in_a_warning():
+    """What 12 modes lose of the typical dam is seen; 25 are too few; by itself the program takes enough."""
+    changes = ["motion.duration=1s", "flexible.convergence_check=false"]
+    errors = [build_flexible_dam(read_case(BASE, [f"flexible.modes={keep}"])).basis_error for keep in (12, 25, 50)]
+    assert errors[0] > 0.1
+    assert errors == sorted(errors, reverse=True)
+    assert errors[2] < ENOUGH < errors[1]
+    few = flexible(read_case(BASE, [*changes, "flexible.modes=12"]))
+    assert "modes-few" in [notice.code for notice in few.warnings]
+    enough = flexible(read_case(BASE, changes))
+    assert "modes-few" not in [notice.code for notice in enough.warnings]
+    assert enough.mesh["modes"][0] < 0.2 * build_flexible_dam(read_case(BASE, ["flexible.modes=10000"])).modes[0].total

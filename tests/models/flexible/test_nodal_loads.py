@@ -5,7 +5,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from heeltoe.mechanics import loads
+from heeltoe.mechanics import loads, virtual_water
 from shared.dams import TYPICAL
 from shared.elastic import G, built, deep, parts, resultant
 from shared.meshes import flat
@@ -53,29 +53,47 @@ def test_resultants_are_those_of_the_rigid_body(corners, tenths, up, down, uplif
 
 
 @settings(max_examples=40)
-@given(dams(), st.integers(0, 9), st.floats(0.01, 1.0), st.integers(1, 4))
-def test_virtual_mass(corners, tenths, filling, across):
+@given(dams(), st.integers(0, 9), st.floats(0.01, 1.0), waters, st.integers(1, 4))
+def test_virtual_mass(corners, tenths, filling, down, across):
     assume(not flat(corners))
     top = max(z for _, z in corners)
-    water = deep(filling * top)
-    case, section, one = built(corners, tenths / 10 * top, reservoir=water, flexible={"elements_across": across})
+    water = {"reservoir": deep(filling * top), "tailwater": down and deep(down * top)}
+    case, section, one = built(corners, tenths / 10 * top, flexible={"elements_across": across}, **water)
     found = [moving(body, section) for body in parts(one)]
-    expected = loads.virtual_mass(case)
+    expected = virtual_water.virtual_mass(case)
     assert found[0] == pytest.approx([expected.mass, expected.mass * expected.height], rel=1e-9, abs=1e-6)
     if len(found) == 2:
-        at_base = make(corners, reservoir=water)
-        whole = loads.virtual_mass(at_base)
+        at_base = make(corners, **water)
+        whole = virtual_water.virtual_mass(at_base)
         mass, moment = sum(moving(body, at_base.cut) for body in parts(one))
         assert (mass, moment) == pytest.approx((whole.mass, whole.mass * whole.height), rel=1e-9, abs=1e-6)
 
 
 def moving(body, section):
-    """Mass of the water and its moment about the crack; none of it moves in z."""
-    water = (body.mass - body.mass_concrete).toarray()
+    """Mass of the water that moves horizontally and its moment about the crack."""
+    rows = (body.mass - body.mass_concrete).toarray()[::2, ::2]
+    return np.array([rows.sum(), rows.sum(axis=0) @ (body.mesh.nodes[:, 1] - section.heel[1])])
+
+
+def test_water_moves_along_the_normal_of_a_face():
+    # Upstream 1 : 4, downstream 3 : 4.
+    corners = ((0.0, 0.0), (40.0, 0.0), (10.0, 40.0))
+    _, _, one = built(corners, reservoir=deep(36.0), tailwater=deep(20.0), flexible={"elements_across": 4})
+    water = (one.upper.mass - one.upper.mass_concrete).tocsr()
+    assert abs(water - water.T).max() < 1e-14 * abs(water).max()
+    x, z = one.upper.mesh.nodes.T
+    for there, way in ((x <= z / 4.0 + 1e-9, (1.0, 4.0)), (x > z / 4.0 + 1e-9, (-3.0, 4.0))):
+        along = np.outer(there, way).reshape(-1)
+        across = np.outer(there, way[::-1] * np.array([1.0, -1.0])).reshape(-1)
+        assert abs(water @ along).max() < 1e-9 * abs(water @ across).max()
+
+
+def test_a_vertical_face_moves_no_water_up_and_down():
+    _, _, one = built(TYPICAL, reservoir=deep(90.0))
+    water = (one.upper.mass - one.upper.mass_concrete).toarray()
     assert not water[1::2].any()
     assert not water[:, 1::2].any()
-    rows = water[::2, ::2]
-    return np.array([rows.sum(), rows.sum(axis=0) @ (body.mesh.nodes[:, 1] - section.heel[1])])
+    assert water[::2, ::2].any()
 
 
 def test_virtual_mass_of_the_thesis():
@@ -121,7 +139,7 @@ def test_pressure_on_curved_faces(depth):
         assert forces[::2].sum() == pytest.approx(sign * push, rel=1e-9)
     assert one.upper.loads["reservoir"][::2] @ z == pytest.approx(push * depth / 3, rel=1e-9)
     mass, moment = moving(one.upper, section)
-    water = loads.virtual_mass(case)
+    water = virtual_water.virtual_mass(case)
     assert mass == pytest.approx(water.mass, rel=1e-9)
     assert moment == pytest.approx(water.mass * water.height, rel=1e-9)
     # Archimedes: weight of the water that the wavy face holds up or displaces, by fine strips.

@@ -64,6 +64,8 @@ impl Inside {
 /// The same under way.
 pub(super) struct Acting<'a> {
     inside: &'a Inside,
+    /// Gap of each node at the start, up to which the static pressure holds.
+    gaps: [Vec<f64>; 2],
     /// How far apart the points of each anchor were at the start.
     apart: Vec<[f64; 2]>,
     /// Impulses of water and of anchors in this step, on the upper and on the lower face.
@@ -90,6 +92,10 @@ impl<'a> Acting<'a> {
             water: room(),
             anchors: room(),
             ahead: room(),
+            gaps: [
+                gaps(start.upper, start.lower, 1.0),
+                gaps(start.lower, start.upper, -1.0),
+            ],
             stored: 0.0,
             peaks: inside.anchors.iter().map(|a| a.prestress).collect(),
         })
@@ -119,8 +125,10 @@ impl<'a> Acting<'a> {
             {
                 let nodes = own.len() / 2;
                 for node in 0..nodes {
-                    let gap = sign * (own[nodes + node] - height(other, own[node]));
-                    self.water[face][nodes + node] = dt * water.change(face, node, gap);
+                    let gap = gap(own, other, sign, node);
+                    let change =
+                        water.change(face, node, gap) - water.change(face, node, self.gaps[face][node]);
+                    self.water[face][nodes + node] = dt * change;
                 }
             }
         }
@@ -167,6 +175,18 @@ impl<'a> Acting<'a> {
         }
         self.stored - before
     }
+}
+
+/// Gap of a node of one face to the other; `sign` is -1 for the lower one.
+#[inline(always)]
+fn gap(own: &[f64], other: &[f64], sign: f64, node: usize) -> f64 {
+    sign * (own[own.len() / 2 + node] - height(other, own[node]))
+}
+
+fn gaps(own: &[f64], other: &[f64], sign: f64) -> Vec<f64> {
+    (0..own.len() / 2)
+        .map(|node| gap(own, other, sign, node))
+        .collect()
 }
 
 /// How far the points of an anchor are apart, along the crack and across it.

@@ -22,6 +22,10 @@ pub struct ReducedBody {
     pub(super) modes: usize,
     /// Number of nodes on the crack.
     pub(super) nodes: usize,
+    /// Number of dashpots, see [`super::dampers`].
+    pub(super) dampers: usize,
+    /// 1 for a dashpot that takes energy, -1 for one that gives back what others take too much.
+    pub(super) damper_signs: Vec<f64>,
     /// Squared circular frequency.
     pub(super) omega_squared: Vec<Group>,
     /// Damping coefficient while some node sticks, and while none does.
@@ -32,7 +36,8 @@ pub struct ReducedBody {
     pub(super) participation: [Vec<Group>; 2],
     /// Modes of the state at the start.
     pub(super) start: Vec<Group>,
-    /// Motion of the crack nodes in each mode: for each group of modes all `2 nodes` components.
+    /// Motion of the crack nodes in each mode: for each group of modes all `2 nodes` components, then the rates of the
+    /// dashpots.
     pub(super) shapes: Vec<Group>,
     /// Where the nodes are at the start: along the crack, then across it.
     pub(super) position: Vec<f64>,
@@ -54,6 +59,10 @@ pub struct Modes<'a> {
     pub shapes: &'a [f64],
     /// Where the crack nodes are at the start: along the crack, then across it (m).
     pub position: &'a [f64],
+    /// Dashpots that couple the modes, `dashpots x modes`, row by row.
+    pub dampers: &'a [f64],
+    /// A sign for each.
+    pub damper_signs: &'a [f64],
 }
 
 impl Modes<'_> {
@@ -67,7 +76,8 @@ impl Modes<'_> {
             .into_iter()
             .chain(self.damping)
             .chain(self.participation);
-        if each.into_iter().any(|v| v.len() != count) || self.shapes.len() != count * columns {
+        let whole = self.dampers.len() == count * self.damper_signs.len();
+        if each.into_iter().any(|v| v.len() != count) || self.shapes.len() != count * columns || !whole {
             return Err("the arrays of a body must agree in the number of modes and of crack nodes");
         }
         Ok(())
@@ -82,16 +92,26 @@ impl ReducedBody {
     pub fn new(modes: &Modes) -> Result<Self, &'static str> {
         modes.agree()?;
         let columns = modes.position.len();
-        let groups = group_count(modes.omega_squared.len());
-        let mut shapes = vec![[0.0; LANES]; groups * columns];
+        let count = modes.omega_squared.len();
+        let groups = group_count(count);
+        let dampers = modes.dampers.len() / count;
+        let width = columns + dampers;
+        let mut shapes = vec![[0.0; LANES]; groups * width];
         for (mode, row) in modes.shapes.chunks_exact(columns).enumerate() {
             for (c, value) in row.iter().enumerate() {
-                shapes[mode / LANES * columns + c][mode % LANES] = *value;
+                shapes[mode / LANES * width + c][mode % LANES] = *value;
+            }
+        }
+        for (c, row) in modes.dampers.chunks_exact(count).enumerate() {
+            for (mode, value) in row.iter().enumerate() {
+                shapes[mode / LANES * width + columns + c][mode % LANES] = *value;
             }
         }
         Ok(ReducedBody {
-            modes: modes.omega_squared.len(),
+            modes: count,
             nodes: columns / 2,
+            dampers,
+            damper_signs: modes.damper_signs.to_vec(),
             omega_squared: grouped(modes.omega_squared),
             damping: modes.damping.map(grouped),
             load: grouped(modes.load),
@@ -107,6 +127,11 @@ impl ReducedBody {
         self.nodes
     }
 
+    /// Number of dashpots that couple its modes.
+    pub fn dampers(&self) -> usize {
+        self.dampers
+    }
+
     /// Number of groups of modes.
     pub(super) fn groups(&self) -> usize {
         self.omega_squared.len()
@@ -117,9 +142,14 @@ impl ReducedBody {
         2 * self.nodes
     }
 
-    /// `shapes^T diag(weight) shapes`: how the crack answers to forces on itself, row by row.
+    /// Number of components of motion on the crack and of dashpots.
+    pub(super) fn width(&self) -> usize {
+        self.columns() + self.dampers
+    }
+
+    /// `shapes^T diag(weight) shapes`: how crack and dashpots answer to forces on them, row by row.
     pub(super) fn compliance(&self, weight: &[Group]) -> Vec<f64> {
-        let columns = self.columns();
+        let columns = self.width();
         let mut matrix = vec![0.0; columns * columns];
         for (group, weight) in self.shapes.chunks_exact(columns).zip(weight) {
             for (row, a) in matrix.chunks_exact_mut(columns).zip(group) {
@@ -134,7 +164,7 @@ impl ReducedBody {
     /// Motion of the crack that belongs to an amplitude of each mode.
     pub(super) fn at_crack(&self, amplitude: &[Group]) -> Vec<f64> {
         let mut motion = vec![0.0; self.columns()];
-        for (group, amplitude) in self.shapes.chunks_exact(self.columns()).zip(amplitude) {
+        for (group, amplitude) in self.shapes.chunks_exact(self.width()).zip(amplitude) {
             for (value, a) in motion.iter_mut().zip(group) {
                 *value += (0..LANES).map(|l| a[l] * amplitude[l]).sum::<f64>();
             }
@@ -165,6 +195,33 @@ fn grouped(values: &[f64]) -> Vec<Group> {
         groups[k / LANES][k % LANES] = *value;
     }
     groups
+}
+
+/// `sum a b`, lane by lane: a plain sum waits for each addition.
+#[inline(always)]
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let ((wide_a, rest_a), (wide_b, rest_b)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
+    let mut lanes = [0.0; LANES];
+    for (a, b) in wide_a.iter().zip(wide_b) {
+        for l in 0..LANES {
+            lanes[l] += a[l] * b[l];
+        }
+    }
+    total(&lanes) + rest_a.iter().zip(rest_b).map(|(a, b)| a * b).sum::<f64>()
+}
+
+/// Sum of the lanes, by halves, as wide registers can.
+#[inline(always)]
+pub(super) fn total(lanes: &Group) -> f64 {
+    let mut lanes = *lanes;
+    let mut width = LANES / 2;
+    while width > 0 {
+        for l in 0..width {
+            lanes[l] += lanes[l + width];
+        }
+        width /= 2;
+    }
+    lanes[0]
 }
 
 /// `a b + c`, in one rounding where the machine has it.

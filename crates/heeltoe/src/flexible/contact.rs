@@ -22,9 +22,9 @@ pub(super) struct Pair {
 /// A node that is watched.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contactor {
-    node: usize,
+    pub node: usize,
     /// Whether it belongs to the upper face.
-    of_upper: bool,
+    pub of_upper: bool,
     /// Whether it counts at the very end of the other face. Where the ends of both faces are watched and meet, one of
     /// them must not, or the same constraint would be there twice.
     closed: bool,
@@ -37,9 +37,12 @@ pub(super) struct Contacts {
     /// None where the node is beyond the end of the other face.
     pub pairs: Vec<Option<Pair>>,
     pub gaps: Vec<f64>,
-    /// Whether the last `update` changed any pair.
-    pub changed: bool,
+    /// Which pairs the last `update` changed.
+    pub moved: Vec<bool>,
     rigid_plane: bool,
+    /// Whether all count as moved where one is: nodes that say the same twice share by a softness that goes by the
+    /// largest of all answers.
+    together: bool,
 }
 
 impl Contacts {
@@ -68,9 +71,10 @@ impl Contacts {
         Contacts {
             pairs: vec![None; contactors.len()],
             gaps: vec![f64::INFINITY; contactors.len()],
+            moved: vec![true; contactors.len()],
             contactors,
-            changed: true,
             rigid_plane: lower == 0,
+            together: kind == 5 && lower > 0,
         }
     }
 
@@ -79,13 +83,20 @@ impl Contacts {
         self.contactors.len()
     }
 
+    /// Whether any pair has changed.
+    #[inline(always)]
+    pub(super) fn any_moved(&self) -> bool {
+        self.moved.contains(&true)
+    }
+
     /// Find every contactor's place on the other face. Positions are all along the crack, then all across it;
     /// `sticks` says which nodes keep their place.
     #[inline(always)]
     pub(super) fn update(&mut self, upper: &[f64], lower: &[f64], sticks: impl Fn(usize) -> bool) {
         if self.rigid_plane {
             let nodes = upper.len() / 2;
-            self.changed = self.pairs[0].is_none();
+            let first = self.pairs[0].is_none();
+            self.moved.fill(first);
             for (k, c) in self.contactors.iter().enumerate() {
                 self.gaps[k] = upper[nodes + c.node];
                 self.pairs[k] = Some(Pair {
@@ -95,22 +106,25 @@ impl Contacts {
             }
             return;
         }
-        self.changed = false;
         for (k, c) in self.contactors.iter_mut().enumerate() {
             let (own, other) = if c.of_upper {
                 (upper, lower)
             } else {
                 (lower, upper)
             };
+            self.moved[k] = false;
             if !(sticks(k) && self.pairs[k].is_some()) {
                 let pair = c.place(own, other);
-                self.changed |= pair != self.pairs[k];
+                self.moved[k] = pair != self.pairs[k];
                 self.pairs[k] = pair;
             }
             self.gaps[k] = match &self.pairs[k] {
                 Some(pair) => across(pair, upper, lower),
                 None => f64::INFINITY,
             };
+        }
+        if self.together && self.any_moved() {
+            self.moved.fill(true);
         }
     }
 }

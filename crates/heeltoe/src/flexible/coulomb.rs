@@ -8,7 +8,7 @@
 //!
 //! at all contacts at once. In two dimensions each contact is open, sticking, or slipping one way; the right set of
 //! these states turns the problem into a linear one. The set of the last step is tried first, contacts that break
-//! their conditions change state, and the factors of the matrix are kept as long as set and `G` are.
+//! their conditions change state, and the factors of the matrix are kept as long as the set is and what `G` has for it.
 
 use super::body::fma;
 use super::factors::Factors;
@@ -66,9 +66,10 @@ impl Solver {
         }
     }
 
-    /// Forget the factors, because `G` is another one.
-    pub(super) fn forget(&mut self) {
-        self.factors.forget();
+    /// Forget the factors where they contain a contact that has moved, because its part of `G` is another one.
+    #[inline(always)]
+    pub(super) fn forget(&mut self, moved: &[bool]) {
+        self.factors.forget(moved);
     }
 
     /// Solve, starting from the states of the last time; `Absent` ones must have been set by the caller.

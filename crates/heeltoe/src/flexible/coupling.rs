@@ -9,7 +9,7 @@
 //! as [`super::coulomb`] needs them.
 
 use super::contact::{relative, spread, Contacts, Pair};
-use super::coulomb::{Problem, Solver};
+use super::coulomb::{Problem, Report, Solver};
 use super::dam::Dam;
 use super::sides::{Faces, Sides};
 use super::status::Status;
@@ -47,8 +47,9 @@ impl Crack {
         }
     }
 
-    /// Find where the nodes of both faces meet; where `G` is of other pairs, or of another state of damping, put it together
+    /// Find where the nodes of both faces meet; where pairs are others, or the state of damping is, put `G` together
     /// from the crack's `answers`. `softness` is added to the answer to itself, and gets the largest of them to go by.
+    /// Returns whether it has been put together anew.
     #[inline(always)]
     pub(super) fn meet<'w>(
         &mut self,
@@ -56,30 +57,38 @@ impl Crack {
         damping: usize,
         answers: impl Fn() -> Sides<Answer<'w>>,
         softness: impl Fn(f64) -> f64,
-    ) {
+    ) -> bool {
         let status = &self.solver.status;
         self.contacts
             .update(position.upper, position.lower, |k| status[k] == Status::Stick);
-        if self.contacts.changed || self.assembled != Some(damping) {
+        if self.assembled != Some(damping) {
+            self.contacts.moved.fill(true);
+        }
+        let other = self.contacts.any_moved();
+        if other {
             self.assemble(answers(), softness);
             self.assembled = Some(damping);
         }
+        other
     }
 
-    /// Write how each contact answers to an impulse at any other.
+    /// Write how each contact answers to an impulse at any other, where one of both has moved.
     #[inline(always)]
-    fn assemble(&mut self, answers: Sides<Answer>, softness: impl Fn(f64) -> f64) {
+    pub(super) fn assemble(&mut self, answers: Sides<Answer>, softness: impl Fn(f64) -> f64) {
         let size = self.problem.b.len();
-        self.problem.g.fill(0.0);
+        let moved = &self.contacts.moved;
         let mut largest = 0.0_f64;
         for (i, one) in self.contacts.pairs.iter().enumerate() {
-            let Some(one) = one else { continue };
             for (j, other) in self.contacts.pairs[..=i].iter().enumerate() {
-                let Some(other) = other else { continue };
+                if !(moved[i] || moved[j]) {
+                    continue;
+                }
                 let mut block = [[0.0; 2]; 2];
-                couple(&mut block, &one.upper, &other.upper, answers.upper);
-                if let Some(lower) = answers.lower {
-                    couple(&mut block, &one.lower, &other.lower, lower);
+                if let (Some(one), Some(other)) = (one, other) {
+                    couple(&mut block, &one.upper, &other.upper, answers.upper);
+                    if let Some(lower) = answers.lower {
+                        couple(&mut block, &one.lower, &other.lower, lower);
+                    }
                 }
                 for (a, row) in block.iter().enumerate() {
                     for (b, value) in row.iter().enumerate() {
@@ -94,11 +103,11 @@ impl Crack {
         }
         let soft = softness(largest);
         if soft > 0.0 {
-            for k in 0..size {
+            for k in (0..size).filter(|k| moved[k / 2]) {
                 self.problem.g[k * (size + 1)] += soft;
             }
         }
-        self.solver.forget();
+        self.solver.forget(moved);
     }
 }
 
@@ -162,6 +171,18 @@ impl Crack {
             self.problem.h[k] = found.h;
             self.approach[k] = found.approach;
             self.problem.mu_stick[k] = friction[usize::from(status.slips())];
+        }
+    }
+
+    /// Take the forces of a dam at rest for the solution of a step.
+    pub(super) fn hold(&mut self, forces: &[f64], dt: f64) -> Report {
+        for (p, force) in self.solver.p.iter_mut().zip(forces) {
+            *p = dt * force;
+        }
+        self.solver.u.fill(0.0);
+        Report {
+            iterations: 1,
+            ..Report::default()
         }
     }
 

@@ -4,6 +4,8 @@ use super::acting::{FaceAnchor, Inside};
 use super::body::ReducedBody;
 use super::idce::Penalty;
 use super::sides::Sides;
+use super::stance::Give;
+use super::start::{self, Still};
 
 /// Two bodies, and the crack between them.
 pub struct Dam {
@@ -17,15 +19,42 @@ pub struct Dam {
     pub contactors: u8,
     /// What acts in the crack beside contact.
     pub inside: Inside,
+    /// What tells rocking and drifting from elastic deformation.
+    pub give: Give,
+    /// The state before the earthquake, see [`Dam::rested`]; none where friction does not hold the dam, which then starts
+    /// from the state with its crack bonded.
+    pub still: Option<Still>,
 }
 
+/// Nodes of both faces that meet say the same twice; this part of the largest answer to itself makes them share.
+const SOFTNESS: f64 = 1e-9;
+
 impl Dam {
+    /// Find the state before the earthquake.
+    pub fn rested(mut self) -> Self {
+        self.still = start::find(&self);
+        self
+    }
+
+    /// What to add to the answer of a contact to itself, as a share of the largest.
+    pub(super) fn softness(&self) -> f64 {
+        if self.contactors == 5 && self.bodies.lower.is_some() {
+            SOFTNESS
+        } else {
+            0.0
+        }
+    }
+
     /// Whether water and anchors are at nodes that are there.
     ///
     /// # Errors
     /// Says what is not.
     pub fn check(&self) -> Result<(), &'static str> {
-        let lower = self.bodies.lower.as_ref().map_or(0, ReducedBody::nodes);
+        let (above, below) = (&self.bodies.upper, &self.bodies.lower);
+        if below.as_ref().is_some_and(|body| body.dampers != above.dampers) {
+            return Err("both bodies need a row for each dashpot");
+        }
+        let lower = below.as_ref().map_or(0, ReducedBody::nodes);
         let counts = [self.bodies.upper.nodes(), lower];
         let forces = |of: &[Vec<f64>; 2]| [of[0].len(), of[1].len()] == counts;
         let water = self.inside.water.as_ref();

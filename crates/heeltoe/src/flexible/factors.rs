@@ -13,7 +13,7 @@ use super::body::fma;
 use super::coulomb::Problem;
 use super::status::Status;
 
-/// The factors of a set of states; they are kept as long as set and `G` are.
+/// The factors of a set of states; they are kept as long as the set is and what `G` has for it.
 #[derive(Default)]
 pub(super) struct Factors {
     /// The set they belong to.
@@ -27,9 +27,13 @@ pub(super) struct Factors {
 }
 
 impl Factors {
-    /// Forget them, because `G` is another one.
-    pub(super) fn forget(&mut self) {
-        self.fresh = false;
+    /// Forget them where they contain a contact whose part of `G` is another one.
+    #[inline(always)]
+    pub(super) fn forget(&mut self, moved: &[bool]) {
+        let mut pairs = self.of.iter().zip(moved);
+        if pairs.any(|(status, moved)| *moved && status.closed()) {
+            self.fresh = false;
+        }
     }
 
     /// Solve for the impulses `p` under these states; false where the matrix is singular.

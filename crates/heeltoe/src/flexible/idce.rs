@@ -95,7 +95,7 @@ impl<'a> Newmark<'a> {
         let bodies = dam.bodies.map(|body| Moving::new(body, penalty, dt));
         let start = energy(&bodies);
         Newmark {
-            walk: Walk::new(dam, dt, wanted),
+            walk: Walk::new(dam, dt, wanted, dam.bodies.faces(|body| &body.position)),
             bodies,
             ledger: Ledger {
                 start,

@@ -9,6 +9,7 @@ mod contact;
 mod coulomb;
 mod coupling;
 mod dam;
+mod dampers;
 mod factors;
 mod frames;
 mod idce;
@@ -19,6 +20,8 @@ mod newmark;
 mod observe;
 mod result;
 mod sides;
+mod stance;
+mod start;
 mod status;
 mod step;
 mod sweep;
@@ -35,6 +38,8 @@ pub use ledger::Ledger;
 pub use observe::State;
 pub use result::{Outcome, Run, Summary};
 pub use sides::Sides;
+pub use stance::Give;
+pub use start::Still;
 pub use status::Status;
 
 /// Shake a dam.

@@ -8,8 +8,9 @@
 //! The last half of one step and the first half of the next go over the mode shapes together, as reading them is what a
 //! step costs.
 
-use super::body::{fma, Group, ReducedBody, BUNDLE, LANES};
+use super::body::{dot, fma, total, Group, ReducedBody, BUNDLE, LANES};
 use super::ledger::Sums;
+use super::start::Still;
 
 /// Length of a step, and weight of the new state in it.
 #[derive(Clone, Copy)]
@@ -23,6 +24,9 @@ pub(super) struct Operator {
     d: [Vec<Group>; 2],
     /// Answer of the crack nodes to impulses on them, row by row.
     pub w: [Vec<f64>; 2],
+    /// Answer of the dashpots to impulses on the crack nodes, a row for each dashpot, and to their own.
+    damper_crack: [Vec<f64>; 2],
+    pub damper_own: [Vec<f64>; 2],
 }
 
 impl Operator {
@@ -36,8 +40,21 @@ impl Operator {
                 })
                 .collect::<Vec<Group>>()
         });
-        let w = [0, 1].map(|state: usize| body.compliance(&d[state]));
-        Operator { d, w }
+        let all = [0, 1].map(|state: usize| body.compliance(&d[state]));
+        let (columns, width) = (body.columns(), body.width());
+        let block = |rows: std::ops::Range<usize>, within: std::ops::Range<usize>| {
+            let cut = |whole: &Vec<f64>| -> Vec<f64> {
+                let rows = whole.chunks_exact(width).skip(rows.start).take(rows.len());
+                rows.flat_map(|row| &row[within.clone()]).copied().collect()
+            };
+            [cut(&all[0]), cut(&all[1])]
+        };
+        Operator {
+            w: block(0..columns, 0..columns),
+            damper_crack: block(columns..width, 0..columns),
+            damper_own: block(columns..width, columns..width),
+            d,
+        }
     }
 }
 
@@ -45,7 +62,15 @@ impl Operator {
 pub(super) struct Moving<'a> {
     pub body: &'a ReducedBody,
     pub operator: Operator,
+    /// Modes at the start, and since then.
+    start: &'a [Group],
     pub q: Vec<Group>,
+    /// Forces of contact before the earthquake on the crack nodes, where they hold the dam, and what is left of the
+    /// static loads without them.
+    held: &'a [f64],
+    left: Vec<Group>,
+    /// How the crack nodes answer when these forces are taken away for a step, for both states of damping.
+    released: [Vec<f64>; 2],
     pub v: Vec<Group>,
     v_free: Vec<Group>,
     /// Of the crack nodes: position, velocity, velocity without contact, impulse.
@@ -55,8 +80,13 @@ pub(super) struct Moving<'a> {
     pub impulse: Vec<f64>,
     /// Impulse of what acts in the crack beside contact; stays zero where there is nothing.
     pub push: Vec<f64>,
+    /// Rates of the dashpots but for the impulses of dashpots and contact; impulses of the dashpots.
+    pub strain: Vec<f64>,
+    pub pull: Vec<f64>,
     answer: Vec<f64>,
-    /// Room for the sums of `free`, lane by lane.
+    /// All impulses, those of the dashpots last.
+    pushes: Vec<f64>,
+    /// Room for the sums of `free` and `strain`, lane by lane.
     lanes: Vec<Group>,
     pub sums: Sums,
 }
@@ -69,22 +99,49 @@ pub(super) struct Drive {
 }
 
 impl<'a> Moving<'a> {
-    pub(super) fn new(body: &'a ReducedBody, step: TimeStep) -> Self {
+    /// `face` is 0 for the body above the crack, 1 for that below; without a state before the earthquake it starts from
+    /// that with the crack bonded.
+    pub(super) fn new(body: &'a ReducedBody, still: Option<&'a Still>, face: usize, step: TimeStep) -> Self {
         let columns = body.columns();
         let zeros = vec![0.0; columns];
+        let start = still.map_or(&body.start[..], |still| &still.modes[face]);
+        let mut left = vec![[0.0; LANES]; body.groups()];
+        // Against the state before the earthquake loads and stress add up to the forces of contact, to the last bit.
+        for (group, left) in left.iter_mut().enumerate() {
+            for (l, left) in left.iter_mut().enumerate() {
+                if still.is_none() {
+                    *left = body.load[group][l] - body.omega_squared[group][l] * start[group][l];
+                }
+            }
+        }
+        let operator = Operator::new(body, step);
+        let force = still.map_or(&[][..], |still| &still.force[face]);
+        let away: Vec<f64> = force.iter().map(|force| -step.dt * force).collect();
+        let released = [0, 1].map(|state: usize| {
+            let mut answer = zeros.clone();
+            answered::<false>(&operator.w[state], &away, &mut answer);
+            answer
+        });
         Moving {
             body,
-            operator: Operator::new(body, step),
-            q: body.start.clone(),
+            operator,
+            released,
+            start,
+            q: vec![[0.0; LANES]; body.groups()],
+            held: still.map_or(&[], |still| &still.force[face]),
+            left,
             v: vec![[0.0; LANES]; body.groups()],
             v_free: vec![[0.0; LANES]; body.groups()],
-            position: body.position.clone(),
+            position: still.map_or_else(|| body.position.clone(), |still| still.position[face].clone()),
             velocity: zeros.clone(),
             free: zeros.clone(),
             impulse: zeros.clone(),
             push: zeros.clone(),
+            strain: vec![0.0; body.dampers],
+            pull: vec![0.0; body.dampers],
             answer: zeros,
-            lanes: vec![[0.0; LANES]; columns],
+            pushes: vec![0.0; body.width()],
+            lanes: vec![[0.0; LANES]; body.width()],
             sums: Sums::default(),
         }
     }
@@ -92,21 +149,23 @@ impl<'a> Moving<'a> {
     /// Finish the step `now` with the impulses found, unless this is the start, and begin the step `next`.
     #[inline(always)]
     pub(super) fn advance<const FUSED: bool>(&mut self, now: Option<Drive>, next: Drive, step: TimeStep) {
-        let columns = self.body.columns();
-        let touched = self.impulse.iter().any(|p| *p != 0.0);
+        let (columns, width) = (self.body.columns(), self.body.width());
+        self.pushes[..columns].copy_from_slice(&self.impulse);
+        self.pushes[columns..].copy_from_slice(&self.pull);
+        let touched = self.pushes.iter().any(|p| *p != 0.0);
         self.lanes.fill([0.0; LANES]);
         let body = self.body;
-        for (bundle, shapes) in body.shapes.chunks_exact(BUNDLE * columns).enumerate() {
+        for (bundle, shapes) in body.shapes.chunks_exact(BUNDLE * width).enumerate() {
             let first = BUNDLE * bundle;
-            let (s0, rest) = shapes.split_at(columns);
-            let (s1, rest) = rest.split_at(columns);
-            let (s2, s3) = rest.split_at(columns);
+            let (s0, rest) = shapes.split_at(width);
+            let (s1, rest) = rest.split_at(width);
+            let (s2, s3) = rest.split_at(width);
             let rows = s0.iter().zip(s1).zip(s2).zip(s3);
             if let Some(now) = now {
                 let mut push = [[0.0; LANES]; BUNDLE];
                 if touched {
-                    push[..2].copy_from_slice(&pushes::<FUSED>(s0, s1, &self.impulse));
-                    push[2..].copy_from_slice(&pushes::<FUSED>(s2, s3, &self.impulse));
+                    push[..2].copy_from_slice(&pushes::<FUSED>(s0, s1, &self.pushes));
+                    push[2..].copy_from_slice(&pushes::<FUSED>(s2, s3, &self.pushes));
                 }
                 for (k, push) in push.iter().enumerate() {
                     self.finish::<FUSED>(first + k, push, now, step);
@@ -125,7 +184,7 @@ impl<'a> Moving<'a> {
                 *sum = new;
             }
         }
-        for (free, sum) in self.free.iter_mut().zip(&self.lanes) {
+        for (free, sum) in self.free.iter_mut().chain(&mut self.strain).zip(&self.lanes) {
             *free = total(sum);
         }
     }
@@ -165,7 +224,7 @@ impl<'a> Moving<'a> {
         let TimeStep { dt, theta } = step;
         let late = 1.0 - theta;
         let body = self.body;
-        let (w, load) = (body.omega_squared[group], body.load[group]);
+        let (w, load) = (body.omega_squared[group], self.left[group]);
         let gamma = [body.participation[0][group], body.participation[1][group]];
         let c = body.damping[next.damping][group];
         let d = self.operator.d[next.damping][group];
@@ -180,10 +239,78 @@ impl<'a> Moving<'a> {
         free
     }
 
-    /// Add to the velocities of the crack nodes without contact what `push` changes in them.
+    /// Add to the velocities of the crack nodes without contact what `push` changes in them; where this is no more than
+    /// the forces of contact at rest, `alone`, that is known.
     #[inline(always)]
-    pub(super) fn push_crack<const FUSED: bool>(&mut self, damping: usize) {
+    pub(super) fn push_crack<const FUSED: bool>(&mut self, damping: usize, alone: bool) {
+        if alone {
+            for (free, change) in self.free.iter_mut().zip(&self.released[damping]) {
+                *free += change;
+            }
+            return;
+        }
         answered::<FUSED>(&self.operator.w[damping], &self.push, &mut self.free);
+    }
+
+    /// Whether nothing moves this part.
+    pub(super) fn rests(&self) -> bool {
+        let zero = |numbers: &[f64]| numbers.iter().all(|x| *x == 0.0);
+        zero(&self.free) && zero(&self.velocity) && zero(&self.push) && zero(&self.strain) && zero(&self.pull)
+    }
+
+    /// Take away the forces of contact that the state before the earthquake has in it; `alone` where nothing else acts.
+    #[inline(always)]
+    pub(super) fn let_go(&mut self, dt: f64, alone: bool) {
+        if alone {
+            self.push.fill(0.0);
+        }
+        for (push, held) in self.push.iter_mut().zip(self.held) {
+            *push -= dt * held;
+        }
+    }
+
+    /// Total modes.
+    pub(super) fn amplitudes(&self) -> Vec<Group> {
+        let sum = |(a, b): (&Group, &Group)| -> Group { std::array::from_fn(|l| a[l] + b[l]) };
+        self.start.iter().zip(&self.q).map(sum).collect()
+    }
+
+    /// Add how the dashpots answer to impulses on the crack nodes.
+    #[inline(always)]
+    pub(super) fn at_dampers(&self, damping: usize, impulse: &[f64], rate: &mut [f64]) {
+        let rows = self.operator.damper_crack[damping].chunks_exact(impulse.len());
+        for (rate, row) in rate.iter_mut().zip(rows) {
+            *rate += dot(row, impulse);
+        }
+    }
+
+    /// Add to the velocities of the crack nodes without contact how they answer to impulses of the dashpots.
+    #[inline(always)]
+    pub(super) fn pull_crack(&mut self, damping: usize, pull: &[f64]) {
+        let rows = self.operator.damper_crack[damping].chunks_exact(self.free.len());
+        for (pull, row) in pull.iter().zip(rows) {
+            for (free, w) in self.free.iter_mut().zip(row) {
+                *free += pull * w;
+            }
+        }
+    }
+
+    /// Add what the dashpots feel of a unit impulse on the nodes of a contact, with their weights.
+    pub(super) fn felt_by_dampers(
+        &self,
+        damping: usize,
+        nodes: &[(usize, f64); 2],
+        direction: usize,
+        rate: &mut [f64],
+    ) {
+        let offset = direction * self.body.nodes;
+        let rows = self.operator.damper_crack[damping].chunks_exact(self.free.len());
+        for (rate, row) in rate.iter_mut().zip(rows) {
+            *rate += nodes
+                .iter()
+                .map(|&(node, weight)| weight * row[offset + node])
+                .sum::<f64>();
+        }
     }
 
     /// Count `push` with the impulses of contact, which have been used by themselves where they must be.
@@ -238,18 +365,4 @@ fn product<const FUSED: bool>(sum: &mut Group, a: &Group, b: &Group) {
     for l in 0..LANES {
         sum[l] = fma::<FUSED>(a[l], b[l], sum[l]);
     }
-}
-
-/// Sum of the lanes, by halves, as wide registers can.
-#[inline(always)]
-fn total(lanes: &Group) -> f64 {
-    let mut lanes = *lanes;
-    let mut width = LANES / 2;
-    while width > 0 {
-        for l in 0..width {
-            lanes[l] += lanes[l + width];
-        }
-        width /= 2;
-    }
-    lanes[0]
 }

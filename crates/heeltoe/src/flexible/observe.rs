@@ -1,4 +1,4 @@
-//! What is read off the crack in each step: slip, rotation, openings, and in which state it is.
+//! What is read off the crack in each step: slip, rotation, openings.
 //!
 //! ```text
 //! slip = mean of t above - mean of t below,     rotation = chord above - chord below,     opening = n - n of the lower face
@@ -7,7 +7,6 @@
 //! with t along the crack and n across it; both are zero at the start.
 
 use super::sides::Faces;
-use super::status::Status;
 use crate::table::named;
 
 /// The motion of the upper face against the lower one.
@@ -67,50 +66,26 @@ pub(super) fn height(face: &[f64], t: f64) -> f64 {
 }
 
 named! {
-    /// State of the whole crack.
+    /// What the part above the crack may be doing; see [`super::stance`].
     #[derive(Default)]
     State {
-        /// All watched nodes touch and none slips.
+        /// It stands.
         #[default]
         Rest = "rest",
-        /// All touch, some slip.
+        /// It slides.
         Sliding = "sliding",
-        /// Some touch, none slips.
+        /// It rocks about heel or toe.
         Rocking = "rocking",
-        /// Some touch, some slip.
+        /// It slides while it rocks.
         SlideRocking = "slide-rocking",
-        /// None touches.
+        /// It touches nowhere.
         Drifting = "drifting",
     }
 }
 
 impl State {
-    /// Tell in which state the crack is.
-    #[inline(always)]
-    pub(super) fn of(status: &[Status]) -> Self {
-        let (mut touching, mut open, mut slipping) = (false, false, false);
-        for s in status {
-            match s {
-                Status::Absent => {}
-                Status::Open => open = true,
-                Status::Stick => touching = true,
-                _ => {
-                    touching = true;
-                    slipping = true;
-                }
-            }
-        }
-        match (touching, open, slipping) {
-            (false, ..) => State::Drifting,
-            (_, true, true) => State::SlideRocking,
-            (_, true, false) => State::Rocking,
-            (_, false, true) => State::Sliding,
-            _ => State::Rest,
-        }
-    }
-
-    /// Under which of sliding, slide-rocking and drifting its slip is booked: the little that a crack at rest slips is
-    /// elastic, it comes and goes.
+    /// Under which of sliding, slide-rocking and drifting its slip is booked: a crack at rest shifts by what its nodes
+    /// creep in turn, and what they shift by elastically comes and goes.
     pub(super) fn slips_as(self) -> usize {
         match self {
             State::Rest | State::Sliding => 0,

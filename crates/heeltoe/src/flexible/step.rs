@@ -22,15 +22,14 @@ use super::acting::Acting;
 use super::contact::relative;
 use super::coupling::{Answer, WithoutContact};
 use super::dam::{Dam, Shaking, Wanted};
+use super::dampers::Dampers;
 use super::ledger::Ledger;
 use super::moving::{Drive, Moving, TimeStep};
 use super::result::Run;
 use super::sides::Sides;
+use super::start::Still;
 use super::status::Status;
 use super::walk::Walk;
-
-/// Nodes of both faces that meet say the same twice; this part of the largest answer to itself makes them share.
-const SOFTNESS: f64 = 1e-9;
 
 /// Shake the dam; `theta` is the weight of the new state within a step.
 pub(super) fn simulate(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run {
@@ -77,9 +76,7 @@ fn run<const FUSED: bool>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Want
         if moreau.walk.observed() {
             moreau.walk.gather(&moreau.bodies.upper.impulse, impulse);
         }
-        if moreau.acting.is_some() {
-            moreau.bodies.iter_mut().for_each(Moving::join_push);
-        }
+        moreau.join();
         // The modes follow, and begin the next step.
         let sticks = moreau.walk.crack.solver.status.contains(&Status::Stick);
         moreau.go_on::<FUSED>(Some(moreau.drive), step + 1, usize::from(!sticks));
@@ -101,6 +98,10 @@ struct Moreau<'a> {
     walk: Walk<'a>,
     bodies: Sides<Moving<'a>>,
     acting: Option<Acting<'a>>,
+    dampers: Dampers,
+    still: Option<&'a Still>,
+    /// Whether nothing moves the dam in this step.
+    quiet: bool,
     ledger: Ledger,
     drive: Drive,
     shaking: &'a Shaking<'a>,
@@ -111,11 +112,27 @@ impl<'a> Moreau<'a> {
     fn new(dam: &'a Dam, shaking: &'a Shaking, theta: f64, wanted: Wanted) -> Self {
         let dt = shaking.dt;
         let step = TimeStep { dt, theta };
-        let bodies = dam.bodies.map(|body| Moving::new(body, step));
+        let still = dam.still.as_ref();
+        let bodies = Sides {
+            upper: Moving::new(&dam.bodies.upper, still, 0, step),
+            lower: dam
+                .bodies
+                .lower
+                .as_ref()
+                .map(|body| Moving::new(body, still, 1, step)),
+        };
         let start = energy(&bodies);
+        let faces = bodies.faces(|body| &body.position);
+        let mut walk = Walk::new(dam, dt, wanted, faces);
+        if let Some(still) = still {
+            walk.crack.solver.status.copy_from_slice(&still.status);
+        }
         Moreau {
-            walk: Walk::new(dam, dt, wanted),
-            acting: Acting::new(&dam.inside, dam.bodies.faces(|body| &body.position)),
+            walk,
+            acting: Acting::new(&dam.inside, faces),
+            dampers: Dampers::new(&bodies, step),
+            still,
+            quiet: false,
             ledger: Ledger {
                 start,
                 ..Ledger::default()
@@ -149,11 +166,7 @@ impl<'a> Moreau<'a> {
     #[inline(always)]
     fn set_up<const FUSED: bool>(&mut self) {
         let (dam, damping) = (self.walk.dam, self.drive.damping);
-        let softness = if dam.contactors == 5 && self.bodies.lower.is_some() {
-            SOFTNESS
-        } else {
-            0.0
-        };
+        let softness = dam.softness();
         let bodies = &self.bodies;
         let answers = || {
             bodies.map(|body| Answer {
@@ -163,8 +176,18 @@ impl<'a> Moreau<'a> {
         };
         let position = bodies.faces(|body| &body.position);
         let crack = &mut self.walk.crack;
-        crack.meet(position, damping, answers, |largest| softness * largest);
-        self.act::<FUSED>();
+        let other = crack.meet(position, damping, answers, |largest| softness * largest);
+        if other && !self.dampers.is_empty() {
+            self.dampers
+                .soften(&mut crack.problem.g, &crack.contacts, bodies, damping);
+        }
+        self.act();
+        // A dam that stands under loads that do not change goes on standing, to the last bit.
+        self.quiet = self.still.is_some() && self.bodies.iter().all(Moving::rests);
+        if self.quiet {
+            return;
+        }
+        self.push::<FUSED>();
         let TimeStep { dt, theta } = self.step;
         let back = (1.0 - theta) / theta;
         let free = self.bodies.faces(|body| &body.free);
@@ -181,7 +204,7 @@ impl<'a> Moreau<'a> {
 
     /// Let what is in the crack beside contact push the nodes of both faces.
     #[inline(always)]
-    fn act<const FUSED: bool>(&mut self) {
+    fn act(&mut self) {
         let Some(acting) = &mut self.acting else {
             return;
         };
@@ -197,8 +220,36 @@ impl<'a> Moreau<'a> {
         if let Some(lower) = &mut self.bodies.lower {
             lower.push = below;
         }
+    }
+
+    /// Let the crack feel what acts beside contact, the forces that the start has in it, and the dashpots.
+    #[inline(always)]
+    fn push<const FUSED: bool>(&mut self) {
+        let (alone, damping) = (self.acting.is_none(), self.drive.damping);
+        let pushed = !alone || self.still.is_some();
         for body in self.bodies.iter_mut() {
-            body.push_crack::<FUSED>(self.drive.damping);
+            if self.still.is_some() {
+                body.let_go(self.step.dt, alone);
+            }
+            if pushed {
+                body.push_crack::<FUSED>(damping, alone);
+            }
+        }
+        if !self.dampers.is_empty() {
+            self.dampers.begin(&mut self.bodies, damping, pushed);
+        }
+    }
+
+    /// Hand the bodies all impulses of the step: those of contact, less what the start has in it, and the others.
+    #[inline(always)]
+    fn join(&mut self) {
+        let pushed = self.acting.is_some() || self.still.is_some();
+        for body in self.bodies.iter_mut() {
+            if self.quiet {
+                body.impulse.fill(0.0);
+            } else if pushed {
+                body.join_push();
+            }
         }
     }
 
@@ -207,15 +258,23 @@ impl<'a> Moreau<'a> {
     #[inline(always)]
     fn contact<const FUSED: bool>(&mut self) -> [f64; 2] {
         let crack = &mut self.walk.crack;
-        let report = crack.solver.solve::<FUSED>(&crack.problem);
+        let report = match self.still.filter(|_| self.quiet) {
+            Some(still) => crack.hold(&still.contact, self.step.dt),
+            None => crack.solver.solve::<FUSED>(&crack.problem),
+        };
         self.walk.summary.note(report);
         let before = self.works();
         let (upper, lower) = (&mut self.bodies.upper, &mut self.bodies.lower);
         let none = &mut [][..];
         let below = lower.as_mut().map_or(none, |body| &mut body.impulse);
         let impulse = self.walk.crack.impulses(&mut upper.impulse, below);
-        for body in self.bodies.iter_mut() {
-            body.move_crack::<FUSED>(self.drive.damping, self.step);
+        if !self.quiet {
+            if !self.dampers.is_empty() {
+                self.dampers.finish(&mut self.bodies, self.drive.damping);
+            }
+            for body in self.bodies.iter_mut() {
+                body.move_crack::<FUSED>(self.drive.damping, self.step);
+            }
         }
         let after = self.works();
         let theta = self.step.theta;
@@ -249,8 +308,8 @@ impl<'a> Moreau<'a> {
     /// Keep a frame.
     fn keep(&mut self, ledger: &Ledger) {
         let position = self.bodies.faces(|body| &body.position);
-        let modes = self.bodies.map(|body| &body.q[..]);
-        self.walk.keep(position, &modes, ledger);
+        let total = self.bodies.map(Moving::amplitudes);
+        self.walk.keep(position, &total.map(|modes| &modes[..]), ledger);
     }
 
     /// The ledger with the sums of both bodies and the energy they hold; the sums go on, so that frames change nothing.
@@ -259,12 +318,14 @@ impl<'a> Moreau<'a> {
         for body in self.bodies.iter() {
             body.sums.book(&mut ledger);
         }
+        ledger.damping += self.dampers.taken;
+        ledger.turnover += self.dampers.taken;
         ledger.stored = energy(&self.bodies) + ledger.springs;
         ledger
     }
 }
 
 fn energy(bodies: &Sides<Moving>) -> f64 {
-    let of = |body: &Moving| body.body.energy(&body.q, &body.v);
+    let of = |body: &Moving| body.body.energy(&body.amplitudes(), &body.v);
     of(&bodies.upper) + bodies.lower.as_ref().map_or(0.0, of)
 }

@@ -57,7 +57,6 @@ impl Solver {
             }
         }
         self.velocities::<FUSED>(problem);
-        self.forget();
     }
 }
 

@@ -1,6 +1,14 @@
 //! The contact problem against its own conditions, on random problems and on those with a known answer.
 
+use super::acting::Inside;
+use super::body::{Modes, ReducedBody};
+use super::contact::Contacts;
 use super::coulomb::{Problem, Report, Solver};
+use super::coupling::{Answer, Crack};
+use super::dam::Dam;
+use super::observe::State;
+use super::sides::{Faces, Sides};
+use super::stance::{Give, Stance};
 use super::status::Status;
 
 /// Numbers from -1 to 1 that are the same each time.
@@ -147,4 +155,109 @@ fn pivoting_keeps_the_order_of_the_unknowns() {
     let report = solver.solve::<false>(&problem);
     assert!(!report.swept && report.iterations < 5);
     assert!(violation(&problem, &solver.p) < 1e-12);
+}
+
+/// A face of nine nodes 10 m wide on a rigid plane, turned by `slope` about its toe, that touches from node `first` on
+/// with the given status; the rest is open.
+fn stands(first: usize, slope: f64, status: Status) -> State {
+    let along = (0..9).map(|k| 1.25 * f64::from(k));
+    let flat: Vec<f64> = along.clone().chain([0.0; 9]).collect();
+    let turned: Vec<f64> = along.clone().chain(along.map(|x| slope * (10.0 - x))).collect();
+    let mut contacts = Contacts::new(3, 9, 0);
+    contacts.update(&turned, &[], |_| false);
+    let give = Give {
+        rotation: 1e-3,
+        gap: 1e-4,
+    };
+    let faces = |upper| Faces { upper, lower: &[] };
+    let stance = Stance::new(give, &contacts, faces(&flat));
+    let states: Vec<Status> = (0..9)
+        .map(|k| if k < first { Status::Open } else { status })
+        .collect();
+    stance.state(faces(&turned), &contacts, &states)
+}
+
+#[test]
+fn a_part_rocks_only_where_it_stands_on_one_end_and_has_turned() {
+    // One open node, or half of them, is no rocking, however far the face has turned.
+    assert_eq!(stands(1, 2e-3, Status::Stick), State::Rest);
+    assert_eq!(stands(4, 2e-3, Status::SlipDownstream), State::Sliding);
+    // Standing on its outer quarter, it rocks about its toe from 1 mrad on.
+    assert_eq!(stands(6, 2e-3, Status::Stick), State::Rocking);
+    assert_eq!(stands(6, 2e-3, Status::SlipUpstream), State::SlideRocking);
+    assert_eq!(stands(6, 9e-4, Status::Stick), State::Rest);
+    // The other way round it does not stand on the end about which it has turned.
+    assert_eq!(stands(6, -2e-3, Status::Stick), State::Rest);
+    // Off by a little it still stands on its nearest node, off by more it drifts.
+    assert_eq!(stands(9, 2e-3, Status::Stick), State::SlideRocking);
+    assert_eq!(stands(9, -2e-5, Status::Stick), State::Sliding);
+}
+
+/// A part of six modes and five crack nodes whose shapes are drawn at random.
+fn body(dice: &mut Dice) -> ReducedBody {
+    let mut draw = |count: usize| (0..count).map(|_| dice.roll()).collect::<Vec<f64>>();
+    let (numbers, shapes) = (draw(6), draw(60));
+    let position: Vec<f64> = (0..10).map(|k| f64::from(k % 5) * f64::from(k < 5)).collect();
+    ReducedBody::new(&Modes {
+        omega_squared: &numbers,
+        damping: [&numbers, &numbers],
+        load: &numbers,
+        participation: [&numbers, &numbers],
+        start: &numbers,
+        shapes: &shapes,
+        position: &position,
+        dampers: &[],
+        damper_signs: &[],
+    })
+    .unwrap()
+}
+
+#[test]
+fn what_has_not_moved_keeps_its_answer() {
+    let mut dice = Dice(11);
+    for contactors in [3, 5] {
+        let dam = Dam {
+            bodies: Sides {
+                upper: body(&mut dice),
+                lower: Some(body(&mut dice)),
+            },
+            friction: [0.6; 2],
+            contactors,
+            inside: Inside::default(),
+            give: Give::default(),
+            still: None,
+        };
+        let answers: Vec<Vec<f64>> = (0..2).map(|_| (0..100).map(|_| dice.roll()).collect()).collect();
+        let answer = || {
+            let of = |k: usize| Answer {
+                w: &answers[k][..],
+                nodes: 5,
+            };
+            Sides {
+                upper: of(0),
+                lower: Some(of(1)),
+            }
+        };
+        let softness = dam.softness();
+        let mut kept = Crack::new(&dam);
+        kept.solver.status.fill(Status::Open);
+        let mut upper = dam.bodies.upper.position.clone();
+        let lower = &dam.bodies.lower.as_ref().unwrap().position;
+        let mut partly = 0;
+        for step in 0..20 {
+            // One node sticks in every second step; in the end one leaves the other face.
+            let sticks = [Status::Open, Status::Stick][step % 2];
+            kept.solver.status[0] = sticks;
+            let position = Faces { upper: &upper, lower };
+            kept.meet(position, 0, answer, |largest| softness * largest);
+            partly += usize::from(kept.contacts.moved.contains(&false));
+            let mut new = Crack::new(&dam);
+            new.contacts.pairs.clone_from(&kept.contacts.pairs);
+            new.assemble(answer(), |largest| softness * largest);
+            assert_eq!(kept.problem.g, new.problem.g, "step {step}");
+            upper[..5].iter_mut().for_each(|x| *x += 0.07);
+        }
+        assert!(kept.contacts.pairs.contains(&None));
+        assert_eq!(partly > 5, contactors == 3);
+    }
 }

@@ -8,9 +8,10 @@ use super::coupling::Crack;
 use super::dam::{Dam, Wanted};
 use super::frames::{Frames, Since, Snapshot};
 use super::ledger::Ledger;
-use super::observe::{mean_along, Motion, State};
+use super::observe::{mean_along, Motion};
 use super::result::{Outcome, Run, Summary};
 use super::sides::{Faces, Sides};
+use super::stance::Stance;
 
 /// A slip or opening of so many widths of the crack is off any scale.
 const REACH: f64 = 100.0;
@@ -25,19 +26,22 @@ pub(super) struct Walk<'a> {
     /// Mean position along the crack of the upper face less that of the lower one at the start.
     zero: f64,
     motion: Motion,
+    stance: Stance,
     reach: f64,
     since: Since,
     frames: Frames,
 }
 
 impl<'a> Walk<'a> {
-    pub(super) fn new(dam: &'a Dam, dt: f64, wanted: Wanted) -> Self {
-        let start = dam.bodies.faces(|body| &body.position);
+    /// `start` is where the nodes of both faces are.
+    pub(super) fn new(dam: &'a Dam, dt: f64, wanted: Wanted, start: Faces) -> Self {
         let zero = mean_along(start.upper) - mean_along(start.lower);
         let upper = &dam.bodies.upper;
+        let crack = Crack::new(dam);
         Walk {
             dam,
-            crack: Crack::new(dam),
+            stance: Stance::new(dam.give, &crack.contacts, start),
+            crack,
             summary: Summary::default(),
             dt,
             wanted,
@@ -66,7 +70,9 @@ impl<'a> Walk<'a> {
     pub(super) fn book(&mut self, step: usize, position: Faces, normal_force: f64) {
         let after = Motion::of(position, self.zero);
         let slip = after.slip - self.motion.slip;
-        let state = State::of(&self.crack.solver.status);
+        let state = self
+            .stance
+            .state(position, &self.crack.contacts, &self.crack.solver.status);
         let summary = &mut self.summary;
         summary.end_time = (step + 1) as f64 * self.dt;
         summary.time_by_state[state as usize] += self.dt;

@@ -21,11 +21,11 @@ from heeltoe.models.flexible.loads import (
     ice_forces,
     silt_forces,
     uplift_forces,
-    virtual_masses,
     water_forces,
 )
 from heeltoe.models.flexible.mesh.checks import CORNERS, MIDDLES, jacobians, shape_gradients
 from heeltoe.models.flexible.mesh.dam import BodyMesh, DamMesh
+from heeltoe.models.flexible.virtual_water import virtual_masses
 
 Sparse = Any
 """A matrix of scipy.sparse, which has no types of its own."""

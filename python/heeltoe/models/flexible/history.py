@@ -11,7 +11,6 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from heeltoe.arrays import Floats, Integers
-from heeltoe.geometry.axes import along_and_across
 from heeltoe.kernel import CONTACT_STATUSES
 from heeltoe.models.flexible.elastic import stresses
 from heeltoe.models.flexible.reduced import FlexibleDam
@@ -95,7 +94,7 @@ class CrackHistory:
     def forces(self) -> Floats:
         """Return `force` with the first frame, which has no time before it, filled from the static state."""
         found = self.force.copy()
-        found[0] = along_and_across(self.dam.crack_force.reshape(-1, 2), self.dam.section).T
+        found[0] = self.dam.crack_force
         return found
 
     def node_status(self) -> tuple[NDArray[np.int8], ...]:

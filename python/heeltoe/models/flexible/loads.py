@@ -1,4 +1,4 @@
-"""Water, silt, ice and anchors on a meshed body: nodal forces and virtual mass.
+"""Water, silt, ice and anchors on a meshed body: nodal forces.
 
 Pressure acts on the face as it lies in the mesh. An edge of three nodes is cut where the water surface or a corner
 of the pressure lies on it and integrated on the pieces, so that the nodal forces of a mesh that follows the section
@@ -9,10 +9,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
-from scipy.sparse import coo_array
 
 from heeltoe.arrays import Floats, Integers
 from heeltoe.case.model import Case
@@ -21,10 +19,8 @@ from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.loads import uplift_profile, water_above_crack
 from heeltoe.models.flexible.mesh.dam import BodyMesh
 
-# Exact to degree 5: quadratic shape function, quadratic pressure and linear normal on an edge; and to degree 11: with
-# depth = t^2, two shape functions are of degree 8, sqrt(depth) of 1, the change of variable of 1.
+# Exact to degree 5: quadratic shape function, quadratic pressure and linear normal on an edge.
 _THREE = np.polynomial.legendre.leggauss(3)
-_SIX = np.polynomial.legendre.leggauss(6)
 
 
 def edge_shapes(s: Floats) -> Floats:
@@ -59,10 +55,10 @@ def ice_forces(mesh: BodyMesh, case: Case, *, above: bool) -> Floats:
     level = section.base_elevation + case.reservoir.depth - case.ice.depth
     if (level >= section.crack_elevation) != above:
         return forces
-    for edge in _edges(mesh.upstream):
+    for edge in edges(mesh.upstream):
         heights = mesh.nodes[edge, 1]
         if min(heights[0], heights[2]) <= level <= max(heights[0], heights[2]):
-            s = np.clip(_place(heights, np.array([level]), -1.0, 1.0), -1.0, 1.0)
+            s = np.clip(piece_place(heights, np.array([level]), -1.0, 1.0), -1.0, 1.0)
             forces[2 * edge] = case.ice.force * edge_shapes(s)[0]
             break
     return forces
@@ -79,13 +75,13 @@ def uplift_forces(mesh: BodyMesh, case: Case, *, above: bool, profile: Floats | 
         return forces
     # Going downstream, the upper part is on the left hand.
     side = -1.0 if above else 1.0
-    for edge in _edges(mesh.crack):
+    for edge in edges(mesh.crack):
         corners = mesh.nodes[edge]
         along = places(corners, case.cut)[:, 0]
         for (x0, p0), (x1, p1) in pairwise(points):
             if x1 <= x0:
                 continue
-            for start, end in _pieces(along, x0, x1):
+            for start, end in pieces(along, x0, x1):
                 s, weights = _gauss(start, end)
                 pressure = p0 + (p1 - p0) * (edge_shapes(s) @ along - x0) / (x1 - x0)
                 _press(forces, edge, corners, s, side * pressure * weights)
@@ -104,7 +100,7 @@ def crack_point(mesh: BodyMesh, section: CutSection, distance: float) -> tuple[I
     shares in the motion of that point."""
     along = places(mesh.nodes[mesh.crack], section)[:, 0]
     edge = 2 * int(np.clip(np.searchsorted(along[2:-1:2], distance), 0, (len(along) - 3) // 2))
-    s = np.clip(_place(along[edge : edge + 3], np.array([distance]), -1.0, 1.0), -1.0, 1.0)
+    s = np.clip(piece_place(along[edge : edge + 3], np.array([distance]), -1.0, 1.0), -1.0, 1.0)
     return edge + np.arange(3), edge_shapes(s)[0]
 
 
@@ -121,62 +117,22 @@ def anchor_forces(mesh: BodyMesh, case: Case, *, above: bool) -> Floats:
     return forces
 
 
-def virtual_masses(mesh: BodyMesh, case: Case, *, above: bool) -> Any:
-    """Return the consistent mass of the water that moves horizontally with the upstream face.
-
-    Westergaard (1931): ``7/8 rho sqrt(D (D - eta))`` per unit height, see
-    :func:`heeltoe.mechanics.loads.virtual_mass`. With `virtual_mass` = "thesis" (Zhu 2004), D and eta
-    count from the crack, and the part below has none.
-
-    Returns
-    -------
-    scipy.sparse.coo_array, shape (2 n, 2 n)
-        On the displacements in x alone [kg per m].
-    """
-    rows, columns, values = [np.empty(0, dtype=np.int64)], [np.empty(0, dtype=np.int64)], [np.empty(0)]
-    water, thesis = case.reservoir, case.flexible.virtual_mass == "thesis"
-    if water is not None and (above or not thesis):
-        surface = case.cut.base_elevation + water.depth
-        depth = water_above_crack(case, water) if thesis else water.depth
-        factor = 7.0 / 8.0 * water.density * math.sqrt(depth)
-        for edge in _edges(mesh.upstream):
-            heights = mesh.nodes[edge, 1]
-            for start, end in _pieces(heights, -math.inf, surface):
-                rows.append(np.repeat(2 * edge, 3))
-                columns.append(np.tile(2 * edge, 3))
-                values.append(factor * _moving(heights, start, end, surface).reshape(-1))
-    places = np.concatenate(rows), np.concatenate(columns)
-    return coo_array((np.concatenate(values), places), (mesh.nodes.size, mesh.nodes.size))
-
-
-def _moving(heights: Floats, start: float, end: float, surface: float) -> Floats:
-    """Integrate the products of shape functions times sqrt(depth) over the height of a piece of an edge, (3, 3)."""
-    # In t = sqrt(depth) the integrand is smooth up to the surface.
-    deep, shallow = np.sqrt(np.maximum(0.0, surface - edge_shapes(np.array([start, end])) @ heights))
-    half = (deep - shallow) / 2.0
-    t = (deep + shallow) / 2.0 + half * _SIX[0]
-    shapes = edge_shapes(_place(heights, surface - t * t, start, end))
-    weights = 2.0 * abs(half) * _SIX[1] * t * t
-    matrix: Floats = shapes.T @ (weights[:, None] * shapes)
-    return matrix
-
-
 def _fluid(mesh: BodyMesh, surface: float, gravity: float, densities: tuple[float, float], *, upstream: bool) -> Floats:
     """Return the forces on a face of a fluid with one density sideways and one in its weight, below a surface."""
     forces = np.zeros(mesh.nodes.size)
     sideways, downwards = (gravity * density for density in densities)
     # Going up the upstream face, the concrete is on the right hand.
     path, side = (mesh.upstream, 1.0) if upstream else (mesh.downstream, -1.0)
-    for edge in _edges(path):
+    for edge in edges(path):
         corners = mesh.nodes[edge]
-        for start, end in _pieces(corners[:, 1], -math.inf, surface):
+        for start, end in pieces(corners[:, 1], -math.inf, surface):
             s, weights = _gauss(start, end)
             depth = surface - edge_shapes(s) @ corners[:, 1]
             _press(forces, edge, corners, s, side * (sideways * depth) * weights, side * (downwards * depth) * weights)
     return forces
 
 
-def _edges(path: Integers) -> Iterator[Integers]:
+def edges(path: Integers) -> Iterator[Integers]:
     for start in range(0, len(path) - 2, 2):
         yield path[start : start + 3]
 
@@ -203,7 +159,7 @@ def _press(
     forces[2 * edge + 1] -= shapes.T @ ((pressure if vertical is None else vertical) * along[:, 0])
 
 
-def _pieces(values: Floats, low: float, high: float) -> list[tuple[float, float]]:
+def pieces(values: Floats, low: float, high: float) -> list[tuple[float, float]]:
     """Return the parts of an edge, as intervals of s, where a coordinate with these nodal values is between two."""
     square, slope = (values[0] - 2.0 * values[1] + values[2]) / 2.0, (values[2] - values[0]) / 2.0
     marks = [-1.0, 1.0]
@@ -228,7 +184,7 @@ def _roots(a: float, b: float, c: float) -> list[float]:
     return [root for top, bottom in ((q, a), (c, q)) if bottom != 0.0 and abs(root := top / bottom) < 1e6]
 
 
-def _place(values: Floats, wanted: Floats, start: float, end: float) -> Floats:
+def piece_place(values: Floats, wanted: Floats, start: float, end: float) -> Floats:
     """Return where on a monotonic piece of an edge a coordinate has the values wanted."""
     square, slope = (values[0] - 2.0 * values[1] + values[2]) / 2.0, (values[2] - values[0]) / 2.0
     middle = (start + end) / 2.0

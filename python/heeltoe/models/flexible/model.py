@@ -6,6 +6,7 @@ from heeltoe import kernel
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.mechanics.block import build_block, static_state
+from heeltoe.models.flexible.excitation import self_excitation
 from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.models.flexible.shaken import ShakenDam, converged
@@ -47,16 +48,21 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
     block = build_block(case)
     safety = block.sliding_safety_factor
     # Anchors with stiffness hold what friction does not.
-    slides_away = safety is not None and safety < 1.0 and not dam.anchors
-    outcome = "unstable" if run.outcome == "ok" and slides_away else run.outcome
+    stands = dam.start.stands and not (safety is not None and safety < 1.0)
+    outcome = "unstable" if run.outcome == "ok" and not (stands or dam.anchors) else run.outcome
+    growth = self_excitation(shaken, run)
     history = history_of(case, dam, run)
     return FlexibleResponse(
         model="flexible",
         title=case.title,
         outcome=outcome,
         advice=advice_of(outcome, run.summary),
-        warnings=tuple(warnings_of(shaken, run, history, convergence, safety)),
-        summary=summary_of(shaken, run, convergence),
+        warnings=tuple(warnings_of(shaken, run, history, convergence, growth, safety)),
+        summary=summary_of(shaken, run, convergence)
+        | {
+            "self_excitation": None if growth is None else growth.to_json(),
+            "penetration_m": {"watched": run.summary["penetration"], "any_in_frames": history.deepest_penetration()},
+        },
         energy=energy_of(run),
         motion=earthquake.motion,
         vertical=earthquake.vertical,
@@ -72,8 +78,11 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
 
 def _references(case: Case, dam: FlexibleDam) -> tuple[str, ...]:
     keys = ["flexible", case.flexible.contact]
-    if dam.upper.mass.sum() > dam.upper.mass_concrete.sum() * (1.0 + 1e-12):
+    moved = [(body.mass - body.mass_concrete).diagonal() for body in dam.bodies]
+    if moved[0].any():
         keys.append("water")
+    if any(water[1::2].any() for water in moved):
+        keys.append("sloped water")
     if dam.water is not None:
         keys.append(case.uplift.during_shaking)
     return cited(*keys)

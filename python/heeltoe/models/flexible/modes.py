@@ -15,9 +15,11 @@ import numpy as np
 from heeltoe.arrays import Floats
 from heeltoe.models.flexible.elastic import Body, Dam, Sparse, dofs, side_by_side
 
-# Up to so many degrees of freedom all modes take less time than the rest of a run.
-_ALL = 1500
-_KEPT = 200
+# Modes kept at first; they are doubled until so much of the crack's compliance at most is lost.
+_KEPT = 50
+ENOUGH = 0.03
+# The frequency of that compliance over the first one of the intact dam.
+_RANGE = 15.0
 # Combinations of static shapes with less than this part of the energy of others hold nothing new.
 _NOTHING = 1e-12
 
@@ -63,7 +65,7 @@ def reduce(body: Body, keep: int | None = None) -> Modes:
     body
         Free, or held at its base.
     keep
-        Number of vibration modes; where it is not given, all for a moderate mesh, else 200.
+        Number of vibration modes; all where it is not given.
 
     Returns
     -------
@@ -74,7 +76,7 @@ def reduce(body: Body, keep: int | None = None) -> Modes:
     free = np.setdiff1d(np.arange(size), dofs(body.mesh.fixed))
     rigid = _rigid_shapes(body) if free.size == size else np.empty((size, 0))
     if keep is None:
-        keep = free.size if free.size <= _ALL else _KEPT
+        keep = free.size
     stiffness, mass = body.stiffness[free][:, free], body.mass[free][:, free]
     following = [body.load_per_vertical] if body.load_per_vertical.any() else []
     forces = np.column_stack([_unit_forces(body), body.load, *following])[free]
@@ -91,12 +93,38 @@ def reduce(body: Body, keep: int | None = None) -> Modes:
     return Modes(squares, shapes, rigid.shape[1], kept, free.size, truncated)
 
 
-def residual_error(body: Body, modes: Modes) -> float:
+def enough_modes(body: Body, dam: Dam) -> tuple[Modes, float]:
+    """Return as many of the lowest modes of a body, with its static shapes, as its crack needs, and their error."""
+    circular = error_frequency(dam)
+    keep = _KEPT
+    while True:
+        modes = reduce(body, keep)
+        error = residual_error(body, modes, circular)
+        if error <= ENOUGH or not modes.truncated:
+            return modes, error
+        keep *= 2
+
+
+def error_frequency(dam: Dam) -> float:
+    """Return the circular frequency [1/s] up to which the crack's compliance matters: 15 times the first of the intact
+    dam. The slip of the typical dam changes by 0.5 % with 12 modes, which leave an error of 16 % there, and by 0.02 %
+    with 50, which leave 1 to 2 %."""
+    return _RANGE * 2.0 * math.pi / float(intact_periods(dam, 1)[0])
+
+
+def residual_error(body: Body, modes: Modes, circular: float) -> float:
     """Return the relative error of the crack's compliance that is due to the modes left out.
 
     The compliance under forces that grow like exp(s t), ``E^T (K + s^2 M)^-1 E`` with unit forces E on the crack nodes,
-    is what an implicit time step of about 1/s sees; it has no resonances. With s half the highest circular frequency
-    kept, it is compared with a direct solution, pattern of forces by pattern of forces.
+    has no resonances. It is compared with a direct solution, pattern of forces by pattern of forces. A measure at a
+    frequency that follows the modes kept would not see how few they are.
+
+    Parameters
+    ----------
+    body, modes
+        A body, and the modes in question.
+    circular
+        s [1/s].
 
     Returns
     -------
@@ -106,7 +134,9 @@ def residual_error(body: Body, modes: Modes) -> float:
     import scipy.linalg
 
     free = np.setdiff1d(np.arange(body.mesh.nodes.size), dofs(body.mesh.fixed))
-    square = modes.omega_squared[modes.kept - 1] / 4.0
+    if not modes.truncated:
+        return 0.0
+    square = circular**2
     unit = _unit_forces(body)
     crack = unit.T @ modes.shapes
     reduced = crack @ (crack / (modes.omega_squared + square)).T

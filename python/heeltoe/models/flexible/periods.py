@@ -33,6 +33,8 @@ class DamPeriods:
         Coefficients of mass [1/s] and stiffness [s] of the damping that follow from the intact dam; None with `modal`.
     damping, damping_ratio
         What the case says of them.
+    damping_ratios
+        What the lowest modes of the intact dam, at most five, really get.
     elements, nodes
         Of each part, from above.
     """
@@ -45,6 +47,7 @@ class DamPeriods:
     rayleigh: tuple[float, float] | None
     damping: str
     damping_ratio: float
+    damping_ratios: tuple[float, ...]
     elements: tuple[int, ...]
     nodes: tuple[int, ...]
 
@@ -60,6 +63,7 @@ class DamPeriods:
             },
             "damping": self.damping,
             "damping_ratio": self.damping_ratio,
+            "damping_ratios": list(self.damping_ratios),
             "rayleigh": None
             if self.rayleigh is None
             else dict(zip(("mass_1_s", "stiffness_s"), self.rayleigh, strict=True)),
@@ -95,9 +99,10 @@ def dam_periods(case: Case, count: int = COUNT, *, field: str = "count") -> DamP
         intact=tuple(intact_periods(dam, count).tolist()),
         above=parts[0],
         below=parts[1] if len(parts) > 1 else None,
-        rayleigh=dam.coefficients,
+        rayleigh=dam.damping.coefficients,
         damping=case.flexible.damping,
         damping_ratio=case.concrete.damping,
+        damping_ratios=tuple(dam.damping.ratios.tolist()),
         elements=tuple(len(body.mesh.elements) for body in dam.bodies),
         nodes=tuple(len(body.mesh.nodes) for body in dam.bodies),
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from hashlib import sha256
 
 import numpy as np
@@ -13,10 +13,12 @@ from heeltoe.geometry.axes import along_and_across, places
 from heeltoe.geometry.section import CutSection
 from heeltoe.kept import Kept
 from heeltoe.kernel import CrackedDam
+from heeltoe.models.flexible.damping import Damping, damping_of
 from heeltoe.models.flexible.elastic import Body, Dam, bonded_state, dam
 from heeltoe.models.flexible.inside import CrackAnchor, FollowingWater, crack_anchors, following_water
 from heeltoe.models.flexible.mesh.dam import dam_mesh
-from heeltoe.models.flexible.modes import Modes, intact_periods, part_periods, rayleigh, reduce, residual_error
+from heeltoe.models.flexible.modes import Modes, enough_modes, error_frequency, reduce, residual_error
+from heeltoe.models.flexible.stance import elastic_give
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +34,10 @@ class ReducedBody:
         (m, 2 k) motion of the crack nodes, all along the crack, then all across it.
     position
         (2 k,) where they stand at the start, from the heel and from the crack [m].
+    dampers
+        (d, m) rows of the dashpots that couple the modes; as many on the other body.
+    damper_signs
+        (d,) 1 for those that take energy, -1 for those that give back what others take too much.
     """
 
     omega_squared: Floats
@@ -43,6 +49,28 @@ class ReducedBody:
     start: Floats
     shapes: Floats
     position: Floats
+    dampers: Floats
+    damper_signs: Floats
+
+
+@dataclass(frozen=True)
+class Start:
+    """How a dam stands before the earthquake, its crack let go.
+
+    Attributes
+    ----------
+    stands
+        Whether friction and what else acts hold it; if not, it starts from the state with its crack bonded, as the
+        penalty method always does.
+    slip
+        By how much the crack slips on the way there, positive downstream [m].
+    open_contacts
+        How many of the watched nodes are open then.
+    """
+
+    stands: bool
+    slip: float
+    open_contacts: int
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -59,31 +87,40 @@ class FlexibleDam(Dam):
         The bodies in their modes, as the kernel takes them.
     kernel
         The kernel's own copy.
+    start
+        The state before the earthquake.
     static
-        (2 n,) displacements before the earthquake of each body [m].
+        (2 n,) displacements in it of each body [m].
     crack_force
-        (2 k,) forces on the upper body's crack nodes before the earthquake, x and z in turn [N].
-    periods
-        Longest periods of the intact dam, water included [s].
-    coefficients
-        Rayleigh coefficients of mass [1/s] and stiffness [s]; None with `modal` damping.
+        (2, k) forces on the upper body's crack nodes in it, along and across the crack [N].
+    damping
+        That of the concrete, with the periods of the intact dam.
     basis_error
-        Largest error of the crack's flexibility by the modes left out, over the range of those kept; 0 where none is.
+        Largest error of the crack's flexibility by the modes left out, see
+        :func:`heeltoe.models.flexible.modes.error_frequency`; 0 where none is.
     water, anchors
         What acts in the crack beside contact: water whose pressure changes, anchors with stiffness.
+    give
+        See :func:`heeltoe.models.flexible.stance.elastic_give`.
     """
 
     section: CutSection
     modes: tuple[Modes, ...]
     reduced: tuple[ReducedBody, ...]
     kernel: CrackedDam
+    start: Start
     static: tuple[Floats, ...]
     crack_force: Floats
-    periods: Floats
-    coefficients: tuple[float, float] | None
+    damping: Damping
     basis_error: float
     water: FollowingWater | None
     anchors: tuple[CrackAnchor, ...]
+    give: tuple[float, float]
+
+    @property
+    def periods(self) -> Floats:
+        """Longest periods of the intact dam, water included [s]."""
+        return self.damping.periods
 
 
 _KEPT: Kept[FlexibleDam] = Kept(4)
@@ -114,80 +151,98 @@ def fingerprints(case: Case) -> list[str]:
 def _build(case: Case) -> FlexibleDam:
     bonded = dam(case, dam_mesh(case))
     bodies = bonded.bodies
-    *static, crack_force = bonded_state(bonded)
-    static = static[: len(bodies)]
-    periods = intact_periods(bonded, 5)
-    modes = tuple(reduce(body, case.flexible.modes) for body in bodies)
-    coefficients = None
-    if case.flexible.damping != "modal":
-        coefficients = rayleigh(periods[0], periods[2], case.concrete.damping)
-    reduced = []
-    for place, (body, basis, still) in enumerate(zip(bodies, modes, static, strict=True)):
-        damping = _damping(case, basis, coefficients, above=place == 0)
-        reduced.append(_reduced(body, basis, still, damping, case.cut))
-    friction = (case.crack.mu_static, case.crack.mu_kinetic)
+    *bent, crack_force = bonded_state(bonded)
+    modes, errors = _modes(case, bonded)
+    damping = damping_of(case, bonded, modes)
+    reduced = tuple(
+        _reduced(body, basis, still, damping, place, case.cut)
+        for place, (body, basis, still) in enumerate(zip(bodies, modes, bent, strict=False))
+    )
     water, anchors = following_water(case, bodies), crack_anchors(case, bodies)
-    upper, lower = (*reduced, None)[:2]
-    assert upper is not None
-    errors = [residual_error(body, basis) for body, basis in zip(bodies, modes, strict=True) if basis.truncated]
+    give = elastic_give(case, case.cut, crack_force)
+    kernel = _cracked(case, reduced, water, anchors, give)
+    # The penalty method begins with its crack bonded and its springs unloaded.
+    exact = case.flexible.contact == "coulomb"
+    static, start = tuple(bent[: len(bodies)]), Start(not exact, 0.0, 0)
+    force = along_and_across(crack_force.reshape(-1, 2), case.cut).T
+    rest = kernel.still() if exact else None
+    if rest is not None:
+        start = Start(True, rest.slip, rest.open_contacts)
+        static = tuple(basis.shapes @ q for basis, q in zip(modes, rest.modes, strict=False))
+        force = rest.force
     return FlexibleDam(
         bodies=bodies,
         tie=bonded.tie,
         section=case.cut,
         modes=modes,
-        reduced=tuple(reduced),
-        kernel=CrackedDam(upper, lower, friction, case.flexible.contactors, water, anchors),
-        static=tuple(static),
-        crack_force=crack_force,
-        periods=periods,
-        coefficients=coefficients,
-        basis_error=max(errors, default=0.0),
+        reduced=reduced,
+        kernel=kernel,
+        start=start,
+        static=static,
+        crack_force=force,
+        damping=damping,
+        basis_error=max(errors),
         water=water,
         anchors=anchors,
+        give=give,
     )
 
 
-def _damping(
-    case: Case, modes: Modes, coefficients: tuple[float, float] | None, *, above: bool
-) -> tuple[Floats, Floats]:
-    """Return the damping coefficients [1/s] of the modes while some node sticks, and while none does.
+def _modes(case: Case, bonded: Dam) -> tuple[tuple[Modes, ...], list[float]]:
+    """Return the modes of each body and the error that those left out make."""
+    if case.flexible.modes is None:
+        found = [enough_modes(body, bonded) for body in bonded.bodies]
+        return tuple(modes for modes, _ in found), [error for _, error in found]
+    modes = tuple(reduce(body, case.flexible.modes) for body in bonded.bodies)
+    circular = error_frequency(bonded)
+    return modes, [residual_error(body, basis, circular) for body, basis in zip(bonded.bodies, modes, strict=True)]
 
-    ``thesis`` is that of Zhu (2004), section 7.4.1: Rayleigh on all motion, rigid-body motion included, while any
-    node sticks; when none does, on the lower part alone, with coefficients of its own periods.
-    """
-    omega_squared = modes.omega_squared
-    if coefficients is None:
-        modal = 2.0 * case.concrete.damping * np.sqrt(omega_squared)
-        return modal, modal
-    everywhere = coefficients[0] + coefficients[1] * omega_squared
-    if case.flexible.damping == "deformation":
-        everywhere[: modes.rigid] = 0.0
-        return everywhere, everywhere
-    if above:
-        return everywhere, np.zeros_like(everywhere)
-    own = part_periods(modes, 3)
-    mass, stiffness = rayleigh(own[0], own[2], case.concrete.damping)
-    return everywhere, mass + stiffness * omega_squared
+
+def _cracked(
+    case: Case,
+    reduced: tuple[ReducedBody, ...],
+    water: FollowingWater | None,
+    anchors: tuple[CrackAnchor, ...],
+    give: tuple[float, float],
+) -> CrackedDam:
+    friction = (case.crack.mu_static, case.crack.mu_kinetic)
+    lower = reduced[1] if len(reduced) > 1 else None
+    return CrackedDam(reduced[0], lower, friction, case.flexible.contactors, water, anchors, give)
+
+
+def damped(case: Case, dam: FlexibleDam, factor: float) -> FlexibleDam:
+    """Return the same dam with so many times its damping."""
+    damping = dam.damping.scaled(factor)
+    reduced = tuple(
+        replace(part, damping_sticking=sticking, damping_free=free, dampers=rows)
+        for part, sticking, free, rows in zip(
+            dam.reduced, damping.sticking, damping.free, damping.dashpots, strict=True
+        )
+    )
+    kernel = _cracked(case, reduced, dam.water, dam.anchors, dam.give)
+    return replace(dam, reduced=reduced, damping=damping, kernel=kernel)
 
 
 def _reduced(
-    body: Body, modes: Modes, static: Floats, damping: tuple[Floats, Floats], section: CutSection
+    body: Body, modes: Modes, static: Floats, damping: Damping, place: int, section: CutSection
 ) -> ReducedBody:
     crack = body.mesh.crack
     horizontal = np.zeros(static.size)
     horizontal[::2] = 1.0
-    place = places(body.mesh.nodes[crack], section).T.reshape(-1)
+    at = places(body.mesh.nodes[crack], section).T.reshape(-1)
     moved = along_and_across(static.reshape(-1, 2)[crack], section).T.reshape(-1)
     shapes = along_and_across(modes.shapes.T.reshape(modes.omega_squared.size, -1, 2)[:, crack], section)
     pushed = body.mass @ (1.0 - horizontal) - body.load_per_vertical
     return ReducedBody(
         omega_squared=np.ascontiguousarray(modes.omega_squared),
-        damping_sticking=np.ascontiguousarray(damping[0]),
-        damping_free=np.ascontiguousarray(damping[1]),
+        damping_sticking=np.ascontiguousarray(damping.sticking[place]),
+        damping_free=np.ascontiguousarray(damping.free[place]),
         load=modes.shapes.T @ body.load,
         participation_horizontal=modes.shapes.T @ (body.mass @ horizontal),
         participation_vertical=modes.shapes.T @ pushed,
         start=modes.shapes.T @ (body.mass @ static),
         shapes=np.ascontiguousarray(shapes.swapaxes(1, 2).reshape(modes.omega_squared.size, -1)),
-        position=place + moved,
+        position=at + moved,
+        dampers=np.ascontiguousarray(damping.dashpots[place]),
+        damper_signs=damping.signs,
     )

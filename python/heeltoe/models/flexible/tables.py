@@ -49,6 +49,7 @@ def history_of(case: Case, dam: FlexibleDam, run: DamRun) -> CrackHistory:
 def summary_of(shaken: ShakenDam, run: DamRun, convergence: Convergence | None) -> dict[str, Any]:
     """Return the numbers of the contract."""
     raw, dam, case = run.summary, shaken.dam, shaken.case
+    coefficients = dam.damping.coefficients
     return {
         "residual_slip_m": raw["slip"],
         "peak_slip_downstream_m": raw["slip_max"],
@@ -65,6 +66,7 @@ def summary_of(shaken: ShakenDam, run: DamRun, convergence: Convergence | None) 
             "drifting": raw["slip_drifting"],
         },
         "time_by_mode_s": {name.replace("-", "_"): raw[f"time_{name.replace('-', '_')}"] for name in kernel.DAM_STATES},
+        "elastic_give": {"rotation_rad": dam.give[0], "gap_m": dam.give[1]},
         "impacts": int(raw["impacts"]),
         "largest_impact_velocity_m_s": raw["largest_impact_velocity"],
         "peak_normal_force_n": raw["peak_normal_force"],
@@ -82,8 +84,16 @@ def summary_of(shaken: ShakenDam, run: DamRun, convergence: Convergence | None) 
         },
         "damping": case.flexible.damping,
         "damping_ratio": case.concrete.damping,
-        "rayleigh_mass_1_s": dam.coefficients[0] if dam.coefficients else None,
-        "rayleigh_stiffness_s": dam.coefficients[1] if dam.coefficients else None,
+        "damping_ratios": dam.damping.ratios.tolist(),
+        "rayleigh_mass_1_s": coefficients[0] if coefficients else None,
+        "rayleigh_stiffness_s": coefficients[1] if coefficients else None,
+        "before_shaking": {
+            "stands": dam.start.stands,
+            "slip_m": dam.start.slip,
+            "open_contacts": dam.start.open_contacts,
+        }
+        if case.flexible.contact == "coulomb"
+        else None,
         "contact": case.flexible.contact,
         "steps": int(raw["steps"]),
         "time_step_s": raw["end_time"] / raw["steps"],

@@ -7,7 +7,9 @@ from collections.abc import Iterator, Mapping
 from heeltoe.case.model import Case
 from heeltoe.kernel import DamRun
 from heeltoe.mechanics.loads import water_above_crack
+from heeltoe.models.flexible.growth import Growth
 from heeltoe.models.flexible.history import CrackHistory
+from heeltoe.models.flexible.modes import ENOUGH
 from heeltoe.models.flexible.reduced import FlexibleDam
 from heeltoe.models.flexible.shaken import Convergence, ShakenDam
 from heeltoe.models.flexible.tables import anchors_of
@@ -41,12 +43,18 @@ def advice_of(outcome: str, raw: Mapping[str, float]) -> Sentence | None:
 
 
 def warnings_of(
-    shaken: ShakenDam, run: DamRun, history: CrackHistory, convergence: Convergence | None, safety: float | None
+    shaken: ShakenDam,
+    run: DamRun,
+    history: CrackHistory,
+    convergence: Convergence | None,
+    growth: Growth | None,
+    safety: float | None,
 ) -> list[Notice]:
     """Return what a reader of a flexible run must know; `safety` is that against sliding under the static loads."""
     case, dam = shaken.case, shaken.dam
     return [
         *_about_the_slip(dam, convergence, safety),
+        *_about_the_growth(growth, run.summary),
         *_about_the_concrete(case, dam),
         *_about_the_end(case, run),
         *_about_the_contact(case, run, history),
@@ -66,6 +74,19 @@ def _about_the_slip(dam: FlexibleDam, convergence: Convergence | None, safety: f
         )
     if safety is not None and safety < 1.0:
         yield Notice("anchors-hold" if dam.anchors else "slides-by-itself", factor=safety)
+    elif not (dam.start.stands or dam.anchors):
+        yield Notice("no-rest")
+
+
+def _about_the_growth(growth: Growth | None, raw: Mapping[str, float]) -> Iterator[Notice]:
+    if growth is not None and growth.damped_slip is not None:
+        yield Notice(
+            "self-excited",
+            growth_1_s=growth.rate,
+            sliding_s=growth.sliding_time,
+            slip_m=raw["slip"],
+            damped_slip_m=growth.damped_slip,
+        )
 
 
 def _about_the_concrete(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
@@ -77,7 +98,7 @@ def _about_the_concrete(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
     modulus = case.concrete.modulus or 0.0
     if not 5e9 <= modulus <= 1e11:
         yield Notice("modulus-unusual", modulus_pa=modulus)
-    if dam.basis_error > 0.02:
+    if dam.basis_error > ENOUGH:
         yield Notice("modes-few", error=dam.basis_error)
 
 

@@ -7,7 +7,8 @@ from dataclasses import replace
 
 from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
-from heeltoe.mechanics.loads import Resultant, concrete_mass, static_forces, virtual_mass
+from heeltoe.mechanics.loads import Resultant, concrete_mass, static_forces
+from heeltoe.mechanics.virtual_water import virtual_mass
 from heeltoe.models.statics.contact import Contact
 from heeltoe.models.statics.criteria import UPLIFT_IN_EARTHQUAKE, Loads
 from heeltoe.models.statics.load_case import Given, Solved, solve_case

@@ -119,6 +119,9 @@ def _convergence(subject: Subject, run: Run) -> list[Block]:
     for place in range(len(run.response.summary["periods_s"])):
         label = f"Period {place + 1} of the intact dam, with its water"
         shown.append((label, n(f"{run.prefix}periods_s.{place}", "time")))
+    for place in range(len(run.response.summary["damping_ratios"])):
+        label = f"Damping that mode {place + 1} of the intact dam gets"
+        shown.append((label, n(f"{run.prefix}damping_ratios.{place}", "share")))
     for label, key in (
         ("Rayleigh damping, mass term a₀", "rayleigh_mass_1_s"),
         ("Rayleigh damping, stiffness term a₁", "rayleigh_stiffness_s"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from heeltoe.mechanics.block import build_block
 from heeltoe.models.rigid.varying import varies
 from heeltoe.views.report.content import Block, Equation, Section, Symbol, paragraph
 from heeltoe.views.report.equations import EQUATIONS
@@ -36,9 +37,13 @@ _ROTATION = {
     "so that the block can overturn.",
 }
 _DAMPING = {
-    "deformation": "on deformation alone, at all times; rigid-body motion is not damped",
-    "thesis": "on all motion while any node of the crack sticks, and below the crack alone while none does, as in "
-    "Zhu (2004)",
+    "relative": "on the motion relative to a rigid slide of the part above along the crack, so that a dam that slides "
+    "or rocks as a whole is not held back",
+    "stiffness": "with its stiffness term alone",
+    "deformation": "on the deformation of the parts by themselves; rigid-body motion of the part above is not damped, "
+    "though it makes up much of the intact dam’s modes",
+    "thesis": "on all motion while any node of the crack sticks, and below the crack alone while none does, as in Zhu "
+    "(2004)",
 }
 
 
@@ -127,22 +132,36 @@ def _loads(writer: _Writer, subject: Subject) -> None:
         writer.show("anchors")
     if subject.numbers.raw(subject.first.prefix + "static.virtual_mass_kg"):
         if not all(run.response.elastic for run in subject.runs):
-            writer.say(
-                "Water moves with the upstream face as Westergaard’s virtual mass, horizontally; $D$ is the depth "
-                "of the reservoir, $h$ that above the crack:"
-            )
-            writer.show("virtual mass")
+            if build_block(subject.case).water.sloped:
+                writer.say(
+                    "Water moves with both faces as Westergaard’s virtual mass times $r$, horizontally, with $η$ from "
+                    "the bottom of water of depth $D$ before a face that leans back from it by $ψ$ (after Zangar 1952):"
+                )
+                writer.show("virtual mass along face")
+                writer.show("sloped water")
+            else:
+                writer.say(
+                    "Water moves with the upstream face as Westergaard’s virtual mass, horizontally; $D$ is the "
+                    "depth of the reservoir, $h$ that above the crack:"
+                )
+                writer.show("virtual mass")
         if subject.ran("flexible"):
             _virtual_mass_along_face(writer, subject)
 
 
 def _virtual_mass_along_face(writer: _Writer, subject: Subject) -> None:
     where = {
-        "complete": "with $η$ from the bottom of a reservoir of depth $D$, on both parts of the dam",
+        "complete": "with $η$ from the bottom of water of depth $D$, on both parts of the dam",
         "thesis": "above the crack alone, with $η$ and the depth $D$ counted from the crack, as in Zhu (2004)",
     }[subject.case.flexible.virtual_mass]
     writer.say(f"On the elastic dam the virtual mass is spread along the upstream face, {where}:")
     writer.show("virtual mass along face")
+    if subject.case.flexible.virtual_mass == "complete":
+        writer.say(
+            "It moves along the normal of the face, and before one that leans back from the water by $ψ$, as on the "
+            "downstream face before tailwater, it is times $r$ (after Zangar 1952):"
+        )
+        writer.show("sloped water")
 
 
 def _rigid(writer: _Writer, subject: Subject) -> None:
@@ -225,12 +244,16 @@ def _flexible(writer: _Writer, subject: Subject) -> None:
     )
     writer.show("modes")
     if options.damping == "modal":
-        writer.say(f"Every mode of deformation has the same damping ratio, $ξ$ = {100 * concrete.damping:g} %:")
+        writer.say(
+            f"The lowest modes of the intact dam have the same damping ratio, $ξ$ = {100 * concrete.damping:g} %, "
+            "those above more in proportion to their frequency; sliding as a whole is not damped:"
+        )
         writer.show("modal")
     else:
+        where = "first period" if options.damping == "stiffness" else "first and third period"
         writer.say(
-            f"Damping is Rayleigh’s, {100 * concrete.damping:g} % at the first and third period of the intact dam, "
-            f"and acts {_DAMPING[options.damping]}:"
+            f"Damping is Rayleigh’s, {100 * concrete.damping:g} % at the {where} of the intact dam, and acts "
+            f"{_DAMPING[options.damping]}:"
         )
         writer.show("rayleigh")
     if options.contact == "coulomb":
@@ -255,6 +278,11 @@ def _flexible(writer: _Writer, subject: Subject) -> None:
         4: "those of the lower face and the two ends of the upper",
         5: "those of both faces",
     }[options.contactors]
+    writer.say(
+        "The part above the crack rocks where all that touches lies within a quarter of the crack from heel or toe and "
+        "the rotation of its face is beyond what elastic deformation accounts for; it drifts where nothing touches and "
+        "the nearest node is farther off than that, and slides where more than half of what touches slips."
+    )
     writer.say(
         f"Nodes that are watched for contact are {watched}. The energy $E$ is checked by a ledger of the work done:"
     )

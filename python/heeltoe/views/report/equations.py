@@ -70,6 +70,7 @@ EQUATIONS: dict[str, tuple[str, str]] = {
         r"m(eta) = 7 / 8 rho_w sqrt(D (D - eta))",
         "<i>m</i>(<i>η</i>) = (7/8) <i>ρ<sub>w</sub></i> √(<i>D</i> (<i>D</i> − <i>η</i>))",
     ),
+    "sloped water": (r"r = 1 - psi / (90 degree)", "<i>r</i> = 1 − <i>ψ</i>/90°"),
     "modes": (
         r"dot.double(q) + c dot(q) + omega^2 q = f - gamma_x a(t) - gamma_z a_v (t) + Phi_c^top p",
         "q̈ + <i>c</i> q̇ + <i>ω</i>² <i>q</i> = <i>f</i> − <i>γ<sub>x</sub> a</i>(<i>t</i>) − <i>γ<sub>z</sub> "

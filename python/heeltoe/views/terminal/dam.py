@@ -40,7 +40,7 @@ def print_periods(periods: DamPeriods, console: Console) -> None:
     below = "" if periods.below is None else "; the part below is held at its base"
     grid.add_row("parts", f"each by itself, with its water; the part above is free, rigid-body motion left out{below}")
     grid.add_row("mesh", mesh_line(periods.elements, periods.nodes))
-    grid.add_row("damping", damping_line(periods.damping, periods.damping_ratio, periods.rayleigh))
+    grid.add_row("damping", damping_line(periods.damping, periods.damping_ratios, periods.rayleigh))
     console.print(grid)
 
 

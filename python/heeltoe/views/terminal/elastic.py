@@ -2,25 +2,25 @@
 
 from __future__ import annotations
 
-import math
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.result.response import Energy
 from heeltoe.units.sentences import numbers, written
 
-# Not at run time: periods are shown without waiting for what a run needs.
-if TYPE_CHECKING:
-    from heeltoe.models.flexible.reduced import FlexibleDam
-
 # What the names of the choices mean.
 _DAMPING = {
-    "deformation": "of deformation alone, at all times",
+    "relative": "of the motion relative to a rigid slide along the crack",
+    "stiffness": "of deformation, by its rate alone",
+    "modal": "one ratio for the modes of the intact dam",
+    "deformation": "of deformation of the free parts",
     "thesis": (
         "of all motion while any node of the crack sticks, of the part below alone while none does, as in Zhu (2004)"
     ),
-    "modal": "in every mode of deformation",
 }
+# A slip of less than this is rounding [m].
+_UNSEEN = 1e-9
 _CONTACT = {
     "coulomb": "exact, with Coulomb friction",
     "idce": "by penalties (Zhu 2004), for comparison",
@@ -37,8 +37,13 @@ def elastic_lines(response: FlexibleResponse, units: str) -> list[tuple[str, str
     modes = " above and ".join(map(str, mesh["modes"])) + (" below" if len(mesh["modes"]) > 1 else "")
     kept = f"{mesh['basis_error']:.1e} is what those left out take from the flexibility of the crack"
     lines.append(("modes", f"{modes}, {kept if mesh['basis_error'] else 'which is all there are'}"))
-    dam = response.crack.dam
-    lines.append(("damping", damping_line(s["damping"], _damping_ratio(dam), dam.coefficients)))
+    rayleigh = s["rayleigh_mass_1_s"], s["rayleigh_stiffness_s"]
+    lines.append(("damping", damping_line(s["damping"], s["damping_ratios"], rayleigh)))
+    start = s["before_shaking"]
+    if start is not None and start["stands"] and (abs(start["slip_m"]) > _UNSEEN or start["open_contacts"]):
+        lines.append(("before the shaking", _start_line(start, units)))
+    if s["self_excitation"] is not None:
+        lines.append(("self-excitation", _growth_line(s["self_excitation"], units)))
     lines.append(("contact", _contact_line(response)))
     lines.append(("time step", _step_line(response, units)))
     if response.energy is not None:
@@ -52,21 +57,39 @@ def mesh_line(elements: Any, nodes: Any) -> str:
     return parts[0] if len(parts) == 1 else f"{parts[0]} above the crack; {parts[1]} below"
 
 
-def damping_line(choice: str, ratio: float | None, rayleigh: tuple[float, float] | None) -> str:
-    """Say how the concrete is damped."""
-    text = f"{choice}: " + ("" if ratio is None else f"{100.0 * ratio:.3g} % ")
-    if rayleigh is not None:
-        text += f"in the 1st and 3rd mode (Rayleigh: {rayleigh[0]:.3g} 1/s of mass, {rayleigh[1]:.3g} s of stiffness), "
-    return text + _DAMPING[choice]
+def damping_line(choice: str, ratios: Sequence[float], rayleigh: tuple[float | None, float | None] | None) -> str:
+    """Say how the concrete is damped, and what the lowest modes of the intact dam get of it."""
+    got = " ".join(f"{100.0 * ratio:.3g}" for ratio in ratios)
+    text = f"{choice}, {_DAMPING[choice]}; {got} % in modes 1 to {len(ratios)} of the intact dam"
+    if rayleigh is not None and rayleigh[0] is not None:
+        text += f" (Rayleigh: {rayleigh[0]:.3g} 1/s of mass, {rayleigh[1]:.3g} s of stiffness)"
+    return text
 
 
-def _damping_ratio(dam: FlexibleDam) -> float:
-    """Return the damping ratio behind the coefficients of a dam."""
-    if dam.coefficients is not None:
-        omega = 2.0 * math.pi / dam.periods[0]
-        return float(dam.coefficients[0] / omega + dam.coefficients[1] * omega) / 2.0
-    part = dam.reduced[-1]
-    return float(part.damping_sticking[-1] / math.sqrt(part.omega_squared[-1])) / 2.0
+def _start_line(start: Mapping[str, Any], units: str) -> str:
+    """Say what the crack does under the static loads alone."""
+    opened = start["open_contacts"]
+    nodes = {0: "no node", 1: "1 node"}.get(opened, f"{opened} nodes")
+    return written(
+        "let go, the crack slips by {slip_m:.4g mm} and opens at {nodes} under the static loads, and stands; the slip "
+        "above counts from there",
+        units,
+        slip_m=start["slip_m"],
+        nodes=nodes,
+    )
+
+
+def _growth_line(found: Mapping[str, float | None], units: str) -> str:
+    """Say whether a vibration grows as the dam slides."""
+    rate, sliding, damped = (found[name] for name in ("growth_1_s", "sliding_time_s", "twice_damped_slip_m"))
+    assert rate is not None
+    assert sliding is not None
+    if rate <= 0.0:
+        return f"steady sliding is stable; it slides for {sliding:.3g} s"
+    text = f"a vibration of the sliding dam grows by {rate:.3g} 1/s; it slides for {sliding:.3g} s"
+    if damped is not None:
+        text += written("; with twice the damping the slip is {slip_m:.4g mm}", units, slip_m=damped)
+    return text
 
 
 def _contact_line(response: FlexibleResponse) -> str:

@@ -1,0 +1,237 @@
+//! The dam before the earthquake: static equilibrium with a crack that may open and slip.
+//!
+//! From the state with the crack bonded, steps of
+//!
+//! ```text
+//! (omega^2 + s) dq = f - omega^2 q + shapes^T p
+//! ```
+//!
+//! with the conditions of contact and Coulomb on the motion of the step, as in [`super::coulomb`], until nothing moves
+//! any more. The small `s` holds a part that is free; it plays no part in the state that is found.
+
+use super::body::{Group, ReducedBody, LANES};
+use super::contact::relative;
+use super::coupling::{Answer, Crack, WithoutContact};
+use super::dam::Dam;
+use super::observe::mean_along;
+use super::sides::Sides;
+use super::status::Status;
+
+/// What holds a free part, as a share of the smallest squared frequency.
+const HOLD: f64 = 1e-2;
+const STEPS: usize = 3000;
+/// Six steps in turn that move the crack by less than this share of its static displacement have done all they can: each
+/// leaves a hundredth of the one before at most, and rounding leaves some 1e-11.
+const NOTHING: f64 = 1e-8;
+
+/// A dam at rest.
+#[derive(Clone, Debug)]
+pub struct Still {
+    /// Modes of both parts.
+    pub(super) modes: [Vec<Group>; 2],
+    /// Positions of the crack nodes of both faces.
+    pub(super) position: [Vec<f64>; 2],
+    /// Forces of contact on them.
+    pub force: [Vec<f64>; 2],
+    /// Force and state of each contact.
+    pub(super) contact: Vec<f64>,
+    pub(super) status: Vec<Status>,
+    /// By how much the crack has slipped since it was bonded.
+    pub slip: f64,
+}
+
+impl Still {
+    /// Amplitudes of the modes of a body, the upper one or the lower.
+    pub fn amplitudes(&self, dam: &Dam) -> [Vec<f64>; 2] {
+        let kept = |body: &ReducedBody, modes: &[Group]| modes.as_flattened()[..body.modes].to_vec();
+        let lower = dam.bodies.lower.as_ref();
+        [
+            kept(&dam.bodies.upper, &self.modes[0]),
+            lower.map_or(Vec::new(), |body| kept(body, &self.modes[1])),
+        ]
+    }
+
+    /// Number of contacts that are open.
+    pub fn open(&self) -> usize {
+        self.status
+            .iter()
+            .filter(|status| **status == Status::Open)
+            .count()
+    }
+}
+
+/// One part under way.
+struct Side<'a> {
+    body: &'a ReducedBody,
+    d: Vec<Group>,
+    w: Vec<f64>,
+    q: Vec<Group>,
+    way: Vec<Group>,
+    position: Vec<f64>,
+    free: Vec<f64>,
+    force: Vec<f64>,
+}
+
+impl<'a> Side<'a> {
+    fn new(body: &'a ReducedBody, hold: f64) -> Self {
+        let inverse = |w: &Group| -> Group { std::array::from_fn(|l| 1.0 / (w[l] + hold)) };
+        let d: Vec<Group> = body.omega_squared.iter().map(inverse).collect();
+        let (columns, width) = (body.columns(), body.width());
+        let whole = body.compliance(&d);
+        let rows = whole.chunks_exact(width).take(columns);
+        Side {
+            w: rows.flat_map(|row| &row[..columns]).copied().collect(),
+            q: body.start.clone(),
+            way: d.clone(),
+            position: body.position.clone(),
+            free: vec![0.0; columns],
+            force: vec![0.0; columns],
+            body,
+            d,
+        }
+    }
+
+    fn answer(&self) -> Answer<'_> {
+        Answer {
+            w: &self.w,
+            nodes: self.body.nodes,
+        }
+    }
+
+    /// Find the motion of a step without contact.
+    fn begin(&mut self) {
+        for (group, way) in self.way.iter_mut().enumerate() {
+            for (l, way) in way.iter_mut().enumerate() {
+                let left = self.body.load[group][l] - self.body.omega_squared[group][l] * self.q[group][l];
+                *way = self.d[group][l] * left;
+            }
+        }
+        self.free = self.body.at_crack(&self.way);
+    }
+
+    /// Add the motion that the forces of contact make, and return how far the crack has moved at most.
+    fn finish(&mut self) -> f64 {
+        let body = self.body;
+        for (group, shapes) in body.shapes.chunks_exact(body.width()).enumerate() {
+            let mut push = [0.0; LANES];
+            for (shape, force) in shapes.iter().zip(&self.force) {
+                for l in 0..LANES {
+                    push[l] += shape[l] * force;
+                }
+            }
+            for (l, push) in push.iter().enumerate() {
+                self.way[group][l] += self.d[group][l] * push;
+                self.q[group][l] += self.way[group][l];
+            }
+        }
+        let moved = body.at_crack(&self.way);
+        self.position
+            .iter_mut()
+            .zip(&moved)
+            .for_each(|(x, way)| *x += way);
+        moved.iter().fold(0.0, |most, way| most.max(way.abs()))
+    }
+}
+
+/// Find the dam at rest; none where friction does not hold it.
+pub(super) fn find(dam: &Dam) -> Option<Still> {
+    let squares = dam
+        .bodies
+        .iter()
+        .flat_map(|body| body.omega_squared.as_flattened());
+    let lowest = squares
+        .filter(|w| **w > 0.0)
+        .fold(f64::INFINITY, |a, w| a.min(*w));
+    if !lowest.is_finite() {
+        return None;
+    }
+    let mut sides = dam.bodies.map(|body| Side::new(body, HOLD * lowest));
+    let mut crack = Crack::new(dam);
+    let bonded = slip(&sides);
+    let stretched = dam.bodies.iter().flat_map(stretch);
+    let scale = stretched.fold(0.0_f64, |a, u| a.max(u.abs()));
+    let mut settled = 0;
+    for _ in 0..STEPS {
+        step(dam, &mut crack, &mut sides);
+        let mut moved = 0.0_f64;
+        for side in sides.iter_mut() {
+            moved = moved.max(side.finish());
+        }
+        let upper = &sides.upper;
+        let reach = upper.position[upper.body.nodes - 1] - upper.position[0];
+        if !(moved.is_finite() && moved < reach) {
+            return None;
+        }
+        settled = if moved <= NOTHING * scale { settled + 1 } else { 0 };
+        if settled == 6 {
+            return Some(still(&sides, crack, bonded));
+        }
+    }
+    None
+}
+
+/// Find the forces of contact of one step.
+fn step(dam: &Dam, crack: &mut Crack, sides: &mut Sides<Side>) {
+    // Softness creeps; here it must not.
+    let softness = 1e-2 * dam.softness();
+    let position = sides.faces(|side| &side.position);
+    crack.meet(
+        position,
+        0,
+        || sides.map(Side::answer),
+        |largest| softness * largest,
+    );
+    sides.iter_mut().for_each(Side::begin);
+    let free = sides.faces(|side| &side.free);
+    // Motion stands for velocity, forces for impulses. A gap may be negative: what an unfinished search has let enter
+    // comes out again.
+    crack.set_up(dam.friction, |pair, gap, _| WithoutContact {
+        b: [0, 1].map(|d| relative(pair, free.upper, free.lower, d)),
+        h: gap,
+        approach: 0.0,
+    });
+    crack.solver.solve::<false>(&crack.problem);
+    let (upper, lower) = (&mut sides.upper, &mut sides.lower);
+    let none = &mut [][..];
+    crack.impulses(
+        &mut upper.force,
+        lower.as_mut().map_or(none, |side| &mut side.force),
+    );
+}
+
+/// How far the static loads would move the crack of a part by its deformation.
+fn stretch(body: &ReducedBody) -> Vec<f64> {
+    let pairs = body.load.iter().zip(&body.omega_squared);
+    let amplitude = |(f, w): (&Group, &Group)| -> Group {
+        std::array::from_fn(|l| if w[l] > 0.0 { f[l] / w[l] } else { 0.0 })
+    };
+    body.at_crack(&pairs.map(amplitude).collect::<Vec<_>>())
+}
+
+fn slip(sides: &Sides<Side>) -> f64 {
+    let faces = sides.faces(|side| &side.position);
+    mean_along(faces.upper) - mean_along(faces.lower)
+}
+
+fn still(sides: &Sides<Side>, crack: Crack, bonded: f64) -> Still {
+    let status = crack
+        .solver
+        .status
+        .iter()
+        .enumerate()
+        .map(|(k, status)| match status {
+            Status::Absent => Status::Absent,
+            _ if crack.solver.p[2 * k + 1] > 0.0 => Status::Stick,
+            _ => Status::Open,
+        });
+    let (upper, lower) = (&sides.upper, sides.lower.as_ref());
+    let both = |of: &dyn Fn(&Side) -> Vec<f64>| [of(upper), lower.map_or(Vec::new(), of)];
+    Still {
+        status: status.collect(),
+        slip: slip(sides) - bonded,
+        modes: [upper.q.clone(), lower.map_or(Vec::new(), |side| side.q.clone())],
+        position: both(&|side| side.position.clone()),
+        force: both(&|side| side.force.clone()),
+        contact: crack.solver.p,
+    }
+}
