@@ -5,8 +5,11 @@ from pathlib import Path
 from heeltoe import decoupled, read_case, rigid
 from heeltoe.study.grid import parse_variations, run_grid
 from heeltoe.study.overturning import overturning_map
-from heeltoe.views.figures import crack_level_figure, response_figure, save, slips_figure
+from heeltoe.views.figures.crack_level import crack_level_figure
+from heeltoe.views.figures.histories import response_figure
 from heeltoe.views.figures.overturning import overturning_figure
+from heeltoe.views.figures.runs import slips_figure
+from heeltoe.views.figures.write import save
 
 HERE = Path(__file__).parent
 EXAMPLES = HERE.parent / "examples"

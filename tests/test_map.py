@@ -45,6 +45,14 @@ def test_each_folder_says_what_the_map_says():
     assert rows == expected + [(f"crates/{path.name}", of_crate(path)) for path in crates]
 
 
+def test_a_folder_holds_its_subject_in_files():
+    """The root hands out public names, and the records are a registry of formats; all others say what they are."""
+    others = {PACKAGE / "__init__.py", PACKAGE / "motion" / "records" / "__init__.py"}
+    for path in set(PACKAGE.rglob("__init__.py")) - others:
+        (said,) = ast.parse(path.read_text(encoding="utf-8")).body
+        assert isinstance(said, ast.Expr), path
+
+
 def test_the_files_beside_the_folders_are_there():
     (named,) = re.findall(r"^\| files beside these \| .*: (.+)\. \|$", MAP, flags=re.MULTILINE)
     assert named == ", ".join(f"`{name}`" for name in layers() if (PACKAGE / f"{name}.py").is_file())

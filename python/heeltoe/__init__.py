@@ -42,7 +42,7 @@ _HOME = {
     "synthetic": "motion.scenario",
     "verdict": "result.verdict",
     "with_spread": "study.spread",
-    "write_report": "views.report",
+    "write_report": "views.report.write",
 }
 
 __all__ = sorted(_HOME)
@@ -81,7 +81,7 @@ if TYPE_CHECKING:
     from heeltoe.study.overturning import overturning_map as overturning_map
     from heeltoe.study.spread import with_spread as with_spread
     from heeltoe.views.animation.write import animate as animate
-    from heeltoe.views.report import write_report as write_report
+    from heeltoe.views.report.write import write_report as write_report
 
 
 def _html(thing: object) -> str:

@@ -12,26 +12,17 @@ from matplotlib.image import imread
 
 from heeltoe import flexible, read_case, rigid, with_spread
 from heeltoe.errors import InputError
-from heeltoe.views.figures import (
-    NAMES,
-    all_figures,
-    crack_figure,
-    deformed_figure,
-    energy_figure,
-    mesh_figure,
-    modes_figure,
-    path_figure,
-    pressure_figure,
-    response_figure,
-    save_all,
-    slip_by_mode_figure,
-    spectrum_figure,
-)
-from heeltoe.views.figures.crack import contact_pressure
-from heeltoe.views.figures.energy import friction_loss
-from heeltoe.views.figures.histories import slip_by_kind
+from heeltoe.views.figures.all import NAMES, all_figures
+from heeltoe.views.figures.crack import contact_pressure, crack_figure, pressure_figure
+from heeltoe.views.figures.dam import mesh_figure, modes_figure
+from heeltoe.views.figures.deformed import deformed_figure
+from heeltoe.views.figures.energy import energy_figure, friction_loss
+from heeltoe.views.figures.histories import response_figure, slip_by_kind, slip_by_mode_figure
 from heeltoe.views.figures.panels import draw_ribbon, ground_motion
+from heeltoe.views.figures.path import path_figure
+from heeltoe.views.figures.spectrum import spectrum_figure
 from heeltoe.views.figures.style import without_heading
+from heeltoe.views.figures.write import save_all
 from heeltoe.views.files.write import write_all
 from shared.dams import ALL_EXAMPLES, BASE, BLOCK, FAST, example
 from shared.drawn import check, texts

@@ -15,12 +15,12 @@ from pypdf import PdfReader
 
 from heeltoe import InputError, read_case, rigid, with_spread
 from heeltoe.result.write import json_text
-from heeltoe.views.report import build_report, check_packages, write_report
 from heeltoe.views.report.build_input import fields, input_hash
 from heeltoe.views.report.content import Document, FigureBlock, Section, paragraph
 from heeltoe.views.report.drawings import caption
 from heeltoe.views.report.html import html
 from heeltoe.views.report.typst_pdf import pages, pdf, source
+from heeltoe.views.report.write import build_report, check_packages, write_report
 from heeltoe.views.words.numbers import Value
 from heeltoe.warnings import Notice
 from shared.dams import BASE, BLOCK, FAST, SLENDER
@@ -284,7 +284,7 @@ def test_units_of_the_united_states_all_through(which, request):
 
 
 def test_packages_that_are_missing_are_named(monkeypatch, tmp_path, block):
-    monkeypatch.setattr("heeltoe.views.report.find_spec", lambda name: None)
+    monkeypatch.setattr("heeltoe.views.report.write.find_spec", lambda name: None)
     with pytest.raises(InputError) as found:
         check_packages()
     assert found.value.code == "report-package"

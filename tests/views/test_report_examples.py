@@ -7,8 +7,8 @@ import io
 import pytest
 
 from heeltoe import compare, decoupled, flexible, read_case, rigid
-from heeltoe.views.report import build_report, write_report
 from heeltoe.views.report.typst_pdf import pages
+from heeltoe.views.report.write import build_report, write_report
 from shared.dams import BASE, FAST, ROOT, example
 from shared.report_reader import check_numbers
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from heeltoe import flexible, read_case, rigid
-from heeltoe.views.report import build_report
 from heeltoe.views.report.html import html
+from heeltoe.views.report.write import build_report
 from shared.dams import BASE, FAST
 from shared.report_reader import Reader
 

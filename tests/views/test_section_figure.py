@@ -11,7 +11,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from heeltoe.mechanics.block import build_block
 from heeltoe.mechanics.loads import uplift_profile
-from heeltoe.views.figures import section_figure
+from heeltoe.views.figures.section import section_figure
 from heeltoe.views.figures.section_forces import _ends
 from shared.dams import example
 

@@ -121,7 +121,7 @@ class _Asked:
         check_model(self.model, "--model")
         unit_system(self.units, "--units")
         if self.report:
-            from heeltoe.views.report import check_packages
+            from heeltoe.views.report.write import check_packages
 
             check_packages()
         if self.vtk and self.out is None and not self.report:
@@ -208,7 +208,7 @@ def _write(
     suffix = ".csv" if asked.csv else ".parquet"
     written = write_all(result, place, suffix=suffix, vtk=asked.vtk, figures=figures if asked.out else {})
     if asked.report and not isinstance(result, Grid):
-        from heeltoe.views.report import build_report, write_document
+        from heeltoe.views.report.write import build_report, write_document
 
         say("writing the report")
         document = build_report(case, result, units=asked.units, command=command_line(), figures=figures)

@@ -8,8 +8,8 @@ import pytest
 
 from heeltoe import read_case, rigid
 from heeltoe.models.statics.after import statics_after
-from heeltoe.views.report import build_report
 from heeltoe.views.report.html import html
+from heeltoe.views.report.write import build_report
 from shared.command import command
 from shared.dams import ROOT
 from shared.report_reader import Reader

@@ -1,5 +1,1 @@
 """The dam in motion: sliding, rocking, lifting, as a video or as a page that plays in any browser."""
-
-from heeltoe.views.animation.write import animate
-
-__all__ = ["animate"]

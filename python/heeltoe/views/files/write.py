@@ -16,8 +16,10 @@ from heeltoe.result.write import json_text, write_table
 from heeltoe.study.comparison import Comparison
 from heeltoe.study.grid import Grid
 from heeltoe.study.overturning import OverturningMap
-from heeltoe.views.figures import NAMES, all_figures, grid_figures, save_all
+from heeltoe.views.figures.all import NAMES, all_figures
 from heeltoe.views.figures.overturning import overturning_figure
+from heeltoe.views.figures.runs import grid_figures
+from heeltoe.views.figures.write import save_all
 from heeltoe.views.files.whole import VTK, write_whole
 
 # Names of files that a run may leave; those of an earlier one into the same directory would not belong to this one.

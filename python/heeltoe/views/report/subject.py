@@ -53,7 +53,7 @@ class Subject:
     numbers
         Writes the numbers of the result's JSON.
     figures
-        By name, as :func:`heeltoe.views.figures.all_figures` calls them.
+        By name, as :func:`heeltoe.views.figures.all.all_figures` calls them.
     statics
         Result of :func:`heeltoe.statics`, if there is one.
     command

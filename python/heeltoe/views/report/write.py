@@ -1,0 +1,132 @@
+"""Writing a report: what it needs is there, what it says is gathered, and its files appear whole or not at all."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from heeltoe.errors import InputError
+from heeltoe.views.files.whole import write_whole
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from heeltoe.case.model import Case
+    from heeltoe.models.statics.model import Statics
+    from heeltoe.result.response import Response
+    from heeltoe.study.comparison import Comparison
+    from heeltoe.views.report.content import Document
+
+#: What each kind of report needs that heeltoe itself does not.
+KINDS = {"pdf": "typst", "html": "jinja2"}
+
+
+def check_packages(kinds: Sequence[str] = ("pdf", "html"), field: str = "--report") -> None:
+    """Refuse a kind of report that is not known, or whose package is not installed.
+
+    Raises
+    ------
+    InputError
+        Then; before anything is computed, if it is called first.
+    """
+    for kind in kinds:
+        if kind not in KINDS:
+            raise InputError("report-kind", field, repr(kind))
+        if find_spec(KINDS[kind]) is None:
+            raise InputError("report-package", field, KINDS[kind])
+
+
+def build_report(
+    case: Case,
+    result: Response | Comparison,
+    *,
+    statics: Statics | None = None,
+    units: str = "si",
+    command: str = "",
+    figures: Mapping[str, Figure] | None = None,
+) -> Document:
+    """Return what a report says, apart from how it looks.
+
+    Parameters as of :func:`write_report`; `figures` are those of the result, drawn before, which are changed here to
+    what a report needs. They are drawn where they are not given.
+    """
+    from heeltoe.models.statics.after import statics_after
+    from heeltoe.views.figures.all import all_figures
+    from heeltoe.views.report.build import document
+    from heeltoe.views.report.drawings import drawings
+    from heeltoe.views.report.subject import Subject
+    from heeltoe.views.words.numbers import Numbers
+
+    found = statics_after(case, *reversed(result.responses)) if statics is None else statics
+    numbers = Numbers({**result.to_json(), "statics": found.to_json()}, units)
+    shown = drawings(all_figures(case, result, units) if figures is None else figures)
+    return document(Subject(case, result, numbers, shown, found, command))
+
+
+def write_report(
+    case: Case,
+    result: Response | Comparison,
+    directory: Path | str,
+    *,
+    statics: Statics | None = None,
+    units: str = "si",
+    kinds: Sequence[str] = ("pdf", "html"),
+    command: str = "",
+) -> list[Path]:
+    """Write the report of a result as ``report.pdf`` and ``report.html``.
+
+    Both are made aside first, so that a failure leaves nothing half-done; reports of an earlier run are replaced.
+
+    Parameters
+    ----------
+    case
+        What was asked.
+    result
+        What came out: of one model, or of two. A run that failed makes a report that says what failed.
+    directory
+        Where; it is made if it is not there.
+    statics
+        Result of :func:`heeltoe.statics`; computed with the residual slip of the result where it is not given.
+    units
+        ``"si"`` or ``"us"``: of input, numbers, sentences and figures. The JSON stays SI.
+    kinds
+        Which of ``"pdf"`` and ``"html"``.
+    command
+        What was typed to get the report, for the section on how to run it again.
+
+    Returns
+    -------
+    list of Path
+        What was written.
+
+    Raises
+    ------
+    InputError
+        Where the directory cannot be written, or a package is not installed (``pip install heeltoe[report]``).
+    """
+    check_packages(kinds, "kinds")
+    document = build_report(case, result, statics=statics, units=units, command=command)
+    return write_document(document, directory, kinds)
+
+
+def write_document(document: Document, directory: Path | str, kinds: Sequence[str] = ("pdf", "html")) -> list[Path]:
+    """Write what a report says as ``report.pdf`` and ``report.html``, both or none; see :func:`write_report`."""
+
+    def write(fresh: Path) -> None:
+        for kind in kinds:
+            (fresh / f"report.{kind}").write_bytes(_rendered(document, kind))
+
+    write_whole(write, Path(directory), (), field="--report")
+    return [Path(directory) / f"report.{kind}" for kind in kinds]
+
+
+def _rendered(document: Document, kind: str) -> bytes:
+    if kind == "pdf":
+        from heeltoe.views.report.typst_pdf import pdf
+
+        return pdf(document)
+    from heeltoe.views.report.html import html
+
+    return html(document).encode("utf-8")
