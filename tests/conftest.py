@@ -19,6 +19,9 @@ from heeltoe.warnings import CATALOGUE as WARNINGS
 from heeltoe.warnings import Notice
 from shared.dams import FAST, ROOT, SHORT, example
 
+# Not tests themselves, but what they assert with.
+pytest.register_assert_rewrite("shared.drawn", "shared.report_reader")
+
 _BESIDE = ROOT.parent / "shared" / "records"
 if "HEELTOE_RECORDS" not in os.environ and _BESIDE.is_dir():
     os.environ["HEELTOE_RECORDS"] = str(_BESIDE)

@@ -10,11 +10,10 @@ import heeltoe
 from heeltoe import InputError, compare, read_case
 from heeltoe.models.run import MODELS, run
 from shared.command import command
-from shared.dams import BASE
+from shared.dams import BASE, FAST
 
 # The usual loads open part of the crack, of which water takes hold.
 OPENED = ["section.base_width=70 m", "crack.friction=1.2"]
-FAST = ["motion.duration=3 s", "flexible.elements_across=2", "flexible.convergence_check=false"]
 
 
 def test_python_and_the_command_line_warn_of_the_same():
