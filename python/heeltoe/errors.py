@@ -97,6 +97,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     ),
     "acceleration-range": ("{value} is out of range", "give up to 10 g either way"),
     "motion-file-option": ("belongs to a motion from a file", "remove it, or give file instead of points"),
+    "vertical-of-another": (
+        "{value} is another motion than the one that motion.vertical was recorded with",
+        "give motion.vertical.file of the same earthquake too, or motion.vertical={none} to leave it out",
+    ),
     "pga-range": ("{value} is out of range", "give a peak above 0 g and up to 10 g"),
     # motion
     "motion-short": ("has {value} samples", "give a record with at least two moments"),
@@ -108,7 +112,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     ),
     "motion-peak": (
         "{name} peaks at {value}, beyond any earthquake",
-        "check its unit (motion.unit), or scale it with motion.pga",
+        "check its unit (motion.unit) and its values",
     ),
     "motion-resample": (
         "a step of {value} does not divide the record's {step}",

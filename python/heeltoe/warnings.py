@@ -87,6 +87,11 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "motion.processing",
         "{name} had its time stretched by {factor:g}: no earthquake was recorded so",
     ),
+    "vertical-left-out": (
+        "note",
+        "motion.vertical",
+        "{field}: a motion given beside the case comes without it, as it was recorded with another one",
+    ),
     "motion-generated": ("note", "motion.file", "{name} is generated, not recorded"),
     "motion-beyond-relations": (
         "caution",

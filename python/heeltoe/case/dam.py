@@ -180,8 +180,8 @@ class Anchor(Fields):
 
 UpliftPattern = Literal["none", "uniform", "triangular", "cut-off", "drained", "profile"]
 
-# Which option belongs to which pattern, and is needed there.
-_UPLIFT_OPTIONS = {
+#: Which option belongs to which pattern, and is needed there.
+UPLIFT_OPTIONS = {
     "extent": "cut-off",
     "drain_position": "drained",
     "drain_efficiency": "drained",
@@ -219,7 +219,7 @@ class Uplift(Fields):
     @model_validator(mode="after")
     @collected
     def _options_of_the_pattern(self) -> Self:
-        for option, pattern in _UPLIFT_OPTIONS.items():
+        for option, pattern in UPLIFT_OPTIONS.items():
             value = getattr(self, option)
             if value is not None and pattern != self.pattern:
                 raise InputError("uplift-option-foreign", option, shown(value), pattern=self.pattern, owner=pattern)

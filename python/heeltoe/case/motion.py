@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import Self
+from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
 from heeltoe.case.fields import LARGEST_ACCELERATION, Channel, Fields, Time, TimeSpan, Truth
 from heeltoe.case.processing import ProcessingStep
@@ -13,6 +13,9 @@ from heeltoe.case.quantities import AccelerationField
 from heeltoe.case.sentences import collected
 from heeltoe.errors import InputError, shown
 from heeltoe.units.parse import STANDARD_GRAVITY, acceleration_unit
+
+NO_MOTION = "none"
+"""What leaves out the vertical motion, in a case or on the command line."""
 
 
 class Source(Fields):
@@ -68,5 +71,11 @@ class Motion(Source):
     """Length of the run; the whole record where it is not given."""
     allow_zero: Truth = False
     """Accept a motion that is zero throughout, which is otherwise taken for a mistake."""
-    vertical: Source | None = None
-    """The vertical motion, positive up."""
+    vertical: Annotated[
+        Source | None,
+        BeforeValidator(
+            lambda given: None if given == NO_MOTION else given, json_schema_input_type=Source | Literal["none"] | None
+        ),
+    ] = None
+    """The vertical motion of the same earthquake, positive up; without a peak of its own it is scaled as the horizontal
+    one is. "none" leaves it out."""

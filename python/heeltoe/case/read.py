@@ -16,20 +16,23 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from heeltoe.case.dam import UPLIFT_OPTIONS
 from heeltoe.case.model import Case
+from heeltoe.case.motion import NO_MOTION
 from heeltoe.case.sentences import first_error
 from heeltoe.errors import InputError, shown
 from heeltoe.geometry.section import ON_LINE
 
 # An override says how it shall be now: what the file says in the other form of the same thing goes.
 _REPLACES = {
-    # Unit and time step belong to the file that goes; taken for another one's they would spoil it silently.
-    "motion.file": ("motion.points", "motion.unit", "motion.time_step"),
-    "motion.points": ("motion.file", "motion.unit", "motion.time_step"),
+    # Channel, unit and time step belong to the file that goes; taken for another one's they would spoil it silently.
+    "motion.file": ("motion.points", "motion.channel", "motion.unit", "motion.time_step"),
+    "motion.points": ("motion.file", "motion.channel", "motion.unit", "motion.time_step"),
+    "motion.vertical.file": tuple(f"motion.vertical.{name}" for name in ("points", "channel", "unit", "time_step")),
+    "motion.vertical.points": tuple(f"motion.vertical.{name}" for name in ("file", "channel", "unit", "time_step")),
     "crack.friction": ("crack.static_friction", "crack.kinetic_friction"),
     "crack.static_friction": ("crack.friction",),
     "crack.kinetic_friction": ("crack.friction",),
-    "uplift.pattern": ("uplift.extent", "uplift.drain_position", "uplift.drain_efficiency", "uplift.points"),
 }
 
 
@@ -107,16 +110,27 @@ def _parsed(path: Path) -> dict[str, Any]:
         raise InputError("case-file-unreadable", name, reason=getattr(error, "strerror", None) or error) from None
     kind = "JSON" if text.lstrip().startswith("{") else "TOML"
     try:
-        fields: dict[str, Any] = json.loads(text) if kind == "JSON" else tomllib.loads(text)
+        fields: dict[str, Any] = json.loads(text, object_pairs_hook=_once) if kind == "JSON" else tomllib.loads(text)
     except (ValueError, RecursionError) as error:
         raise InputError("case-file-syntax", name, kind=kind, reason=error) from None
     return fields
 
 
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Return a block of JSON; of a key that stands there twice JSON itself would take the last, TOML takes none."""
+    fields: dict[str, Any] = {}
+    for name, value in pairs:
+        if name in fields:
+            raise ValueError(f"{shown(name)} stands twice in one block")
+        fields[name] = value
+    return fields
+
+
 def _apply(fields: dict[str, Any], overrides: Sequence[str]) -> None:
     split = [_split(override) for override in overrides]
-    for path, _ in split:
-        for other in _REPLACES.get(".".join(path), ()):
+    _check_pair(fields, split)
+    for path, value in split:
+        for other in (*_REPLACES.get(".".join(path), ()), *_of_other_patterns(path, value)):
             _remove(fields, other.split("."))
     for path, value in split:
         block = fields
@@ -126,6 +140,28 @@ def _apply(fields: dict[str, Any], overrides: Sequence[str]) -> None:
                 raise InputError("unknown-field", ".".join(path), suggestion=f'"{name}" has no fields')
             block = inner
         block[path[-1]] = value
+
+
+def _check_pair(fields: dict[str, Any], split: Sequence[tuple[list[str], Any]]) -> None:
+    """Refuse another horizontal motion beside the vertical one of the case: they are of one earthquake, and the
+    vertical one would be scaled by a factor that is none of its own."""
+    motion = fields.get("motion")
+    if not isinstance(motion, dict) or motion.get("vertical") in (None, NO_MOTION):
+        return
+    given = {".".join(path): value for path, value in split}
+    if not given.keys().isdisjoint({"motion", "motion.vertical", "motion.vertical.file", "motion.vertical.points"}):
+        return
+    for name in ("motion.file", "motion.points"):
+        if name in given and given[name] != motion.get(name.removeprefix("motion.")):
+            raise InputError("vertical-of-another", name, shown(given[name]), none=NO_MOTION)
+
+
+def _of_other_patterns(path: Sequence[str], value: Any) -> tuple[str, ...]:
+    """Return what belongs to another pattern of uplift than the one that is set."""
+    if list(path) != ["uplift", "pattern"]:
+        return ()
+    gone = [f"uplift.{option}" for option, pattern in UPLIFT_OPTIONS.items() if pattern != value]
+    return (*gone, "statics.drain_diameter") if value != "drained" else tuple(gone)
 
 
 def _split(override: str) -> tuple[list[str], Any]:

@@ -15,6 +15,7 @@ from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.limits import check_limits
 from heeltoe.result.response import Response
+from heeltoe.warnings import Notice
 
 # Not at run time: what another model needs is not loaded.
 if TYPE_CHECKING:
@@ -124,6 +125,9 @@ def earthquake(
         if case.motion is None:
             raise InputError("motion-missing", "motion")
         motion, vertical = resolve(case.motion, case.gravity, case.base_directory)
+    elif vertical is None and case.motion is not None and case.motion.vertical is not None:
+        left_out = Notice("vertical-left-out")
+        motion = motion if left_out in motion.warnings else motion.with_warnings(left_out)
     end = case.motion.duration if case.motion and case.motion.duration else motion.duration
     return Earthquake(motion, vertical, end, rotation)
 

@@ -1,0 +1,71 @@
+"""What a change of one field does to those that belong to it, and keys that stand twice."""
+
+from __future__ import annotations
+
+import pytest
+
+from heeltoe import InputError, read_case, rigid
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.study.grid import parse_variations, run_grid
+from shared.cases import DAM, dam, refusal, write
+from shared.dams import BLOCK, PULSE
+
+DRAINED = dam(
+    uplift={"pattern": "drained", "drain_position": 0.1, "drain_efficiency": 0.5},
+    statics={"drain_diameter": "75 mm"},
+)
+PAIR = dam(motion={"file": "a.txt", "pga": "0.35 g", "vertical": {"file": "a-up.txt", "unit": "g"}})
+
+
+def test_a_pattern_that_is_there_already_keeps_its_options():
+    same = read_case(DRAINED, ["uplift.pattern=drained"])
+    assert same.model_dump() == read_case(DRAINED).model_dump()
+    other = read_case(DRAINED, ["uplift.pattern=triangular"])
+    assert (other.uplift.drain_position, other.uplift.drain_efficiency, other.statics.drain_diameter) == (None,) * 3
+    found = run_grid(
+        DRAINED | {"motion": PULSE}, [], parse_variations(["uplift.pattern=drained,triangular,none"]), rigid
+    )
+    assert [each.outcome for each in found.responses] == ["ok"] * 3
+
+
+@pytest.mark.parametrize("change", ["motion.file=b.txt", 'motion.points=[["0 s", "0 g"], ["1 s", "0.1 g"]]'])
+def test_another_motion_is_refused_beside_the_vertical_one_of_the_case(change):
+    error = refusal(PAIR, [change])
+    assert error.code == "vertical-of-another"
+    assert str(error).startswith(change.split("=")[0])
+    assert refusal(PAIR, [change, "motion.vertical.pga=0.1 g"]).code == "vertical-of-another"
+    assert read_case(PAIR, [change, "motion.vertical=none"]).motion.vertical is None
+    whole = read_case(PAIR, [change, "motion.vertical.file=b-up.txt"]).motion
+    assert (whole.vertical.file, whole.vertical.unit) == ("b-up.txt", None)
+
+
+def test_what_is_no_other_motion_is_not_refused():
+    assert read_case(PAIR, ["motion.file=a.txt"]).motion.vertical.file == "a-up.txt"
+    assert read_case(PAIR, ["motion.pga=0.2 g"]).motion.vertical.file == "a-up.txt"
+    for nothing in (None, "none"):
+        case = read_case(dam(motion={"file": "a.txt", "vertical": nothing}), ["motion.file=b.txt"])
+        assert (case.motion.file, case.motion.vertical) == ("b.txt", None)
+
+
+def test_a_motion_from_python_comes_without_the_vertical_one_and_says_so():
+    motion = GroundMotion.from_points([0.0, 0.1, 0.2], [0.0, 3.0, 0.0])
+    alone, pair = (read_case(BLOCK, [f"motion.vertical={given}"]) for given in ("none", '{file = "elsewhere"}'))
+    assert [each.code for each in rigid(alone, motion).warnings if each.field == "motion.vertical"] == []
+    response = rigid(pair, motion)
+    assert [each.code for each in response.warnings if each.field == "motion.vertical"] == ["vertical-left-out"]
+    assert response.residual_slip_m == rigid(alone, motion).residual_slip_m
+    again = rigid(pair, response.motion)
+    assert again.warnings == response.warnings
+
+
+def test_a_channel_goes_with_its_file():
+    record = dam(motion={"file": "a.V2", "channel": 2, "vertical": {"file": "a.V2", "channel": 3}})
+    changed = read_case(record, ["motion.file=b.V2", "motion.vertical.file=c.V2"]).motion
+    assert (changed.channel, changed.vertical.channel) == (None, None)
+
+
+def test_a_key_that_stands_twice_is_refused_by_its_name(tmp_path):
+    text = '{"crack": {"friction": 1.0, "elevation": "0 m", "friction": 0.2}}'
+    with pytest.raises(InputError, match=r'not valid JSON: "friction" stands twice in one block'):
+        read_case(write(tmp_path / "case.json", text))
+    assert read_case(DAM).crack.friction == 1.0
