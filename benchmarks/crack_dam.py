@@ -12,7 +12,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np
 from measure import heading, repeat, require, seconds, table, timed
 
-from heeltoe import Case, GroundMotion, InputError, kernel, read_case, read_record
+from heeltoe import Case, GroundMotion, InputError, read_case, read_record
+from heeltoe.kernel.build import PROFILE
 from heeltoe.models.flexible import reduced as flexible_parts
 from heeltoe.models.flexible.shaken import ShakenDam
 from heeltoe.motion.earthquake import Earthquake
@@ -106,7 +107,7 @@ def row(problem: Problem, peak: float) -> list[str]:
 
 def report() -> str:
     """Measure and return Markdown."""
-    require(kernel.PROFILE == "release", "the kernel is a debug build")
+    require(PROFILE == "release", "the kernel is a debug build")
     peak = machine_rate()
     text = (
         "Typical dam, 100 m, on one core. The rate counts the arithmetic on the modes alone, not that of the contact; "

@@ -26,7 +26,7 @@ from push_and_sine import (
 )
 
 from heeltoe import GroundMotion, build_flexible_dam, read_case
-from heeltoe.kernel import PROFILE
+from heeltoe.kernel.build import PROFILE
 from heeltoe.models.flexible.shaken import ShakenDam
 from heeltoe.motion.earthquake import Earthquake
 

@@ -17,7 +17,8 @@ from measure import repeat, require, seconds, table, timed
 from problems import DURATION, STEP, Floats, G, rectangle, taft
 
 from heeltoe import GroundMotion, rigid_many
-from heeltoe.kernel import BlockRun, Shaking, run_block
+from heeltoe.kernel.block import BlockRun, run_block
+from heeltoe.kernel.shaking import Shaking
 
 PEAK = 0.4 * G
 YIELD = (0.05, 0.1, 0.2)

@@ -10,7 +10,7 @@ from measure import require
 from numpy.typing import NDArray
 
 from heeltoe import Case, GroundMotion, InputError, build_block, read_case, read_record, rigid_many
-from heeltoe.kernel import BLOCK, block
+from heeltoe.kernel.block import BLOCK, block
 from heeltoe.motion.records.catalog import find
 
 Floats = NDArray[np.float64]

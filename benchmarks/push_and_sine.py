@@ -14,7 +14,8 @@ from exact import slip_push_and_sine
 from measure import NothingMeasured, Timing, repeat, require, seconds, timed
 from problems import Floats, rectangle
 
-from heeltoe.kernel import BlockRun, Shaking, run_block
+from heeltoe.kernel.block import BlockRun, run_block
+from heeltoe.kernel.shaking import Shaking
 
 GRAVITY, WIDTH, HEIGHT, DEPTH, MASS, FRICTION = 9.81, 4.0, 1.0, 1.0, 1000.0, 0.3
 PUSH, AMPLITUDE, FREQUENCY, DURATION = 0.15 * GRAVITY, 0.6 * GRAVITY, 2.0, 5.0

@@ -8,7 +8,9 @@ import numpy as np
 from measure import forget_peak, heading, memory, repeat, require, table, timed
 from problems import DURATION, STEP, Ensemble, Floats, G, dam, el_centro, slender_blocks, taft, typical_dams
 
-from heeltoe import kernel, rigid
+from heeltoe import rigid
+from heeltoe.kernel.block import OUTCOMES
+from heeltoe.kernel.build import PROFILE
 
 MODES = ("rest", "sliding", "rocking", "slide_rocking", "drifting")
 REPETITIONS = 3
@@ -35,7 +37,7 @@ def check(ensemble: Ensemble, result: dict[str, Floats]) -> list[str]:
         Where runs ended early or nothing moved: such runs cost nothing, and their time says nothing.
     """
     count = result["outcome"].size
-    ended = result["outcome"] == kernel.OUTCOMES.index("ok")
+    ended = result["outcome"] == OUTCOMES.index("ok")
     require(ended.mean() > 0.999, f"{ensemble.name}: {count - ended.sum()} of {count} runs ended early")
     moved = result["events"] > 0
     require(moved.mean() > 0.5, f"{ensemble.name}: only {moved.mean():.0%} of the blocks moved")
@@ -124,7 +126,7 @@ def single() -> str:
 
 def report(count: int = 100_000) -> str:
     """Measure and return Markdown."""
-    require(kernel.PROFILE == "release", "the kernel is a debug build")
+    require(PROFILE == "release", "the kernel is a debug build")
     timings, happenings, parts, memories = [], [], [], []
     for ensemble in ensembles(count):
         alone, result = times(ensemble, 1)

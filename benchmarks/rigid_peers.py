@@ -8,7 +8,7 @@ import peer_pyslammer
 from measure import heading, require, table
 from push_and_sine import EXACT, OUR_STEPS, STEPS, Attempt, ours, rows
 
-from heeltoe import kernel
+from heeltoe.kernel.build import PROFILE
 
 COLUMNS = ["program", "settings", "step", "largest error", "relative", "time per run", "times ours at no larger error"]
 
@@ -32,7 +32,7 @@ def engines() -> str:
 
 def report() -> str:
     """Measure and return Markdown."""
-    require(kernel.PROFILE == "release", "the kernel is a debug build")
+    require(PROFILE == "release", "the kernel is a debug build")
     packages = ["heeltoe", "pyslammer", "mujoco", "pybullet", "numpy"]
     return "\n\n".join([heading("Rigid peers", packages), peer_pyslammer.report(), engines()])
 

@@ -18,7 +18,9 @@ from numpy.typing import NDArray
 from scipy.integrate import quad, solve_ivp
 
 from heeltoe import Case, read_case, read_record
-from heeltoe.kernel import PROFILE, BlockRun, Shaking, Varying, run_block
+from heeltoe.kernel.block import BlockRun, Varying, run_block
+from heeltoe.kernel.build import PROFILE
+from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.rigid.varying import varying
 from heeltoe.models.rigid.walk import walk

@@ -145,7 +145,7 @@ def test_flexible_says_what_its_result_rests_on(tmp_path):
         "(flexible model)",
         "s, of the intact dam with its water",
         "6 elements, 29 nodes; 5 nodes along the crack",
-        "thesis: 5 % in the 1st and 3rd mode",
+        "in modes 1 to 5 of the intact",
         "coulomb: exact, with Coulomb friction",
         "time step",
         "% apart (3 % allowed)",

@@ -51,7 +51,8 @@ def test_critical_accelerations_are_where_the_kernel_starts_to_move():
     """Closed forms against the kernel: just below nothing moves, just above the motion named begins."""
     import numpy as np
 
-    from heeltoe.kernel import Shaking, run_block
+    from heeltoe.kernel.block import run_block
+    from heeltoe.kernel.shaking import Shaking
 
     for friction, kind in ((0.5, "sliding"), (5.0, "rocking")):
         block = build_block(read_case({**TYPICAL, "crack": {"friction": friction}, "reservoir": {"depth": "60 m"}}))

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from heeltoe.arrays import Floats
-from heeltoe.kernel import BLOCK, EVENT_KINDS, MODES, SETTLE, Limits, Shaking, run_block
+from heeltoe.kernel.block import BLOCK, EVENT_KINDS, MODES, SETTLE, Limits, run_block
+from heeltoe.kernel.shaking import Shaking
 
 GRAVITY = 9.81
 EVENT_LIMIT = 1_000_000

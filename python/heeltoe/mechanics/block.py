@@ -14,10 +14,10 @@ from typing import Any
 
 import numpy as np
 
-from heeltoe import kernel
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
+from heeltoe.kernel.block import BLOCK
 from heeltoe.mechanics.loads import Resultant, concrete_mass, face_at, static_forces, total
 from heeltoe.mechanics.virtual_water import VirtualMass, virtual_mass
 
@@ -182,7 +182,7 @@ class Block:
             self.restitution,
             *self.coupling,
         ]
-        assert len(values) == len(kernel.BLOCK)
+        assert len(values) == len(BLOCK)
         return np.array(values)
 
 
@@ -200,10 +200,10 @@ def build_block(case: Case) -> Block:
     """
     section = case.cut
     concrete = concrete_mass(case)
-    water = virtual_mass(case)
     offset = section.in_crack_frame(section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1])
     inertia = case.concrete.density * section.polar_inertia
     forces = static_forces(case)
+    water = virtual_mass(case)
     static = across_crack(total("static loads", forces), section)
     sides = {"reservoir": case.reservoir, "tailwater": case.tailwater}
     hanging = [name for name, side in sides.items() if side is not None and side.follows_vertical_motion]

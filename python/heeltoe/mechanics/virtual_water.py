@@ -17,11 +17,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from heeltoe.arrays import Floats
 from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
-from heeltoe.mechanics.loads import water_above_crack
+from heeltoe.geometry.section import CutSection
 
 
 @dataclass(frozen=True)
@@ -52,8 +52,8 @@ def virtual_mass(case: Case) -> VirtualMass:
     the crack.
     """
     found = [
-        _before(case, case.reservoir, case.cut.upstream_face, 1.0),
-        _before(case, case.tailwater, case.cut.downstream_face, -1.0),
+        _before(case.cut, case.reservoir, case.cut.upstream_face, 1.0),
+        _before(case.cut, case.tailwater, case.cut.downstream_face, -1.0),
     ]
     there = [water for water in found if water.mass > 0.0]
     if len(there) < 2:
@@ -63,11 +63,9 @@ def virtual_mass(case: Case) -> VirtualMass:
     return VirtualMass(mass, height, any(water.sloped for water in there))
 
 
-def _before(case: Case, water: Water | None, face: NDArray[np.float64], side: float) -> VirtualMass:
+def _before(section: CutSection, water: Water | None, face: Floats, side: float) -> VirtualMass:
     """Return the water before one face; `side` is 1 with the concrete on the right of the way up, -1 on the left."""
-    section = case.cut
-    depth = water_above_crack(case, water, toe=side < 0.0)
-    if water is None or depth == 0.0:
+    if water is None or section.base_elevation + water.depth <= face[0, 1]:
         return VirtualMass(0.0, 0.0)
     along = np.diff(face, axis=0)
     surface = section.base_elevation + water.depth
@@ -75,6 +73,7 @@ def _before(case: Case, water: Water | None, face: NDArray[np.float64], side: fl
     upright = np.abs(along[:, 0]) <= 1e-9 * np.abs(along[:, 1])
     sloped = not upright[wet[:-1] != wet[1:]].all()
     if side > 0.0 and not sloped:
+        depth = float(wet[0])
         return VirtualMass(7.0 / 12.0 * water.density * math.sqrt(water.depth) * depth**1.5, 0.4 * depth)
     mass = moment = 0.0
     for (dx, dz), lower, upper in zip(along.tolist(), wet[:-1].tolist(), wet[1:].tolist(), strict=True):

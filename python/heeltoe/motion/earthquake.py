@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
-from heeltoe.kernel import Shaking
+from heeltoe.kernel.shaking import Shaking
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.moments import on_same_moments
 

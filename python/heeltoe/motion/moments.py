@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.arrays import Floats
-from heeltoe.kernel import Shaking
+from heeltoe.kernel.shaking import Shaking
 from heeltoe.motion.ground_motion import GroundMotion
 
 

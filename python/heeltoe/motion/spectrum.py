@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from heeltoe import kernel
 from heeltoe.arrays import Floats
 from heeltoe.errors import InputError
+from heeltoe.kernel.shaking import peak_responses
 from heeltoe.motion.ground_motion import GroundMotion
 
 #: 200 periods from 0.02 s to 10 s, evenly spread on a logarithmic axis.
@@ -75,5 +75,5 @@ def response_spectrum(motion: GroundMotion, periods: ArrayLike | None = None, da
         raise InputError("spectrum-damping", "damping", f"{damping:g}")
     if period.ndim != 1 or not np.isfinite(period).all() or (period < 0.0).any():
         raise InputError("spectrum-period", "periods")
-    displacement, total = kernel.spectrum(motion.time, motion.acceleration, period, damping)
+    displacement, total = peak_responses(motion.time, motion.acceleration, period, damping)
     return Spectrum(motion.name, period, damping, displacement, total)

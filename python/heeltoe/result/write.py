@@ -13,7 +13,7 @@ import pyarrow as pa
 import pyarrow.csv
 import pyarrow.parquet
 
-from heeltoe import kernel
+from heeltoe.kernel.build import PROFILE, VERSION
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import measures
 
@@ -60,4 +60,4 @@ def motion_json(motion: GroundMotion, gravity: float) -> dict[str, Any]:
 
 def build_info() -> dict[str, str]:
     """Return which build made a result."""
-    return {"heeltoe": kernel.VERSION, "kernel": kernel.PROFILE, "numpy": np.__version__}
+    return {"heeltoe": VERSION, "kernel": PROFILE, "numpy": np.__version__}

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
-from heeltoe.kernel import Shaking
+from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block, CriticalAccelerations, build_block
 from heeltoe.models.rigid.walk import walk
 from heeltoe.result.write import build_info

@@ -14,7 +14,9 @@ from numpy.typing import NDArray
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
-from heeltoe.kernel import DAM_OUTCOMES, OUTCOMES, Shaking, run_blocks
+from heeltoe.kernel.block import OUTCOMES, run_blocks
+from heeltoe.kernel.dam import DAM_OUTCOMES
+from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.models.flexible.response import FlexibleResponse

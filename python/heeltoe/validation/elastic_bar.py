@@ -18,7 +18,7 @@ import numpy as np
 import scipy.linalg
 
 from heeltoe.arrays import Floats
-from heeltoe.kernel import CrackedDam
+from heeltoe.kernel.dam import CrackedDam
 from heeltoe.models.flexible.reduced import ReducedBody
 from heeltoe.validation.row import Row
 

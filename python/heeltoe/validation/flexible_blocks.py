@@ -15,7 +15,7 @@ import numpy as np
 
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
-from heeltoe.kernel import CrackedDam
+from heeltoe.kernel.dam import CrackedDam
 from heeltoe.models.flexible.reduced import FlexibleDam, ReducedBody, build_flexible_dam
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.models.run import rigid

@@ -7,7 +7,8 @@ from collections.abc import Callable
 import numpy as np
 
 from heeltoe.arrays import Floats
-from heeltoe.kernel import BlockRun, Shaking, block, run_block
+from heeltoe.kernel.block import BlockRun, block, run_block
+from heeltoe.kernel.shaking import Shaking
 
 
 def rectangle(

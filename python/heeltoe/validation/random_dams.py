@@ -12,7 +12,7 @@ import numpy as np
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
-from heeltoe.kernel import DamRun
+from heeltoe.kernel.dam import DamRun
 from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
 from heeltoe.validation.flexible_runs import GAINED
 from heeltoe.validation.row import Row

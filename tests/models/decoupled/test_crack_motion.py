@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from heeltoe import GroundMotion, InputError, build_block, read_case, response_spectrum
-from heeltoe.kernel import Shaking
+from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.decoupled.chain import Chain, attached_mass, bonded_chain, chain, plane_fit
 from heeltoe.models.decoupled.crack_motion import STRAIGHT, accelerations, crack_motion
 from heeltoe.models.flexible.elastic import dofs

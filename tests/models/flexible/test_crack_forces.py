@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from heeltoe import GroundMotion, InputError, flexible, read_case
-from heeltoe.kernel import CrackedDam
+from heeltoe.kernel.dam import CrackedDam
 from heeltoe.models.flexible.inside import FollowingWater
 from heeltoe.models.flexible.reduced import build_flexible_dam
 from heeltoe.models.flexible.step import longest_step

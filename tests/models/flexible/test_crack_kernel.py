@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from heeltoe import read_case
-from heeltoe.kernel import CrackedDam
+from heeltoe.kernel.dam import CrackedDam
 from heeltoe.models.flexible.reduced import ReducedBody, build_flexible_dam
 from heeltoe.validation.random_dams import LEFT, MADE, draw
 

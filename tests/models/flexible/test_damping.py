@@ -9,7 +9,7 @@ import pytest
 import scipy.linalg
 
 from heeltoe import InputError, read_case
-from heeltoe.kernel import CrackedDam
+from heeltoe.kernel.dam import CrackedDam
 from heeltoe.models.flexible.elastic import dofs, side_by_side
 from heeltoe.models.flexible.modes import lowest
 from heeltoe.models.flexible.reduced import build_flexible_dam

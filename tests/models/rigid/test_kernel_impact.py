@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from heeltoe.kernel import BLOCK
+from heeltoe.kernel.block import BLOCK
 from shared.kernel_cases import GRAVITY, ordinary, rectangle, rows, run
 
 STRIKES = ("heel strikes", "toe strikes", "both strike")

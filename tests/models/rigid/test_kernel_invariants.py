@@ -10,7 +10,8 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from heeltoe.kernel import SUMMARY, Shaking, run_blocks
+from heeltoe.kernel.block import SUMMARY, run_blocks
+from heeltoe.kernel.shaking import Shaking
 from shared.kernel_cases import GRAVITY, Floats, Run, ordinary, paradox_possible, rectangle, rows, run
 
 EVENT_LIMIT = 20_000

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from heeltoe import build_block, read_case, rigid, verdict
-from heeltoe.kernel import Limits, Shaking, run_block
+from heeltoe.kernel.block import Limits, run_block
+from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.rigid.varying import varies, varying
 from heeltoe.motion.ground_motion import GroundMotion
 from shared.dams import TYPICAL_SECTION

@@ -66,7 +66,7 @@ pub(super) fn height(face: &[f64], t: f64) -> f64 {
 }
 
 named! {
-    /// What the part above the crack may be doing; see [`super::stance`].
+    /// What the part above the crack may be doing; see the module `stance`.
     #[derive(Default)]
     State {
         /// It stands.

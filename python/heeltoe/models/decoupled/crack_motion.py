@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
-from heeltoe.kernel import Shaking
+from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.decoupled.chain import Chain
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from heeltoe.kernel import DamRun
+from heeltoe.kernel.dam import DamRun
 from heeltoe.models.flexible.growth import Growth, growth_of
 from heeltoe.models.flexible.reduced import damped
 from heeltoe.models.flexible.shaken import ShakenDam

@@ -11,7 +11,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from heeltoe.arrays import Floats, Integers
-from heeltoe.kernel import CONTACT_STATUSES
+from heeltoe.kernel.dam import CONTACT_STATUSES
 from heeltoe.models.flexible.elastic import stresses
 from heeltoe.models.flexible.reduced import FlexibleDam
 

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from heeltoe import kernel
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
+from heeltoe.kernel.dam import DAM_STATES
 from heeltoe.mechanics.block import build_block, static_state
 from heeltoe.models.flexible.excitation import self_excitation
 from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
@@ -68,7 +68,7 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
         vertical=earthquake.vertical,
         gravity=case.gravity,
         histories=histories_of(shaken.shaking, run),
-        mode=tuple(kernel.DAM_STATES[int(state)] for state in run.frames["state"]),
+        mode=tuple(DAM_STATES[int(state)] for state in run.frames["state"]),
         event_log={},
         static=static_state(block),
         references=_references(case, dam),

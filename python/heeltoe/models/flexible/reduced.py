@@ -12,7 +12,7 @@ from heeltoe.case.model import Case
 from heeltoe.geometry.axes import along_and_across, places
 from heeltoe.geometry.section import CutSection
 from heeltoe.kept import Kept
-from heeltoe.kernel import CrackedDam
+from heeltoe.kernel.dam import CrackedDam
 from heeltoe.models.flexible.damping import Damping, damping_of
 from heeltoe.models.flexible.elastic import Body, Dam, bonded_state, dam
 from heeltoe.models.flexible.inside import CrackAnchor, FollowingWater, crack_anchors, following_water

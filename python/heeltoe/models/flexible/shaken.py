@@ -10,7 +10,8 @@ import numpy as np
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
-from heeltoe.kernel import DamRun, Shaking
+from heeltoe.kernel.dam import DamRun
+from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.flexible.modes import part_periods
 from heeltoe.models.flexible.reduced import FlexibleDam
 from heeltoe.models.flexible.step import longest_step

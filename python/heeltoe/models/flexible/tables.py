@@ -6,10 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from heeltoe import kernel
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
-from heeltoe.kernel import DamRun, Shaking
+from heeltoe.kernel.dam import DAM_STATES, DamRun
+from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.reduced import FlexibleDam
 from heeltoe.models.flexible.shaken import Convergence, ShakenDam
@@ -65,7 +65,7 @@ def summary_of(shaken: ShakenDam, run: DamRun, convergence: Convergence | None) 
             "slide_rocking": raw["slip_slide_rocking"],
             "drifting": raw["slip_drifting"],
         },
-        "time_by_mode_s": {name.replace("-", "_"): raw[f"time_{name.replace('-', '_')}"] for name in kernel.DAM_STATES},
+        "time_by_mode_s": {name.replace("-", "_"): raw[f"time_{name.replace('-', '_')}"] for name in DAM_STATES},
         "elastic_give": {"rotation_rad": dam.give[0], "gap_m": dam.give[1]},
         "impacts": int(raw["impacts"]),
         "largest_impact_velocity_m_s": raw["largest_impact_velocity"],

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from heeltoe.case.model import Case
-from heeltoe.kernel import DamRun
+from heeltoe.kernel.dam import DamRun
 from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.models.flexible.growth import Growth
 from heeltoe.models.flexible.history import CrackHistory

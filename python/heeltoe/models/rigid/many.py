@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.progress import Progress
 
 from heeltoe.arrays import Floats, Integers
-from heeltoe.kernel import BLOCK, USUAL, Limits, run_blocks
+from heeltoe.kernel.block import BLOCK, USUAL, Limits, run_blocks
 from heeltoe.mechanics.block import Block
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion

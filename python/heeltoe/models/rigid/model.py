@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from heeltoe import kernel
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
+from heeltoe.kernel.block import MODES
 from heeltoe.mechanics.block import Block, build_block, static_state
 from heeltoe.models.rigid.tables import energy_of, events_of, histories_of, references_of, summary_of
 from heeltoe.models.rigid.walk import walk
@@ -56,7 +56,7 @@ def run_rigid(
         vertical=earthquake.vertical,
         gravity=case.gravity,
         histories=histories_of(case, block, shaking, moments, run) if started else {},
-        mode=tuple(kernel.MODES[m] for m in run.mode) if started else (),
+        mode=tuple(MODES[m] for m in run.mode) if started else (),
         event_log=events_of(run),
         static=static_state(block),
         references=references_of(case, block, run),

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from heeltoe import kernel
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
-from heeltoe.kernel import BlockRun, Shaking
+from heeltoe.kernel.block import EVENT_KINDS, MODES, BlockRun
+from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block
 from heeltoe.references import cited
 from heeltoe.result.response import Energy
@@ -31,6 +31,8 @@ def tensions(case: Case, run: BlockRun) -> list[float]:
 def references_of(case: Case, block: Block, run: BlockRun) -> tuple[str, ...]:
     """Return the sources of what was used."""
     keys = ["rigid", "rocking"] + (["water"] if block.water.mass else [])
+    if block.water.sloped:
+        keys.append("sloped water")
     if case.analysis.rotation != "small":
         keys.append("overturning")
     if case.uplift.during_shaking != "constant":
@@ -135,9 +137,9 @@ def events_of(run: BlockRun) -> dict[str, Any]:
 
     return {
         "time_s": column["time"],
-        "kind": named("kind", kernel.EVENT_KINDS),
-        "mode_before": named("mode_before", kernel.MODES),
-        "mode_after": named("mode_after", kernel.MODES),
+        "kind": named("kind", EVENT_KINDS),
+        "mode_before": named("mode_before", MODES),
+        "mode_after": named("mode_after", MODES),
         "slip_m": column["slip"],
         "gap_heel_m": column["gap_heel"],
         "gap_toe_m": column["gap_toe"],

@@ -5,9 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from heeltoe import kernel
 from heeltoe.case.model import Case
-from heeltoe.kernel import Varying
+from heeltoe.kernel.block import VARYING, Varying
 from heeltoe.mechanics.block import Block, across_crack
 from heeltoe.mechanics.loads import face_at, total, uplift_profile, water_above_crack
 
@@ -71,7 +70,7 @@ def varying(case: Case, block: Block) -> Varying:
         for anchor in case.anchors
     ]
     return Varying(
-        numbers=np.array([numbers[name] for name in kernel.VARYING]),
+        numbers=np.array([numbers[name] for name in VARYING]),
         rotation=case.analysis.rotation,
         law=uplift.during_shaking,
         pressure=np.ascontiguousarray(profile),

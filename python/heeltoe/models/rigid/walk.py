@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from heeltoe import kernel
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
-from heeltoe.kernel import BlockRun, Limits, Shaking
+from heeltoe.kernel.block import BlockRun, Limits, run_block
+from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block
 from heeltoe.models.rigid.varying import varies, varying
 
@@ -24,4 +24,4 @@ def walk(case: Case, block: Block, shaking: Shaking, moments: Floats | None = No
     """
     wanted, limits = np.empty(0) if moments is None else moments, limits_of(case)
     what = varying(case, block) if varies(case) or shaking.turning is not None else None
-    return kernel.run_block(block.parameters(), shaking, wanted, limits, varying=what)
+    return run_block(block.parameters(), shaking, wanted, limits, varying=what)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from heeltoe.case.model import Case
-from heeltoe.kernel import BlockRun
+from heeltoe.kernel.block import BlockRun
 from heeltoe.mechanics.block import Block
 from heeltoe.models.rigid.tables import tensions
 from heeltoe.units.sentences import Sentence

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from heeltoe.arrays import Floats
-from heeltoe.kernel import CONTACT_STATUSES
+from heeltoe.kernel.dam import CONTACT_STATUSES
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.units.systems import Scale, unit_system

@@ -1,0 +1,50 @@
+"""What kernels get of the ground's motion, and oscillators shaken by it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from heeltoe import _kernel
+from heeltoe.arrays import Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Shaking:
+    """What a kernel gets of the ground's motion: (n,) each, or None where there is none.
+
+    Attributes
+    ----------
+    time
+        Moments from zero to the end of the run [s], not decreasing; at a jump the moment is there twice.
+    horizontal, up
+        Accelerations downstream and upward [m/s2], straight between the moments.
+    turning
+        Rotational acceleration about the middle of the crack, counter-clockwise [rad/s2].
+    """
+
+    time: Floats
+    horizontal: Floats
+    up: Floats | None = None
+    turning: Floats | None = None
+
+    @property
+    def end(self) -> float:
+        """Of the run [s]."""
+        return float(self.time[-1])
+
+    def scaled(self, factor: float) -> Shaking:
+        """Return the same motion, weaker or stronger."""
+        up, turning = (None if each is None else factor * each for each in (self.up, self.turning))
+        return Shaking(self.time, factor * self.horizontal, up, turning)
+
+
+def peak_responses(time: Floats, ground: Floats, periods: Floats, damping: float) -> tuple[Floats, Floats]:
+    """Return largest relative displacement [m] and total acceleration [m/s2] of oscillators, (k,) each.
+
+    `periods` (k,) in s, zero for the ground itself; `damping` in [0, 1). Exact for ground accelerations (n,) that are
+    linear between the moments `time` (n,).
+    """
+    displacement, total = np.ascontiguousarray(_kernel.spectrum(time, ground, periods, damping).T)
+    return displacement, total
