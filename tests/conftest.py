@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from contextlib import nullcontext
+from dataclasses import replace
 from pathlib import Path
 
 # Several processes test at once, and matrices are small: threads of the linear algebra would only wait for each other.
@@ -92,9 +93,15 @@ def records() -> Path:
 
 
 @pytest.fixture(scope="session")
-def typical_both() -> heeltoe.Comparison:
+def typical_both() -> heeltoe.Response:
     """The typical dam as a rigid block and as an elastic dam, for 3 s."""
-    return heeltoe.compare(example("typical-base", *FAST))
+    return heeltoe.run(example("typical-base", *FAST), "both")
+
+
+@pytest.fixture(scope="session")
+def typical_elastic(typical_both) -> heeltoe.Response:
+    """The same as an elastic dam alone."""
+    return replace(typical_both, beside=None)
 
 
 @pytest.fixture(scope="session")
@@ -107,15 +114,15 @@ def typical_written(typical_both, tmp_path_factory) -> tuple[Path, list[Path]]:
 
 
 @pytest.fixture(scope="session")
-def koyna_both() -> heeltoe.Comparison:
+def koyna_both() -> heeltoe.Response:
     """Koyna by the decoupled chain and by the flexible model, for 4 s."""
-    return heeltoe.compare(example("koyna", *SHORT, "flexible.convergence_check=false"), block="decoupled")
+    return heeltoe.run(example("koyna", *SHORT, "flexible.convergence_check=false"), "decoupled,flexible")
 
 
 @pytest.fixture(scope="session")
 def koyna(koyna_both) -> heeltoe.Response:
     """Koyna by the decoupled chain."""
-    return koyna_both.rigid
+    return koyna_both.beside
 
 
 @pytest.fixture

@@ -11,7 +11,6 @@ from heeltoe.shown import hand_in
 _HOME = {
     "Block": "mechanics.block",
     "Case": "case.model",
-    "Comparison": "study.comparison",
     "DamPeriods": "models.flexible.periods",
     "FlexibleDam": "models.flexible.reduced",
     "GroundMotion": "motion.ground_motion",
@@ -23,7 +22,6 @@ _HOME = {
     "asce_7": "motion.targets",
     "build_block": "mechanics.block",
     "build_flexible_dam": "models.flexible.reduced",
-    "compare": "study.comparison",
     "dam_periods": "models.flexible.periods",
     "decoupled": "models.run",
     "en_1998": "motion.targets",
@@ -76,8 +74,6 @@ if TYPE_CHECKING:
     from heeltoe.motion.targets import en_1998 as en_1998
     from heeltoe.result.response import Response as Response
     from heeltoe.result.verdict import verdict as verdict
-    from heeltoe.study.comparison import Comparison as Comparison
-    from heeltoe.study.comparison import compare as compare
     from heeltoe.study.overturning import overturning_map as overturning_map
     from heeltoe.study.spread import with_spread as with_spread
     from heeltoe.views.animation.write import animate as animate

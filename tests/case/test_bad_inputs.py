@@ -150,7 +150,7 @@ ARGUMENTS = {
     "no pulse": (["overturning", "case.toml", "--pulse", "square"], ["pulse", "half-sine"]),
     "too many pulses": (["overturning", "case.toml", "--count", "401"], ["count", "400"]),
     "animation of what": (["animate", "case.toml", "--to", "dam.avi"], ["avi", ".mp4"]),
-    "animation of both": (["animate", "case.toml", "--model", "both"], ["both", "rigid, decoupled, flexible"]),
+    "animation of both": (["animate", "case.toml", "--model", "both"], ["both", "auto, rigid, decoupled, flexible"]),
     "decoupled at the base": (["run", "case.toml", "--model", "decoupled"], ["crack.elevation"]),
     "units of nowhere": (["run", "case.toml", "--units", "cgs", "--out", "o"], ["--units", "si or us"]),
     "out in a place of the system": (["run", "case.toml", "--out", "/proc/heeltoe"], ["/proc/heeltoe", "written"]),

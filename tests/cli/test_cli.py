@@ -19,10 +19,11 @@ from shared.dams import FAST as SHORT
 
 COARSE = ("--set", "flexible.elements_across=2")
 FAST = options(SHORT)
+RIGID = (BASE, "--model", "rigid")
 
 
 def test_run_says_what_the_dam_does():
-    result = process("run", BASE)
+    result = process("run", *RIGID)
     assert result.returncode == 0, result.stderr
     for words in ("PGA 0.4 g", "sliding safety factor", "residual slip", "Verdict", "downstream"):
         assert words in result.stdout
@@ -33,7 +34,7 @@ def test_figures_in_us_units(tmp_path):
     assert command(*run, "--units", "us").returncode == 0
     assert "slip [in]" in (tmp_path / "response.svg").read_text(encoding="utf-8")
     assert "kip/ft" in (tmp_path / "section.svg").read_text(encoding="utf-8")
-    said = command("run", BASE, "--units", "us", "--set", "title=Dam of 100 m", "--duration", "5s")
+    said = command("run", *RIGID, "--units", "us", "--set", "title=Dam of 100 m", "--duration", "5s")
     for words in ("Dam of 100 m", "ft/s", "residual slip", " in "):
         assert words in said.stdout
     assert not re.search(r"\d\s(mm|m/s|m)\b", said.stdout.replace("Dam of 100 m", ""))
@@ -53,7 +54,7 @@ def test_json_on_standard_output_is_only_json():
 
 
 def test_the_contract_of_the_json():
-    data = json.loads(command("run", BASE, "--json", "-").stdout)
+    data = json.loads(command("run", *RIGID, "--json", "-").stdout)
     for key in [
         "model",
         "title",
@@ -86,7 +87,7 @@ def test_the_contract_of_the_json():
 
 def test_out_writes_everything(tmp_path):
     out = tmp_path / "deep" / "result"
-    result = command("run", BASE, "--out", out)
+    result = command("run", *RIGID, "--out", out)
     assert result.returncode == 0, result.stderr
     names = {path.name for path in out.iterdir()}
     assert names >= {"result.json", "histories.parquet", "events.parquet", "response.png", "response.svg"}
@@ -106,7 +107,7 @@ def test_csv_and_output_step(tmp_path):
 
 def test_set_motion_pga_reverse_duration():
     def slip(*more: str) -> float:
-        result = command("run", BASE, "--json", "-", *more)
+        result = command("run", *RIGID, "--json", "-", *more)
         assert result.returncode == 0, result.stderr
         return float(json.loads(result.stdout)["residual_slip_m"])
 
@@ -121,13 +122,13 @@ def test_set_motion_pga_reverse_duration():
 
 def test_a_motion_on_the_command_line_is_relative_to_where_the_user_stands(tmp_path):
     (tmp_path / "pulse.txt").write_text("# units: time [s], acceleration [g]\n0 -0.5\n0.4 -0.5\n0.41 0\n2 0\n")
-    result = command("run", BASE, "--motion", "pulse.txt", "--json", "-", cwd=tmp_path)
+    result = command("run", *RIGID, "--motion", "pulse.txt", "--json", "-", cwd=tmp_path)
     assert result.returncode == 0, result.stderr
     assert json.loads(result.stdout)["motion"]["name"] == "pulse"
 
 
 def test_a_dam_that_cannot_stand_is_not_shaken():
-    result = process("run", BASE, "--set", "crack.friction=0.3", "--json", "-")
+    result = process("run", *RIGID, "--set", "crack.friction=0.3", "--json", "-")
     assert result.returncode == 3
     data = json.loads(result.stdout)
     assert data["outcome"] == "unstable"
@@ -139,7 +140,7 @@ def test_a_dam_that_cannot_stand_is_not_shaken():
 @pytest.mark.usefixtures("no_figures")
 def test_flexible_says_what_its_result_rests_on(tmp_path):
     short = ("--model", "flexible", *COARSE, "--duration", "4s")
-    result = command("run", BASE, *short, "--out", tmp_path)
+    result = command("run", *RIGID, *short, "--out", tmp_path)
     assert result.returncode == 0, result.stderr
     for words in [
         "(flexible model)",
@@ -171,29 +172,28 @@ def test_both_models_side_by_side(tmp_path):
     result = command("run", BASE, *arguments)
     assert result.returncode == 0, result.stderr
     data = json.loads(result.stdout)
-    assert data["model"] == "both"
+    assert (data["model"], data["chosen"]["asked"]) == ("flexible", "both")
     assert data == json.loads((tmp_path / "result.json").read_text())
-    assert data["rigid"]["spread"]["runs"] == data["flexible"]["spread"]["runs"] == 3
+    assert data["beside"]["spread"]["runs"] == data["spread"]["runs"] == 3
     for words in (
         "flexible/rigid",
         "with the shaking varied by 1 %",
         "computed in",
-        "Rigid ",
-        "Flexible ",
-        "Difference ",
+        "Verdict ",
+        "Beside it ",
     ):
         assert words in result.stderr, words
     assert f"{data['ratio']['residual_slip_m']:.3g}" in result.stderr
-    assert (tmp_path / "flexible" / "crack.png").exists()
+    assert (tmp_path / "crack.png").exists()
 
 
-def test_both_end_with_3_where_one_has_no_result():
+def test_both_end_with_3_where_neither_has_a_result():
     weak = ("--set", "crack.friction=0.3", "--model", "both", *FAST, "--json", "-")
     result = command("run", BASE, *weak)
     assert result.returncode == 3
     data = json.loads(result.stdout)
-    assert data["rigid"]["outcome"] == "unstable"
-    assert data["flexible"]["outcome"] == "unstable"
+    assert data["beside"]["outcome"] == "unstable"
+    assert data["outcome"] == "unstable"
     assert set(data["ratio"].values()) == {None}
     assert "slides under its static loads alone" in result.stderr
 
@@ -248,7 +248,7 @@ def test_periods():
 @pytest.mark.usefixtures("no_figures")
 def test_vtk_files_go_beside_the_rest(tmp_path):
     arguments = ("--model", "both", *FAST, "--out", tmp_path, "--vtk")
-    folder = tmp_path / "flexible" / "vtk"
+    folder = tmp_path / "vtk"
     folder.mkdir(parents=True)
     (folder / "dam-9999.vtu").write_text("of an earlier run")
     result = command("run", BASE, *arguments)
@@ -261,7 +261,7 @@ def test_vtk_files_go_beside_the_rest(tmp_path):
 
 
 def test_a_terminal_sees_what_goes_on_and_a_pipe_does_not():
-    command = [sys.executable, "-m", "heeltoe", "run", str(BASE), "--spread", "--json", "-"]
+    command = [sys.executable, "-m", "heeltoe", "run", str(BASE), "--model", "rigid", "--spread", "--json", "-"]
     ours, theirs = pty.openpty()
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=theirs)
     os.close(theirs)

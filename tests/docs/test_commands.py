@@ -92,4 +92,4 @@ def test_commands_and_options_in_passing_are_there(page):
             if option == "--set" and "..." not in value:
                 read_case(KOYNA, [value])
             if option == "--model":
-                assert set(value.split(",")) <= {"rigid", "flexible", "decoupled", "both"}, span
+                assert set(value.split(",")) <= {"auto", "rigid", "flexible", "decoupled", "both"}, span

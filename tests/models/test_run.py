@@ -7,7 +7,7 @@ from collections import Counter
 import pytest
 
 import heeltoe
-from heeltoe import InputError, compare, read_case
+from heeltoe import InputError, read_case
 from heeltoe.models.run import MODELS, run
 from shared.command import command
 from shared.dams import BASE, FAST
@@ -18,7 +18,7 @@ OPENED = ["section.base_width=70 m", "crack.friction=1.2"]
 
 def test_python_and_the_command_line_warn_of_the_same():
     changes = [f"--set={change}" for change in OPENED]
-    told = json.loads(command("run", str(BASE), *changes, "--json", "-").stdout)
+    told = json.loads(command("run", str(BASE), "--model", "rigid", *changes, "--json", "-").stdout)
     response = heeltoe.rigid(read_case(BASE, OPENED))
     assert len(response.warnings) == 1
     assert response.warnings[0].code == "crack-opens"
@@ -33,15 +33,20 @@ def test_every_way_to_a_model_is_the_same():
         assert one.to_json() == other.to_json()
         assert sum(each.code == "crack-opens" for each in one.warnings) == 1
         assert [check.name for check in one.limits] == ["residual_slip"]
-    both = compare(case)
-    assert both.flexible.to_json() == one.to_json()
-    assert both.rigid.warnings == heeltoe.rigid(case).warnings
+    both = run(case, "both")
+    assert both.to_json() == one.to_json() | {
+        **{name: both.to_json()[name] for name in ("chosen", "beside", "ratio", "meaning")}
+    }
+    # The better model is judged.
+    assert both.limits
+    assert not both.beside.limits
+    assert sum(each.code == "crack-opens" for each in both.beside.warnings) == 1
 
 
 def test_models_are_listed_once():
     for name in MODELS:
         assert callable(getattr(heeltoe, name))
-    with pytest.raises(InputError, match="use rigid, decoupled, flexible") as refused:
+    with pytest.raises(InputError, match="use auto, rigid, decoupled, flexible") as refused:
         run(read_case(BASE), "elastic")
     assert refused.value.code == "unknown-model"
 

@@ -50,20 +50,20 @@ def test_impacts_of_a_rigid_block():
 
 @pytest.mark.parametrize(("coarser", "warned"), [(0.105, False), (0.12, True)])
 def test_a_step_that_matters_to_an_elastic_dam(typical_both, coarser, warned):
-    dam = typical_both.flexible.crack.dam
+    dam = typical_both.crack.dam
     evidence = Convergence(time_step=1e-4, coarser_step=2e-4, slip=0.1, coarser_slip=coarser, allowed=0.1)
     assert ("not-converged" in codes(flexible._about_the_slip(dam, evidence, None))) is warned
 
 
 @pytest.mark.parametrize(("error", "warned"), [(0.029, False), (0.031, True)])
 def test_too_few_modes(typical_both, error, warned):
-    dam = replace(typical_both.flexible.crack.dam, basis_error=error)
+    dam = replace(typical_both.crack.dam, basis_error=error)
     assert ("modes-few" in codes(flexible._about_the_concrete(example("typical-base"), dam))) is warned
 
 
 @pytest.mark.parametrize(("rotation", "warned"), [(0.09, False), (0.11, True)])
 def test_rotations_beyond_the_elastic_model(typical_both, rotation, warned):
-    case, history = example("typical-base", *FAST), typical_both.flexible.crack
+    case, history = example("typical-base", *FAST), typical_both.crack
     numbers = dict.fromkeys(("contact_residual", "energy_residual", "energy_gained", "rotation_max"), 0.0)
     run = SimpleNamespace(summary={**numbers, "energy_turnover": 1.0, "rotation_min": -rotation})
     assert ("rotation-beyond-model" in codes(flexible._about_the_contact(case, run, history))) is warned

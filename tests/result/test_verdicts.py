@@ -14,8 +14,8 @@ from shared.dams import BASE, FAST
 
 
 @pytest.fixture
-def response(typical_both) -> Response:
-    return typical_both.flexible
+def response(typical_elastic) -> Response:
+    return typical_elastic
 
 
 def told(response: Response, **summary: object) -> str:

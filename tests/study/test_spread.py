@@ -42,7 +42,7 @@ def test_rigid_runs_are_those_of_the_scaled_motion(changes):
 @pytest.mark.parametrize("more", [[], ["crack.elevation=90m", "flexible.elements_across_below=3"]])
 def test_flexible_runs_are_those_of_the_scaled_motion(more, typical_both):
     case = read_case(BASE, [*FAST, *more])
-    plain = flexible(case) if more else typical_both.flexible
+    plain = flexible(case) if more else typical_both
     seen = []
     response = with_spread(plain, case, 3, progress=lambda done, of: seen.append((done, of)))
     spread = response.spread
@@ -57,7 +57,7 @@ def test_flexible_runs_are_those_of_the_scaled_motion(more, typical_both):
 
 
 def test_the_longer_step_is_taken_only_where_it_gives_the_same(typical_both):
-    response = typical_both.flexible
+    response = typical_both
     assert _step(response) == response.time_step_s
 
     def judged(change: float) -> float:

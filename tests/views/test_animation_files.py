@@ -231,7 +231,7 @@ def test_the_command_writes_a_page(tmp_path):
 @pytest.mark.parametrize(
     ("options", "words"),
     [
-        (("--model", "both"), "use rigid, decoupled, flexible"),
+        (("--model", "both"), "use auto, rigid, decoupled, flexible"),
         (("--to", "dam.txt"), ".mp4, .gif or .html"),
         (("--to", "nowhere/dam.html"), "make it first"),
         (("--fps", "0"), "out of range"),

@@ -74,15 +74,15 @@ def test_the_numbers_of_both_systems_agree(both, rocking):
         si[1].lines[0].get_ydata(), 25.4 * us[1].lines[0].get_ydata()
     )
     assert si[3].lines[0].get_ydata() == pytest.approx(1e3 * inch * us[3].lines[0].get_ydata())
-    si, us = (energy_figure(both.flexible, units).axes[0].lines[0].get_ydata() for units in ("si", "us"))
+    si, us = (energy_figure(both, units).axes[0].lines[0].get_ydata() for units in ("si", "us"))
     assert 1e6 * si == pytest.approx(kip * us)
-    maps = [pressure_figure(both.flexible, units).axes[1].collections[-1].get_array() for units in ("si", "us")]
+    maps = [pressure_figure(both, units).axes[1].collections[-1].get_array() for units in ("si", "us")]
     assert 1e6 * maps[0].compressed() == pytest.approx(psi * maps[1].compressed())
 
 
 def test_units_that_nobody_knows(both):
     with pytest.raises(InputError, match="no system of units") as refused:
-        response_figure(both.rigid, "imperial")
+        response_figure(both.beside, "imperial")
     assert refused.value.code == "unknown-units"
 
 
@@ -121,13 +121,11 @@ def test_a_run_without_any_motion_has_figures():
 
 
 def test_numbers_beyond_all_bounds_are_not_drawn(both):
-    h = {name: np.array(values) for name, values in both.flexible.histories.items()}
+    h = {name: np.array(values) for name, values in both.histories.items()}
     h["slip_m"][-3:] = np.inf
-    blown = replace(both.flexible, outcome="blown up", histories=h)
+    blown = replace(both, outcome="blown up", histories=h, beside=None)
     assert all_figures(None, blown) == {}
-    assert not any(
-        name.startswith(("flexible", "comparison")) for name in all_figures(None, replace(both, flexible=blown))
-    )
+    assert all(name.startswith("rigid/") for name in all_figures(None, replace(blown, beside=both.beside)))
 
 
 @pytest.mark.parametrize(
@@ -168,19 +166,19 @@ def test_a_crack_at_a_height_has_figures(tmp_path):
 
 
 def test_figures_show_what_they_say(both):
-    axes = response_figure(both.flexible).axes
+    axes = response_figure(both).axes
     assert len(axes) == 5
-    h = both.flexible.histories
+    h = both.histories
     assert axes[1].lines[0].get_ydata() == pytest.approx(1e3 * h["slip_m"])
     spans = sum(path.get_extents().width for collection in axes[-1].collections for path in collection.get_paths())
     assert spans == pytest.approx(h["time_s"][-1])
-    lines = {line.get_label(): line.get_ydata() for line in energy_figure(both.flexible).axes[0].lines}
+    lines = {line.get_label(): line.get_ydata() for line in energy_figure(both).axes[0].lines}
     assert lines["put in"][-1] == pytest.approx(h["input_energy_j"][-1] / 1e6)
     # What is put in goes somewhere, up to what the time stepping itself loses.
     parts = sum(values[-1] for name, values in lines.items() if name != "put in")
     assert parts == pytest.approx(lines["put in"][-1], rel=0.01)
-    colours = crack_figure(both.flexible).axes[1].collections[0].get_array()
-    assert (colours == both.flexible.crack.status.T).all()
+    colours = crack_figure(both).axes[1].collections[0].get_array()
+    assert (colours == both.crack.status.T).all()
 
 
 def test_rows_of_the_ribbon_tell_modes_apart_without_colour(rocking):
@@ -230,7 +228,7 @@ def test_after_the_record_the_ground_stands_still():
 
 
 def test_contact_pressure_carries_the_load(both):
-    record = both.flexible.crack
+    record = both.crack
     time, pressure = contact_pressure(record)
     along = record.upper_position[0, 0]
     sizes = along[2::2] - along[:-2:2]
@@ -242,7 +240,7 @@ def test_contact_pressure_carries_the_load(both):
 
 
 def test_shapes_of_the_intact_dam_have_its_periods(both):
-    dam = both.flexible.crack.dam
+    dam = both.crack.dam
     titles = [axes.get_title() for axes in modes_figure(dam).axes]
     assert [float(title.split("=")[1].split("s")[0]) for title in titles] == pytest.approx(
         list(dam.periods[:4]), rel=5e-3
@@ -251,19 +249,17 @@ def test_shapes_of_the_intact_dam_have_its_periods(both):
 
 
 def test_deformed_dam_at_a_moment(both):
-    seen = " ".join(text.get_text() for text in texts(deformed_figure(both.flexible, 1.5)))
+    seen = " ".join(text.get_text() for text in texts(deformed_figure(both, 1.5)))
     assert "t = 1.50 s;" in seen
     assert "exaggerated" in seen
-    fastest = deformed_figure(both.flexible)
+    fastest = deformed_figure(both)
     assert "the fastest slip" in fastest._supxlabel.get_text()
 
 
 def test_the_spectrum_marks_the_periods(both):
-    marked = [
-        line.get_xdata()[0] for line in spectrum_figure(both.flexible).axes[0].lines if len(line.get_xdata()) == 2
-    ]
-    assert set(np.round(both.flexible.periods_s[:4], 9)) <= set(np.round(marked, 9))
-    own = spectrum_figure(both.rigid, periods_s=[0.5]).axes[0]
+    marked = [line.get_xdata()[0] for line in spectrum_figure(both).axes[0].lines if len(line.get_xdata()) == 2]
+    assert set(np.round(both.periods_s[:4], 9)) <= set(np.round(marked, 9))
+    own = spectrum_figure(both.beside, periods_s=[0.5]).axes[0]
     assert any(list(line.get_xdata()) == [0.5, 0.5] for line in own.lines)
 
 
@@ -299,7 +295,7 @@ def test_a_block_that_overturns_stays_readable(rocking, both):
     before = 1e3 * abs(rocking.histories["rotation_rad"]).max()
     assert before < rotation.get_ylim()[1] < 20.0 * before
     assert any("overturns downstream" in text.get_text() for text in texts(figures["response"]))
-    check(all_figures(None, replace(both, rigid=response))["comparison"], "comparison")
+    check(all_figures(None, replace(both, beside=response))["comparison"], "comparison")
 
 
 @pytest.mark.parametrize(
@@ -315,7 +311,7 @@ def test_a_block_that_overturns_stays_readable(rocking, both):
     ],
 )
 def test_titles_of_any_kind(both, tmp_path, title):
-    response = replace(both.rigid, title=title)
+    response = replace(both.beside, title=title)
     figure = response_figure(response)
     check(figure, "response")
     height = figure._suptitle.get_window_extent(FigureCanvasAgg(figure).get_renderer()).height
@@ -326,7 +322,7 @@ def test_titles_of_any_kind(both, tmp_path, title):
 
 def test_letters_without_a_font_become_squares(both, monkeypatch):
     monkeypatch.setattr("heeltoe.views.figures.fonts._other_fonts", lambda: ())
-    figure = response_figure(replace(both.rigid, title="大坝 5"))
+    figure = response_figure(replace(both.beside, title="大坝 5"))
     assert figure._suptitle.get_text().startswith("□□ 5")
     check(figure, "response")
 
@@ -368,7 +364,7 @@ def test_a_ribbon_without_events():
 def test_comparison_figure(both, tmp_path):
     inked(save_all({"comparison": all_figures(None, both)["comparison"]}, tmp_path))
     never = rigid(example("typical-base", "crack.friction=0.2"))
-    assert "comparison" not in all_figures(None, replace(both, rigid=never))
+    assert "comparison" not in all_figures(None, replace(both, beside=never))
     figures = all_figures(None, both, "us")
     assert next(iter(figures)) == "comparison"
     assert {"rigid/response", "flexible/deformed"} <= set(figures)

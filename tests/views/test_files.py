@@ -9,7 +9,7 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
-from heeltoe import Comparison, InputError, flexible, overturning_map, read_case, rigid
+from heeltoe import InputError, Response, flexible, overturning_map, read_case, rigid
 from heeltoe.result.write import json_text
 from heeltoe.study.grid import parse_variations, run_grid
 from heeltoe.views.files.write import write_all, write_overturning
@@ -17,7 +17,7 @@ from shared.dams import BLOCK, FAST, HEIGHT, KOYNA, SHORT, SLENDER, example
 
 
 @pytest.fixture
-def both(typical_both) -> Comparison:
+def both(typical_both) -> Response:
     return typical_both
 
 
@@ -47,45 +47,44 @@ def test_files_of_both(typical_written):
         "rigid/result.json",
         "rigid/events.parquet",
         "rigid/accelerations.png",
-        "flexible/result.json",
-        "flexible/histories.parquet",
-        "flexible/crack.parquet",
-        "flexible/crack.svg",
-        "flexible/energy.png",
-        "flexible/forces.png",
+        "histories.parquet",
+        "crack.parquet",
+        "crack.svg",
+        "energy.png",
+        "forces.png",
     }
-    assert "flexible/events.parquet" not in written
-    for place, model in (("", "both"), ("rigid/", "rigid"), ("flexible/", "flexible")):
+    assert "events.parquet" not in written
+    for place, model in (("", "flexible"), ("rigid/", "rigid")):
         assert json.loads((directory / f"{place}result.json").read_text())["model"] == model
 
 
 def test_the_json_is_that_of_the_result(typical_written, both):
-    for place, result in (("", both), ("rigid/", both.rigid), ("flexible/", both.flexible)):
+    for place, result in (("", both), ("rigid/", both.beside)):
         text = (typical_written[0] / f"{place}result.json").read_text(encoding="utf-8")
         assert text == json_text(result.to_json()) + "\n"
 
 
 @pytest.mark.usefixtures("empty_figures")
-def test_what_an_earlier_run_left_does_not_stay(both, tmp_path):
+def test_what_an_earlier_run_left_does_not_stay(both, typical_elastic, tmp_path):
     (tmp_path / "rigid").mkdir()
     mine = [tmp_path / name for name in ("notes.txt", "report.pdf", "histories.csv.bak", "rigid/result.json")]
     for path in mine:
         path.write_text("mine")
-    write_all(both.rigid, tmp_path)
-    write_all(both.flexible, tmp_path, suffix=".csv")
+    write_all(both.beside, tmp_path)
+    write_all(typical_elastic, tmp_path, suffix=".csv")
     names = {path.name for path in tmp_path.iterdir()}
     assert not names & {"events.parquet", "histories.parquet", "accelerations.png", "accelerations.svg"}
     assert {"histories.csv", "crack.csv", "energy.png"} <= names
     assert [path.read_text() for path in mine] == ["mine"] * len(mine)
 
 
-def test_kinds_of_results_replace_each_other(both, block, tmp_path):
+def test_kinds_of_results_replace_each_other(both, typical_elastic, block, tmp_path):
     """Whatever was written last into a directory is alone there, up to the folders of the models of a comparison."""
     grid = run_grid(BLOCK, [], parse_variations(["crack.friction=0.2,0.3"]), rigid)
     apart = {}
-    for name, result in (("block", block), ("both", both), ("grid", grid), ("elastic", both.flexible)):
+    for name, result in (("block", block), ("both", both), ("grid", grid), ("elastic", typical_elastic)):
         apart[name] = {path.relative_to(tmp_path / name) for path in write_all(result, tmp_path / name, figures={})}
-    for result in (both, grid, both.flexible, block, both):
+    for result in (both, grid, both, block, both):
         write_all(result, tmp_path / "all", figures={})
     found = {path.relative_to(tmp_path / "all") for path in (tmp_path / "all").rglob("*") if path.is_file()}
     assert found == apart["both"]
@@ -111,11 +110,10 @@ def test_tables_in_either_form(both, tmp_path):
     for suffix in (".csv", ".parquet"):
         write_all(both, tmp_path, suffix=suffix, figures={})
         found = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path.is_file()}
-        tables = {f"rigid/histories{suffix}", f"rigid/events{suffix}", f"flexible/histories{suffix}"}
-        results = {"result.json", "rigid/result.json", "flexible/result.json"}
-        assert found == tables | results | {f"flexible/crack{suffix}"}
-    rows = len(both.flexible.histories["time_s"])
-    assert pq.read_table(tmp_path / "flexible" / "histories.parquet").num_rows == rows
+        tables = {f"rigid/histories{suffix}", f"rigid/events{suffix}", f"histories{suffix}"}
+        assert found == tables | {"result.json", "rigid/result.json", f"crack{suffix}"}
+    rows = len(both.histories["time_s"])
+    assert pq.read_table(tmp_path / "histories.parquet").num_rows == rows
 
 
 @pytest.mark.usefixtures("no_figures")
@@ -181,7 +179,7 @@ def test_vtk_files_of_an_earlier_run_go(both, tmp_path):
     folder.mkdir()
     for name in ("dam-9999.vtu", "crack-9999.vtu", "notes.vtu"):
         (folder / name).write_text("old")
-    paths = write_all(both.flexible, tmp_path, vtk=True, figures={})
+    paths = write_all(both, tmp_path, vtk=True, figures={})
     # Of hundreds of files the two that list the others are named.
     assert [path.name for path in paths if path.parent == folder] == ["crack.pvd", "dam.pvd"]
     names = {path.name for path in folder.iterdir()}
@@ -193,17 +191,17 @@ def test_vtk_files_of_an_earlier_run_go(both, tmp_path):
 def test_without_the_package_for_vtk_nothing_is_written(both, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "meshio", None)
     with pytest.raises(InputError) as refused:
-        write_all(both.flexible, tmp_path / "out", vtk=True)
+        write_all(both, tmp_path / "out", vtk=True)
     assert "meshio" in str(refused.value)
     assert list(tmp_path.iterdir()) == []
 
 
 def test_the_crack_is_written_with_its_forces_and_statuses(both, typical_written):
-    table = pq.read_table(typical_written[0] / "flexible" / "crack.parquet")
-    record = both.flexible.crack
+    table = pq.read_table(typical_written[0] / "crack.parquet")
+    record = both.crack
     frames, _, nodes = record.upper_position.shape
     assert table.num_rows == frames * nodes
-    h = both.flexible.histories
+    h = both.histories
     force = table["force_across_n"].to_numpy().reshape(frames, nodes)
     assert force[1:].sum(axis=1) == pytest.approx(h["normal_force_n"][1:], rel=1e-9)
     assert table["gap_m"].to_numpy().reshape(frames, nodes)[:, 0] == pytest.approx(h["gap_heel_m"], abs=1e-12)

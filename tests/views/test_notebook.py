@@ -33,7 +33,7 @@ def test_notebooks_show_cases_motions_and_results(block, typical_both):
         # A page of a notebook is no place for a megabyte.
         assert len(found) < 60_000
     for result, words in (
-        (typical_both, ("The dam slides", "difference", "(rigid)", "(flexible)")),
+        (typical_both, ("The dam slides", "rigid beside it", "(rigid)", "(flexible)")),
         (statics(case, 0.1), ("USACE", "checks", "not met", "sliding factor")),
     ):
         assert all(each in result._repr_html_() for each in words)

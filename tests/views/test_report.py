@@ -164,10 +164,10 @@ def test_what_has_overturned_does_not_stand_after_the_earthquake():
 def test_a_comparison_of_which_one_failed_says_so(both):
     case, comparison = both
     unstable = rigid(read_case(BASE, ["crack.friction=0.2"]))
-    text = Reader(html(build_report(case, replace(comparison, rigid=unstable)))).text
+    text = Reader(html(build_report(case, replace(comparison, beside=unstable)))).text
     assert "No result to trust" in text
     assert "what the flexible model found stands below" in text
-    assert pdf(build_report(case, replace(comparison, rigid=unstable)))
+    assert pdf(build_report(case, replace(comparison, beside=unstable)))
 
 
 def test_parts_that_are_missing_are_left_out(tmp_path):

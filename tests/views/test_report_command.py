@@ -13,7 +13,7 @@ from shared.report_reader import Reader, lookup
 
 
 def test_the_command_line_writes_a_report(tmp_path):
-    result = command("run", BASE, "--duration", "3s", "--report", cwd=tmp_path)
+    result = command("run", BASE, "--model", "rigid", "--duration", "3s", "--report", cwd=tmp_path)
     assert result.returncode == 0, result.stderr
     place = tmp_path / "typical-base-report"
     assert {"report.pdf", "report.html", "result.json"} <= {path.name for path in place.iterdir()}
@@ -21,7 +21,7 @@ def test_the_command_line_writes_a_report(tmp_path):
     reader = Reader((place / "report.html").read_text())
     data = json.loads((place / "result.json").read_text())
     assert reader.numbers["residual_slip_m"][0] == data["residual_slip_m"]
-    assert "--duration 3s --report" in reader.text
+    assert "--model rigid --duration 3s --report" in reader.text
 
 
 @pytest.mark.parametrize("model", ["rigid", "both"])
@@ -49,13 +49,14 @@ def test_each_figure_is_drawn_once_for_files_and_report(model, tmp_path, monkeyp
         (["--report"], {"": True}),
         (["--report", "--spread", "none"], {"": False}),
         (["--report", "--spread", "3"], {"": True}),
-        (["--report", "--model", "both"], {"rigid": True, "flexible": False}),
+        (["--report", "--model", "both"], {"beside": True, "": False}),
         ([], {"": False}),
     ],
 )
 @pytest.mark.usefixtures("no_figures")
 def test_a_report_has_the_spread_where_it_is_cheap(arguments, spreads, tmp_path):
-    result = command("run", BASE, *options(FAST), *arguments, "--out", tmp_path)
+    model = () if "--model" in arguments else ("--model", "rigid")
+    result = command("run", BASE, *options(FAST), *model, *arguments, "--out", tmp_path)
     assert result.returncode == 0, result.stderr
     data = json.loads((tmp_path / "result.json").read_text())
     for prefix, there in spreads.items():

@@ -43,8 +43,8 @@ def results(typical_both, koyna_both) -> dict[str, Any]:
     return {
         "rigid": with_spread(rigid(strong), strong, 3),
         "both": typical_both,
-        "flexible": typical_both.flexible,
-        "decoupled": koyna_both.rigid,
+        "flexible": replace(typical_both, beside=None),
+        "decoupled": koyna_both.beside,
         "chain": koyna_both,
         "grid": run_grid(KOYNA_TOP, ["motion.duration=2s"], parse_variations(["crack.friction=0.2,1.0"]), rigid),
         "statics": statics(example("typical-base", *loads), 0.1),

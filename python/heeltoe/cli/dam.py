@@ -111,8 +111,8 @@ def statics(
 def animate(
     case: CasePath,
     model: Annotated[
-        str, typer.Option(metavar="rigid|flexible|decoupled", help="What the dam is taken for.")
-    ] = "rigid",
+        str, typer.Option(metavar="auto|rigid|flexible|decoupled", help="What the dam is taken for.")
+    ] = "auto",
     to: Annotated[
         Path | None, typer.Option(metavar="FILE", help="A .mp4, .gif or .html; CASE.animation.html here if not said.")
     ] = None,
@@ -131,13 +131,13 @@ def animate(
     from time import perf_counter
 
     from heeltoe.case.read import read_case
-    from heeltoe.models.run import MODELS, run
+    from heeltoe.models.run import AUTO, MODELS, run
     from heeltoe.units.parse import parse
     from heeltoe.views.animation.write import animate as write_animation
     from heeltoe.views.animation.write import check_options
 
-    if model not in MODELS:
-        raise InputError("unknown-model", "--model", model, models=", ".join(MODELS))
+    if model not in (AUTO, *MODELS):
+        raise InputError("unknown-model", "--model", model, models=", ".join((AUTO, *MODELS)))
     place = to or Path(f"{Path(case).stem}.animation.html")
     many = None if exaggerate == "auto" else parse(exaggerate, "number", "--exaggerate")
     start = parse(from_, "duration", "--from")
@@ -151,7 +151,7 @@ def animate(
     loaded = read_case(case, changes)
     with status() as say:
         began = perf_counter()
-        say(f"running the {model} model")
+        say("running")
         response = run(loaded, model)
         analysed = perf_counter()
         if response.histories:

@@ -30,7 +30,6 @@ from heeltoe.units.systems import unit_system
 if TYPE_CHECKING:
     from heeltoe.case.model import Case
     from heeltoe.result.response import Response
-    from heeltoe.study.comparison import Comparison
     from heeltoe.study.grid import Grid
 
 
@@ -51,8 +50,12 @@ class Run(TyperCommand):
 def run(
     case: CasePath,
     model: Annotated[
-        str, typer.Option(metavar="rigid|decoupled|flexible|both", help="What the dam is taken for.")
-    ] = "rigid",
+        str,
+        typer.Option(
+            metavar="auto|rigid|decoupled|flexible|both",
+            help="What the dam is taken for; auto: elastic with a block beside it where the case gives a modulus.",
+        ),
+    ] = "auto",
     motion: Annotated[str | None, typer.Option(metavar="FILE-or-NAME", help="Another ground motion.")] = None,
     pga: Annotated[str | None, typer.Option(metavar="0.4g", help="Scale the motion to this peak.")] = None,
     reverse: Annotated[bool, typer.Option("--reverse", help="Turn the motion round.")] = False,
@@ -116,7 +119,7 @@ class _Asked:
 
     def check(self) -> None:
         """Refuse what cannot be, or does not go together, before anything is read."""
-        from heeltoe.study.analysis import BOTH, check_model
+        from heeltoe.models.run import check_model
 
         check_model(self.model, "--model")
         unit_system(self.units, "--units")
@@ -136,8 +139,6 @@ class _Asked:
             ):
                 if given:
                     raise InputError("vary-option", option)
-            if self.model in BOTH:
-                raise InputError("vary-option", "--model", self.model)
 
     def runs(self) -> int | Literal["cheap"] | None:
         """Return how many runs with the shaking varied are asked for; a report has what costs little without asking."""
@@ -168,7 +169,7 @@ def _run(path: str, changes: list[str], reverse: bool, output_step: str | None, 
         check_directory(place)
     check_json(asked.json)
     with status() as say:
-        result: Response | Comparison | Grid
+        result: Response | Grid
         if asked.vary:
             result = _table(path, changes, asked, step, say)
         else:
@@ -196,9 +197,7 @@ def _table(path: str, changes: list[str], asked: _Asked, step: float | None, say
     return run_grid(path, changes, parse_variations(asked.vary or []), run_one, progress=progress)
 
 
-def _write(
-    result: Response | Comparison | Grid, case: Case, asked: _Asked, place: Path, say: Callable[[str], None]
-) -> list[Path]:
+def _write(result: Response | Grid, case: Case, asked: _Asked, place: Path, say: Callable[[str], None]) -> list[Path]:
     """Write files and report; what asks for a report alone has its figures in it."""
     from heeltoe.study.grid import Grid
     from heeltoe.views.files.write import figures_of, write_all

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from time import perf_counter
 from typing import TYPE_CHECKING, TypeVar
 
 from heeltoe.case.model import Case
@@ -14,7 +15,7 @@ from heeltoe.models.statics.standing import standing_warnings
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.limits import check_limits
-from heeltoe.result.response import Response
+from heeltoe.result.response import Chosen, Response
 from heeltoe.warnings import Notice
 
 # Not at run time: what another model needs is not loaded.
@@ -24,23 +25,32 @@ if TYPE_CHECKING:
 
 R = TypeVar("R", bound=Response)
 
+#: Names of two models side by side, and what the block of the two is.
+BOTH = {"both": "rigid", "rigid,flexible": "rigid", "decoupled,flexible": "decoupled"}
+#: What fits the case.
+AUTO = "auto"
+_ASKED_FOR = "it was asked for"
+_BESIDE = "it stands beside the flexible model, which is the better one"
+
 
 def run(
     case: Case,
-    model: str = "rigid",
+    model: str = AUTO,
     motion: GroundMotion | None = None,
     vertical: GroundMotion | None = None,
     *,
     output_step: float | None = None,
 ) -> Response:
-    """Run a model on a case.
+    """Run a model on a case, or two of them.
 
     Parameters
     ----------
     case
         Dam, crack, water and earthquake.
     model
-        ``"rigid"``, ``"decoupled"`` or ``"flexible"``.
+        ``"rigid"``, ``"decoupled"`` or ``"flexible"``; ``"both"`` or ``"decoupled,flexible"`` for the flexible model
+        with a block beside it; ``"auto"`` for what the case has the data for: with a modulus the flexible model with
+        the rigid one beside it, or with the decoupled chain where the crack is at a height; without, the rigid model.
     motion, vertical
         Ground motions to use, as they are, instead of the case's [m/s2, downstream and upward].
     output_step
@@ -50,17 +60,55 @@ def run(
     Returns
     -------
     Response
-        Of the class of the model; with all that case, motion and model warn of, what the usual loads do to the crack,
-        and the limits of the case.
+        Of the class of the model, of the better one of two; with all that case, motion and model warn of, what the
+        usual loads do to the crack, and the limits of the case. `beside` holds that of the simpler model.
 
     Raises
     ------
     InputError
         Where there is no such model or no motion, or something in them or in the case cannot be used.
     """
-    if model not in MODELS:
-        raise InputError("unknown-model", "model", model, models=", ".join(MODELS))
-    return _completed(MODELS[model](case, earthquake(case, motion, vertical), output_step), case)
+    check_model(model, "model")
+    shaking = earthquake(case, motion, vertical)
+    names, why = _chosen(case, model)
+    *block, better = (_timed(name, case, shaking, output_step) for name in names)
+    found = replace(_completed(better, case), chosen=Chosen(model, why))
+    if not block:
+        return found
+    # The better model is judged.
+    simpler = replace(_completed(block[0], case), chosen=Chosen(model, _BESIDE), limits=())
+    return replace(found, beside=simpler)
+
+
+def check_model(name: str, field: str) -> None:
+    """Refuse a name of no model.
+
+    Raises
+    ------
+    InputError
+        Then.
+    """
+    if name not in (AUTO, *MODELS, *BOTH):
+        models = f"{AUTO}, {', '.join(MODELS)}, both or decoupled,flexible"
+        raise InputError("unknown-model", field, name, models=models)
+
+
+def _chosen(case: Case, model: str) -> tuple[tuple[str, ...], str]:
+    """Return the models to run, the better one last, and why it is that."""
+    if model in BOTH:
+        return (BOTH[model], "flexible"), "it is the better one of the two that were asked for"
+    if model != AUTO:
+        return (model,), _ASKED_FOR
+    if case.concrete.modulus is None:
+        return ("rigid",), "the case gives no concrete.modulus, without which the dam can only be a rigid block"
+    block = "decoupled" if case.crack.elevation > 0.0 else "rigid"
+    return (block, "flexible"), "the case gives concrete.modulus, so that the dam can vibrate as it does"
+
+
+def _timed(model: str, case: Case, shaking: Earthquake, output_step: float | None) -> Response:
+    began = perf_counter()
+    found = MODELS[model](case, shaking, output_step)
+    return replace(found, seconds=perf_counter() - began)
 
 
 def rigid(
@@ -76,7 +124,7 @@ def rigid(
     Parameters, result and errors are those of :func:`run`. Histories come at the record's samples where no spacing is
     given; `rotation` is that of the ground about the middle of the crack, counter-clockwise [rad/s2].
     """
-    return _completed(_rigid(case, earthquake(case, motion, vertical, rotation), output_step), case)
+    return _alone(_rigid(case, earthquake(case, motion, vertical, rotation), output_step), case)
 
 
 def decoupled(
@@ -91,7 +139,7 @@ def decoupled(
     Parameters, result and errors are those of :func:`run`. Histories come at an even part of the record's step, up to
     5 ms, where no spacing is given.
     """
-    return _completed(_decoupled(case, earthquake(case, motion, vertical), output_step), case)
+    return _alone(_decoupled(case, earthquake(case, motion, vertical), output_step), case)
 
 
 def flexible(
@@ -105,7 +153,7 @@ def flexible(
 
     Parameters, result and errors are those of :func:`run`. Histories come every 0.01 s where no spacing is given.
     """
-    return _completed(_flexible(case, earthquake(case, motion, vertical), output_step), case)
+    return _alone(_flexible(case, earthquake(case, motion, vertical), output_step), case)
 
 
 def earthquake(
@@ -130,6 +178,11 @@ def earthquake(
         motion = motion if left_out in motion.warnings else motion.with_warnings(left_out)
     end = case.motion.duration if case.motion and case.motion.duration else motion.duration
     return Earthquake(motion, vertical, end, rotation)
+
+
+def _alone(response: R, case: Case) -> R:
+    """Return a response of the model that was asked for by its name."""
+    return replace(_completed(response, case), chosen=Chosen(response.model, _ASKED_FOR))
 
 
 def _completed(response: R, case: Case) -> R:

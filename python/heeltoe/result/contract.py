@@ -1,6 +1,6 @@
 """The headline numbers of every result: what they are called, which way they count, and what is next to nothing.
 
-Terminal, report, notebook, comparison, spread and tables of runs all read them here.
+Terminal, report, notebook, models side by side, spread and tables of runs all read them here.
 """
 
 from __future__ import annotations

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass, field
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, ClassVar, Generic, Self, TypeVar, overload
+from typing import Any, ClassVar, Generic, Protocol, Self, TypeVar, overload
 
 import pyarrow as pa
 
 from heeltoe.arrays import Floats
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.result.beside import meaning, ratio
 from heeltoe.result.limits import LimitCheck
 from heeltoe.result.verdict import verdict
 from heeltoe.result.write import build_info, motion_json, write_table
@@ -20,6 +21,7 @@ from heeltoe.units.sentences import Sentence
 from heeltoe.warnings import Notice
 
 T = TypeVar("T")
+R = TypeVar("R", bound="Response")
 
 #: Outcomes of a run; only the first two come with a result to trust.
 OUTCOMES = ("ok", "overturned", "unstable", "paradox", "event limit", "cycling", "lost", "blown up")
@@ -55,6 +57,22 @@ class Energy:
     gained_j: float = 0.0
 
 
+@dataclass(frozen=True)
+class Chosen:
+    """How a model came to be the one that the numbers are from.
+
+    Attributes
+    ----------
+    asked
+        What was asked for: a model, two of them, or ``"auto"``.
+    why
+        Why it is this model.
+    """
+
+    asked: str
+    why: str
+
+
 class Of(Generic[T]):
     """A number of the summary as an attribute of its response, by the same name; none where the run never started."""
 
@@ -77,6 +95,12 @@ class Of(Generic[T]):
             said = f"a {owner.__name__} with outcome {response.outcome!r} has no {self._name!r}"
             raise AttributeError(said) from None
         return found
+
+
+class Change(Protocol):
+    """Makes a response of the same kind of one."""
+
+    def __call__(self, response: R, /) -> R: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -114,7 +138,13 @@ class Response(Shown):
     spread
         The same run with slightly weaker and stronger shaking, where that was asked for.
     limits
-        The results beside the limits that the user has set.
+        The results beside the limits that the user has set; none of a block beside a better model, which is judged.
+    chosen
+        Why it is this model.
+    beside
+        What a simpler model makes of the same case and motion, where that was run, too.
+    seconds
+        How long it took to compute [s]; building the elastic parts is part of it.
     """
 
     model: str
@@ -134,6 +164,9 @@ class Response(Shown):
     references: tuple[str, ...] = field(default=())
     spread: Mapping[str, Any] | None = None
     limits: tuple[LimitCheck, ...] = ()
+    chosen: Chosen | None = None
+    beside: Response | None = None
+    seconds: float = 0.0
 
     def __post_init__(self) -> None:
         for name in ("summary", "histories", "event_log", "static"):
@@ -167,12 +200,23 @@ class Response(Shown):
 
     @property
     def responses(self) -> tuple[Response, ...]:
-        """Itself alone; a comparison has two."""
-        return (self,)
+        """Itself, after the one beside it."""
+        return (self,) if self.beside is None else (self.beside, self)
 
-    def with_responses(self, change: Callable[[Self], Self]) -> Self:
-        """Return itself changed; a comparison changes two."""
-        return change(self)
+    def with_responses(self, change: Change) -> Self:
+        """Return itself changed, and the one beside it."""
+        return replace(change(self), beside=None if self.beside is None else change(self.beside))
+
+    def ratio(self) -> dict[str, float | None]:
+        """Return this over the one beside it for slips, rotations and openings; None where that is next to nothing.
+
+        There is none where there is nothing beside it.
+        """
+        return {} if self.beside is None else ratio(self, self.beside)
+
+    def meaning(self, units: str = "si") -> str:
+        """Say in a sentence what the difference to the one beside it means, in units ``"si"`` or ``"us"``."""
+        return "" if self.beside is None else meaning(self, self.beside, units)
 
     @property
     def ok(self) -> bool:
@@ -194,6 +238,7 @@ class Response(Shown):
             energy = asdict(self.energy)
         return {
             "model": self.model,
+            "chosen": None if self.chosen is None else asdict(self.chosen),
             "title": self.title,
             "outcome": self.outcome,
             "advice": None if self.advice is None else str(self.advice),
@@ -209,7 +254,11 @@ class Response(Shown):
             "vertical_motion": motion_json(self.vertical, self.gravity) if self.vertical else None,
             "references": list(self.references),
             "build": build_info(),
+            **({} if self.beside is None else self._side_by_side(self.beside)),
         }
+
+    def _side_by_side(self, beside: Response) -> dict[str, Any]:
+        return {"ratio": self.ratio(), "meaning": self.meaning(), "beside": beside.to_json()}
 
     def to_table(self) -> pa.Table:
         """Return the histories with the mode as a table."""

@@ -1,1 +1,1 @@
-"""Several runs of one case: grids, spreads, comparisons of models, maps of overturning."""
+"""Several runs of one case: grids, spreads, maps of overturning."""

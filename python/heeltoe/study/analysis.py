@@ -6,43 +6,21 @@ from collections.abc import Callable
 from typing import Literal, TypeVar
 
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError
-from heeltoe.models.run import MODELS, run
+from heeltoe.models.run import AUTO, run
 from heeltoe.result.response import Response
-from heeltoe.study.comparison import Comparison, compare
 
 R = TypeVar("R", bound=Response)
 Say = Callable[[str], None]
 
-#: Names of two models side by side, and what the block of the two is.
-BOTH: dict[str, Literal["rigid", "decoupled"]] = {
-    "both": "rigid",
-    "rigid,flexible": "rigid",
-    "decoupled,flexible": "decoupled",
-}
-
-
-def check_model(name: str, field: str) -> None:
-    """Refuse a name of no model.
-
-    Raises
-    ------
-    InputError
-        Then.
-    """
-    if name not in (*MODELS, *BOTH):
-        models = f"{', '.join(MODELS)}, both or decoupled,flexible"
-        raise InputError("unknown-model", field, name, models=models)
-
 
 def analyse(
     case: Case,
-    model: str = "rigid",
+    model: str = AUTO,
     *,
     output_step: float | None = None,
     spread: int | Literal["cheap"] | None = None,
     say: Say = lambda text: None,
-) -> Response | Comparison:
+) -> Response:
     """Run what is asked for.
 
     Parameters
@@ -50,7 +28,7 @@ def analyse(
     case
         Dam, crack, water and earthquake.
     model
-        ``"rigid"``, ``"decoupled"``, ``"flexible"``, ``"both"`` or ``"decoupled,flexible"``.
+        As :func:`heeltoe.run` takes it.
     output_step
         Spacing of the histories [s]; each model has its own where it is not given.
     spread
@@ -64,14 +42,8 @@ def analyse(
     InputError
         Where there is no such model, or something in the case cannot be used.
     """
-    check_model(model, "model")
-    result: Response | Comparison
-    if model in BOTH:
-        say("running both models")
-        result = compare(case, output_step=output_step, block=BOTH[model])
-    else:
-        say(f"running the {model} model")
-        result = run(case, model, output_step=output_step)
+    say("running" if model == AUTO else f"running {model}")
+    result = run(case, model, output_step=output_step)
     if spread is None:
         return result
     # Here, as only then its many runs are needed.

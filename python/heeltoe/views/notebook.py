@@ -14,7 +14,6 @@ from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.verdict import verdict
-from heeltoe.study.comparison import Comparison
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.write import digits
 from heeltoe.views.words.fields import fields
@@ -62,34 +61,25 @@ def _(motion: GroundMotion) -> str:
 
 @html.register
 def _(response: Response) -> str:
-    """Show verdict, warnings and key numbers of a response, and the slip over time."""
+    """Show verdict, warnings and key numbers of a response and of the one beside it, and the slip over time."""
     numbers = Numbers(response.to_json())
     rows = [("model", response.model), ("verdict", verdict(response))]
-    rows += [("warning", text) for text in listed([response])]
+    if response.beside is not None:
+        rows += [(f"{response.beside.model} beside it", response.meaning())]
+    rows += [("warning", text) for text in listed(response.responses)]
     for each in HEADLINES:
-        cell = numbers(each.key, sign=each.way)
-        if isinstance(cell, Value):
-            rows.append((each.full, cell.text))
+        texts = []
+        for run in reversed(response.responses):
+            cell = numbers(each.key if run is response else f"beside.{each.key}", sign=each.way)
+            if isinstance(cell, Value):
+                texts.append(cell.text if response.beside is None else f"{cell.text} ({run.model})")
+        if texts:
+            rows.append((each.full, ", ".join(texts)))
     drawing = ""
     if response.histories:
         time = response.histories["time_s"]
         drawing = line(time, response.histories["slip_m"], f"slip, + downstream, over {digits(float(time[-1]), 2)} s")
     return _page(response.title or "Untitled case", rows, drawing)
-
-
-@html.register
-def _(both: Comparison) -> str:
-    """Show verdicts of both models, what their difference means, and their key numbers."""
-    rows = [(each.model, verdict(each)) for each in both.responses]
-    rows += [("difference", both.meaning())]
-    rows += [("warning", text) for text in listed(both.responses)]
-    numbers = Numbers(both.to_json())
-    for each in HEADLINES:
-        cells = {model: numbers(f"{model}.{each.key}", sign=each.way) for model in both.seconds}
-        texts = [f"{cell.text} ({model})" for model, cell in cells.items() if isinstance(cell, Value)]
-        if texts:
-            rows.append((each.full, ", ".join(texts)))
-    return _page(both.title or "Untitled case", rows, "")
 
 
 @html.register

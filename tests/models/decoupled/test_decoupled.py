@@ -173,16 +173,14 @@ def test_a_motion_made_by_hand_is_used_as_it_is():
 @pytest.mark.usefixtures("empty_figures")
 def test_beside_the_flexible_model(koyna_both, tmp_path):
     both = koyna_both
-    assert both.rigid.model == "decoupled"
+    assert both.beside.model == "decoupled"
     data = json.loads(json_text(both.to_json()))
-    assert set(data["seconds"]) == {"decoupled", "flexible"}
-    assert data["decoupled"]["model"] == "decoupled"
-    assert "rigid" not in data
-    ratio = data["flexible"]["residual_slip_m"] / data["decoupled"]["residual_slip_m"]
+    assert (data["model"], data["beside"]["model"]) == ("flexible", "decoupled")
+    ratio = data["residual_slip_m"] / data["beside"]["residual_slip_m"]
     assert data["ratio"]["residual_slip_m"] == pytest.approx(ratio)
     assert "the top does not vibrate itself" in both.meaning()
     written = {str(path.relative_to(tmp_path)) for path in write_all(both, tmp_path)}
-    assert written >= {"comparison.png", "decoupled/crack-level.png", "decoupled/result.json", "flexible/crack.parquet"}
+    assert written >= {"comparison.png", "decoupled/crack-level.png", "decoupled/result.json", "crack.parquet"}
 
 
 @pytest.mark.parametrize(
@@ -197,10 +195,10 @@ def test_beside_the_flexible_model(koyna_both, tmp_path):
 )
 def test_what_the_difference_means(koyna_both, block, dam, words):
     one, other = (
-        replace(each, summary={**each.summary, "residual_slip_m": slip})
-        for each, slip in ((koyna_both.rigid, block), (koyna_both.flexible, dam))
+        replace(each, summary={**koyna_both.beside.summary, "residual_slip_m": slip})
+        for each, slip in ((koyna_both.beside, block), (koyna_both, dam))
     )
-    assert words in replace(koyna_both, rigid=one, flexible=other).meaning()
+    assert words in replace(other, beside=one).meaning()
 
 
 @pytest.mark.usefixtures("empty_figures")
@@ -217,7 +215,7 @@ def test_both_on_the_command_line():
     fast = [*SHORT, "flexible.convergence_check=false"]
     result = command("run", KOYNA, "--model", "decoupled,flexible", *options(fast), "--json", "-")
     assert result.returncode == 0, result.stderr
-    assert set(json.loads(result.stdout)) >= {"decoupled", "flexible", "ratio"}
+    assert json.loads(result.stdout)["beside"]["model"] == "decoupled"
     for words in ("decoupled top", "flexible dam", "flexible/decoupled", "crack level"):
         assert words in result.stderr, words
 
@@ -226,7 +224,6 @@ def test_both_on_the_command_line():
     ("arguments", "words"),
     [
         (("--model", "rigid,decoupled"), "rigid,decoupled is no model"),
-        (("--model", "both", "--vary", "crack.friction=1,2"), "--model: goes with one run"),
         (("--spread", "3", "--vary", "crack.friction=1,2"), "--spread: goes with one run"),
         (("--vary", "crack.frictoin=1,2"), "crack.frictoin"),
         (("--model", "decoupled", "--vtk", "--out", "x"), "--vtk: shows elastic parts"),
@@ -275,5 +272,5 @@ def test_the_option_of_one_run_is_refused_in_process():
     from heeltoe.cli.run import run
 
     with pytest.raises(InputError) as refused:
-        run(str(KOYNA), vary=["crack.friction=1,2"], model="both")
+        run(str(KOYNA), vary=["crack.friction=1,2"], spread="3")
     assert refused.value.code == "vary-option"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from functools import singledispatch
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,7 +11,6 @@ from matplotlib.figure import Figure
 from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.result.response import Response
-from heeltoe.study.comparison import Comparison
 from heeltoe.units.systems import unit_system
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.dense import filled_in
@@ -83,7 +81,7 @@ class Figures(Mapping[str, Figure]):
         return len(self._drawings)
 
 
-def all_figures(case: Case | None, result: Response | Comparison, units: str = "si") -> Figures:
+def all_figures(case: Case | None, result: Response, units: str = "si") -> Figures:
     """Return the figures that make sense for a result, by name, in the order in which they are shown.
 
     Parameters
@@ -91,8 +89,8 @@ def all_figures(case: Case | None, result: Response | Comparison, units: str = "
     case
         Of the result; without it there is no figure of the section.
     result
-        Of one model, or of both: then ``comparison`` comes with the figures of each under ``rigid/...`` and
-        ``flexible/...``. A run that never started has the section alone.
+        Of one model, or with another beside it: then there is ``comparison``, and the figures of the other are under
+        its name, ``rigid/...``. A run that never started has the section alone.
     units
         ``"si"`` or ``"us"``.
 
@@ -113,6 +111,13 @@ def all_figures(case: Case | None, result: Response | Comparison, units: str = "
         from heeltoe.views.figures.section import section_figure
 
         drawings["section"] = lambda: section_figure(case, units)
+    beside = result.beside
+    if beside is not None:
+        if has_pictures(result) and has_pictures(beside):
+            from heeltoe.views.figures.beside import comparison_figure
+
+            drawings["comparison"] = lambda: comparison_figure(result, beside, units)
+        drawings |= {f"{beside.model}/{name}": draw for name, draw in _drawings(beside, units).items()}
     return Figures(drawings | _drawings(result, units))
 
 
@@ -122,26 +127,8 @@ def has_pictures(response: Response) -> bool:
     return bool(h) and len(h["time_s"]) > 1 and all(np.isfinite(values).all() for values in h.values())
 
 
-@singledispatch
-def _drawings(result: object, units: str) -> dict[str, Callable[[], Figure]]:
-    """Return what draws each figure of a result."""
-    raise TypeError(f"there are no figures of a {type(result).__name__}")
-
-
-@_drawings.register
-def _(both: Comparison, units: str) -> dict[str, Callable[[], Figure]]:
-    found: dict[str, Callable[[], Figure]] = {}
-    if all(map(has_pictures, both.responses)):
-        from heeltoe.views.figures.comparison import comparison_figure
-
-        found["comparison"] = lambda: comparison_figure(both, units)
-    for each in both.responses:
-        found |= {f"{each.model}/{name}": draw for name, draw in _drawings(each, units).items()}
-    return found
-
-
-@_drawings.register
-def _(response: Response, units: str) -> dict[str, Callable[[], Figure]]:
+def _drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]:
+    """Return what draws each figure of one model."""
     if not has_pictures(response):
         return {}
     response = filled_in(response)

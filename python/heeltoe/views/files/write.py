@@ -13,7 +13,6 @@ from heeltoe.models.flexible.history import crack_table
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.result.write import json_text, write_table
-from heeltoe.study.comparison import Comparison
 from heeltoe.study.grid import Grid
 from heeltoe.study.overturning import OverturningMap
 from heeltoe.views.figures.all import NAMES, all_figures
@@ -32,7 +31,7 @@ _OWN = (
 
 
 def write_all(
-    result: Response | Comparison | Grid,
+    result: Response | Grid,
     directory: Path,
     case: Case | None = None,
     units: str = "si",
@@ -43,11 +42,11 @@ def write_all(
 ) -> list[Path]:
     """Write a result with its histories and figures.
 
-    Of one model ``result.json``, ``histories``, ``events`` (rigid) or ``crack`` (flexible) and the figures go right
-    into the directory. Of both, ``result.json`` with both and the figure ``comparison`` do, and each model's own into
-    the directories named after the models. Of a table of runs ``result.json``, ``table`` and its figures. With the case
-    there is a figure of the section, too. All is written aside first, so that a failure leaves nothing half-done; files
-    of these names from an earlier run are replaced or removed.
+    Of a response ``result.json``, ``histories``, ``events`` (rigid) or ``crack`` (flexible) and the figures go right
+    into the directory; what stands beside it goes into a directory named after its model. Of a table of runs
+    ``result.json``, ``table`` and its figures. With the case there is a figure of the section, too. All is written
+    aside first, so that a failure leaves nothing half-done; files of these names from an earlier run are replaced or
+    removed.
 
     Parameters
     ----------
@@ -107,7 +106,6 @@ def figures_of(result: object, case: Case | None, units: str) -> Mapping[str, Fi
 
 
 figures_of.register(Response, lambda result, case, units: all_figures(case, result, units))
-figures_of.register(Comparison, lambda result, case, units: all_figures(case, result, units))
 figures_of.register(Grid, lambda result, case, units: grid_figures(result, units))
 
 
@@ -120,6 +118,9 @@ def _write(result: object, directory: Path, suffix: str, vtk: bool) -> None:
 @_write.register
 def _(response: Response, directory: Path, suffix: str, vtk: bool) -> None:
     _write_json(response, directory)
+    if response.beside is not None:
+        (directory / response.beside.model).mkdir()
+        _write(response.beside, directory / response.beside.model, suffix, vtk)
     if not response.histories:
         return
     response.write_histories(directory / f"histories{suffix}")
@@ -135,19 +136,11 @@ def _(response: Response, directory: Path, suffix: str, vtk: bool) -> None:
 
 
 @_write.register
-def _(both: Comparison, directory: Path, suffix: str, vtk: bool) -> None:
-    _write_json(both, directory)
-    for each in both.responses:
-        (directory / each.model).mkdir()
-        _write(each, directory / each.model, suffix, vtk)
-
-
-@_write.register
 def _(grid: Grid, directory: Path, suffix: str, vtk: bool) -> None:
     _write_json(grid, directory)
     for each in (".csv", ".parquet"):
         write_table(grid.to_table(), directory / f"table{each}")
 
 
-def _write_json(result: Response | Comparison | Grid, directory: Path) -> None:
+def _write_json(result: Response | Grid, directory: Path) -> None:
     (directory / "result.json").write_text(json_text(result.to_json()) + "\n", encoding="utf-8")

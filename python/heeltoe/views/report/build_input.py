@@ -84,8 +84,8 @@ def input_hash(case: Case, motions: tuple[GroundMotion, GroundMotion | None]) ->
 
 
 def _command(subject: Subject) -> str:
-    models = [run.response.model for run in subject.runs]
-    model = models[0] if len(models) == 1 else "both"
+    chosen = subject.result.chosen
+    model = subject.result.model if chosen is None else chosen.asked
     spread = " --spread" if any(run.response.spread is not None for run in subject.runs) else ""
     units = "" if subject.units == "si" else f" --units {subject.units}"
     return f"heeltoe run CASE.toml --model {model}{spread}{units} --report"

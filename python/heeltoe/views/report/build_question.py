@@ -6,7 +6,6 @@ import re
 
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.verdict import advice, comes_to_rest, verdict
-from heeltoe.study.comparison import Comparison
 from heeltoe.units.write import NOTHING, digits
 from heeltoe.views.report.content import (
     Block,
@@ -26,14 +25,13 @@ from heeltoe.views.words.warnings import listed
 def question(subject: Subject) -> Section:
     """Return the first section: question, answer, warnings and key numbers."""
     answers: list[Block] = [_question(subject)]
-    for run in subject.runs:
-        label = "Answer. " if len(subject.runs) == 1 else f"{run.name.capitalize()}. "
-        if run.response.ok:
-            answers.append(paragraph(Strong(label), glued(verdict(run.response, subject.units))))
-    both = subject.result
-    if isinstance(both, Comparison) and both.ok:
-        answers.append(paragraph(Strong("Difference. "), glued(both.meaning(subject.units))))
-    if not any(run.response.limits for run in subject.runs) and any(run.response.ok for run in subject.runs):
+    result = subject.result
+    if result.ok:
+        answers.append(paragraph(Strong("Answer. "), glued(verdict(result, subject.units))))
+    if result.ok and result.beside is not None and result.beside.ok:
+        label = f"{subject.runs[0].name.capitalize()} beside it. "
+        answers.append(paragraph(Strong(label), glued(result.meaning(subject.units))))
+    if result.ok and not result.limits:
         answers.append(
             paragraph(
                 "Whether that is safe enough is not judged: the case sets no limits under ", Code("[limits]"), "."

@@ -39,24 +39,20 @@ _LOWER |= {"crack": 0.9, "pressure": 0.75}
 _LEAST_HEIGHT = 4.5
 # Flatter ones have panels side by side, with no room to spare.
 _FLAT = 0.47
-# Of two models only so many figures: those of one alone are in its own report.
-_OF_BOTH = {
-    "flexible": ("response", "energy", "spectrum", "crack", "pressure", "deformed", "mesh", "modes"),
-    "decoupled": ("crack-level",),
-}
+# Of two models only so many figures, those of the one beside after its name: those of one alone are in its own report.
+_OF_BOTH = (
+    *("section", "comparison", "response", "energy", "spectrum", "crack", "pressure", "deformed", "mesh", "modes"),
+    "decoupled/crack-level",
+)
 
 
 def drawings(figures: Mapping[str, Figure]) -> dict[str, FigureBlock]:
-    """Return the figures of a result that a report shows, by name: ``flexible/response`` where it is one of two models.
+    """Return the figures of a result that a report shows, by name: ``decoupled/crack-level`` of the one beside.
 
     They lose their headings, and some are made lower: what is to be written as a file is to be written before.
     """
-    return {name: _block(name, figures[name]) for name in figures if _wanted(name)}
-
-
-def _wanted(name: str) -> bool:
-    model, slash, own = name.partition("/")
-    return own in _OF_BOTH.get(model, ()) if slash else True
+    two = "comparison" in figures
+    return {name: _block(name, figures[name]) for name in figures if not two or name in _OF_BOTH}
 
 
 def caption(name: str) -> str:

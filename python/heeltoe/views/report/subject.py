@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 
 from heeltoe.case.model import Case
 from heeltoe.result.response import Response
-from heeltoe.study.comparison import Comparison
 from heeltoe.views.report.content import FigureBlock, Inline
 from heeltoe.views.words.numbers import Numbers
 
@@ -26,7 +25,7 @@ MODELS = {
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """One response, and where it stands in the JSON: the prefix is empty, or for example ``flexible.``."""
+    """One response, and where it stands in the JSON: the prefix is empty, or ``beside.``."""
 
     response: Response
     prefix: str
@@ -61,7 +60,7 @@ class Subject:
     """
 
     case: Case
-    result: Response | Comparison
+    result: Response
     numbers: Numbers
     figures: Mapping[str, FigureBlock]
     statics: Statics | None = None
@@ -69,9 +68,8 @@ class Subject:
 
     @cached_property
     def runs(self) -> tuple[Run, ...]:
-        """Return the one response, or both."""
-        responses = self.result.responses
-        return tuple(Run(each, f"{each.model}." if len(responses) > 1 else "") for each in responses)
+        """Return the response, after the one beside it."""
+        return tuple(Run(each, "" if each is self.result else "beside.") for each in self.result.responses)
 
     @cached_property
     def references(self) -> tuple[str, ...]:
@@ -81,8 +79,8 @@ class Subject:
 
     @property
     def first(self) -> Run:
-        """Return the run that stands for what all have in common: case, motion, static loads."""
-        return self.runs[0]
+        """Return the run that is judged, and stands for what all have in common: case, motion, static loads."""
+        return self.runs[-1]
 
     @property
     def units(self) -> str:
@@ -109,7 +107,7 @@ class Subject:
 
     def figure(self, *names: str) -> tuple[FigureBlock, ...]:
         """Return those of the named figures that are there, of every run."""
-        prefixes = [""] if len(self.runs) == 1 else ["", *(f"{run.response.model}/" for run in self.runs)]
+        prefixes = ["", *(f"{run.response.model}/" for run in self.runs[:-1])]
         keys = [f"{prefix}{name}" for prefix in prefixes for name in names]
         return tuple(self.figures[key] for key in keys if key in self.figures)
 

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
     from heeltoe.case.model import Case
     from heeltoe.models.statics.model import Statics
     from heeltoe.result.response import Response
-    from heeltoe.study.comparison import Comparison
     from heeltoe.views.report.content import Document
 
 #: What each kind of report needs that heeltoe itself does not.
@@ -40,7 +39,7 @@ def check_packages(kinds: Sequence[str] = ("pdf", "html"), field: str = "--repor
 
 def build_report(
     case: Case,
-    result: Response | Comparison,
+    result: Response,
     *,
     statics: Statics | None = None,
     units: str = "si",
@@ -67,7 +66,7 @@ def build_report(
 
 def write_report(
     case: Case,
-    result: Response | Comparison,
+    result: Response,
     directory: Path | str,
     *,
     statics: Statics | None = None,
@@ -84,7 +83,7 @@ def write_report(
     case
         What was asked.
     result
-        What came out: of one model, or of two. A run that failed makes a report that says what failed.
+        What came out: of one model, or with another beside it. A run that failed makes a report that says what failed.
     directory
         Where; it is made if it is not there.
     statics

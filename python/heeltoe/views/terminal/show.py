@@ -1,4 +1,4 @@
-"""What the terminal shows of a run, whatever it is: one response, two, or a table of many."""
+"""What the terminal shows of a run, whatever it is: a response, with one beside it or without, or a table of many."""
 
 from __future__ import annotations
 
@@ -14,16 +14,21 @@ from heeltoe.views.terminal.response import print_summary
 def show(result: object, console: Console, units: str = "si") -> None:
     """Print a result in units ``"si"`` or ``"us"``."""
     # Loaded when there is one to show: most commands end with a single response.
-    from heeltoe.study.comparison import Comparison
     from heeltoe.study.grid import Grid
-    from heeltoe.views.terminal.comparison import print_comparison
     from heeltoe.views.terminal.grid import print_grid
 
-    show.register(Comparison, print_comparison)
     show.register(Grid, print_grid)
-    if not isinstance(result, Comparison | Grid):
+    if not isinstance(result, Grid):
         raise TypeError(f"nothing shows a {type(result).__name__} on the terminal")
     show(result, console, units)
 
 
-show.register(Response, print_summary)
+@show.register
+def _(response: Response, console: Console, units: str = "si") -> None:
+    if response.beside is None:
+        print_summary(response, console, units)
+        return
+    # As above.
+    from heeltoe.views.terminal.beside import print_side_by_side
+
+    print_side_by_side(response, response.beside, console, units)

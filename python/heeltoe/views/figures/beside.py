@@ -1,10 +1,10 @@
-"""Both models side by side on the same ground motion."""
+"""Two models side by side on the same ground motion."""
 
 from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from heeltoe.study.comparison import Comparison
+from heeltoe.result.response import Response
 from heeltoe.units.systems import unit_system
 from heeltoe.views.figures.panels import draw_ground, largest, panels, shown_rotation
 from heeltoe.views.figures.style import COLOURS, heading, styled, time_axis
@@ -18,22 +18,21 @@ _PANELS = (
 
 
 @styled
-def comparison_figure(both: Comparison, units: str = "si") -> Figure:
+def comparison_figure(dam: Response, block: Response, units: str = "si") -> Figure:
     """Draw slip, rotation and openings of both models."""
     system = unit_system(units)
-    models = ((both.rigid, COLOURS["rotation"], "--"), (both.flexible, COLOURS["slip"], "-"))
+    models = ((block, COLOURS["rotation"], "--"), (dam, COLOURS["slip"], "-"))
     figure, (ground, *rest) = panels([1.0] * (1 + len(_PANELS)), 1.5)
-    flexible = both.flexible
-    peak = flexible.motion.pga / flexible.gravity
-    heading(figure, both.title or "Untitled case", f"{flexible.motion.name}, peak {peak:.3g} g")
-    draw_ground(ground, flexible)
+    peak = dam.motion.pga / dam.gravity
+    heading(figure, dam.title or "Untitled case", f"{dam.motion.name}, peak {peak:.3g} g")
+    draw_ground(ground, dam)
     for axes, (key, quantity, label) in zip(rest, _PANELS, strict=True):
         most = largest(*(response.histories[key] for response, *_ in models))
         # A rigid block that overturns leaves the axes; before that it is compared.
-        cut = shown_rotation(both.rigid)
+        cut = shown_rotation(block)
         if cut is not None and key != "slip_m":
-            limit = cut if quantity == "rotation" else cut * both.rigid.crack_width_m
-            most = max(limit, largest(both.flexible.histories[key]))
+            limit = cut if quantity == "rotation" else cut * block.crack_width_m
+            most = max(limit, largest(dam.histories[key]))
         scale = system.scale(quantity, most)
         if cut is not None and key != "slip_m":
             axes.set_ylim(-1.1 * scale(most) if quantity == "rotation" else 0.0, 1.1 * scale(most))
