@@ -75,7 +75,7 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # unit = "cm/s^2"                  # of a file that does not state it
 # time_step = "0.02 s"             # of a file with one column that does not state it
 # processing = [{{ step = "band-pass", low = "0.1 Hz", high = "25 Hz" }}, {{ step = "baseline" }}]   # before scaling
-# vertical = {{ file = "elcentro-1940-up-nga" }}   # of the same earthquake, positive up; pga, channel and so on as above
+# vertical = {{ file = "elcentro-1940-up-nga" }}   # of the same earthquake, positive up; pga, channel etc. as above
 # allow_zero = true                # accept a motion that is zero throughout
 # Or draw the motion, instead of file; the same time twice is a jump:
 # points = [["0 s", "0 g"], ["0.5 s", "0.4 g"], ["1 s", "0 g"]]
