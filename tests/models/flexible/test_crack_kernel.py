@@ -233,7 +233,7 @@ def test_energy_of_random_dams(examples):
         found = run.summary
         assert all(np.isfinite(value) for value in found.values())
         assert run.outcome in ("ok", "lost")
-        assert found["energy_residual"] <= drawn.residual_allowed()
+        assert found["energy_residual"] <= drawn.residual_allowed(run)
         assert min(found["energy_damping"], found["energy_numerical"]) >= 0.0
         if drawn.ordinary:
             assert found["energy_gained"] <= MADE * found["energy_turnover"]
