@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import partial
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -146,13 +147,26 @@ def table_7_7() -> Iterator[Row]:
 def table_7_8() -> Iterator[Row]:
     """Typical dam cracked at its base, friction 1.2, Taft at 0.4 g: slip in mm from 20 GPa to rigid."""
     motion, run = _taft(0.4), Runs()
+    stiffest = max(_TABLE_7_8)
     for modulus, both in _TABLE_7_8.items():
-        yield from _slips(
+        slips = _slips(
             f"{modulus:g} GPa",
             both,
             partial(_slip_mm, run, motion, 1.2, 100.0, modulus),
             _STIFF_DIFFER if modulus == 2000.0 else _SLIPS_DIFFER,
         )
+        yield from slips if modulus < stiffest else islice(slips, 1)
+    coarse, fine = (
+        run.slip_mm(_typical(1.2, 100.0, modulus=stiffest, elements_across=4, time_step=step), motion)
+        for step in ("0.1 ms", "0.025 ms")
+    )
+    reason = (
+        "the thesis' damping comes and goes with the first node that sticks; where the stiffness makes its mass term "
+        f"as large as here the slip depends on the step: with a quarter of this one of 0.1 ms it is {fine:.1f} mm"
+    )
+    yield sources.PROTOTYPE.row(
+        f"{stiffest:g} GPa, 0.1 ms: slip [mm]", _TABLE_7_8[stiffest][1], coarse, _PROGRAMS_DIFFER, reason
+    )
     stiff = _typical(1.2, 100.0, modulus=20000.0, damping="deformation")
     limit = 1e3 * rigid(stiff, motion).residual_slip_m
     yield Row(

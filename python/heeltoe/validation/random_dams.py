@@ -127,8 +127,8 @@ def random_dams() -> Iterator[Row]:
         made[name] = max(made[name], found["energy_gained"] / found["energy_turnover"])
         left[name] = max(left[name], -(found["energy_friction"] + found["energy_impact"]) / found["energy_turnover"])
     ledger = (
-        "1e-12 of the turnover, 1e-15 of it times the square of step times highest frequency, and rounding of the weight "
-        "times the height, times the root of the number of steps"
+        "1e-12 of the turnover, 1e-15 of it times the square of step times highest frequency, and rounding of the "
+        "weight times the height, times the root of the number of steps"
     )
     yield Row(
         "unexplained, over what rounding may leave",
