@@ -291,6 +291,11 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "record-missing": ("is required and not there", "give a file or a name, or --list"),
     "file-exists": ("is there already", "give another name, or remove it first"),
     "no-directory": ("is not there", "make it first, or give another path"),
+    "no-file": ("{value} names no file", "give the path of a file"),
+    "not-ours": (
+        "{value} is there, and no earlier run wrote it",
+        "give another directory, or move it away",
+    ),
     "not-a-directory": ("{value} is a file", "give a directory"),
     "cannot-write": ("{value} cannot be written ({reason})", "give a place where you may write"),
 }

@@ -250,14 +250,36 @@ def test_vtk_files_go_beside_the_rest(tmp_path):
     arguments = ("--model", "both", *FAST, "--out", tmp_path, "--vtk")
     folder = tmp_path / "vtk"
     folder.mkdir(parents=True)
-    (folder / "dam-9999.vtu").write_text("of an earlier run")
+    (folder / "dam-9999.vtu").write_text("mine")
     result = command("run", BASE, *arguments)
     assert result.returncode == 0, result.stderr
     assert "vtk/dam.pvd" in result.stdout
     # Not one line for each of hundreds of frames.
     assert ".vtu" not in result.stdout
     assert len(list(folder.glob("dam-*.vtu"))) > 100
-    assert not (folder / "dam-9999.vtu").exists()
+    assert (folder / "dam-9999.vtu").read_text() == "mine"
+
+
+@pytest.mark.usefixtures("no_figures")
+def test_what_an_earlier_run_left_is_removed_and_told_and_nothing_else(tmp_path):
+    (tmp_path / "events.csv").write_text("mine")
+    unstable = options(["crack.friction=0.01", "crack.inclination=10 deg"])
+    assert command("run", BLOCK, "--out", ".", cwd=tmp_path).returncode == 0
+    result = command("run", BLOCK, *unstable, "--out", ".", cwd=tmp_path)
+    removed = [line.split()[1] for line in result.stdout.splitlines() if line.startswith("  removed ")]
+    assert removed == ["events.parquet", "histories.parquet"]
+    refused = command("run", BLOCK, "--csv", "--out", ".", cwd=tmp_path)
+    assert refused.returncode == 2
+    assert refused.stderr.startswith("heeltoe: --out: events.csv is there, and no earlier run wrote it; ")
+    assert (tmp_path / "events.csv").read_text() == "mine"
+
+
+def test_where_json_cannot_go_nothing_runs(tmp_path, monkeypatch):
+    monkeypatch.setattr("heeltoe.study.analysis.analyse", None)
+    for place in (tmp_path, ""):
+        refused = command("run", BLOCK, "--json", place)
+        assert refused.returncode == 2
+        assert "names no file; give the path of a file" in refused.stderr
 
 
 def test_a_terminal_sees_what_goes_on_and_a_pipe_does_not():

@@ -174,7 +174,7 @@ def test_the_page_draws_where_the_scene_says(elastic, tmp_path):
         ("dam.html", {"window": (0.5, 0.5)}, "animation-window"),
         ("dam.html", {"window": (7.0, None)}, "animation-window"),
         ("dam.mp4", {"speed": 0.001, "frames_per_second": 120.0}, "animation-frames"),
-        ("nowhere/dam.html", {}, "cannot-write"),
+        ("nowhere/dam.html", {}, "no-directory"),
     ],
 )
 def test_what_cannot_be_made_is_refused_and_leaves_nothing(block, tmp_path, name, options, code):

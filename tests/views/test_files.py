@@ -13,6 +13,7 @@ from heeltoe import InputError, Response, flexible, overturning_map, read_case, 
 from heeltoe.result.write import json_text
 from heeltoe.study.grid import parse_variations, run_grid
 from heeltoe.views.files.write import write_all, write_overturning
+from heeltoe.whole import LISTED, files
 from shared.dams import BLOCK, FAST, HEIGHT, KOYNA, SHORT, SLENDER, example
 
 
@@ -33,6 +34,11 @@ def contents(directory):
     }
 
 
+def names(directory):
+    """Return all files below a directory but the list of them."""
+    return {str(path.relative_to(directory)) for path in directory.rglob("*") if path.is_file()} - {LISTED}
+
+
 def failing(*_, **__):
     raise OSError(28, "No space left on device")
 
@@ -40,7 +46,7 @@ def failing(*_, **__):
 def test_files_of_both(typical_written):
     directory, paths = typical_written
     written = {str(path.relative_to(directory)) for path in paths}
-    assert written == {str(path.relative_to(directory)) for path in directory.rglob("*") if path.is_file()}
+    assert written == names(directory) == set(files(directory))
     assert written >= {
         "result.json",
         "comparison.png",
@@ -67,29 +73,27 @@ def test_the_json_is_that_of_the_result(typical_written, both):
 @pytest.mark.usefixtures("empty_figures")
 def test_what_an_earlier_run_left_does_not_stay(both, typical_elastic, tmp_path):
     (tmp_path / "rigid").mkdir()
-    mine = [tmp_path / name for name in ("notes.txt", "report.pdf", "histories.csv.bak", "rigid/result.json")]
+    mine = [tmp_path / name for name in ("notes.txt", "report.pdf", "events.csv", "rigid/result.json")]
     for path in mine:
         path.write_text("mine")
     write_all(both.beside, tmp_path)
     write_all(typical_elastic, tmp_path, suffix=".csv")
-    names = {path.name for path in tmp_path.iterdir()}
-    assert not names & {"events.parquet", "histories.parquet", "accelerations.png", "accelerations.svg"}
-    assert {"histories.csv", "crack.csv", "energy.png"} <= names
+    found = names(tmp_path)
+    assert not found & {"events.parquet", "histories.parquet", "accelerations.png", "accelerations.svg"}
+    assert {"histories.csv", "crack.csv", "energy.png"} <= found
     assert [path.read_text() for path in mine] == ["mine"] * len(mine)
 
 
 def test_kinds_of_results_replace_each_other(both, typical_elastic, block, tmp_path):
-    """Whatever was written last into a directory is alone there, up to the folders of the models of a comparison."""
+    """Whatever was written last into a directory is alone there."""
     grid = run_grid(BLOCK, [], parse_variations(["crack.friction=0.2,0.3"]), rigid)
-    apart = {}
-    for name, result in (("block", block), ("both", both), ("grid", grid), ("elastic", typical_elastic)):
-        apart[name] = {path.relative_to(tmp_path / name) for path in write_all(result, tmp_path / name, figures={})}
-    for result in (both, grid, both, block, both):
-        write_all(result, tmp_path / "all", figures={})
-    found = {path.relative_to(tmp_path / "all") for path in (tmp_path / "all").rglob("*") if path.is_file()}
-    assert found == apart["both"]
-    for name in ("block", "grid", "elastic"):
-        assert {path.relative_to(tmp_path / name) for path in (tmp_path / name).rglob("*")} == apart[name]
+    results = {"block": block, "both": both, "grid": grid, "elastic": typical_elastic}
+    for name in ("block", "both", "grid", "elastic", "both", "block"):
+        alone, after = ({*write_all(results[name], tmp_path / place, figures={})} for place in (name, "all"))
+        expected = {path.relative_to(tmp_path / name) for path in alone}
+        assert {path.relative_to(tmp_path / "all") for path in after} == expected
+        assert names(tmp_path / "all") == set(map(str, expected))
+    assert not (tmp_path / "all" / "rigid").exists()
 
 
 def test_files_of_a_table_of_runs(tmp_path):
@@ -109,7 +113,7 @@ def test_a_run_that_never_started_has_no_histories(tmp_path):
 def test_tables_in_either_form(both, tmp_path):
     for suffix in (".csv", ".parquet"):
         write_all(both, tmp_path, suffix=suffix, figures={})
-        found = {str(path.relative_to(tmp_path)) for path in tmp_path.rglob("*") if path.is_file()}
+        found = names(tmp_path)
         tables = {f"rigid/histories{suffix}", f"rigid/events{suffix}", f"histories{suffix}"}
         assert found == tables | {"result.json", "rigid/result.json", f"crack{suffix}"}
     rows = len(both.histories["time_s"])
@@ -117,12 +121,12 @@ def test_tables_in_either_form(both, tmp_path):
 
 
 @pytest.mark.usefixtures("no_figures")
-@pytest.mark.parametrize("stage", ["json_text", "write_table", "save_all", "crack_table", "whole._move"])
+@pytest.mark.parametrize("stage", ["json_text", "write_table", "save_all", "crack_table", "_publish"])
 def test_a_failure_at_any_stage_leaves_what_was_there(stage, both, block, tmp_path, monkeypatch):
     write_all(block, tmp_path / "old", figures={})
     (tmp_path / "old" / "notes.txt").write_text("mine")
     before = contents(tmp_path)
-    monkeypatch.setattr(f"heeltoe.views.files.{stage if '.' in stage else f'write.{stage}'}", failing)
+    monkeypatch.setattr(f"heeltoe.{'whole' if stage == '_publish' else 'views.files.write'}.{stage}", failing)
     for place in ("old", "deep/er"):
         with pytest.raises(InputError, match=r"cannot be written \(No space left on device\)") as refused:
             write_all(both, tmp_path / place)
@@ -164,7 +168,7 @@ def test_a_map_of_overturning_goes_beside_a_run(block, tmp_path, monkeypatch):
     paths = write_overturning(found, tmp_path)
     assert [path.name for path in paths] == ["overturning.csv", "overturning.png", "overturning.svg"]
     after = contents(tmp_path)
-    assert before.items() <= after.items()
+    assert before.items() - after.items() == {(LISTED, before[LISTED])}
     assert after.keys() - before.keys() == {path.name for path in paths}
     assert len(paths[0].read_text().splitlines()) == 1 + 3 * 3
     monkeypatch.setattr("heeltoe.views.files.write.save_all", failing)
@@ -177,15 +181,13 @@ def test_a_map_of_overturning_goes_beside_a_run(block, tmp_path, monkeypatch):
 def test_vtk_files_of_an_earlier_run_go(both, tmp_path):
     folder = tmp_path / "vtk"
     folder.mkdir()
-    for name in ("dam-9999.vtu", "crack-9999.vtu", "notes.vtu"):
-        (folder / name).write_text("old")
+    (folder / "notes.vtu").write_text("mine")
     paths = write_all(both, tmp_path, vtk=True, figures={})
     # Of hundreds of files the two that list the others are named.
     assert [path.name for path in paths if path.parent == folder] == ["crack.pvd", "dam.pvd"]
-    names = {path.name for path in folder.iterdir()}
-    assert "notes.vtu" in names
-    assert not names & {"dam-9999.vtu", "crack-9999.vtu"}
-    assert len(names) > 100
+    assert len(list(folder.iterdir())) > 100
+    write_all(both, tmp_path, figures={})
+    assert [path.name for path in folder.iterdir()] == ["notes.vtu"]
 
 
 def test_without_the_package_for_vtk_nothing_is_written(both, tmp_path, monkeypatch):

@@ -147,7 +147,7 @@ def test_all_frames_of_a_short_run(history, tmp_path):
         modes=tuple(each[:1] for each in history.modes),
     )
     write_vtk_series(first, tmp_path)
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["crack-0.vtu", "crack.pvd", "dam-0.vtu", "dam.pvd"]
+    assert sorted(path.name for path in tmp_path.glob("[!.]*")) == ["crack-0.vtu", "crack.pvd", "dam-0.vtu", "dam.pvd"]
 
 
 def test_chosen_frames_come_once_and_in_order(history, tmp_path):
@@ -163,7 +163,7 @@ def test_an_earlier_series_is_replaced(history, tmp_path):
     (tmp_path / "dam-notes.txt").write_text("mine")
     write_vtk_series(history, tmp_path, frames=range(5))
     write_vtk_series(history, tmp_path, frames=[0, 9])
-    assert sorted(path.name for path in tmp_path.iterdir()) == [
+    assert sorted(path.name for path in tmp_path.glob("[!.]*")) == [
         *("crack-000.vtu", "crack-009.vtu", "crack.pvd"),
         *("dam-000.vtu", "dam-009.vtu", "dam-notes.txt", "dam.pvd"),
     ]

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import shlex
 import sys
-import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated, Any
@@ -13,7 +12,7 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 
-from heeltoe.errors import InputError
+from heeltoe.whole import check_file, write_text
 
 app = typer.Typer(
     name="heeltoe",
@@ -49,32 +48,32 @@ def as_given(motion: str) -> str:
     return str(path.resolve()) if path.is_file() else motion
 
 
-def check_directory(directory: Path) -> None:
-    """Refuse a directory that cannot be made, before anything is computed or printed."""
-    for place in (directory, *directory.absolute().parents):
-        if place.is_dir():
-            return
-        if place.exists():
-            raise InputError("not-a-directory", "--out", place)
-
-
 def check_json(json_: str | None) -> None:
     """Refuse a place that JSON cannot be written to, before anything is computed or printed."""
-    if json_ not in (None, "-") and not Path(str(json_)).absolute().parent.is_dir():
-        raise InputError("no-directory", str(Path(str(json_)).parent))
+    if json_ not in (None, "-"):
+        check_file(str(json_), "--json")
 
 
-def finish(data: dict[str, Any], json_: str | None, written: list[Path], show: Callable[[Console], None]) -> None:
-    """Write JSON where it is wanted, show the result, say what was written."""
+def finish(
+    data: dict[str, Any],
+    json_: str | None,
+    written: list[Path],
+    show: Callable[[Console], None],
+    removed: Sequence[Path] = (),
+) -> None:
+    """Write JSON where it is wanted, show the result, say what was written and what of an earlier run is gone."""
     from heeltoe.result.write import json_text
 
     text = json_text(data)
     if json_ not in (None, "-"):
-        written = [*written, replace_file(Path(str(json_)), text + "\n")]
+        written = [*written, write_text(str(json_), text + "\n", "--json")]
     console = Console(stderr=json_ == "-", highlight=False)
     show(console)
-    for path in written:
-        console.print(f"  wrote {path}", soft_wrap=True, markup=False)
+    for done, paths in (("wrote", written), ("removed", removed)):
+        for path in paths:
+            # There are as many of these as frames; what lists them is told.
+            if path.suffix != ".vtu":
+                console.print(f"  {done} {path}", soft_wrap=True, markup=False)
     if json_ == "-":
         print(text)
 
@@ -91,13 +90,3 @@ def status() -> Iterator[Callable[[str], None]]:
     with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
         task = bar.add_task("reading")
         yield lambda text: bar.update(task, description=text)
-
-
-def replace_file(path: Path, text: str) -> Path:
-    """Write a file whole or not at all."""
-    try:
-        with tempfile.NamedTemporaryFile("w", dir=path.parent, delete=False, encoding="utf-8") as file:
-            file.write(text)
-        return Path(file.name).replace(path)
-    except OSError as error:
-        raise InputError("cannot-write", "file", path, reason=error.strerror or error) from None

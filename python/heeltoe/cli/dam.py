@@ -16,13 +16,13 @@ from heeltoe.cli.common import (
     JsonPath,
     UnitsName,
     as_given,
-    check_directory,
     check_json,
     finish,
     status,
 )
 from heeltoe.errors import InputError
 from heeltoe.units.systems import unit_system
+from heeltoe.whole import check_directory, check_file
 
 if TYPE_CHECKING:
     pass
@@ -58,11 +58,11 @@ def overturning(
     """Draw which pulses overturn the block: a map over their frequency and amplitude, with the safe gap."""
     from heeltoe.case.read import read_case
     from heeltoe.study.overturning import overturning_map
-    from heeltoe.views.files.write import write_overturning
+    from heeltoe.views.files.write import OVERTURNING, write_overturning
     from heeltoe.views.terminal.dam import print_overturning
 
     loaded = read_case(case, list(set_ or []))
-    check_directory(out)
+    check_directory(out, "--out", OVERTURNING)
     check_json(json_)
     with status() as say:
         say(f"running {count * count} pulses")
@@ -143,8 +143,7 @@ def animate(
     start = parse(from_, "duration", "--from")
     end = None if until is None else parse(until, "duration", "--until")
     check_options(place, exaggerate=many, frames_per_second=fps, speed=speed)
-    if not place.absolute().parent.is_dir():
-        raise InputError("no-directory", str(place.parent))
+    check_file(place, "--to")
     changes = list(set_ or [])
     options = (("file", motion and json.dumps(as_given(motion))), ("pga", pga))
     changes += [f"motion.{name}={value}" for name, value in options if value is not None]

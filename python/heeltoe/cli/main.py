@@ -13,8 +13,9 @@ from rich.console import Console
 from heeltoe.cli import dam as dam_commands
 from heeltoe.cli import motion as motion_command
 from heeltoe.cli import run as run_command
-from heeltoe.cli.common import BAD_INPUT, app, replace_file
+from heeltoe.cli.common import BAD_INPUT, app
 from heeltoe.errors import InputError
+from heeltoe.whole import write_text
 
 _OBJECTS_BEFORE_COLLECTING = 200_000
 
@@ -71,9 +72,7 @@ def new(
     path = Path(name if name.endswith(".toml") else f"{name}.toml")
     if path.exists():
         raise InputError("file-exists", str(path))
-    if not path.parent.is_dir():
-        raise InputError("no-directory", str(path.parent))
-    replace_file(path, new_case_text(path.stem))
+    write_text(path, new_case_text(path.stem))
     print(f"wrote {path}; run it with: heeltoe run {path}")
 
 

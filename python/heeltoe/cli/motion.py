@@ -49,10 +49,7 @@ def motion(
         place = figure or Path(f"{_file_name(motions[0].name)}.motion.png")
         if place.suffix.lower() not in (".png", ".svg", ".pdf"):
             raise InputError("figure-format", "--figure", place)
-        try:
-            written = write_motion_figure(motions[0], STANDARD_GRAVITY, place, units)
-        except OSError as error:
-            raise InputError("cannot-write", "--figure", place, reason=error.strerror or error) from None
+        written = write_motion_figure(motions[0], STANDARD_GRAVITY, place, units)
     for each in motions:
         print_motion(each, console, units)
         console.print()

@@ -18,7 +18,6 @@ from heeltoe.cli.common import (
     JsonPath,
     UnitsName,
     as_given,
-    check_directory,
     check_json,
     command_line,
     finish,
@@ -26,6 +25,7 @@ from heeltoe.cli.common import (
 )
 from heeltoe.errors import InputError
 from heeltoe.units.systems import unit_system
+from heeltoe.whole import check_directory, files
 
 if TYPE_CHECKING:
     from heeltoe.case.model import Case
@@ -117,6 +117,11 @@ class _Asked:
     vary: list[str] | None
     report: bool
 
+    @property
+    def suffix(self) -> str:
+        """Of tables."""
+        return ".csv" if self.csv else ".parquet"
+
     def check(self) -> None:
         """Refuse what cannot be, or does not go together, before anything is read."""
         from heeltoe.models.run import check_model
@@ -166,7 +171,9 @@ def _run(path: str, changes: list[str], reverse: bool, output_step: str | None, 
     step = None if output_step is None else parse(output_step, "duration", "--output-step")
     place = asked.out or (Path(f"{Path(path).stem}-report") if asked.report else None)
     if place is not None:
-        check_directory(place)
+        from heeltoe.views.files.write import names
+
+        check_directory(place, "--out", names(asked.suffix, report=asked.report))
     check_json(asked.json)
     with status() as say:
         result: Response | Grid
@@ -177,8 +184,10 @@ def _run(path: str, changes: list[str], reverse: bool, output_step: str | None, 
 
             result = analyse(case, asked.model, output_step=step, spread=runs, say=say)
         # Files first: if they cannot be written that is all there is to say.
+        earlier = [] if place is None else files(place)
         written = [] if place is None else _write(result, case, asked, place, say)
-    finish(result.to_json(), asked.json, written, lambda console: show(result, console, asked.units))
+    removed = [] if place is None else [place / name for name in earlier if not (place / name).exists()]
+    finish(result.to_json(), asked.json, written, lambda console: show(result, console, asked.units), removed)
     if not result.ok:
         raise typer.Exit(NO_RESULT)
 
@@ -200,16 +209,18 @@ def _table(path: str, changes: list[str], asked: _Asked, step: float | None, say
 def _write(result: Response | Grid, case: Case, asked: _Asked, place: Path, say: Callable[[str], None]) -> list[Path]:
     """Write files and report; what asks for a report alone has its figures in it."""
     from heeltoe.study.grid import Grid
-    from heeltoe.views.files.write import figures_of, write_all
+    from heeltoe.views.files.write import figures_of, write_run
 
     say("writing")
     figures = figures_of(result, case, asked.units)
-    suffix = ".csv" if asked.csv else ".parquet"
-    written = write_all(result, place, suffix=suffix, vtk=asked.vtk, figures=figures if asked.out else {})
-    if asked.report and not isinstance(result, Grid):
-        from heeltoe.views.report.write import build_report, write_document
+
+    def report(fresh: Path) -> None:
+        if not asked.report or isinstance(result, Grid):
+            return
+        from heeltoe.views.report.write import build_report, write_kinds
 
         say("writing the report")
-        document = build_report(case, result, units=asked.units, command=command_line(), figures=figures)
-        written += write_document(document, place)
-    return written
+        write_kinds(build_report(case, result, units=asked.units, command=command_line(), figures=figures), fresh)
+
+    shown = figures if asked.out else {}
+    return write_run(result, place, shown, suffix=asked.suffix, vtk=asked.vtk, report=report)

@@ -19,6 +19,7 @@ from heeltoe.result.write import build_info, motion_json, write_table
 from heeltoe.shown import Shown
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings import Notice
+from heeltoe.whole import written
 
 T = TypeVar("T")
 R = TypeVar("R", bound="Response")
@@ -270,8 +271,10 @@ class Response(Shown):
 
     def write_histories(self, path: Path) -> None:
         """Write the histories to `path`: CSV if it ends so, else Parquet."""
-        write_table(self.to_table(), path)
+        with written(path) as fresh:
+            write_table(self.to_table(), fresh)
 
     def write_events(self, path: Path) -> None:
         """Write the events to `path`: CSV if it ends so, else Parquet."""
-        write_table(self.events_table(), path)
+        with written(path) as fresh:
+            write_table(self.events_table(), fresh)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import numpy as np
 
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.result.response import Response
+from heeltoe.whole import written
 
 #: What an animation can be written as.
 SUFFIXES = (".mp4", ".gif", ".html")
@@ -69,17 +69,10 @@ def animate(
     check_options(place, exaggerate=exaggerate, frames_per_second=frames_per_second, speed=speed)
     if not response.histories:
         raise InputError("animation-nothing", "response", response.outcome)
-    suffix = place.suffix.lower()
     shown = _window(response, *window)
-    try:
-        with TemporaryDirectory(dir=place.parent) as aside:
-            fresh = Path(aside) / f"fresh{suffix}"
-            _write(case, response, fresh, exaggerate, frames_per_second, speed, shown)
-            return fresh.replace(place)
-    except OSError as error:
-        # ffmpeg says what it has to say in many lines.
-        reason = error.strerror or str(error).strip().split("\n")[0]
-        raise InputError("cannot-write", "animation", place, reason=reason) from None
+    with written(place, "animation") as fresh:
+        _write(case, response, fresh, exaggerate, frames_per_second, speed, shown)
+    return place
 
 
 def check_options(
@@ -133,12 +126,13 @@ def _write(
     # matplotlib and pillow only where they are needed.
     from heeltoe.views.animation.frames import build_scene
 
-    if path.suffix == ".html":
+    suffix = path.suffix.lower()
+    if suffix == ".html":
         from heeltoe.views.animation.page import write_page
 
         step = max(_PAGE_STEP, (last - first) / _MOST_PAGE_FRAMES)
         write_page(build_scene(case, response, _moments(first, last, step), exaggerate), speed, path)
-    elif path.suffix == ".gif":
+    elif suffix == ".gif":
         from heeltoe.views.animation.video import gif_delay, write_gif
 
         delay = gif_delay(frames_per_second, (last - first) / speed)

@@ -14,11 +14,13 @@ from heeltoe.units.systems import unit_system
 from heeltoe.units.write import number
 from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled
 from heeltoe.views.figures.write import save
+from heeltoe.whole import written
 
 
 def write_motion_figure(motion: GroundMotion, gravity: float, path: Path, units: str = "si") -> Path:
     """Write the figure of a motion to `path` (its ending says the format) and return the path."""
-    save(motion_figure(motion, gravity, units), path)
+    with written(path, "--figure") as fresh:
+        save(motion_figure(motion, gravity, units), fresh)
     return path
 
 

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import re
 import sys
 from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from types import ModuleType
 from typing import Any
 from xml.etree import ElementTree
@@ -20,11 +18,12 @@ from heeltoe.errors import InputError
 from heeltoe.geometry.axes import in_x_and_z, places
 from heeltoe.models.flexible.elastic import principal, stresses
 from heeltoe.models.flexible.history import CrackHistory
+from heeltoe.whole import write_whole
 
 #: Frames written where none are chosen: 10 s at 20 pictures per second.
 _FRAMES = 200
-# What an earlier series may have left in the directory.
-_OWN = re.compile(r"(dam|crack)(-\d+\.vtu|\.pvd)")
+#: Patterns of the names of all files of a series.
+OWN = ("dam.pvd", "crack.pvd", "dam-*.vtu", "crack-*.vtu")
 
 
 def write_vtk_series(history: CrackHistory, directory: Path, *, frames: Sequence[int] | None = None) -> Path:
@@ -64,27 +63,25 @@ def write_vtk_series(history: CrackHistory, directory: Path, *, frames: Sequence
     InputError
         Where the files cannot be written, or the package meshio is missing.
     """
-    meshio = _meshio(directory)
+    _meshio(directory)
+    write_whole(lambda fresh: write_frames(history, fresh, frames=frames), directory, OWN, field="directory")
+    return directory / "dam.pvd"
+
+
+def write_frames(history: CrackHistory, fresh: Path, *, frames: Sequence[int] | None = None) -> None:
+    """Write the files of :func:`write_vtk_series` into an empty directory."""
+    meshio = _meshio(fresh)
     chosen = _chosen(len(history.time), frames)
     digits = len(str(len(history.time) - 1))
     names = [f"{frame:0{digits}d}.vtu" for frame in chosen]
     dam, crack = _Dam(history), _Crack(history)
-    try:
-        directory.mkdir(parents=True, exist_ok=True)
-        # Within the directory, so that moving the files is only renaming them.
-        with TemporaryDirectory(dir=directory) as aside:
-            fresh = Path(aside)
-            for frame, name in zip(chosen, names, strict=True):
-                for series in (dam, crack):
-                    grid = meshio.Mesh(series.points, series.cells, series.point_data(frame), series.cell_data)
-                    meshio.write(fresh / f"{series.name}-{name}", grid, "vtu", binary=True, compression="zlib")
-            for series in (dam, crack):
-                files = [f"{series.name}-{name}" for name in names]
-                _write_collection(fresh / f"{series.name}.pvd", files, history.time[chosen])
-            _replace(fresh, directory)
-    except OSError as error:
-        raise InputError("cannot-write", "directory", directory, reason=error.strerror or error) from None
-    return directory / "dam.pvd"
+    for frame, name in zip(chosen, names, strict=True):
+        for series in (dam, crack):
+            grid = meshio.Mesh(series.points, series.cells, series.point_data(frame), series.cell_data)
+            meshio.write(fresh / f"{series.name}-{name}", grid, "vtu", binary=True, compression="zlib")
+    for series in (dam, crack):
+        files = [f"{series.name}-{name}" for name in names]
+        _write_collection(fresh / f"{series.name}.pvd", files, history.time[chosen])
 
 
 class _Dam:
@@ -184,14 +181,3 @@ def _write_collection(path: Path, files: list[str], times: Floats) -> None:
         ElementTree.SubElement(collection, "DataSet", timestep=repr(time), group="", part="0", file=file)
     ElementTree.indent(root)
     ElementTree.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
-
-
-def _replace(fresh: Path, directory: Path) -> None:
-    """Move the new files to their place and remove those of an earlier series."""
-    new = sorted(path.name for path in fresh.iterdir())
-    # The collections come last: what they list is there.
-    for name in sorted(new, key=lambda name: name.endswith(".pvd")):
-        (fresh / name).replace(directory / name)
-    for path in directory.iterdir():
-        if _OWN.fullmatch(path.name) and path.name not in new:
-            path.unlink()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import singledispatch
 from pathlib import Path
 
@@ -19,15 +19,26 @@ from heeltoe.views.figures.all import NAMES, all_figures
 from heeltoe.views.figures.overturning import overturning_figure
 from heeltoe.views.figures.runs import grid_figures
 from heeltoe.views.figures.write import save_all
-from heeltoe.views.files.whole import VTK, write_whole
+from heeltoe.views.files.vtk import OWN as VTK_FILES
+from heeltoe.views.files.vtk import write_frames
+from heeltoe.whole import write_whole
 
-# Names of files that a run may leave; those of an earlier one into the same directory would not belong to this one.
+#: The directory of the VTK files, one of each kind for each frame, of which only what lists them is told.
+VTK = "vtk"
+#: Files of a map of overturning.
+OVERTURNING = ("overturning.csv", "overturning.png", "overturning.svg")
 _TABLES = ("histories", "events", "crack", "table")
-_OWN = (
-    "result.json",
-    *(f"{name}{suffix}" for name in _TABLES for suffix in (".parquet", ".csv")),
-    *(f"{name}{suffix}" for name in NAMES for suffix in (".png", ".svg")),
-)
+_REPORT = ("report.pdf", "report.html")
+
+
+def names(*suffixes: str, report: bool = True) -> tuple[str, ...]:
+    """Return the names of all files that a run may leave right in its directory, with these suffixes of tables."""
+    return (
+        "result.json",
+        *(f"{name}{suffix}" for name in _TABLES for suffix in suffixes),
+        *(f"{name}{suffix}" for name in NAMES for suffix in (".png", ".svg")),
+        *(_REPORT if report else ()),
+    )
 
 
 def write_all(
@@ -45,8 +56,8 @@ def write_all(
     Of a response ``result.json``, ``histories``, ``events`` (rigid) or ``crack`` (flexible) and the figures go right
     into the directory; what stands beside it goes into a directory named after its model. Of a table of runs
     ``result.json``, ``table`` and its figures. With the case there is a figure of the section, too. All is written
-    aside first, so that a failure leaves nothing half-done; files of these names from an earlier run are replaced or
-    removed.
+    aside first, so that a failure leaves nothing half-done; what an earlier run has left there is replaced or
+    removed, and files that are not heeltoe's stay (:mod:`heeltoe.whole`).
 
     Parameters
     ----------
@@ -74,22 +85,41 @@ def write_all(
     Raises
     ------
     InputError
-        Where the directory cannot be written, the units are unknown, or what VTK files need is not installed.
+        Where the directory cannot be written or holds files of these names that are not heeltoe's, the units are
+        unknown, or what VTK files need is not installed.
     """
-
     drawn = figures_of(result, case, units) if figures is None else figures
+    return write_run(result, directory, drawn, suffix=suffix, vtk=vtk)
+
+
+def write_run(
+    result: Response | Grid,
+    directory: Path,
+    figures: Mapping[str, Figure],
+    *,
+    suffix: str = ".parquet",
+    vtk: bool = False,
+    report: Callable[[Path], object] | None = None,
+) -> list[Path]:
+    """Write a result as :func:`write_all`, with these figures and what `report` writes into a directory.
+
+    An earlier report goes where this is given, and stays where it is not.
+    """
 
     def write(fresh: Path) -> None:
         _write(result, fresh, suffix, vtk)
-        save_all(drawn, fresh)
+        save_all(figures, fresh)
+        if report:
+            report(fresh)
 
-    return write_whole(write, directory, _OWN)
+    own = (*names(".parquet", ".csv", report=report is not None), *VTK_FILES)
+    return [path for path in write_whole(write, directory, own) if path.suffix != ".vtu"]
 
 
 def write_overturning(found: OverturningMap, directory: Path) -> list[Path]:
     """Write a map as ``overturning.csv``, ``.png`` and ``.svg``, all of them or none, and return their paths.
 
-    What a run has left in the directory stays.
+    What a run has left in the directory stays, as does what is not heeltoe's.
     """
 
     def write(fresh: Path) -> None:
@@ -123,16 +153,15 @@ def _(response: Response, directory: Path, suffix: str, vtk: bool) -> None:
         _write(response.beside, directory / response.beside.model, suffix, vtk)
     if not response.histories:
         return
-    response.write_histories(directory / f"histories{suffix}")
+    write_table(response.to_table(), directory / f"histories{suffix}")
     if response.event_log:
-        response.write_events(directory / f"events{suffix}")
+        write_table(response.events_table(), directory / f"events{suffix}")
     if not isinstance(response, FlexibleResponse):
         return
     write_table(crack_table(response.crack), directory / f"crack{suffix}")
     if vtk:
-        from heeltoe.views.files.vtk import write_vtk_series
-
-        write_vtk_series(response.crack, directory / VTK)
+        (directory / VTK).mkdir()
+        write_frames(response.crack, directory / VTK)
 
 
 @_write.register

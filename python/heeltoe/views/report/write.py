@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from heeltoe.errors import InputError
-from heeltoe.views.files.whole import write_whole
+from heeltoe.whole import write_whole
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -112,13 +112,13 @@ def write_report(
 
 def write_document(document: Document, directory: Path | str, kinds: Sequence[str] = ("pdf", "html")) -> list[Path]:
     """Write what a report says as ``report.pdf`` and ``report.html``, both or none; see :func:`write_report`."""
+    return write_whole(lambda fresh: write_kinds(document, fresh, kinds), Path(directory), (), field="--report")
 
-    def write(fresh: Path) -> None:
-        for kind in kinds:
-            (fresh / f"report.{kind}").write_bytes(_rendered(document, kind))
 
-    write_whole(write, Path(directory), (), field="--report")
-    return [Path(directory) / f"report.{kind}" for kind in kinds]
+def write_kinds(document: Document, fresh: Path, kinds: Sequence[str] = ("pdf", "html")) -> None:
+    """Write the files of a report into a directory that has none."""
+    for kind in kinds:
+        (fresh / f"report.{kind}").write_bytes(_rendered(document, kind))
 
 
 def _rendered(document: Document, kind: str) -> bytes:
