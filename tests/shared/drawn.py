@@ -6,6 +6,7 @@ from itertools import combinations
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
+from matplotlib.transforms import Bbox
 
 
 def texts(figure):
@@ -42,6 +43,8 @@ def check(figure, name):
             assert box.x1 <= canvas.x1, (name, text.get_text())
             assert canvas.y0 <= box.y0, (name, text.get_text())
             assert box.y1 <= canvas.y1, (name, text.get_text())
+    if name.rpartition("/")[2] not in ("section", "deformed", "mesh", "modes"):
+        check_labels(figure, name, renderer)
     boxes = [(legend, legend.get_window_extent(renderer)) for legend in figure.legends]
     for legend, box in boxes:
         for axes in figure.axes:
@@ -51,3 +54,22 @@ def check(figure, name):
     labels = [axes.yaxis.label for axes in figure.axes if axes.get_ylabel()]
     for one, other in combinations(labels, 2):
         assert not one.get_window_extent(renderer).overlaps(other.get_window_extent(renderer)), name
+
+
+def check_labels(figure, name, renderer):
+    """No label lies on a curve, and no two labels on each other."""
+    for axes in figure.axes:
+        labels = [each for each in (*axes.texts, axes.title, axes._left_title, axes._right_title) if each.get_text()]
+        labels += [axes.get_legend()] if axes.get_legend() else []
+        boxes = [(each, each.get_window_extent(renderer)) for each in labels]
+        for (one, first), (other, second) in combinations(boxes, 2):
+            assert not first.padded(-0.5).overlaps(second), (name, str(one), str(other))
+        inside = axes.get_window_extent(renderer)
+        for each, box in boxes:
+            # What lies outside is cut off, and so no curve that could be covered.
+            seen = Bbox.intersection(box.padded(-0.5), inside)
+            if seen is None or 0.0 in (seen.width, seen.height):
+                continue
+            for curve in axes.lines:
+                path = curve.get_transform().transform_path(curve.get_path())
+                assert not path.intersects_bbox(seen, filled=False), (name, str(each), curve.get_label())

@@ -20,7 +20,7 @@ from heeltoe.views.animation.frames import build_scene
 from heeltoe.views.animation.picture import arrow_outlines
 from heeltoe.views.animation.video import gif_delay
 from shared.command import command
-from shared.dams import BLOCK
+from shared.dams import BLOCK, SHORT, example
 from shared.scenes import page_scene, unpacked
 
 PACKAGE = Path(heeltoe.__file__).parent / "views" / "animation"
@@ -79,7 +79,7 @@ def test_the_page_holds_what_the_response_says(pair, tmp_path):
     times = unpacked(scene["times"])
     assert times[0] == 0.0
     assert times[-1] == pytest.approx(0.9)
-    traces = {trace["name"]: trace for trace in scene["traces"]}
+    traces = {trace["role"]: trace for trace in scene["traces"]}
     history = unpacked(scene["historyTimes"])
     within = response.histories["time_s"] <= 0.9 + 1e-12
     assert history == pytest.approx(response.histories["time_s"][within], rel=1e-6, abs=1e-6)
@@ -253,3 +253,12 @@ def test_a_dam_that_cannot_stand_has_no_animation(tmp_path):
     assert result.returncode == 3, result.stderr
     assert "unstable" in result.stdout
     assert list(tmp_path.iterdir()) == []
+
+
+def test_what_shakes_the_block_of_a_decoupled_chain_is_shown(koyna, tmp_path):
+    scene = page_scene(animate(example("koyna", *SHORT), koyna, tmp_path / "koyna.html"))
+    assert "the motion of the crack shakes the part above" in scene["subtitle"]
+    traces = {trace["role"]: trace for trace in scene["traces"]}
+    assert (traces["ground"]["label"], traces["crack"]["label"]) == ("ground", "crack")
+    shaken = koyna.histories["crack_acceleration_m_s2"] / koyna.gravity
+    assert np.abs(unpacked(traces["crack"]["values"])).max() == pytest.approx(np.abs(shaken).max(), rel=0.02)

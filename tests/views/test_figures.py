@@ -18,8 +18,9 @@ from heeltoe.views.figures.dam import mesh_figure, modes_figure
 from heeltoe.views.figures.deformed import deformed_figure
 from heeltoe.views.figures.energy import energy_figure, friction_loss
 from heeltoe.views.figures.histories import response_figure, slip_by_kind, slip_by_mode_figure
-from heeltoe.views.figures.panels import draw_ribbon, ground_motion
+from heeltoe.views.figures.panels import draw_ribbon
 from heeltoe.views.figures.path import path_figure
+from heeltoe.views.figures.shaking import until
 from heeltoe.views.figures.spectrum import spectrum_figure
 from heeltoe.views.figures.style import without_heading
 from heeltoe.views.figures.write import save_all
@@ -221,9 +222,9 @@ def test_a_block_with_few_samples_is_drawn_as_it_moves():
 
 def test_after_the_record_the_ground_stands_still():
     response = rigid(example("block", "motion.duration=2s"))
-    time, ground = ground_motion(response)
+    time, ground = until(response.motion, response.end_time_s)
     assert (time[-1], ground[-1]) == (2.0, 0.0)
-    time, ground = ground_motion(rigid(example("block", "motion.duration=0.05s")))
+    time, ground = until(rigid(example("block", "motion.duration=0.05s")).motion, 0.05)
     assert (time[-1], ground[-1]) == (0.05, pytest.approx(0.8 * 9.80665))
 
 

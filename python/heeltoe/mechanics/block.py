@@ -9,7 +9,7 @@ point is the centroid of the concrete.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -138,15 +138,17 @@ class Block:
         """Where the resultant of the static loads meets the crack, from the heel [m]; None without a normal force."""
         return -self.static.moment / self.normal_force if self.normal_force > 0.0 else None
 
-    def critical_accelerations(self) -> CriticalAccelerations:
-        """Accelerations at which rest ends, each motion by itself.
+    def critical_accelerations(self, up: float = 0.0) -> CriticalAccelerations:
+        """Horizontal accelerations at which rest ends, each motion by itself, while the ground accelerates upward by
+        `up` [m/s2]; they are linear in it.
 
         At rest under the loads (F, N, M) along, across and about the reference point, which are linear in the ground
         acceleration, ``T = -F`` and the moments about the corners give ``B N_h = M - H F - B_t N`` and
         ``B N_t = -M + H F - B_h N``; sliding starts where ``|T| = mu N`` (Zhu 2004, 4.3.12), rocking where a normal
         force vanishes (the limits behind 4.3.14). Where an acceleration cannot do it the limit is infinite.
         """
-        along, across, moment = self.static.horizontal, self.static.vertical, self.static_moment
+        static = (self.static.horizontal, self.static.vertical, self.static_moment)
+        along, across, moment = (load + up * rate for load, rate in zip(static, self.per_vertical, strict=True))
         rates = self.per_horizontal
 
         def limit(shear: float, normal: float, turning: float, sign: float) -> float:
@@ -261,15 +263,17 @@ def across_crack(force: Resultant, section: CutSection) -> Resultant:
 
 def static_state(block: Block) -> dict[str, Any]:
     """Return the state under the static loads, by the names of the contract."""
-    critical = block.critical_accelerations()
+    critical, lifted = (asdict(block.critical_accelerations(up)) for up in (0.0, block.gravity))
+    limits = {name: value / block.gravity for name, value in critical.items()}
     return {
         "critical_acceleration_g": {
-            "sliding": critical.sliding / block.gravity,
-            "rocking": critical.rocking / block.gravity,
-            "sliding_downstream": critical.sliding_downstream / block.gravity,
-            "sliding_upstream": critical.sliding_upstream / block.gravity,
-            "rocking_downstream": critical.rocking_downstream / block.gravity,
-            "rocking_upstream": critical.rocking_upstream / block.gravity,
+            kind: min(limits[f"{kind}_{way}"] for way in ("downstream", "upstream")) for kind in ("sliding", "rocking")
+        }
+        | limits,
+        # By how much more for each g of upward acceleration; what no acceleration does, none changes.
+        "critical_acceleration_per_vertical": {
+            name: (lifted[name] - value) / block.gravity if math.isfinite(value) else 0.0
+            for name, value in critical.items()
         },
         "sliding_safety_factor": block.sliding_safety_factor,
         "resultant_from_heel_m": block.resultant_position,

@@ -28,7 +28,7 @@ class Charts:
         self.points: list[tuple[Line2D, Floats]] = []
         groups: dict[str, list[Trace]] = {}
         for trace in scene.traces:
-            groups.setdefault(trace.name.split(" at ")[0], []).append(trace)
+            groups.setdefault(trace.chart, []).append(trace)
         height = (_TOP - _BOTTOM - _RIBBON - _BETWEEN * len(groups)) / len(groups)
         y = _TOP
         for name, traces in groups.items():
@@ -44,16 +44,25 @@ class Charts:
         self.swatch = animated(figure.add_artist(swatch))
 
     def _traces(self, axes: Axes, name: str, traces: list[Trace]) -> None:
-        scene = self.scene
-        for place, trace in enumerate(traces):
-            colour = look.TRACES[trace.name]
+        scene, right = self.scene, 1.0
+        # From the right to the left.
+        for trace in reversed(traces):
+            if trace.label:
+                axes.text(
+                    right,
+                    1.03,
+                    trace.label,
+                    color=look.TRACES[trace.role],
+                    fontsize=9,
+                    ha="right",
+                    transform=axes.transAxes,
+                )
+                right -= 0.05 + 0.022 * len(trace.label)
+        for trace in traces:
+            colour = look.TRACES[trace.role]
             axes.plot(scene.history_times, trace.values, color=colour, linewidth=0.9)
             point = animated(axes.plot([], [], "o", color=colour, markersize=5)[0])
             self.points.append((point, np.interp(scene.times, scene.history_times, trace.values)))
-            if len(traces) > 1:
-                text = trace.name.rsplit(" ", 1)[1]
-                x = 1.0 - 0.12 * (len(traces) - 1 - place)
-                axes.text(x, 1.03, text, color=colour, fontsize=9, ha="right", transform=axes.transAxes)
         label = f"{name} [{traces[0].unit}]{', + downstream' if name == 'slip' else ''}"
         axes.set_title(label, fontsize=9, loc="left", pad=3)
         axes.tick_params(labelsize=8, labelbottom=False)

@@ -33,9 +33,21 @@ _NO_OPENING = 1e-5
 
 @dataclass(frozen=True, eq=False)
 class Trace:
-    """A history below the picture: name, unit, and values by the samples of the response."""
+    """A history beside the picture.
 
-    name: str
+    Attributes
+    ----------
+    role
+        "ground", "vertical", "crack" (what shakes it), "slip", "heel" or "toe".
+    chart, label
+        Name of the chart, which it may share; what tells it apart there, empty where it is alone.
+    unit, values
+        By the samples of the response.
+    """
+
+    role: str
+    chart: str
+    label: str
     unit: str
     values: Floats
 
@@ -67,7 +79,7 @@ class Scene:
     history_mode
         (h,) the mode at these.
     traces
-        Ground acceleration, slip, openings.
+        What shakes the dam, the ground first; slip, openings.
     base, water, tailwater
         z of the base, and of the surfaces of the water; None where there is none [m].
     views
@@ -216,24 +228,41 @@ def _usual(forces: Floats) -> float:
 def _subtitle(response: Response) -> str:
     peak = response.motion.pga / response.gravity
     ending = "" if response.outcome == "ok" else f"; {response.outcome}"
-    return f"{response.motion.name}, peak {peak:.3g} g; {response.model} model{ending}"
+    shaken = ", in which the motion of the crack shakes the part above" if response.model == "decoupled" else ""
+    return f"{response.motion.name}, peak {peak:.3g} g; {response.model} model{shaken}{ending}"
 
 
 def _traces(response: Response, within: NDArray[np.bool_]) -> tuple[Trace, ...]:
     histories = response.histories
 
-    def metres(*named: tuple[str, str]) -> tuple[Trace, ...]:
+    def accelerations(chart: str, *named: tuple[str, str, str]) -> tuple[Trace, ...]:
+        return tuple(
+            Trace(role, chart, label, "g", histories[key][within] / response.gravity) for role, label, key in named
+        )
+
+    def metres(chart: str, *named: tuple[str, str, str]) -> tuple[Trace, ...]:
         """Return lengths in one unit that gives them readable numbers."""
-        values = [histories[key][within] for _, key in named]
+        values = [histories[key][within] for *_, key in named]
         largest = max(float(np.abs(each).max()) for each in values)
         unit, size = ("m", 1.0) if largest >= 1.0 else ("mm", 1e-3)
-        return tuple(Trace(name, unit, each / size) for (name, _), each in zip(named, values, strict=True))
+        return tuple(
+            Trace(role, chart, label, unit, each / size) for (role, label, _), each in zip(named, values, strict=True)
+        )
 
-    ground = Trace("ground acceleration", "g", histories["ground_acceleration_m_s2"][within] / response.gravity)
-    found = [ground, *metres(("slip", "slip_m"))]
+    ground = "ground_acceleration_m_s2"
+    if "crack_acceleration_m_s2" in histories:
+        found = accelerations(
+            "acceleration", ("ground", "ground", ground), ("crack", "crack", "crack_acceleration_m_s2")
+        )
+    elif f"vertical_{ground}" in histories:
+        ways = (("ground", "horizontal", ground), ("vertical", "vertical", f"vertical_{ground}"))
+        found = accelerations("ground acceleration", *ways)
+    else:
+        found = accelerations("ground acceleration", ("ground", "", ground))
+    found += metres("slip", ("slip", "", "slip_m"))
     if max(float(histories[key][within].max()) for key in ("gap_heel_m", "gap_toe_m")) > _NO_OPENING:
-        found += metres(("opening at the heel", "gap_heel_m"), ("opening at the toe", "gap_toe_m"))
-    return tuple(found)
+        found += metres("opening", ("heel", "heel", "gap_heel_m"), ("toe", "toe", "gap_toe_m"))
+    return found
 
 
 def _views(

@@ -12,11 +12,14 @@ FORCE, FORCE_CUT = "#882255", "#e08bb4"
 STATUS = ("#ffffff", "#333333", "#0072B2", "#D55E00")
 STATUS_NAMES = ("open", "sticks", "slips downstream", "slips upstream")
 MODES = {"rest": "#DDDDDD", "slide": "#56B4E9", "rock": "#E69F00", "slide-rock": "#D55E00", "drift": "#000000"}
+#: By `Trace.role`; the page has them in its style sheet.
 TRACES = {
-    "ground acceleration": "#000000",
+    "ground": "#000000",
+    "vertical": "#009E73",
+    "crack": "#0072B2",
     "slip": "#0072B2",
-    "opening at the heel": "#CC79A7",
-    "opening at the toe": "#009E73",
+    "heel": "#CC79A7",
+    "toe": "#009E73",
 }
 #: Colours that say something, which no picture may lose.
 SPEAKING = (*STATUS, *MODES.values(), *TRACES.values(), FORCE, FORCE_CUT, WATER, UPPER, LOWER, GROUND)

@@ -73,7 +73,13 @@ def page_data(scene: Scene, speed: float) -> dict[str, Any]:
         "historyTimes": packed(scene.history_times[::every], "float32"),
         "historyMode": packed(scene.history_mode[::every], "int8"),
         "traces": [
-            {"name": trace.name, "unit": trace.unit, "values": packed(trace.values[::every], "float32")}
+            {
+                "role": trace.role,
+                "chart": trace.chart,
+                "label": trace.label,
+                "unit": trace.unit,
+                "values": packed(trace.values[::every], "float32"),
+            }
             for trace in scene.traces
         ],
         "base": scene.base,

@@ -172,10 +172,7 @@
 
   // Traces with one unit that belong together share a chart.
   const groups = new Map();
-  scene.traces.forEach((trace, k) => {
-    const name = trace.name.split(" at ")[0];
-    groups.set(name, [...(groups.get(name) || []), { ...trace, colour: `trace-${k}` }]);
-  });
+  scene.traces.forEach((trace) => groups.set(trace.chart, [...(groups.get(trace.chart) || []), trace]));
   const plot = { left: 48, right: 10 };
 
   function drawCharts(moment) {
@@ -242,17 +239,20 @@
     context.textAlign = "left";
     context.fillStyle = colour("text");
     context.fillText(`${name} [${traces[0].unit}]${name === "slip" ? ", + downstream" : ""}`, plot.left, from - 7);
-    traces.forEach((trace, k) => {
-      context.strokeStyle = colour(trace.colour);
+    context.textAlign = "right";
+    let right = width - plot.right;
+    for (const trace of [...traces].reverse()) {
+      context.fillStyle = colour(`trace-${trace.role}`);
+      context.fillText(trace.label, right, from - 7);
+      right -= context.measureText(trace.label).width + 10;
+    }
+    traces.forEach((trace) => {
+      context.strokeStyle = colour(`trace-${trace.role}`);
       context.lineWidth = 1.1;
       context.beginPath();
       trace.values.forEach((value, sample) => context.lineTo(across(scene.historyTimes[sample]), up(value)));
       context.stroke();
-      context.fillStyle = colour(trace.colour);
-      if (traces.length > 1) {
-        context.textAlign = "right";
-        context.fillText(trace.name.split(" at the ")[1], width - plot.right - 40 * (traces.length - 1 - k), from - 7);
-      }
+      context.fillStyle = colour(`trace-${trace.role}`);
       context.beginPath();
       context.arc(across(state.time), up(between(trace.values, history)), 3.5, 0, 2 * Math.PI);
       context.fill();

@@ -6,8 +6,10 @@ from matplotlib.figure import Figure
 
 from heeltoe.result.response import Response
 from heeltoe.units.systems import unit_system
-from heeltoe.views.figures.panels import draw_ground, largest, panels, shown_rotation
-from heeltoe.views.figures.style import COLOURS, heading, styled, time_axis
+from heeltoe.views.figures.panels import largest, panels, shown_rotation
+from heeltoe.views.figures.shaking import draw_shaking, shaking_heights
+from heeltoe.views.figures.style import COLOURS, heading, shaken_by, styled
+from heeltoe.views.figures.time_axis import time_axis
 
 _PANELS = (
     ("slip_m", "displacement", "slip [{}]\n(+ downstream)"),
@@ -22,11 +24,12 @@ def comparison_figure(dam: Response, block: Response, units: str = "si") -> Figu
     """Draw slip, rotation and openings of both models."""
     system = unit_system(units)
     models = ((block, COLOURS["rotation"], "--"), (dam, COLOURS["slip"], "-"))
-    figure, (ground, *rest) = panels([1.0] * (1 + len(_PANELS)), 1.5)
-    peak = dam.motion.pga / dam.gravity
-    heading(figure, dam.title or "Untitled case", f"{dam.motion.name}, peak {peak:.3g} g")
-    draw_ground(ground, dam)
-    for axes, (key, quantity, label) in zip(rest, _PANELS, strict=True):
+    above = shaking_heights(dam)
+    figure, axes = panels([*above, *[1.0] * len(_PANELS)], 1.5)
+    shaking, rest = axes[: len(above)], axes[len(above) :]
+    heading(figure, dam.title or "Untitled case", shaken_by(dam))
+    draw_shaking(shaking, dam)
+    for panel, (key, quantity, label) in zip(rest, _PANELS, strict=True):
         most = largest(*(response.histories[key] for response, *_ in models))
         # A rigid block that overturns leaves the axes; before that it is compared.
         cut = shown_rotation(block)
@@ -35,9 +38,9 @@ def comparison_figure(dam: Response, block: Response, units: str = "si") -> Figu
             most = max(limit, largest(dam.histories[key]))
         scale = system.scale(quantity, most)
         if cut is not None and key != "slip_m":
-            axes.set_ylim(-1.1 * scale(most) if quantity == "rotation" else 0.0, 1.1 * scale(most))
+            panel.set_ylim(-1.1 * scale(most) if quantity == "rotation" else 0.0, 1.1 * scale(most))
         for response, colour, dash in models:
-            axes.plot(
+            panel.plot(
                 response.histories["time_s"],
                 scale(response.histories[key]),
                 color=colour,
@@ -45,8 +48,8 @@ def comparison_figure(dam: Response, block: Response, units: str = "si") -> Figu
                 linewidth=1.1,
                 label=f"{response.model} model",
             )
-        axes.set_ylabel(label.format(scale.unit))
-    time_axis(rest[-1], max(response.histories["time_s"][-1] for response, *_ in models))
+        panel.set_ylabel(label.format(scale.unit))
+    time_axis(rest[-1], dam, block)
     figure.legend(*rest[-1].get_legend_handles_labels(), loc="outside lower center", ncols=2)
-    figure.align_ylabels([ground, *rest])
+    figure.align_ylabels(axes)
     return figure

@@ -14,7 +14,8 @@ from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.views.figures.panels import draw_slip, panels
-from heeltoe.views.figures.style import describe, styled, time_axis
+from heeltoe.views.figures.style import describe, styled
+from heeltoe.views.figures.time_axis import time_axis
 
 # From light to dark in black and white: nothing, open, stick, slip one way, slip the other way.
 STATUS_COLOURS = {
@@ -38,7 +39,7 @@ def crack_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     describe(figure, response)
     draw_slip(slip, response, system)
     seen = _status_map(crack, history, system.scale("length"))
-    time_axis(crack, response.histories["time_s"][-1])
+    time_axis(crack, response)
     names = {"absent": "nothing opposite"}
     handles = [
         Patch(facecolor=STATUS_COLOURS[name], edgecolor="#888888", label=names.get(name, name), linewidth=0.5)
@@ -109,7 +110,7 @@ def pressure_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     bar = figure.colorbar(image, ax=crack, extend=beyond, pad=0.01, aspect=18)
     bar.set_label(f"contact pressure [{scale.unit}]")
     _label_crack(crack, length)
-    time_axis(crack, response.histories["time_s"][-1])
+    time_axis(crack, response)
     handle = Patch(facecolor="white", edgecolor="#999999", hatch="////", label="open: no contact pressure")
     figure.legend(handles=[handle], loc="outside lower center")
     figure.align_ylabels([slip, crack])

@@ -10,9 +10,13 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, NullFormatter
 
 from heeltoe.models.decoupled.response import DecoupledResponse
+from heeltoe.views.figures.periods import mark_periods
 from heeltoe.views.figures.style import COLOURS, heading, styled
+from heeltoe.views.figures.time_axis import time_axis
 
-_CRACK = COLOURS["rotation"]
+# The crack's motion has the colour that it has in all figures.
+_CRACK = COLOURS["slip"]
+_MARKED = 3
 
 
 @styled
@@ -34,8 +38,7 @@ def crack_level_figure(response: DecoupledResponse) -> Figure:
     ):
         axes.plot(h["time_s"], h[key] / g, color=colour, linewidth=0.6)
         axes.set_ylabel(f"{label}\nacceleration [g]")
-    histories[1].set_xlabel("time [s]")
-    histories[1].set_xlim(h["time_s"][0], h["time_s"][-1])
+    time_axis(histories[1], response)
     spectra, transfer = bottom.subplots(1, 2)
     periods = np.array(spectrum["periods_s"])
     spectra.plot(periods, spectrum["ground_g"], color=COLOURS["ground"], linewidth=1.2, label="ground")
@@ -43,30 +46,19 @@ def crack_level_figure(response: DecoupledResponse) -> Figure:
     spectra.set_ylabel(f"pseudo-acceleration [g]\n{100.0 * spectrum['damping_ratio']:g} % damping")
     transfer.plot(periods, spectrum["transfer"], color=_CRACK, linewidth=1.4, linestyle="--", label="rigid part above")
     bonded = spectrum["bonded_transfer"]
-    transfer.plot(periods, bonded, color=COLOURS["slip"], linewidth=1.2, label="all elastic, no crack")
+    transfer.plot(periods, bonded, color=COLOURS["rotation"], linewidth=1.2, label="all elastic, no crack")
     transfer.set_ylabel("crack over ground [-]")
     for axes in (spectra, transfer):
-        _mark_periods(axes, level["periods_s"])
+        _period_axis(axes)
+        mark_periods(axes, level["periods_s"][:_MARKED], "#555555")
         axes.set_ylim(0.0, None)
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.17), fontsize=8, ncols=2, handlelength=1.8)
     return figure
 
 
-def _mark_periods(axes: Axes, periods: list[float]) -> None:
+def _period_axis(axes: Axes) -> None:
     axes.set_xscale("log")
     axes.set_xlabel("period [s]")
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.xaxis.set_minor_formatter(NullFormatter())
     axes.set_xlim(0.02, 4.0)
-    for number, period in enumerate(periods[:3], 1):
-        axes.axvline(period, color=COLOURS["limit"], linewidth=0.8, linestyle=":")
-        axes.annotate(
-            f"T{number}",
-            (period, 1.0),
-            xycoords=("data", "axes fraction"),
-            xytext=(0, 2),
-            textcoords="offset points",
-            ha="center",
-            fontsize=7,
-            color="#555555",
-        )

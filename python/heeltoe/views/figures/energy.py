@@ -13,7 +13,8 @@ from heeltoe.result.response import Energy, Response
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import number
 from heeltoe.views.figures.panels import kind_of, largest
-from heeltoe.views.figures.style import WIDTH, describe, styled, time_axis
+from heeltoe.views.figures.style import WIDTH, describe, styled
+from heeltoe.views.figures.time_axis import time_axis
 
 
 @dataclass(frozen=True)
@@ -47,16 +48,18 @@ def energy_figure(response: Response, units: str = "si") -> Figure:
     assert ledger is not None
     curves = _elastic_curves(response) if "input_energy_j" in response.histories else _rigid_curves(response)
     bars = _bars(ledger)
-    scale = unit_system(units).scale("energy", largest(*(value for _, value in bars), *(v for _, v in curves)))
-    figure = Figure(figsize=(WIDTH, 3.8), layout="constrained")
-    over_time, in_the_end = figure.subplots(1, 2, sharey=True, width_ratios=[2.4, 1.4])
+    system = unit_system(units)
+    # What a falling block is given is much more than it loses on the way: each panel has its own unit.
+    scale = system.scale("energy", largest(*(values for _, values in curves)))
+    figure = Figure(figsize=(WIDTH, 3.6), layout="constrained")
+    over_time, in_the_end = figure.subplots(1, 2, width_ratios=[2.0, 1.4])
     describe(figure, response)
     time = response.histories["time_s"]
     for entry, values in curves:
         over_time.plot(time, scale(values), color=entry.colour, linestyle=entry.dash, linewidth=1.2, label=entry.label)
     over_time.set_ylabel(f"energy [{scale.unit}]")
-    time_axis(over_time, time[-1])
-    _waterfall(in_the_end, bars, scale)
+    time_axis(over_time, response)
+    _waterfall(in_the_end, bars, system.scale("energy", largest(*(value for _, value in bars))))
     figure.legend(*over_time.get_legend_handles_labels(), loc="outside lower center", ncols=len(curves))
     return figure
 
@@ -108,36 +111,31 @@ def _bars(ledger: Energy) -> list[tuple[_Entry, float]]:
 
 
 def _waterfall(axes: Axes, bars: list[tuple[_Entry, float]], scale: Scale) -> None:
-    """Draw what was put in, and each loss hanging from what is left."""
+    """Draw what was put in, and each loss beginning where what is left ends; every bar has a row with its value."""
     left = scale(bars[0][1])
     names = []
-    for place, (entry, value) in enumerate(bars):
+    for row, (entry, value) in enumerate(bars):
         drawn = scale(value)
-        bottom = 0.0 if place == 0 else left - drawn
-        axes.bar(
-            place,
+        start = 0.0 if row == 0 else left - drawn
+        axes.barh(
+            row,
             drawn,
-            bottom=bottom,
-            width=0.7,
-            facecolor=entry.colour if place == 0 else "white",
+            left=start,
+            height=0.7,
+            facecolor=entry.colour if row == 0 else "white",
             edgecolor=entry.colour,
             hatch=entry.hatch,
             linewidth=1.0,
         )
-        if place:
-            axes.plot([place - 1.35, place + 0.35], [left, left], color="#888888", linewidth=0.6)
+        if row:
+            axes.plot([left, left], [row - 1.35, row + 0.35], color="#888888", linewidth=0.6)
             left -= drawn
-        axes.annotate(
-            number(drawn, 3 if abs(drawn) > 0.1 * scale(bars[0][1]) else 2),
-            (place, max(bottom, bottom + drawn)),
-            xytext=(0, 2),
-            textcoords="offset points",
-            ha="center",
-            fontsize=7,
-        )
-        names.append(entry.label.removesuffix(" since the start"))
-    axes.axhline(0.0, color="#000000", linewidth=0.6)
-    axes.set_xticks(range(len(bars)), names, rotation=35, ha="right", rotation_mode="anchor")
+        said = number(drawn, 3 if abs(drawn) > 0.1 * scale(bars[0][1]) else 2)
+        names.append(f"{entry.label.removesuffix(' since the start')}  {said}")
+    axes.axvline(0.0, color="#000000", linewidth=0.6)
+    axes.set_yticks(range(len(bars)), names)
+    axes.tick_params(axis="y", length=0)
+    axes.invert_yaxis()
     axes.set_xlabel(f"in the end [{scale.unit}]")
-    axes.grid(visible=False, axis="x")
-    axes.margins(y=0.1)
+    axes.grid(visible=False, axis="y")
+    axes.margins(x=0.05)

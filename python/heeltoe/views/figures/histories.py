@@ -10,7 +10,6 @@ from heeltoe.result.response import Response
 from heeltoe.units.systems import unit_system
 from heeltoe.units.write import number
 from heeltoe.views.figures.panels import (
-    draw_ground,
     draw_openings,
     draw_ribbon,
     draw_rotation,
@@ -22,6 +21,7 @@ from heeltoe.views.figures.panels import (
     panels,
 )
 from heeltoe.views.figures.path import draw_pieces, piece_handles
+from heeltoe.views.figures.shaking import draw_shaking, shaking_heights
 from heeltoe.views.figures.style import (
     COLOURS,
     MODE_COLOURS,
@@ -30,8 +30,8 @@ from heeltoe.views.figures.style import (
     WIDTH,
     describe,
     styled,
-    time_axis,
 )
+from heeltoe.views.figures.time_axis import time_axis
 
 # Openings of an elastic dam's crack below a hundredth of a millimetre are not worth a panel.
 _NO_OPENING = 1e-5
@@ -42,7 +42,7 @@ _SLIP_KINDS = {"slide": "sliding", "slide-rock": "slide_rocking", "drift": "drif
 
 @styled
 def response_figure(response: Response, units: str = "si") -> Figure:
-    """Draw ground acceleration, slip, rotation, openings and the mode ribbon over time.
+    """Draw the motion that shakes the crack, slip, rotation, openings and the mode ribbon over time.
 
     Rotation and openings are left out where the block never rocks, where the crack of an elastic dam hardly opens.
     Where the slip has a spread, a band shows what it comes to with slightly weaker and stronger shaking.
@@ -51,15 +51,17 @@ def response_figure(response: Response, units: str = "si") -> Figure:
     nothing = _NO_OPENING if is_elastic(response) else 0.0
     rocks = lifts_off(response, nothing)
     rows = 0.13 * len(mode_rows(response)) + 0.05
-    figure, axes = panels([1.0, 1.0, *([1.0, 1.0] if rocks else []), rows], 1.55)
+    above = shaking_heights(response)
+    figure, axes = panels([*above, 1.0, *([1.0, 1.0] if rocks else []), rows], 1.55)
+    shaking, rest = axes[: len(above)], axes[len(above) :]
     describe(figure, response)
-    draw_ground(axes[0], response)
-    draw_slip(axes[1], response, system)
+    draw_shaking(shaking, response)
+    draw_slip(rest[0], response, system)
     if rocks:
-        draw_rotation(axes[2], response, system)
-        draw_openings(axes[3], response, system)
-    draw_ribbon(axes[-1], response)
-    time_axis(axes[-1], response.histories["time_s"][-1])
+        draw_rotation(rest[1], response, system)
+        draw_openings(rest[2], response, system)
+    draw_ribbon(rest[-1], response)
+    time_axis(rest[-1], response)
     figure.align_ylabels(axes)
     return figure
 
@@ -75,9 +77,9 @@ def acceleration_figure(response: Response, units: str = "si") -> Figure:
     force = unit_system(units)
     h = response.histories
     time, g = h["time_s"], response.gravity
-    figure, (ground, base, forces) = panels([1.0, 1.0, 1.2], 1.7)
+    figure, (*shaking, base, forces) = panels([*shaking_heights(response), 1.0, 1.2], 1.7)
     describe(figure, response)
-    draw_ground(ground, response)
+    draw_shaking(shaking, response)
     base.plot(time, h["slip_acceleration_m_s2"] / g, color=COLOURS["slip"], linewidth=0.8)
     base.set_ylabel("slip\nacceleration [g]")
     keys = {"heel": "normal_force_heel_n", "toe": "normal_force_toe_n"}
@@ -88,9 +90,9 @@ def acceleration_figure(response: Response, units: str = "si") -> Figure:
     friction = scale(h["friction_force_n"])
     forces.plot(time, friction, color="#000000", linewidth=0.7, linestyle=":", label="friction, + downstream")
     forces.set_ylabel(f"force on the part\nabove [{scale.unit}]")
-    time_axis(forces, time[-1])
+    time_axis(forces, response)
     figure.legend(*forces.get_legend_handles_labels(), loc="outside lower center", ncols=3)
-    figure.align_ylabels([ground, base, forces])
+    figure.align_ylabels([*shaking, base, forces])
     return figure
 
 
@@ -100,9 +102,9 @@ def force_figure(response: Response, units: str = "si") -> Figure:
     system = unit_system(units)
     h = response.histories
     time = h["time_s"]
-    figure, (ground, velocity, touching, forces) = panels([1.0, 1.0, 0.6, 1.3], 1.45)
+    figure, (*shaking, velocity, touching, forces) = panels([*shaking_heights(response), 1.0, 0.6, 1.3], 1.45)
     describe(figure, response)
-    draw_ground(ground, response)
+    draw_shaking(shaking, response)
     scale = system.scale("velocity")
     velocity.plot(time, scale(h["slip_velocity_m_s"]), color=COLOURS["slip"], linewidth=0.7)
     velocity.set_ylabel(f"slip velocity\n[{scale.unit}]")
@@ -117,9 +119,9 @@ def force_figure(response: Response, units: str = "si") -> Figure:
         time[1:], scale(friction), color="#000000", linewidth=0.7, linestyle="--", label="friction, + downstream"
     )
     forces.set_ylabel(f"force on the part\nabove [{scale.unit}]")
-    time_axis(forces, time[-1])
+    time_axis(forces, response)
     figure.legend(loc="outside lower center", ncols=2)
-    figure.align_ylabels([ground, velocity, touching, forces])
+    figure.align_ylabels([*shaking, velocity, touching, forces])
     return figure
 
 
@@ -151,7 +153,7 @@ def slip_by_mode_figure(response: Response, units: str = "si") -> Figure:
             time, scale(values), color=MODE_COLOURS[kind], linestyle=MODE_DASHES[kind], linewidth=1.3, label=kind
         )
     curves.set_ylabel(f"slip so far [{scale.unit}]\n(+ downstream)")
-    time_axis(curves, time[-1])
+    time_axis(curves, response)
     ends = {kind: response.slip_by_mode_m[key] for kind, key in named.items()}
     for place, (kind, value) in enumerate({**ends, "all": response.residual_slip_m}.items()):
         colour, hatch = MODE_COLOURS.get(kind, "#999999"), MODE_HATCHES.get(kind, "")

@@ -1,4 +1,4 @@
-"""Panels over time that several figures share: the ground's motion, slip, openings, the ribbon of modes."""
+"""Panels over time that several figures share: slip, rotation, openings, the ribbon of modes."""
 
 from __future__ import annotations
 
@@ -11,17 +11,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import ArrayLike
 
-from heeltoe.arrays import Floats
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Units
-from heeltoe.units.write import length, number
+from heeltoe.units.write import length
 from heeltoe.views.figures.style import COLOURS, MODE_COLOURS, WIDTH
 
 # The states of an elastic dam's crack as kinds of motion.
 _KINDS = {"sliding": "slide", "rocking": "rock", "slide-rocking": "slide-rock", "drifting": "drift"}
-# Text on top of lines stays readable.
-BEHIND_TEXT = {"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 0.6}
 # Up to which rotation a block that overturns at once is shown [rad].
 _TILTED = 0.05
 
@@ -38,56 +35,9 @@ def panels(heights: Sequence[float], height: float, *, most: float = 9.6) -> tup
     return figure, list(np.atleast_1d(axes))
 
 
-def draw_ground(axes: Axes, response: Response) -> None:
-    """Draw the acceleration that shakes the crack, with those at which a rigid block starts to move where they are
-    near; where the part below the crack amplifies it, the ground's own stands behind it."""
-    h, g = response.histories, response.gravity
-    # The motion itself, which may jump between two moments of the histories.
-    time, ground = ground_motion(response)
-    crack = h.get("crack_acceleration_m_s2")
-    if crack is None:
-        axes.plot(time, ground / g, color=COLOURS["ground"], linewidth=0.7)
-        axes.set_ylabel("ground\nacceleration [g]")
-    else:
-        axes.plot(h["time_s"], crack / g, color=COLOURS["slip"], linewidth=0.7, label="at the crack")
-        axes.plot(time, ground / g, color="#999999", linewidth=0.7, linestyle="--", label="ground", zorder=1.8)
-        axes.set_ylabel("acceleration [g]")
-        axes.legend(loc="lower left", ncols=2, fontsize=7, bbox_to_anchor=(0.0, 1.0), borderaxespad=0.0)
-    critical = response.static["critical_acceleration_g"]
-    low, high = axes.get_ylim()
-    of = "rigid block: " if is_elastic(response) else ""
-    # A ground that accelerates upstream (negative) moves the block downstream.
-    for sign, way in ((-1.0, "downstream"), (1.0, "upstream")):
-        magnitude, first = min((critical[f"{kind}_{way}"], kind) for kind in ("sliding", "rocking"))
-        limit = sign * magnitude
-        if not low <= limit <= high:
-            continue
-        axes.axhline(limit, color=COLOURS["limit"], linewidth=1.0, linestyle="--")
-        axes.annotate(
-            f"{of}{first} {way} starts at {number(limit, 2)} g",
-            (1.0, limit),
-            xycoords=("axes fraction", "data"),
-            xytext=(-2, -9 if sign < 0.0 else 3),
-            textcoords="offset points",
-            ha="right",
-            fontsize=7,
-            color="#444444",
-            bbox=BEHIND_TEXT,
-        )
-        axes.set_ylim(min(low, limit - 0.2 * (high - low)), max(high, limit + 0.2 * (high - low)))
-        low, high = axes.get_ylim()
-
-
-def ground_motion(response: Response) -> tuple[Floats, Floats]:
-    """Return moments [s] and accelerations [m/s2] of the ground up to the end of the run; after a record it stands
-    still."""
-    motion, end = response.motion, float(response.histories["time_s"][-1])
-    time, ground = motion.time, motion.acceleration
-    if time[-1] < end:
-        return np.append(time, [time[-1], end]), np.append(ground, [0.0, 0.0])
-    before = time <= end
-    last = float(np.interp(end, time, ground))
-    return np.append(time[before], end), np.append(ground[before], ground[before][-1] if end in time else last)
+def beside(axes: Axes, text: str, *, colour: str = "#000000") -> None:
+    """Write above the right end of a panel, where nothing is drawn: a label within may cover a curve."""
+    axes.set_title(text, loc="right", fontsize=8, color=colour, pad=3)
 
 
 def draw_slip(axes: Axes, response: Response, units: Units) -> None:
@@ -100,24 +50,12 @@ def draw_slip(axes: Axes, response: Response, units: Units) -> None:
     axes.set_ylabel(f"slip [{scale.unit}]\n(+ downstream)")
     if spread is not None:
         axes.axhspan(scale(ends[0]), scale(ends[1]), color=COLOURS["slip"], alpha=0.15, linewidth=0)
-    residual = scale(response.residual_slip_m)
-    low, high = axes.get_ylim()
-    if low == high or largest(h["slip_m"], ends) == 0.0:
+    if largest(h["slip_m"], ends) == 0.0:
         axes.set_ylim(-1.0, 1.0)
-        low, high = -1.0, 1.0
-    below = residual > low + 0.4 * (high - low)
-    level = residual if spread is None else (min if below else max)(residual, scale(ends[0]), scale(ends[1]))
-    text = length(response.residual_slip_m) if scale.unit == "mm" else f"{residual:.2f} {scale.unit}"
-    axes.annotate(
-        text,
-        (1.0, level),
-        xycoords=("axes fraction", "data"),
-        xytext=(-2, -12 if below else 5),
-        textcoords="offset points",
-        ha="right",
-        color=COLOURS["slip"],
-        bbox=BEHIND_TEXT,
-    )
+    residual = response.residual_slip_m
+    text = length(residual) if scale.unit == "mm" else f"{scale(residual):.2f} {scale.unit}"
+    varied = "" if spread is None else f", {scale(ends[0]):.4g} to {scale(ends[1]):.4g} with the shaking varied"
+    beside(axes, f"in the end {text}{varied}", colour=COLOURS["slip"])
 
 
 def draw_rotation(axes: Axes, response: Response, units: Units) -> None:
@@ -147,9 +85,8 @@ def draw_openings(axes: Axes, response: Response, units: Units) -> None:
         axes.plot(h["time_s"], scale(h[key]), color=COLOURS[name], linewidth=1.0, linestyle=dash, label=label)
     axes.set_ylabel(f"opening [{scale.unit}]")
     top = scale(most) * 1.05
-    # The legend has a place of its own above what it explains.
-    axes.set_ylim(min(0.0, axes.get_ylim()[0]) if cut is None else -0.05 * top, 1.3 * top)
-    axes.legend(loc="upper right", ncols=2, borderaxespad=0.1)
+    axes.set_ylim(min(0.0, axes.get_ylim()[0]) if cut is None else -0.05 * top, top or 1.0)
+    axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, fontsize=8, borderaxespad=0.0)
 
 
 def shown_rotation(response: Response) -> float | None:
@@ -167,14 +104,7 @@ def shown_rotation(response: Response) -> float | None:
 def note_overturned(axes: Axes, response: Response) -> None:
     """Say in a panel whose axis is cut that the block turns over, and when."""
     way = "downstream, about its toe" if response.histories["rotation_rad"][-1] < 0.0 else "upstream, about its heel"
-    axes.annotate(
-        f"overturns {way}, at {response.histories['time_s'][-1]:.2f} s",
-        (0.99, 0.06),
-        xycoords="axes fraction",
-        ha="right",
-        fontsize=8,
-        bbox=BEHIND_TEXT,
-    )
+    beside(axes, f"overturns {way}, at {response.histories['time_s'][-1]:.2f} s")
 
 
 def draw_ribbon(axes: Axes, response: Response) -> None:
@@ -193,14 +123,14 @@ def draw_ribbon(axes: Axes, response: Response) -> None:
 
 def mode_rows(response: Response) -> list[str]:
     """Return the kinds of motion that there are, from rest to drift."""
-    kinds = {kind for kind, start, stop in _pieces(response) if stop > start}
+    kinds = {kind for kind, start, stop in pieces(response) if stop > start}
     return [kind for kind in MODE_COLOURS if kind in kinds]
 
 
 def _spans(response: Response, kind: str) -> list[tuple[float, float]]:
     """Return start and length of the times of one kind, neighbours joined."""
     spans: list[tuple[float, float]] = []
-    for this, start, stop in _pieces(response):
+    for this, start, stop in pieces(response):
         if this != kind or stop <= start:
             continue
         if spans and spans[-1][0] + spans[-1][1] >= start - 1e-12:
@@ -210,7 +140,7 @@ def _spans(response: Response, kind: str) -> list[tuple[float, float]]:
     return spans
 
 
-def _pieces(response: Response) -> list[tuple[str, float, float]]:
+def pieces(response: Response) -> list[tuple[str, float, float]]:
     """Return kind, start and end; events give the exact changes, where there are any, else the frames."""
     if "time_s" in response.event_log:
         times = np.concatenate([[0.0], response.event_log["time_s"], [response.end_time_s]])

@@ -14,6 +14,7 @@ from heeltoe.units.write import length
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.panels import largest
 from heeltoe.views.figures.style import heading, styled
+from heeltoe.views.figures.time_axis import time_axis
 
 # Okabe and Ito's colours with dashes beside them, so that lines differ in print as well.
 _LINES = (
@@ -26,6 +27,8 @@ _LINES = (
     ("#000000", "-."),
     ("#999999", ":"),
 )
+# So many panels stand below each other, more in two columns.
+_ONE_COLUMN = 3
 
 
 def grid_figures(grid: Grid, units: str = "si") -> dict[str, Figure]:
@@ -48,13 +51,11 @@ def slips_figure(grid: Grid, units: str = "si") -> Figure:
     slips = [each.histories["slip_m"] for each in grid.responses if each.histories]
     scale = unit_system(units).scale("displacement", largest(*slips))
     panels = list(dict.fromkeys(cell[1:] for cell in grid.cells))
-    columns = min(2, len(panels))
+    columns = 1 if len(panels) <= _ONE_COLUMN else 2
     rows = math.ceil(len(panels) / columns)
     figure = Figure(figsize=(7.5, 0.9 + 2.4 * rows), layout="constrained")
     axes = np.atleast_1d(figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False)).reshape(-1)
-    motion = grid.responses[0].motion
-    shaking = f"{motion.name}, peak {motion.pga / grid.responses[0].gravity:.3g} g; {grid.model} model"
-    heading(figure, grid.title or "Untitled case", shaking)
+    heading(figure, grid.title or "Untitled case", f"{_shaken_by(grid)}; {grid.model} model")
     for place, (panel, values) in enumerate(zip(axes, panels, strict=False)):
         names = (f"{each.path} {value}" for each, value in zip(others, values, strict=True))
         panel.set_title(", ".join(names), fontsize=9, loc="left")
@@ -66,14 +67,34 @@ def slips_figure(grid: Grid, units: str = "si") -> Figure:
             h = response.histories
             time, slip = (h["time_s"], scale(h["slip_m"])) if h else ([], [])
             panel.plot(time, slip, color=colour, linestyle=dash, linewidth=1.2, label=label)
-        panel.legend(title=first.path, fontsize=8, title_fontsize=8, loc="best")
+        # Beside the curves, none of which it can cover there.
+        panel.legend(
+            title=first.path,
+            fontsize=8,
+            title_fontsize=8,
+            alignment="left",
+            loc="upper left",
+            bbox_to_anchor=(1.0, 1.0),
+            handlelength=1.6,
+        )
         if place % columns == 0:
             panel.set_ylabel(f"slip [{scale.unit}]\n(+ downstream)")
         if place + columns >= len(panels):
-            panel.set_xlabel("time [s]")
+            time_axis(panel, *(each for each in grid.responses if each.histories))
     for unused in axes[len(panels) :]:
         unused.set_visible(False)
     return figure
+
+
+def _shaken_by(grid: Grid) -> str:
+    """Say what shakes the dams, and how strongly: the runs may differ in that."""
+    names = dict.fromkeys(each.motion.name for each in grid.responses)
+    peaks = [each.motion.pga / each.gravity for each in grid.responses]
+    low, high = (f"{peak:.3g}" for peak in (min(peaks), max(peaks)))
+    peak = f"peak {low} g" if low == high else f"peaks {low} to {high} g"
+    text = f"{' or '.join(names)}, {peak}"
+    vertical = any(each.vertical is not None for each in grid.responses)
+    return f"{text}, with vertical motion" if vertical else text
 
 
 def _line(number: int) -> tuple[str, str]:

@@ -64,12 +64,15 @@ def section_figure(case: Case, units: str = "si") -> Figure:
         canvas.axes.set_xlabel(f"x, downstream [{length.unit}]")
         canvas.axes.set_ylabel(f"z, up [{length.unit}]", labelpad=2)
         canvas.axes.grid(visible=False)
+    # Before all labels, which keep off them.
+    anchored = _draw_anchors(canvases[-1], case)
     depth = draw_uplift(canvases[-1], case, system)
     _draw_dimensions(canvases[0], case, system, depth if one else 0.0)
     _draw_crack(canvases[-1], section, small=False)
     if not one:
         _draw_crack(canvases[0], section, small=True)
-    _draw_anchors(canvases[-1], case)
+    if anchored is not None:
+        canvases[-1].label("anchors" if len(case.anchors) > 1 else "anchor", anchored, "#B22222", first=(1, 1))
     draw_forces(canvases[-1], case, system)
     return figure
 
@@ -166,23 +169,24 @@ def _draw_crack(canvas: Canvas, section: CutSection, *, small: bool) -> None:
     canvas.label("centroid", section.centroid, first=(-1, 1))
 
 
-def _draw_anchors(canvas: Canvas, case: Case) -> None:
-    """Draw the anchors across the crack, up to where they leave the section."""
+def _draw_anchors(canvas: Canvas, case: Case) -> Floats | None:
+    """Draw the anchors across the crack, up to where they leave the section; return the upper end of the first [m]."""
     section, whole = case.cut, case.outline
     upper = shapely.Polygon(section.polygon)
     reach = 2.0 * max(whole.bounds[2] - whole.bounds[0], whole.bounds[3] - whole.bounds[1])
-    for place, anchor in enumerate(case.anchors):
+    ends = []
+    for anchor in case.anchors:
         along = np.array(section.from_crack_frame(anchor.distance, 0.0))
         axis = np.array(section.from_crack_frame(np.sin(anchor.inclination), np.cos(anchor.inclination)))
         start = np.array(section.heel) + along
         inside = shapely.intersection(upper, shapely.LineString([start, start + reach * axis]))
         end = max(shapely.get_coordinates(inside), key=lambda point: float((point - start) @ axis))
         deep = start - 0.22 * canvas.size * axis
-        canvas.line([deep, end], color="#B22222", linewidth=1.2, linestyle="-.", zorder=5)
+        canvas.line([deep, end], keep_off=True, color="#B22222", linewidth=1.2, linestyle="-.", zorder=5)
         canvas.line([end], color="#B22222", marker="s", markersize=4, zorder=5)
         canvas.line([deep], color="#B22222", marker="v", markersize=4, zorder=5)
-        if place == 0:
-            canvas.label("anchors" if len(case.anchors) > 1 else "anchor", end, "#B22222", first=(1, 1))
+        ends.append(end)
+    return ends[0] if ends else None
 
 
 def _draw_dimensions(canvas: Canvas, case: Case, units: Units, below: float) -> None:

@@ -5,20 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.motion.spectrum import PERIODS, response_spectrum
+from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.result.response import Response
 from heeltoe.units.systems import unit_system
 from heeltoe.units.write import number
-from heeltoe.views.figures.panels import BEHIND_TEXT
+from heeltoe.views.figures.periods import mark_periods
 from heeltoe.views.figures.style import COLOURS, WIDTH, describe, styled
+from heeltoe.views.words.starts import starts
 
 _MARKED = 4
-# Two periods nearer to each other than this ratio have no room for a text between them.
-_CLOSE = 1.25
+_PERIODS = "#006B4E"
 
 
 @styled
@@ -36,7 +35,7 @@ def spectrum_figure(response: Response, units: str = "si", periods_s: Sequence[f
         Periods to mark [s]; those of the response where not given, if it has any.
     """
     unit_system(units)
-    figure = Figure(figsize=(WIDTH, 3.8), layout="constrained")
+    figure = Figure(figsize=(WIDTH, 4.4), layout="constrained")
     axes = figure.subplots()
     describe(figure, response)
     g = response.gravity
@@ -54,57 +53,36 @@ def spectrum_figure(response: Response, units: str = "si", periods_s: Sequence[f
         axes.semilogx(
             ground.period, ground.pseudo_acceleration / g, color="#999999", linestyle="--", label="ground, 5 % damping"
         )
-    limits = response.static["critical_acceleration_g"]
-    limit, kind = min((limits[kind], kind) for kind in ("sliding", "rocking"))
-    top = axes.get_ylim()[1]
-    if 0.0 < limit < 4.0 * top:
-        axes.axhline(limit, color=COLOURS["rotation"], linestyle="-.", linewidth=1.1)
-        axes.annotate(
-            f"{kind} of a rigid block starts at {number(limit, 2)} g",
-            (0.0, limit),
-            xycoords=("axes fraction", "data"),
-            xytext=(4, 3),
-            textcoords="offset points",
-            ha="left",
-            fontsize=8,
-            color=COLOURS["rotation"],
-            bbox=BEHIND_TEXT,
+    if response.vertical is not None:
+        up = response_spectrum(response.vertical)
+        axes.semilogx(
+            up.period,
+            up.pseudo_acceleration / g,
+            color=COLOURS["toe"],
+            linestyle=":",
+            label="vertical ground motion, 5 % damping",
         )
-    periods = response.summary.get("periods_s", ()) if periods_s is None else periods_s
-    # The names of the periods stand above the curve.
-    room = 1.4 if len(periods) else 1.1
-    axes.set_ylim(0.0, room * max(top, limit if limit < 4.0 * top else 0.0))
-    _mark(axes, periods)
+    start = min(starts(response).values(), key=lambda each: each.value)
+    top = axes.get_ylim()[1]
+    if 0.0 < start.value < 4.0 * top:
+        top = max(top, 1.1 * start.value)
+        text = f"{start.kind} {start.way} of a rigid block starts at {start}"
+        text += ", without vertical motion" if response.vertical is not None else ""
+        axes.axhline(start.value, color=COLOURS["rotation"], linestyle="-.", linewidth=1.1, label=text)
+    axes.set_ylim(0.0, top)
     axes.set_xlim(ground.period[0], ground.period[-1])
+    periods = list(response.summary.get("periods_s", ()) if periods_s is None else periods_s)[:_MARKED]
+    mark_periods(axes, periods, _PERIODS)
+    if periods:
+        named = ", ".join(f"T{place} {number(period, 3)} s" for place, period in enumerate(periods, 1))
+        axes.plot([], [], color=_PERIODS, linestyle=(0, (4, 2)), linewidth=0.9, label=f"intact dam: {named}")
     axes.set_xlabel("period [s]")
     axes.set_ylabel("pseudo-acceleration [g]")
     axes.xaxis.set_major_formatter(lambda value, _: np.format_float_positional(value, trim="-"))
     axes.grid(visible=True, which="minor", axis="x", color="#F2F2F2", linewidth=0.4)
-    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=3)
+    # One below the other: what they say has numbers in it.
+    figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=1)
     return figure
-
-
-def _mark(axes: Axes, periods: Sequence[float]) -> None:
-    """Mark the longest periods, counted from the longest."""
-    left, top = PERIODS[0], axes.get_ylim()[1]
-    marked = [period for period in list(periods)[:_MARKED] if period > left]
-    for place, period in enumerate(marked, start=1):
-        # The text stands before its line, or after it where the next shorter period is close.
-        crowded = place < len(marked) and period < _CLOSE * marked[place]
-        axes.axvline(period, color=COLOURS["toe"], linewidth=1.0, linestyle=(0, (4, 2)))
-        axes.text(
-            period,
-            0.98 * top,
-            f"T{place} = {number(period, 3)} s ",
-            rotation=90,
-            ha="left" if crowded else "right",
-            va="top",
-            fontsize=7,
-            color="#006B4E",
-            bbox=BEHIND_TEXT,
-        )
-    if marked:
-        axes.plot([], [], color=COLOURS["toe"], linestyle=(0, (4, 2)), linewidth=1.0, label="periods of the intact dam")
 
 
 def _crack_motion(response: Response) -> GroundMotion | None:

@@ -12,7 +12,6 @@ from functools import wraps
 from typing import Any, ParamSpec
 
 import matplotlib as mpl
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from heeltoe.result.response import Response
@@ -44,8 +43,6 @@ MODE_HATCHES = {"rest": "", "slide": "", "rock": "...", "slide-rock": "///", "dr
 
 WIDTH = 7.5
 """Of every figure [in]: the text of a page of A4 or Letter."""
-# A run that ends this near to a round number of seconds is drawn to that.
-_NEARLY = 1.005
 # A line of a heading, in sizes of its letters: 10 points.
 _LINE = 51.0
 
@@ -90,10 +87,16 @@ def heading(figure: Figure, *lines: str) -> None:
 
 def describe(figure: Figure, response: Response) -> None:
     """Write above a figure which case, motion and model it shows."""
-    peak = response.motion.pga / response.gravity
     damping = response.summary.get("damping")
     model = f"{response.model} model" + (f", {damping} damping" if damping else "")
-    heading(figure, response.title or "Untitled case", f"{response.motion.name}, peak {peak:.3g} g; {model}")
+    heading(figure, response.title or "Untitled case", f"{shaken_by(response)}; {model}")
+
+
+def shaken_by(response: Response) -> str:
+    """Say what shakes the dam, and how strongly."""
+    text = f"{response.motion.name}, peak {response.motion.pga / response.gravity:.3g} g"
+    up = response.vertical
+    return text if up is None else f"{text}; vertical {up.name}, peak {up.pga / response.gravity:.3g} g"
 
 
 def without_heading(figure: Figure) -> Figure:
@@ -114,16 +117,3 @@ def laid_out(figure: Figure) -> Iterator[None]:
         yield
     finally:
         figure.set_layout_engine(engine)
-
-
-def time_axis(axes: Axes, end: float) -> None:
-    """Label the axis of time, from zero to the end of the run [s]."""
-    axes.set_xlabel("time [s]")
-    # The last frame of 30 s may stand at 29.99 s.
-    round_end = float(f"{end:.2g}")
-    axes.set_xlim(0.0, round_end if end < round_end < end * _NEARLY else end)
-
-
-def legend_below(axes: Axes, columns: int, offset: float) -> None:
-    """Put the legend of an axes below its label of time; `offset` is in heights of the axes."""
-    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -offset), ncols=columns)

@@ -17,6 +17,7 @@ from heeltoe.units.write import length
 from heeltoe.views.terminal.common import headline, label_grid, label_lines, print_warnings, quiet_table, sampling
 from heeltoe.views.terminal.decoupled import crack_lines
 from heeltoe.views.terminal.elastic import elastic_lines
+from heeltoe.views.words.starts import of_what, starts
 from heeltoe.views.words.warnings import listed
 
 
@@ -84,11 +85,13 @@ def _static_lines(response: Response) -> list[tuple[str, str]]:
     factor = static["sliding_safety_factor"]
     text = "no horizontal force" if factor is None else f"{factor:.3f} under static loads"
     lines = [("sliding safety factor", text)]
-    critical = static["critical_acceleration_g"]
-    of = {"flexible": " (rigid block)", "decoupled": ", of the crack's own motion"}.get(response.model, "")
+    found = starts(response)
     for kind in ("sliding", "rocking"):
-        down, up = critical[f"{kind}_downstream"], critical[f"{kind}_upstream"]
-        lines.append((f"{kind} starts at", f"{down:.4f} g downstream, {up:.4f} g upstream{of}"))
+        both = [found[kind, way] for way in ("downstream", "upstream")]
+        lines.append((f"{kind} starts at", ", ".join(f"{each} {each.way}" for each in both) + of_what(response)))
+        if both[0].varied:
+            ranges = ", ".join(f"{each.varied} {each.way}" for each in both)
+            lines.append(("  with vertical motion", ranges))
     return lines
 
 

@@ -1,0 +1,50 @@
+"""The axis of time, as long as something happens."""
+
+from __future__ import annotations
+
+import math
+
+from matplotlib.axes import Axes
+
+from heeltoe.motion.measures import husid_time
+from heeltoe.result.response import Response
+from heeltoe.views.figures.panels import pieces
+
+# Up to where the ground shakes strongly: this share of its Arias intensity has come in (as in D5-75).
+_SHAKEN = 0.75
+# What follows is left out where the axis gets shorter than this part of the run.
+_SHORTER = 0.85
+# Beyond what happens, a part of it.
+_ROOM = 0.04
+# A run that ends this near to a round number of seconds is drawn to that.
+_NEARLY = 1.005
+
+
+def time_axis(axes: Axes, *responses: Response) -> None:
+    """Label the axis of time, from zero to the end of what happens in any of these runs."""
+    end = max(float(each.histories["time_s"][-1]) for each in responses if each.histories)
+    shown = max(shown_until(each) for each in responses if each.histories)
+    # The last frame of 30 s may stand at 29.99 s.
+    round_end = float(f"{end:.2g}")
+    end = round_end if end < round_end < end * _NEARLY else end
+    if shown >= _SHORTER * end:
+        axes.set_xlabel("time [s]")
+        axes.set_xlim(0.0, end)
+        return
+    axes.set_xlabel(f"time [s]; from here to the end at {end:.4g} s the dam is at rest")
+    axes.set_xlim(0.0, shown)
+
+
+def shown_until(response: Response) -> float:
+    """Return up to when [s] a run is worth drawing: until the strong shaking is over and the dam is at rest."""
+    end = float(response.histories["time_s"][-1])
+    happens = max((stop for kind, _, stop in pieces(response) if kind != "rest"), default=0.0)
+    for motion in (response.motion, response.vertical):
+        if motion is not None and motion.pga > 0.0:
+            happens = max(happens, husid_time(motion, _SHAKEN))
+    if happens == 0.0:
+        return end
+    happens *= 1.0 + _ROOM
+    # A round number of seconds, or of tenths in a short run.
+    step = 10.0 ** math.floor(math.log10(happens)) / 10.0
+    return min(end, step * math.ceil(happens / step - 1e-9))
