@@ -192,6 +192,15 @@ impl Block {
         }
     }
 
+    /// The same block where forces may be as large as this: of a block that all but floats, the loads that are left say
+    /// little of the rounding in what moves it.
+    pub(super) fn under(&self, force: f64) -> Self {
+        Block {
+            force_scale: self.force_scale.max(force),
+            ..self.clone()
+        }
+    }
+
     /// The same block with the compliance and the free acceleration of a moment at which they are different.
     pub(super) fn at(&self, compliance: [Vector; 3], free_acceleration: [Affine; 3]) -> Self {
         Block {
@@ -204,6 +213,11 @@ impl Block {
     /// Mass that moves vertically (concrete alone).
     pub(super) fn mass(&self) -> f64 {
         self.mass_vertical
+    }
+
+    /// The ground's inertia force under these accelerations.
+    pub(super) fn inertia_force(&self, [horizontal, vertical]: [f64; 2]) -> f64 {
+        (self.mass_horizontal * horizontal).max(self.mass_vertical * vertical)
     }
 
     /// A velocity of the size of sqrt(g' B): g' the vertical force per mass, B the width.

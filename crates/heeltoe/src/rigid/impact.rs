@@ -204,7 +204,7 @@ pub(super) fn impact(block: &Block, before: &Vector, touching: [bool; 2], settle
         }
     });
     if touching == [true, true] && before[HEEL].abs() < settle && before[TOE].abs() < settle {
-        return Some(come_to_lie(block, before, settle));
+        return Some(come_to_lie(block, before, touching, settle));
     }
     let law = |share: f64| {
         with_restitution(block, before, touching, restitution, share).filter(|(after, impulse)| {
@@ -249,23 +249,29 @@ fn energy_gain(before: &Vector, after: &Vector, impulse: &Vector) -> (f64, f64) 
 }
 
 /// Rocking from corner to corner dies out as bouncing does, in infinitely many impacts, each leaving a fixed share of
-/// the velocity. Here the block is so slow that it is laid down on both corners: without friction if it slips, to
-/// rest if its slip is as slow. Either is a projection in the norm of the kinetic energy, which can only lose.
-fn come_to_lie(block: &Block, before: &Vector, settle: f64) -> Impact {
-    let energy = block.kinetic_energy(before);
-    let a = &block.compliance;
-    let mut impulse = [0.0; 3];
+/// the velocity. Here the block is so slow that its blow is the last one: what the law without restitution leaves of
+/// the velocities of the corners goes without a blow, since it would be pulled, and so does as slow a slip. Where the
+/// block slips faster it does so on both corners. Either is a projection in the norm of the kinetic energy, which can
+/// only lose.
+fn come_to_lie(block: &Block, before: &Vector, touching: [bool; 2], settle: f64) -> Impact {
+    let (struck, impulse) =
+        with_restitution(block, before, touching, [0.0; 2], 0.0).unwrap_or((*before, [0.0; 3]));
+    let mut energy_lost = -energy_gain(before, &struck, &impulse).0;
     let mut velocity = [0.0; 3];
-    if before[SLIP].abs() >= settle {
+    if struck[SLIP].abs() < settle {
+        energy_lost += block.kinetic_energy(&struck);
+    } else {
+        let a = &block.compliance;
         let det = a[HEEL][HEEL] * a[TOE][TOE] - a[HEEL][TOE] * a[TOE][HEEL];
-        impulse[HEEL] = (a[HEEL][TOE] * before[TOE] - a[TOE][TOE] * before[HEEL]) / det;
-        impulse[TOE] = (a[TOE][HEEL] * before[HEEL] - a[HEEL][HEEL] * before[TOE]) / det;
-        velocity[SLIP] = before[SLIP] + a[SLIP][HEEL] * impulse[HEEL] + a[SLIP][TOE] * impulse[TOE];
+        let heel = (a[HEEL][TOE] * struck[TOE] - a[TOE][TOE] * struck[HEEL]) / det;
+        let toe = (a[TOE][HEEL] * struck[HEEL] - a[HEEL][HEEL] * struck[TOE]) / det;
+        velocity[SLIP] = struck[SLIP] + a[SLIP][HEEL] * heel + a[SLIP][TOE] * toe;
+        energy_lost -= energy_gain(&struck, &velocity, &[0.0, heel, toe]).0;
     }
     Impact {
         velocity,
         impulse,
-        energy_lost: energy - block.kinetic_energy(&velocity),
+        energy_lost,
         energy_limited: false,
     }
 }

@@ -7,6 +7,8 @@ pub struct Shaking<'a> {
     horizontal: &'a [f64],
     vertical: Option<&'a [f64]>,
     scale: [f64; 2],
+    /// Largest accelerations without their sign, before they are scaled.
+    peaks: [f64; 2],
 }
 
 impl<'a> Shaking<'a> {
@@ -24,11 +26,13 @@ impl<'a> Shaking<'a> {
         if n < 2 || horizontal.len() != n || vertical.is_some_and(|v| v.len() != n) {
             return Err("a motion needs two samples or more, and as many accelerations as times");
         }
+        let peak = |series: &[f64]| series.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
         Ok(Shaking {
             time,
             horizontal,
             vertical,
             scale: [1.0; 2],
+            peaks: [peak(horizontal), vertical.map_or(0.0, peak)],
         })
     }
 
@@ -36,6 +40,17 @@ impl<'a> Shaking<'a> {
     #[must_use]
     pub fn scaled(self, scale: [f64; 2]) -> Self {
         Shaking { scale, ..self }
+    }
+
+    /// Largest horizontal and vertical acceleration, without their signs.
+    pub(super) fn peaks(&self) -> [f64; 2] {
+        [0, 1].map(|i| (self.peaks[i] * self.scale[i]).abs())
+    }
+
+    /// Where a straight piece ends right before the last moment, whatever jumps there.
+    pub(super) fn last(&self) -> usize {
+        let end = self.time[self.time.len() - 1];
+        self.time.iter().rposition(|t| *t < end).map_or(0, |k| k + 1)
     }
 
     #[inline]

@@ -64,7 +64,7 @@ pub(super) struct Walk<'a> {
     moments: Vec<Moment>,
     events: Vec<Event>,
     /// Events since time last moved.
-    standing: u32,
+    pub standing: u32,
 }
 
 impl<'a> Walk<'a> {
@@ -108,6 +108,11 @@ impl<'a> Walk<'a> {
         NEAR * self.block.width
     }
 
+    /// Whether a corner touches as the other one strikes: one that has just left is not put back.
+    pub(super) fn touches(&self, gap: f64, velocity: f64) -> bool {
+        gap <= 0.0 || gap <= self.near() && velocity <= self.settle
+    }
+
     /// Whether any moments are wanted.
     pub(super) fn observed(&self) -> bool {
         !self.wanted.times.is_empty()
@@ -117,10 +122,6 @@ impl<'a> Walk<'a> {
     pub(super) fn next_moment(&self, until: f64) -> Option<f64> {
         let next = self.wanted.times.get(self.moments.len()).copied();
         next.filter(|time| *time < until)
-    }
-
-    pub(super) fn last_moment(&self) -> Option<&Moment> {
-        self.moments.last()
     }
 
     pub(super) fn keep(&mut self, moment: Moment) {

@@ -12,7 +12,7 @@ impl Exact<'_> {
     /// Take over the end of a step.
     pub(super) fn move_on(&mut self, course: &Course, step: f64, time: f64) {
         let Course { force, motion, piece } = course;
-        self.record(Some(course), time + step, time);
+        self.record(course, time + step, time);
         let block = self.walk.block;
         let kind = self.walk.mode.kind();
         self.walk.summary.time_by_mode[kind] += step;
@@ -97,31 +97,21 @@ impl Exact<'_> {
         }
     }
 
-    /// Keep the block at every wanted moment before `until`; `since` is when the present piece began, and without a
-    /// course it has come to its end.
-    pub(super) fn record(&mut self, course: Option<&Course>, until: f64, since: f64) {
+    /// Keep the block at every wanted moment before `until`; `since` is when the present piece began.
+    pub(super) fn record(&mut self, course: &Course, until: f64, since: f64) {
+        let Course { force, motion, piece } = course;
         while let Some(time) = self.walk.next_moment(until) {
             let (w, v) = (&self.walk.summary.position, &self.walk.summary.velocity);
-            let t = course.map_or(0.0, |_| (time - since).max(0.0));
-            let last = self.walk.last_moment();
-            let mut moment = Moment {
+            let t = (time - since).clamp(0.0, piece.left);
+            let along = |i: usize| w[i] + t * (v[i] + t * (motion[i][0] / 2.0 + t * motion[i][1] / 6.0));
+            let [slip, heel, toe] = [SLIP, HEEL, TOE].map(along);
+            let moment = Moment {
                 mode: self.walk.mode,
-                position: *w,
-                velocity: *v,
-                acceleration: last.map_or([0.0; 3], |m| m.acceleration),
-                reaction: last.map_or([0.0; 3], |m| m.reaction),
+                position: [slip, heel.max(0.0), toe.max(0.0)],
+                velocity: [SLIP, HEEL, TOE].map(|i| v[i] + t * (motion[i][0] + t * motion[i][1] / 2.0)),
+                acceleration: motion.map(|[start, slope]| start + slope * t),
+                reaction: force.map(|q| q.at(piece.ground) + q.slope(piece.rate) * t),
             };
-            for i in 0..3 {
-                let [a0, a1] = course.map_or([0.0; 2], |c| c.motion[i]);
-                moment.position[i] = w[i] + t * (v[i] + t * (a0 / 2.0 + t * a1 / 6.0));
-                moment.velocity[i] = v[i] + t * (a0 + t * a1 / 2.0);
-                if let Some(c) = course {
-                    moment.acceleration[i] = a0 + a1 * t;
-                    moment.reaction[i] = c.force[i].at(c.piece.ground) + c.force[i].slope(c.piece.rate) * t;
-                }
-            }
-            moment.position[HEEL] = moment.position[HEEL].max(0.0);
-            moment.position[TOE] = moment.position[TOE].max(0.0);
             self.walk.keep(moment);
         }
     }

@@ -3,12 +3,13 @@
 use std::borrow::Cow;
 
 use super::super::block::{Block, Vector, HEEL, SLIP, TOE};
-use super::super::choice::select;
+use super::super::choice::{accelerations, select};
 use super::super::mode::Mode;
 use super::super::reaction::Reactions;
 use super::super::result::{Outcome, Run};
 use super::super::shaking::{Piece, Shaking};
 use super::super::walk::{Carried, Options, Walk, Wanted};
+use super::advance::Course;
 
 /// A block that is carried exactly; its state is in the summary.
 pub(super) struct Exact<'a> {
@@ -27,6 +28,7 @@ pub fn simulate(
     options: Options,
     wanted: Wanted,
 ) -> Run {
+    let block = &block.under(block.inertia_force(shaking.peaks()));
     let reactions = Reactions::new(block);
     let from = start.unwrap_or([[0.0; 3]; 2]);
     let mut exact = Exact {
@@ -75,7 +77,25 @@ impl Exact<'_> {
         }
         self.walk.summary.end_time = shaking.time[n - 1];
         self.walk.summary.mode = self.walk.mode;
-        self.record(None, f64::INFINITY, 0.0);
+        self.record_end(shaking);
+    }
+
+    /// Keep the block at the moments that are left, all of them at the end.
+    fn record_end(&mut self, shaking: &Shaking) {
+        if !self.walk.observed() {
+            return;
+        }
+        let piece = Piece {
+            ground: shaking.at(shaking.last()),
+            ..Piece::still(0.0)
+        };
+        let reaction = self.reactions.of(self.walk.mode);
+        let course = Course {
+            force: &reaction.force,
+            motion: accelerations(reaction, [0.0; 3], &piece),
+            piece: &piece,
+        };
+        self.record(&course, f64::INFINITY, self.walk.summary.end_time);
     }
 
     /// Go from event to event to the end of a piece that begins at `time`; false where the run cannot continue.
@@ -160,12 +180,11 @@ impl<'a> Carried<'a> for Exact<'a> {
 
     /// Both gaps may have closed: corners nearer than rounding strike together.
     fn land(&mut self, _gap: usize) -> [bool; 2] {
-        let near = self.walk.near();
-        let position = &mut self.walk.summary.position;
+        let velocity = self.walk.summary.velocity;
         [HEEL, TOE].map(|gap| {
-            let touches = position[gap] <= near;
+            let touches = self.walk.touches(self.walk.summary.position[gap], velocity[gap]);
             if touches {
-                position[gap] = 0.0;
+                self.walk.summary.position[gap] = 0.0;
             }
             touches
         })

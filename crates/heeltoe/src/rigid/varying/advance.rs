@@ -13,8 +13,10 @@ use super::shaking::Piece;
 use super::step::{middle, step, State};
 use super::walk::Varying;
 
-/// A step that is short enough for its polynomials to say that a motion ends as it begins (s).
+/// A step that is short enough for its polynomials to say that a motion ends as it begins, and one that is not made any
+/// shorter; parts of the time in which the block moves by its own size.
 const SHORT: f64 = 1e-7;
+const SHORTEST: f64 = 1e-9;
 
 /// A step that has been tried: the state and its rate of change at both ends.
 pub(super) struct Trial<'a> {
@@ -99,7 +101,7 @@ impl Varying<'_> {
         let mut rates = |t: f64, y: &State| self.rates(y, &piece.after(t));
         let taken = step(&trial.start, &trial.rate, trial.length, &self.scale, &mut rates);
         let better = |error: f64| 0.9 * error.powf(-1.0 / 8.0);
-        if taken.error > 1.0 && trial.length > 1e-9 {
+        if taken.error > 1.0 && trial.length > SHORTEST * self.time_scale {
             trial.length *= better(taken.error).clamp(0.1, 0.9);
             return false;
         }
@@ -127,7 +129,7 @@ impl Varying<'_> {
             return Some((t, Cause::Normal, state)).filter(|_| t.is_finite());
         }
         let (near, why, which) = first.0?;
-        if near <= 0.0 && fresh.is_some() && *length > SHORT {
+        if near <= 0.0 && fresh.is_some() && *length > SHORT * self.time_scale {
             // What has just been chosen ends at once: on a shorter step one sees whether it does.
             return Some((f64::NAN, why, *start));
         }

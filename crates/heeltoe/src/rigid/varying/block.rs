@@ -137,6 +137,16 @@ impl TurningBlock {
         }
     }
 
+    /// A force of the size of all that acts in a ground with these peaks, before it balances: what rounding is a part of.
+    pub(super) fn force_scale(&self, [horizontal, up, spin]: [f64; 3]) -> f64 {
+        let [lift, _] = self.water.force(0.0, 0.0);
+        let held: f64 = self.anchors.iter().map(|anchor| anchor.prestress).sum();
+        let [along, across, moment, _] = self.dead.map(f64::abs);
+        let moved = (self.mass + self.water_mass) * horizontal + self.mass * (self.gravity + up);
+        let arm = self.centroid[1].abs() + self.width;
+        along + across + moment / self.width + lift.abs() + held + moved + self.mass * arm * spin
+    }
+
     /// Distance of the corner from the heel.
     pub(super) fn place(&self, corner: Corner) -> f64 {
         match corner {

@@ -27,6 +27,17 @@ impl<'a> TurningShaking<'a> {
         Ok(TurningShaking { level, turning })
     }
 
+    /// Largest accelerations, without their signs.
+    pub(super) fn peaks(&self) -> Ground {
+        let [horizontal, vertical] = self.level.peaks();
+        let turning = self.turning.unwrap_or(&[]).iter();
+        [
+            horizontal,
+            vertical,
+            turning.fold(0.0, |peak, a| peak.max(a.abs())),
+        ]
+    }
+
     pub(super) fn at(&self, k: usize) -> Ground {
         let [horizontal, vertical] = self.level.at(k);
         [horizontal, vertical, self.turning.map_or(0.0, |a| a[k])]

@@ -19,8 +19,13 @@ const TOLERANCE: f64 = 1e-12;
 /// The choice of the next mode takes accelerations as linear in time; their rate enters through a ground that passes so
 /// many seconds in one, so that it has no part in the sizes by which rounding is judged.
 const UNIT: f64 = 1e-9;
-/// A moving block's accelerations change with its motion, too: their rate is taken over at most so many seconds.
+/// A moving block's accelerations change with its motion, too: their rate is taken over at most this part of the time in
+/// which the block moves by its own size.
 const AHEAD: f64 = 1e-4;
+/// Where what was chosen ended at once, something bends within that time: the next look is so much shorter.
+const NEARER: f64 = 0.1;
+/// The shortest look of all is this power of it: nearer there is rounding only.
+const NEAREST: u32 = 6;
 
 /// A block that is carried by integration.
 pub(super) struct Varying<'a> {
@@ -29,6 +34,8 @@ pub(super) struct Varying<'a> {
     pub(super) scale: State,
     pub(super) corner: Corner,
     pub(super) state: State,
+    /// Time in which the block moves by its own size (s), by which short is told from long.
+    pub(super) time_scale: f64,
     /// Length that the next step may have.
     pub(super) suggested: f64,
     /// Accelerations of the contact coordinates right after an event, freed from rounding where a motion starts.
@@ -48,7 +55,8 @@ pub fn simulate(
     wanted: Wanted,
 ) -> Run {
     let [position, velocity] = start.unwrap_or([[0.0; 3]; 2]);
-    let speed = block.velocity_scale();
+    let block = &block.under(turning.force_scale(shaking.peaks()));
+    let speed = (block.acceleration_scale() * block.width).sqrt();
     let allowed = |size: f64| TOLERANCE * size;
     let (length, turn) = (allowed(block.width), allowed(1.0));
     let (fast, spin) = (allowed(speed), allowed(speed / block.width));
@@ -63,6 +71,7 @@ pub fn simulate(
         ),
         turning,
         scale: [length, length, turn, fast, fast, spin, any, any],
+        time_scale: block.width / speed,
         corner: if position[TOE] < position[HEEL] {
             Corner::Toe
         } else {
@@ -150,7 +159,7 @@ impl Varying<'_> {
         let end = time.len() - 1;
         self.walk.summary.end_time = time[end];
         let last = Piece {
-            ground: shaking.at(end),
+            ground: shaking.at(shaking.level.last()),
             ..Piece::still(0.0)
         };
         let state = self.state;
@@ -202,7 +211,12 @@ impl Varying<'_> {
     fn ahead(&self, piece: &Piece) -> Block {
         let now = self.instant(&piece.ground);
         let still = self.state[3..6] == [0.0; 3];
-        let ahead = if still { piece.left } else { piece.left.min(AHEAD) };
+        let far = if still {
+            piece.left
+        } else {
+            piece.left.min(AHEAD * self.time_scale)
+        };
+        let ahead = far * NEARER.powi((self.walk.standing % (NEAREST + 1)) as i32);
         let mut later = self.state;
         for (value, rate) in later.iter_mut().zip(self.rates(&self.state, &piece.ground)) {
             *value += ahead * rate;
@@ -289,14 +303,13 @@ impl<'a> Carried<'a> for Varying<'a> {
 
     fn land(&mut self, gap: usize) -> [bool; 2] {
         let corner = if gap == HEEL { Corner::Heel } else { Corner::Toe };
-        let near = self.walk.near();
-        let touched = self.turning.gaps(self.corner, &self.state)[self.corner.gap() - HEEL] <= near;
         if corner != self.corner {
             self.turn_to(corner);
         }
         self.state[1] = 0.0;
-        let other = self.turning.gaps(corner, &self.state)[TOE - gap];
-        if other <= near || touched && self.state[2].abs() * self.walk.block.width <= near {
+        let other = corner.other().gap();
+        let open = self.turning.gaps(corner, &self.state)[other - HEEL];
+        if self.walk.touches(open, self.velocity()[other]) {
             self.state[2] = 0.0;
         }
         self.turning.gaps(corner, &self.state).map(|open| open <= 0.0)

@@ -1,0 +1,53 @@
+"""No block drawn at random cycles: events that follow each other without time passing."""
+
+import pytest
+
+from heeltoe.validation.random_blocks import draw
+
+# Blocks that cycled while the next mode was chosen by looking ahead for a tenth of a millisecond whatever the block, or
+# while rounding was judged by what the water leaves of the weight; and by what they are.
+BENDS = {
+    "a stiff anchor, uplift that vanishes, any rotation": 7781,
+    "a corner that lands before the look ahead ends": 10419,
+    "two stiff anchors": 27378,
+    "water that has no room to follow": 7053,
+    "water that follows, small rotations": 29135,
+}
+FLOATS = {
+    "a hundred millionth of the weight is left, any rotation": 371,
+    "a millionth of the weight, two anchors": 4486,
+    "bounces at a ten millionth of the weight": 14733,
+    "a corner that has just left while the other one lands": 4394,
+}
+FLOATS_EXACTLY = {"rocks on its heel": 116, "slides and rocks": 168, "rocks on its toe": 372, "anchored": 2272}
+
+
+def named(cases):
+    return pytest.mark.parametrize("seed", list(cases.values()), ids=list(cases))
+
+
+def ends(run):
+    return run.outcome in ("ok", "overturned", "unstable", "paradox")
+
+
+@named(BENDS | FLOATS)
+def test_a_block_that_cycled_comes_to_its_end(seed):
+    run = draw(seed).run()
+    assert run.outcome == "ok"
+    assert run.summary["events"] < 5_000
+    assert run.summary["energy_residual"] < 1e-6
+
+
+@named(FLOATS_EXACTLY)
+def test_a_block_that_all_but_floats_comes_to_its_end_exactly(seed):
+    run = draw(seed).run(exact=True)
+    assert run.outcome == "ok"
+    assert run.summary["events"] < 100
+    assert run.summary["energy_residual"] < 1e-11
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("part", range(20))
+def test_none_of_a_hundred_thousand_cycles(part):
+    seeds = range(5_000 * part, 5_000 * (part + 1))
+    assert [seed for seed in seeds if not ends(draw(seed).run())] == []
