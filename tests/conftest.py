@@ -116,7 +116,7 @@ def typical_written(typical_both, tmp_path_factory) -> tuple[Path, list[Path]]:
 @pytest.fixture(scope="session")
 def koyna_both() -> heeltoe.Response:
     """Koyna by the decoupled chain and by the flexible model, for 4 s."""
-    return heeltoe.run(example("koyna", *SHORT, "flexible.convergence_check=false"), "decoupled,flexible")
+    return heeltoe.run(example("koyna", *SHORT, "flexible.evidence=none"), "decoupled,flexible")
 
 
 @pytest.fixture(scope="session")

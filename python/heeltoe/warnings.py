@@ -192,16 +192,27 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         'which it would overturn: set analysis.rotation = "finite", since small rotations know nothing of overturning',
     ),
     # flexible model
-    "convergence-unchecked": (
+    "evidence-none": (
         "note",
-        "flexible.convergence_check",
-        "{field} is off: nothing shows that the time step is small enough",
+        "flexible.evidence",
+        "{field} is none: nothing shows that time step and mesh are fine enough, and what 1 % of the shaking does",
+    ),
+    "evidence-failures": (
+        "grave",
+        "flexible.evidence",
+        "{failed} of the {runs} runs with the shaking varied by 1 % end without a result",
+    ),
+    "runs-scatter": (
+        "caution",
+        "flexible.evidence",
+        "single runs scatter: {runs} of them, the shaking varied by 1 %, slide {slip_m:.4g mm} in the mean with a "
+        "standard deviation of {scatter_m:.2g mm}; take the mean, as histories and figures are those of one of them",
     ),
     "not-converged": (
         "grave",
-        "flexible.time_step",
-        "the residual slip has not converged: {coarser_slip_m:.4g mm} with a step of {coarser_step_s:.3g s}, "
-        "{slip_m:.4g mm} with half of it (allowed {allowed:g %}); read it with its spread",
+        "flexible.evidence",
+        "the residual slip has not converged: {slip_m:.4g mm}, give or take {uncertainty_m:.2g mm} where "
+        "{allowed_m:.2g mm} are allowed; {most} moves it most, and {stopped}",
     ),
     "anchors-hold": (
         "caution",

@@ -75,7 +75,7 @@ def test_zangar_is_cited_where_a_face_leans():
                 "concrete": {"modulus": "20 GPa"},
                 "crack": {"friction": 3.0},
                 "reservoir": deep(20.0),
-                "flexible": {"elements_across": 2, "convergence_check": False},
+                "flexible": {"elements_across": 2, "evidence": "none"},
             }
         )
         for response in (rigid(case, motion), flexible(case, motion)):

@@ -11,7 +11,7 @@ import heeltoe
 from heeltoe.case.warnings import case_warnings
 from heeltoe.models.decoupled import model as decoupled
 from heeltoe.models.flexible import warnings as flexible
-from heeltoe.models.flexible.shaken import Convergence
+from heeltoe.models.flexible.evidence import Evidence, Worth
 from heeltoe.models.rigid.walk import walk
 from heeltoe.models.rigid.warnings import warnings_of
 from heeltoe.models.run import earthquake
@@ -48,11 +48,32 @@ def test_impacts_of_a_rigid_block():
     assert said["paradox-jammed"].startswith("1 ")
 
 
-@pytest.mark.parametrize(("coarser", "warned"), [(0.105, False), (0.12, True)])
-def test_a_step_that_matters_to_an_elastic_dam(typical_both, coarser, warned):
+@pytest.mark.parametrize(
+    ("moved", "mean", "failed", "said"),
+    [
+        ((0.003, 0.003, 0.003), False, 0, set()),
+        ((0.003, 0.003, 0.005), False, 0, {"not-converged"}),
+        ((0.001, 0.001, 0.005), True, 0, {"runs-scatter"}),
+        ((0.0, 0.0, 0.0), False, 1, {"not-converged", "evidence-failures"}),
+    ],
+)
+def test_what_moves_the_slip_of_an_elastic_dam(typical_both, moved, mean, failed, said):
     dam = typical_both.crack.dam
-    evidence = Convergence(time_step=1e-4, coarser_step=2e-4, slip=0.1, coarser_slip=coarser, allowed=0.1)
-    assert ("not-converged" in codes(flexible._about_the_slip(dam, evidence, None))) is warned
+    evidence = Evidence(
+        asked="full",
+        mean=mean,
+        worth={"residual_slip_m": Worth(0.1, *moved)},
+        time_step=1e-4,
+        other_step=2e-4,
+        across=8,
+        other_across=4,
+        failed=failed,
+        slips=(0.1, 0.1),
+        runs=8,
+        work=4.0,
+        spent=False,
+    )
+    assert codes(flexible._about_the_slip(dam, evidence, None)) == said
 
 
 @pytest.mark.parametrize(("error", "warned"), [(0.029, False), (0.031, True)])

@@ -21,7 +21,7 @@ CASE = {
     "concrete": {"density": "2400 kg/m^3", "modulus": "20 GPa"},
     "crack": {"elevation": "0 m", "friction": 1.0},
     "reservoir": {"depth": "36 m"},
-    "flexible": {"elements_across": 4, "convergence_check": False},
+    "flexible": {"elements_across": 4, "evidence": "none"},
     "motion": {"points": [["0 s", "0 g"], ["0.1 s", "0.1 g"], ["0.2 s", "0 g"]]},
 }
 

@@ -35,7 +35,7 @@ PLAIN = {
 PULSE = {"points": [["0 s", "0.8 g"], ["0.1 s", "0.8 g"], ["0.1 s", "0 g"], ["0.4 s", "0 g"]]}
 
 # An elastic dam of few elements, without the second run that shows convergence; and of a short earthquake.
-COARSE = ["flexible.elements_across=2", "flexible.convergence_check=false"]
+COARSE = ["flexible.elements_across=2", "flexible.evidence=none"]
 FAST = [*COARSE, "motion.duration=3s"]
 # Koyna by the decoupled chain.
 SHORT = ["flexible.elements_across=3", "motion.duration=4s"]

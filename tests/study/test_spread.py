@@ -61,8 +61,9 @@ def test_the_longer_step_is_taken_only_where_it_gives_the_same(typical_both):
     assert _step(response) == response.time_step_s
 
     def judged(change: float) -> float:
-        evidence = {"change": change, "coarser_step_s": 2.0 * response.time_step_s}
-        return _step(replace(response, summary={**response.summary, "convergence": evidence}))
+        slip = {"value": 0.1, "step": 0.1 * change}
+        evidence = {"residual_slip_m": slip, "other_time_step_s": 2.0 * response.time_step_s}
+        return _step(replace(response, summary={**response.summary, "evidence": evidence}))
 
     assert judged(0.005) == 2.0 * response.time_step_s
     assert judged(0.02) == response.time_step_s

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Literal, Self, get_args
 
 from pydantic import Field, model_validator
 
@@ -10,6 +10,9 @@ from heeltoe.case.fields import Count, Fields, Fraction, FrictionCoefficient, He
 from heeltoe.case.quantities import DimensionlessNumber, Length, Pressure
 from heeltoe.case.sentences import collected
 from heeltoe.errors import InputError, shown
+
+Evidence = Literal["full", "step", "none"]
+EVIDENCE = get_args(Evidence)
 
 
 class Flexible(Fields):
@@ -33,8 +36,9 @@ class Flexible(Fields):
     """Exact contact on velocity level; or the penalty method of Zhu (2004), for comparison."""
     time_step: TimeSpan | None = None
     """Time step; chosen by the program where it is not given."""
-    convergence_check: Truth = True
-    """Run again at half the step and say how much changes; without a given step, halve it until little does."""
+    evidence: Evidence = "full"
+    """What the result is compared with: another step, another mesh and the shaking varied by 1 %; another step alone;
+    or nothing. Step and mesh are refined where it is too uncertain, unless they are given."""
     elements_across_below: Annotated[int, Field(strict=True, ge=1, le=200)] | None = None
     """Number of elements along the crack in the part below, where it differs."""
     mesh_above: str | None = Field(default=None, strict=True, min_length=1)
@@ -65,6 +69,19 @@ class Flexible(Fields):
         if not self.damping_on_water and self.damping != "relative":
             raise InputError("contradiction", "damping_on_water", "false", other=f'damping = "{self.damping}"')
         return self
+
+    def with_evidence(self, evidence: str) -> Self:
+        """Return the same with other evidence.
+
+        Raises
+        ------
+        InputError
+            Where there is no such.
+        """
+        if evidence not in EVIDENCE:
+            choices = ", ".join(f'"{each}"' for each in EVIDENCE)
+            raise InputError("not-a-choice", "evidence", shown(evidence), choices=choices)
+        return self.model_copy(update={"evidence": evidence})
 
 
 class Analysis(Fields):

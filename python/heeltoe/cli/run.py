@@ -82,6 +82,14 @@ def run(
             metavar="0.001s", help="Spacing of the histories; without it the record's own, 0.01 s if flexible."
         ),
     ] = None,
+    evidence: Annotated[
+        str | None,
+        typer.Option(
+            metavar="full|step|none",
+            help="What the flexible model is compared with: another step and mesh and the shaking varied by 1 %, "
+            "another step, or nothing.",
+        ),
+    ] = None,
     vary: Annotated[
         list[str] | None,
         typer.Option(metavar="PATH=V1,V2,...", help="A table of runs: every combination of the values of some fields."),
@@ -98,8 +106,13 @@ def run(
     """Run a case and say what the dam does."""
     asked = _Asked(model, spread, json_, out, units, csv, vtk, vary, report)
     changes = list(set_ or [])
-    options = (("file", motion and json.dumps(as_given(motion))), ("pga", pga), ("duration", duration))
-    changes += [f"motion.{name}={value}" for name, value in options if value is not None]
+    options = (
+        ("motion.file", motion and json.dumps(as_given(motion))),
+        ("motion.pga", pga),
+        ("motion.duration", duration),
+        ("flexible.evidence", evidence),
+    )
+    changes += [f"{name}={value}" for name, value in options if value is not None]
     _run(case, changes, reverse, output_step, asked)
 
 

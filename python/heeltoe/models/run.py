@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import replace
 from time import perf_counter
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Literal, TypeVar
 
 from heeltoe.case.model import Case
 from heeltoe.case.shaking import resolve
@@ -148,11 +148,15 @@ def flexible(
     vertical: GroundMotion | None = None,
     *,
     output_step: float | None = None,
+    evidence: Literal["full", "step", "none"] | None = None,
 ) -> FlexibleResponse:
     """Run the flexible model: the parts above and below the crack are elastic.
 
     Parameters, result and errors are those of :func:`run`. Histories come every 0.01 s where no spacing is given.
+    `evidence` takes the place of the case's ``flexible.evidence``.
     """
+    if evidence is not None:
+        case = case.model_copy(update={"flexible": case.flexible.with_evidence(evidence)})
     return _alone(_flexible(case, earthquake(case, motion, vertical), output_step), case)
 
 

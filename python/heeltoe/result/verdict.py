@@ -104,12 +104,21 @@ def _elastic_slip(response: Response, units: str) -> str:
     if abs(slip) < JOINT_METER_M:
         return f"The dam does not slide: its crack shifts by up to {length(largest, units)} and comes back."
     if response.lets_go():
-        text = f"The dam slides {length(abs(slip), units)} {_way(slip)}{_spread(response, units)}"
+        text = f"The dam slides {_worth(response, units)} {_way(slip)}{_spread(response, units)}"
         return text + _on_the_way(slip, down, up, JOINT_METER_M, units) + "."
     return (
-        f"The dam creeps {length(abs(slip), units)} {_way(slip)}{_spread(response, units)}: parts of the crack slip in "
+        f"The dam creeps {_worth(response, units)} {_way(slip)}{_spread(response, units)}: parts of the crack slip in "
         "turn, while the rest holds."
     )
+
+
+def _worth(response: Response, units: str) -> str:
+    """Return how far an elastic dam slides, and how certain that is."""
+    found = response.summary["evidence"]
+    if found is None:
+        return length(abs(response.residual_slip_m), units)
+    slip = found["residual_slip_m"]
+    return f"{length(abs(slip['value']), units)} (give or take {length(slip['uncertainty'], units)})"
 
 
 def _way(slip: float) -> str:

@@ -189,9 +189,11 @@ def _named(rows: Mapping[str, Floats]) -> dict[str, Floats]:
 
 def _step(response: FlexibleResponse) -> float:
     """Return the step of the runs: the longer of the two that the response compared where they hardly differ."""
-    evidence = response.summary["convergence"]
-    if evidence is not None and evidence["change"] <= _SAME:
-        return float(evidence["coarser_step_s"])
+    evidence = response.summary["evidence"]
+    if evidence is not None:
+        slip, longer = evidence["residual_slip_m"], evidence["other_time_step_s"]
+        if slip["step"] <= _SAME * max(abs(slip["value"]), JOINT_METER_M / _SAME):
+            return float(max(longer, response.summary["time_step_s"]))
     return float(response.summary["time_step_s"])
 
 

@@ -229,7 +229,7 @@ def _case(
             "flexible": {
                 "elements_across": 8,
                 "time_step": f"{step} s",
-                "convergence_check": False,
+                "evidence": "none",
                 **flexible,
             },
         }

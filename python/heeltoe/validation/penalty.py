@@ -79,7 +79,7 @@ def _case(elevation: float, depth: float, step: float, options: dict[str, str | 
             "flexible": {
                 "damping": "thesis",
                 "virtual_mass": "thesis",
-                "convergence_check": False,
+                "evidence": "none",
                 "time_step": f"{step} s",
                 **options,
             },

@@ -212,7 +212,7 @@ def test_on_the_command_line(tmp_path):
 
 
 def test_both_on_the_command_line():
-    fast = [*SHORT, "flexible.convergence_check=false"]
+    fast = [*SHORT, "flexible.evidence=none"]
     result = command("run", KOYNA, "--model", "decoupled,flexible", *options(fast), "--json", "-")
     assert result.returncode == 0, result.stderr
     assert json.loads(result.stdout)["beside"]["model"] == "decoupled"

@@ -13,7 +13,7 @@ FIELDS = {
     "concrete": {"density": "2400 kg/m^3", "modulus": "20 GPa"},
     "crack": {"friction": 1.0},
     "reservoir": {"depth": "20 m"},
-    "flexible": {"elements_across": 2, "convergence_check": False},
+    "flexible": {"elements_across": 2, "evidence": "none"},
 }
 TIME = np.linspace(0.0, 1.0, 101)
 MOTION = GroundMotion.from_points(TIME, 4.0 * np.sin(2.0 * np.pi * 3.0 * TIME))
@@ -48,7 +48,7 @@ def test_a_case_without_a_motion_is_refused():
 @pytest.mark.parametrize(
     ("blocks", "words"),
     [
-        ({}, "convergence_check is off"),
+        ({}, "flexible.evidence is none"),
         ({"concrete": {"damping": 0.0}, "reservoir": {"depth": "30 m"}}, "creeps downstream"),
         ({"concrete": {"modulus": "2 GPa"}}, "is not that of concrete"),
         ({"concrete": {"poisson": 0.45}}, "unusual for concrete"),
@@ -63,15 +63,6 @@ def test_a_case_without_a_motion_is_refused():
 def test_what_a_reader_must_know_is_said(blocks, words):
     response = flexible(changed(**blocks), MOTION)
     assert any(words in text for text in map(str, response.warnings)), response.warnings
-
-
-def test_evidence_of_convergence_comes_with_the_result():
-    response = flexible(changed(flexible={"convergence_check": True}), MOTION)
-    evidence = response.convergence
-    assert evidence["coarser_step_s"] == pytest.approx(2.0 * evidence["time_step_s"])
-    assert response.residual_slip_m == evidence["residual_slip_m"]
-    assert evidence["change"] <= evidence["allowed"]
-    assert response.time_step_s == pytest.approx(evidence["time_step_s"], rel=1e-2)
 
 
 def test_both_treatments_of_contact_agree_where_the_penalty_is_damped():

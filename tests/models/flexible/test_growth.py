@@ -21,7 +21,7 @@ def typical(friction=1.2, across=4, elevation=0.0, damping="relative", ratio=0.0
             "crack": {"friction": friction, "elevation": f"{elevation} m"},
             "reservoir": {"depth": "100 m"},
             "uplift": {"pattern": "triangular"},
-            "flexible": {"elements_across": across, "damping": damping, "convergence_check": False, **options},
+            "flexible": {"elements_across": across, "damping": damping, "evidence": "none", **options},
         }
     )
 

@@ -223,7 +223,7 @@ def test_water_that_follows_the_vertical_motion(elevation):
 
 TIME = np.linspace(0.0, 2.0, 401)
 PULSES = GroundMotion("pulses", TIME, 6.0 * np.sin(2.0 * np.pi * TIME) * (TIME < 1.5))
-SMALL = ["flexible.convergence_check=false", "motion.duration=2s", "reservoir.depth=60m", "crack.friction=0.5"]
+SMALL = ["flexible.evidence=none", "motion.duration=2s", "reservoir.depth=60m", "crack.friction=0.5"]
 
 
 def typical(degrees, *more):

@@ -256,7 +256,7 @@ def test_same_result_every_time(cracked):
 
 def test_few_modes_show_in_the_error_and_in_a_warning():
     """What 12 modes lose of the typical dam is seen; 25 are too few; by itself the program takes enough."""
-    changes = ["motion.duration=1s", "flexible.convergence_check=false"]
+    changes = ["motion.duration=1s", "flexible.evidence=none"]
     errors = [build_flexible_dam(read_case(BASE, [f"flexible.modes={keep}"])).basis_error for keep in (12, 25, 50)]
     assert errors[0] > 0.1
     assert errors == sorted(errors, reverse=True)

@@ -18,7 +18,7 @@ def block(modulus, friction, *, damping=0.05, across=2):
             "section": {"polygon": corners},
             "concrete": {"modulus": f"{modulus} GPa", "damping": damping},
             "crack": {"friction": friction, "restitution": 0.0},
-            "flexible": {"elements_across": across, "convergence_check": False, "damping": "deformation"},
+            "flexible": {"elements_across": across, "evidence": "none", "damping": "deformation"},
         }
     )
 
@@ -97,7 +97,7 @@ def test_what_a_dam_does_goes_with_its_size():
                 "crack": {"friction": 0.5},
                 "flexible": {
                     "elements_across": 2,
-                    "convergence_check": False,
+                    "evidence": "none",
                     "time_step": f"{0.1 * math.sqrt(size)} ms",
                 },
             }

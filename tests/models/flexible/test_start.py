@@ -20,7 +20,7 @@ def typical(friction, elevation=0.0, *changes, anchors=(), **options):
         "crack": {"friction": friction, "elevation": f"{elevation} m"},
         "reservoir": {"depth": "100 m"},
         "uplift": {"pattern": "triangular"},
-        "flexible": {"elements_across": 4, "time_step": "0.2 ms", "convergence_check": False, **options},
+        "flexible": {"elements_across": 4, "time_step": "0.2 ms", "evidence": "none", **options},
     }
     return read_case(fields | ({"anchors": anchors} if anchors else {}), list(changes))
 

@@ -19,7 +19,7 @@ def stiff(modulus=2000.0, friction=0.5, depth=24.0, damping=0.05, across=3, corn
             "concrete": {"modulus": f"{modulus} GPa", "damping": damping},
             "crack": {"friction": friction},
             "reservoir": {"depth": f"{depth} m"},
-            "flexible": {"elements_across": across, "convergence_check": False, **options},
+            "flexible": {"elements_across": across, "evidence": "none", **options},
         }
     )
 

@@ -28,7 +28,7 @@ MASONRY = {
         "points": [["0 s", "0 g"], ["0.1 s", "-0.1 g"], ["0.3 s", "0.05 g"], ["0.4 s", "0 g"]],
         "duration": "0.4 s",
     },
-    "flexible": {"elements_across": 2, "convergence_check": False},
+    "flexible": {"elements_across": 2, "evidence": "none"},
 }
 
 

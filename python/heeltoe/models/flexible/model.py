@@ -8,8 +8,9 @@ from heeltoe.kernel.dam import DAM_STATES
 from heeltoe.mechanics.block import build_block, static_state
 from heeltoe.models.flexible.excitation import self_excitation
 from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
+from heeltoe.models.flexible.refinement import answer
 from heeltoe.models.flexible.response import FlexibleResponse
-from heeltoe.models.flexible.shaken import ShakenDam, converged
+from heeltoe.models.flexible.shaken import ShakenDam
 from heeltoe.models.flexible.tables import energy_of, histories_of, history_of, summary_of
 from heeltoe.models.flexible.warnings import advice_of, warnings_of
 from heeltoe.motion.earthquake import Earthquake
@@ -42,9 +43,10 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
         raise InputError(
             "frame-step", "output_step", f"{output_step:g} s", shortest=f"{_SHORTEST_FRAME_STEP:g} s", end=f"{end:g} s"
         )
-    dam = build_flexible_dam(case)
-    shaken = ShakenDam(case, dam, earthquake.shaking)
-    run, convergence = converged(shaken, output_step or min(_FRAME_STEP, end))
+    found = answer(ShakenDam(case, build_flexible_dam(case), earthquake.shaking), output_step or min(_FRAME_STEP, end))
+    shaken, run, evidence = found.shaken, found.run, found.evidence
+    # Its mesh may be finer by now.
+    case, dam = shaken.case, shaken.dam
     block = build_block(case)
     safety = block.sliding_safety_factor
     # Anchors with stiffness hold what friction does not.
@@ -57,8 +59,8 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
         title=case.title,
         outcome=outcome,
         advice=advice_of(outcome, run.summary),
-        warnings=tuple(warnings_of(shaken, run, history, convergence, growth, safety)),
-        summary=summary_of(shaken, run, convergence)
+        warnings=tuple(warnings_of(shaken, run, history, evidence, growth, safety)),
+        summary=summary_of(shaken, run, evidence)
         | {
             "self_excitation": None if growth is None else growth.to_json(),
             "penetration_m": {"watched": run.summary["penetration"], "any_in_frames": history.deepest_penetration()},

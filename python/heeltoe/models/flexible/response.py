@@ -51,7 +51,9 @@ class FlexibleResponse(Response):
     time_step_s = Of[float]("Their length [s].")
     contact_iterations_per_step = Of[float]("Tries until the contact forces are found.")
     contact_residual = Of[float]("Worst violation of the contact conditions, over the impulse.")
-    convergence = Of[Mapping[str, float] | None]("Evidence that the step is short enough; None where none was wanted.")
+    evidence = Of[Mapping[str, Any] | None](
+        "How far step, mesh and 1 % of the shaking move it; None where none was wanted."
+    )
 
     def lets_go(self) -> bool:
         """Whether there are moments in which the part above the crack slides or rocks as a whole.

@@ -1,8 +1,7 @@
-"""A dam with its earthquake, run until the time step is small enough."""
+"""A dam with its earthquake, ready to run at any step."""
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,7 +15,6 @@ from heeltoe.models.flexible.modes import part_periods
 from heeltoe.models.flexible.reduced import FlexibleDam
 from heeltoe.models.flexible.step import longest_step
 from heeltoe.motion.moments import step_ends, step_means
-from heeltoe.result.contract import JOINT_METER_M
 
 #: A blow lasts about as long as the part above the crack takes for one vibration; the step is this part of it.
 _STEPS_PER_PERIOD = 100.0
@@ -26,53 +24,7 @@ _SHORTEST_OF_ALL = 1e-5
 #: So closely the program's own step follows it, as from a sixteenth on the contact problem is next to singular; and so
 #: closely at least a given one must.
 _ENOUGH_STEPS, _FEWEST_STEPS = 30.0, 8.0
-_HALVINGS = 2
-#: By how much half the step may change the slip: more at a height, where the dam strikes and bounces.
-_CHANGE_AT_BASE, _CHANGE_AT_HEIGHT = 0.03, 0.10
-
-
-@dataclass(frozen=True)
-class Convergence:
-    """Evidence that the time step is small enough.
-
-    Attributes
-    ----------
-    time_step
-        Of the result [s].
-    coarser_step
-        That of the run it is compared with, twice as long [s].
-    slip, coarser_slip
-        Residual slips of both [m].
-    allowed
-        By how much of the slip they may differ.
-    """
-
-    time_step: float
-    coarser_step: float
-    slip: float
-    coarser_slip: float
-    allowed: float
-
-    @property
-    def change(self) -> float:
-        """Difference over the slip, or over 0.1 mm where the slip is less than that says anything."""
-        return abs(self.slip - self.coarser_slip) / max(abs(self.slip), JOINT_METER_M / self.allowed)
-
-    def to_json(self) -> dict[str, float]:
-        """Return the numbers of the contract."""
-        return {
-            "time_step_s": self.time_step,
-            "coarser_step_s": self.coarser_step,
-            "residual_slip_m": self.slip,
-            "coarser_residual_slip_m": self.coarser_slip,
-            "change": self.change,
-            "allowed": self.allowed,
-        }
-
-    @property
-    def reached(self) -> bool:
-        """Whether the difference is small enough."""
-        return self.change <= self.allowed
+_TOO_FEW_STEPS = 16.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +58,12 @@ class ShakenDam:
             )
         return given
 
+    def may_step(self, step: float) -> bool:
+        """Whether a step [s] still follows the dam and what acts in its crack, so that a run can be compared."""
+        period = float(part_periods(self.dam.modes[0], 1)[0])
+        followed, _ = longest_step(self.dam, self.case.flexible.theta, step)
+        return step <= min(followed, period / _TOO_FEW_STEPS, self.shaking.end / 2.0)
+
     def run(self, step: float, frame_step: float | None = None) -> DamRun:
         """Run at about this step, which is made to fit the duration [s]; with frames about every `frame_step`."""
         count, step = self._steps(step)
@@ -138,24 +96,3 @@ class ShakenDam:
         stiffest = max(float(body.stiffness.diagonal().max()) for body in self.dam.bodies)
         gamma, beta = options.newmark_gamma, options.newmark_beta
         return options.penalty_factor * stiffest, gamma, (gamma + 0.5) ** 2 / 4.0 if beta is None else beta
-
-
-def converged(shaken: ShakenDam, frame_step: float) -> tuple[DamRun, Convergence | None]:
-    """Run until half the step changes little, or once where no evidence is wanted."""
-    case = shaken.case
-    step = shaken.first_step()
-    if not case.flexible.convergence_check:
-        return shaken.run(step, frame_step), None
-    allowed = _CHANGE_AT_BASE if shaken.dam.lower is None else _CHANGE_AT_HEIGHT
-    # The kernel lets go of the interpreter: the longer run takes one core, the shorter the other.
-    with ThreadPoolExecutor(2) as pool:
-        coarse = pool.submit(shaken.run, step)
-        run = shaken.run(step / 2.0, frame_step)
-        coarser = coarse.result()
-    for halving in range(_HALVINGS + 1):
-        evidence = Convergence(step / 2.0, step, run.summary["slip"], coarser.summary["slip"], allowed)
-        if evidence.reached or case.flexible.time_step is not None or halving == _HALVINGS:
-            break
-        step /= 2.0
-        coarser, run = run, shaken.run(step / 2.0, frame_step)
-    return run, evidence

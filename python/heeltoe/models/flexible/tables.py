@@ -10,9 +10,10 @@ from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.kernel.dam import DAM_STATES, DamRun
 from heeltoe.kernel.shaking import Shaking
+from heeltoe.models.flexible.evidence import Evidence
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.reduced import FlexibleDam
-from heeltoe.models.flexible.shaken import Convergence, ShakenDam
+from heeltoe.models.flexible.shaken import ShakenDam
 from heeltoe.result.response import Energy
 
 
@@ -46,7 +47,7 @@ def history_of(case: Case, dam: FlexibleDam, run: DamRun) -> CrackHistory:
     )
 
 
-def summary_of(shaken: ShakenDam, run: DamRun, convergence: Convergence | None) -> dict[str, Any]:
+def summary_of(shaken: ShakenDam, run: DamRun, evidence: Evidence | None) -> dict[str, Any]:
     """Return the numbers of the contract."""
     raw, dam, case = run.summary, shaken.dam, shaken.case
     coefficients = dam.damping.coefficients
@@ -99,7 +100,7 @@ def summary_of(shaken: ShakenDam, run: DamRun, convergence: Convergence | None) 
         "time_step_s": raw["end_time"] / raw["steps"],
         "contact_iterations_per_step": raw["iterations"] / raw["steps"],
         "contact_residual": raw["contact_residual"],
-        "convergence": None if convergence is None else convergence.to_json(),
+        "evidence": None if evidence is None else evidence.to_json(),
         **({"anchors": anchors_of(case, run)} if case.anchors else {}),
         "uplift_during_shaking": case.uplift.during_shaking,
     }

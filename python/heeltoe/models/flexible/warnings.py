@@ -7,11 +7,12 @@ from collections.abc import Iterator, Mapping
 from heeltoe.case.model import Case
 from heeltoe.kernel.dam import DamRun
 from heeltoe.mechanics.loads import water_above_crack
+from heeltoe.models.flexible.evidence import MOVED_BY, Evidence
 from heeltoe.models.flexible.growth import Growth
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.modes import ENOUGH
 from heeltoe.models.flexible.reduced import FlexibleDam
-from heeltoe.models.flexible.shaken import Convergence, ShakenDam
+from heeltoe.models.flexible.shaken import ShakenDam
 from heeltoe.models.flexible.tables import anchors_of
 from heeltoe.result.contract import JOINT_METER_M
 from heeltoe.result.verdict import last_change
@@ -46,14 +47,14 @@ def warnings_of(
     shaken: ShakenDam,
     run: DamRun,
     history: CrackHistory,
-    convergence: Convergence | None,
+    evidence: Evidence | None,
     growth: Growth | None,
     safety: float | None,
 ) -> list[Notice]:
     """Return what a reader of a flexible run must know; `safety` is that against sliding under the static loads."""
     case, dam = shaken.case, shaken.dam
     return [
-        *_about_the_slip(dam, convergence, safety),
+        *_about_the_slip(dam, evidence, safety),
         *_about_the_growth(growth, run.summary),
         *_about_the_concrete(case, dam),
         *_about_the_end(case, run),
@@ -61,21 +62,33 @@ def warnings_of(
     ]
 
 
-def _about_the_slip(dam: FlexibleDam, convergence: Convergence | None, safety: float | None) -> Iterator[Notice]:
-    if convergence is None:
-        yield Notice("convergence-unchecked")
-    elif not convergence.reached:
-        yield Notice(
-            "not-converged",
-            coarser_slip_m=convergence.coarser_slip,
-            coarser_step_s=convergence.coarser_step,
-            slip_m=convergence.slip,
-            allowed=convergence.allowed,
-        )
+def _about_the_slip(dam: FlexibleDam, evidence: Evidence | None, safety: float | None) -> Iterator[Notice]:
+    if evidence is None:
+        yield Notice("evidence-none")
+    else:
+        yield from _about_the_evidence(evidence)
     if safety is not None and safety < 1.0:
         yield Notice("anchors-hold" if dam.anchors else "slides-by-itself", factor=safety)
     elif not (dam.start.stands or dam.anchors):
         yield Notice("no-rest")
+
+
+def _about_the_evidence(evidence: Evidence) -> Iterator[Notice]:
+    slip = evidence.slip
+    if evidence.failed:
+        yield Notice("evidence-failures", failed=evidence.failed, runs=len(evidence.slips))
+    if not evidence.converged:
+        stopped = "the budget ended the refinement" if evidence.spent else "refining would not help, or is not its own"
+        yield Notice(
+            "not-converged",
+            slip_m=slip.value,
+            uncertainty_m=slip.uncertainty,
+            allowed_m=evidence.allowed,
+            most=MOVED_BY[slip.most],
+            stopped=stopped,
+        )
+    if evidence.mean:
+        yield Notice("runs-scatter", slip_m=slip.value, scatter_m=slip.shaking or 0.0, runs=len(evidence.slips))
 
 
 def _about_the_growth(growth: Growth | None, raw: Mapping[str, float]) -> Iterator[Notice]:

@@ -21,14 +21,28 @@ _ENERGY = (
 _FLEXIBLE = (
     ("Time step", "time_step_s", None),
     ("Steps", "steps", None),
-    ("Slip with this step", "convergence.residual_slip_m", None),
-    ("Step of the run beside it", "convergence.coarser_step_s", None),
-    ("Slip with that step", "convergence.coarser_residual_slip_m", None),
-    ("Difference", "convergence.change", "share"),
-    ("Difference that is allowed", "convergence.allowed", "share"),
+    ("Step of the run beside it", "evidence.other_time_step_s", None),
+    ("Elements along the crack", "evidence.elements_across", None),
+    ("Those of the mesh beside it", "evidence.other_elements_across", None),
+    ("Residual slip to trust", "evidence.residual_slip_m.value", None),
+    ("How uncertain it is, give or take", "evidence.residual_slip_m.uncertainty", None),
+    ("Of that, by the time step", "evidence.residual_slip_m.step", "displacement"),
+    ("Of that, by the mesh", "evidence.residual_slip_m.mesh", "displacement"),
+    ("Of that, by the shaking, 0.99 to 1.01 times", "evidence.residual_slip_m.shaking", "displacement"),
+    ("Uncertainty that is allowed", "evidence.allowed_m", None),
     ("Tries per step until contact is found", "contact_iterations_per_step", None),
     ("Worst violation of the contact conditions, over the impulse", "contact_residual", None),
 )
+
+_STANDS = {
+    True: "The residual slip has converged: step, mesh and 1 % of the shaking move it by less than is allowed.",
+    False: "The residual slip has NOT converged: step, mesh and 1 % of the shaking move it by more than is allowed.",
+}
+_MEAN = {
+    True: " Single runs scatter: the slip to trust is the mean of those with the shaking varied; histories and figures "
+    "are those of one of them.",
+    False: "",
+}
 
 _WALK = {
     False: "The rigid block is computed exactly from event to event: there is no time step to converge in.",
@@ -106,7 +120,7 @@ def _convergence(subject: Subject, run: Run) -> list[Block]:
     n = subject.numbers
     rows = [(label, n(run.prefix + key, quantity)) for label, key, quantity in _FLEXIBLE]
     shown: list[tuple[Inline, ...]] = [row for row in rows if row[1] != NOTHING]
-    tables = [Table(("", "value"), tuple(shown), "Time step and contact of the flexible model.", "lr")]
+    tables = [Table(("", "value"), tuple(shown), "Evidence, time step and contact of the flexible model.", "lr")]
     shown = []
     mesh = run.response.summary["mesh"]
     parts = ["above", "below"]
@@ -130,9 +144,12 @@ def _convergence(subject: Subject, run: Run) -> list[Block]:
         if cell != NOTHING:
             shown.append((label, cell))
     blocks: list[Block] = []
-    if run.response.summary["convergence"] is None:
+    found = run.response.summary["evidence"]
+    if found is None:
         blocks.append(
-            paragraph("Whether the time step is short enough was not asked (", Code("flexible.convergence_check"), ").")
+            paragraph("Whether time step and mesh are fine enough was not asked (", Code("flexible.evidence"), ").")
         )
+    else:
+        blocks.append(paragraph(_STANDS[found["converged"]] + _MEAN[found["value_is"] == "mean"]))
     tables.append(Table(("", "value"), tuple(shown), "Mesh, modes and damping of the flexible model.", "lr"))
     return [*blocks, *tables]

@@ -45,7 +45,10 @@ def elastic_lines(response: FlexibleResponse, units: str) -> list[tuple[str, str
     if s["self_excitation"] is not None:
         lines.append(("self-excitation", _growth_line(s["self_excitation"], units)))
     lines.append(("contact", _contact_line(response)))
-    lines.append(("time step", _step_line(response, units)))
+    lines.append(
+        ("time step", written("{step_s:.3g ms}, {steps:d} steps", units, step_s=s["time_step_s"], steps=s["steps"]))
+    )
+    lines.append(("evidence", evidence_line(s["evidence"], units)))
     if response.energy is not None:
         lines.append(("energy", _energy_line(response.energy, units)))
     return lines
@@ -100,18 +103,33 @@ def _contact_line(response: FlexibleResponse) -> str:
     )
 
 
-def _step_line(response: FlexibleResponse, units: str) -> str:
-    s = response.summary
-    step = written("{step_s:.3g ms}, {steps:d} steps; ", units, step_s=s["time_step_s"], steps=s["steps"])
-    evidence = s["convergence"]
-    if evidence is None:
-        return f"{step}whether it is short enough was not asked (flexible.convergence_check)"
-    return step + written(
-        "residual slip {residual_slip_m:.4g mm}, with {coarser_step_s:.3g ms} {coarser_residual_slip_m:.4g mm}: "
-        "{change:.2g %} apart ({allowed:g %} allowed)",
+def evidence_line(found: Mapping[str, Any] | None, units: str) -> str:
+    """Say what the residual slip is worth, and what moves it."""
+    if found is None:
+        return "none was asked for (flexible.evidence)"
+    slip = found["residual_slip_m"]
+    what = f", the mean of {len(found['scales'])} runs as single ones scatter" if found["value_is"] == "mean" else ""
+    text = written("residual slip {value:.4g mm} ± {uncertainty:.2g mm}", units, **slip) + what
+    text += written(
+        ": {step:.2g mm} by the time step ({other_s:.3g ms})",
         units,
-        **evidence,
+        step=slip["step"],
+        other_s=found["other_time_step_s"],
     )
+    if slip["mesh"] is not None:
+        across = f"{found['other_elements_across']} across instead of {found['elements_across']}"
+        text += written(", {mesh:.2g mm} by the mesh ({across})", units, mesh=slip["mesh"], across=across)
+    if slip["shaking"] is not None:
+        scales = min(found["scales"]), max(found["scales"])
+        text += written(
+            ", {shaking:.2g mm} by the shaking ({low:g} to {high:g} times)",
+            units,
+            shaking=slip["shaking"],
+            low=scales[0],
+            high=scales[1],
+        )
+    word = "converged" if found["converged"] else "NOT converged"
+    return text + written("; {word}, {allowed_m:.2g mm} are allowed", units, word=word, allowed_m=found["allowed_m"])
 
 
 def _energy_line(energy: Energy, units: str) -> str:

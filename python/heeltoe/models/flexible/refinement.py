@@ -1,0 +1,168 @@
+"""Runs until a result is certain enough, or what it may cost is spent."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from heeltoe.arrays import Floats
+from heeltoe.case.options import Flexible
+from heeltoe.kernel.dam import DamRun
+from heeltoe.models.flexible.evidence import BUDGET, Evidence, Worth, allowed
+from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.models.flexible.trials import SCALES, Level, Trials
+from heeltoe.result.contract import HEADLINES
+
+#: Fewer elements along the crack than these have no coarser mesh worth a comparison.
+_FEWEST_ACROSS = 4
+# Single runs scatter where what a straight line through them leaves is more than this part of the uncertainty that is
+# allowed, or where half the step, which moves a smooth run by a few thousandths, moves it by more than this one.
+_SCATTERS, _SCATTERS_BY_STEP = 0.2, 0.1
+# What is less than this part of the uncertainty that is allowed need not be refined.
+_MATTERS = 0.25
+_AS_IT_IS = (1.0,)
+
+_Wanted = list[tuple[Level, Sequence[float]]]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A run with its frames, its dam, and what it is worth."""
+
+    shaken: ShakenDam
+    run: DamRun
+    evidence: Evidence | None
+
+
+def answer(shaken: ShakenDam, frame_step: float) -> Answer:
+    """Run a dam with the evidence that its case asks for.
+
+    Parameters
+    ----------
+    shaken
+        The dam with its earthquake.
+    frame_step
+        Spacing of the frames [s].
+    """
+    options = shaken.case.flexible
+    trials = Trials(shaken, shaken.first_step(), frame_step)
+    level = Level(0, 0)
+    if options.evidence == "none":
+        return Answer(shaken, trials.whole(level), None)
+    full = options.evidence == "full"
+    while True:
+        stand = _Stand(trials, level, full=full)
+        found = stand.evidence()
+        finer = _finer(found, level, options)
+        if finer is None:
+            break
+        wanted = _Stand(trials, finer, full=full).wanted(means=found.mean)
+        if trials.work + trials.cost(wanted) > BUDGET:
+            found = stand.evidence(spent=True)
+            break
+        level = finer
+    return Answer(trials.dam_of(level.mesh), trials.whole(level), found)
+
+
+def _finer(found: Evidence, level: Level, options: Flexible) -> Level | None:
+    """Return the level at which the slip may be certain enough; None where it is, or nothing can make it so."""
+    if found.converged:
+        return None
+    slip = found.slip
+    # What the case gives is kept.
+    step = 0.0 if options.time_step is not None else slip.step
+    mesh = 0.0 if "elements_across" in options.model_fields_set else slip.mesh or 0.0
+    if max(step, mesh) < _MATTERS * found.allowed:
+        return None
+    return Level(level.mesh, level.halvings + 1) if step > mesh else Level(level.mesh + 1, level.halvings)
+
+
+def _worth(value: float, step: float, mesh: float | None, varied: Floats | None) -> Worth:
+    deviation = None if varied is None else float(varied.std(ddof=1))
+    return Worth(value, abs(step), None if mesh is None else abs(mesh), deviation)
+
+
+def _scatter(slips: Floats, step: float) -> bool:
+    """Whether single runs are one of many equals, which do not lie on a line that rises with the shaking."""
+    line = np.polyfit(SCALES, slips, 1)
+    left = slips - np.polyval(line, SCALES)
+    deviation = float(np.sqrt(np.sum(left**2) / (slips.size - line.size)))
+    limit = allowed(float(slips.mean()))
+    return deviation > _SCATTERS * limit or abs(step) > _SCATTERS_BY_STEP * limit
+
+
+class _Stand:
+    """What stands beside the run at one level: another step, another mesh, other shaking."""
+
+    def __init__(self, trials: Trials, level: Level, *, full: bool) -> None:
+        self._trials, self._level, self._full = trials, level, full
+        shaken = trials.dam_of(level.mesh)
+        self._options = shaken.case.flexible
+        longer = 2.0 * trials.step_of(level)
+        self._step = Level(level.mesh, level.halvings + (-1 if shaken.may_step(longer) else 1))
+        # Members of the ensemble take the longer of the two steps.
+        self._halvings = min(level.halvings, self._step.halvings)
+        self._mesh = self._beside() if full else None
+
+    def _beside(self) -> Level | None:
+        if self._options.mesh_above or self._options.mesh_below:
+            return None
+        finer = self._options.elements_across < _FEWEST_ACROSS
+        return Level(self._level.mesh + (1 if finer else -1), self._halvings)
+
+    @property
+    def _own(self) -> Level:
+        return Level(self._level.mesh, self._halvings)
+
+    @property
+    def _cheap(self) -> Level:
+        """Where the shaking is varied at first: the coarser of the two meshes."""
+        return self._own if self._mesh is None else min(self._mesh, self._own)
+
+    def wanted(self, *, means: bool) -> _Wanted:
+        """Return the runs that :meth:`evidence` needs, or needs where means are compared."""
+        wanted: _Wanted = [(self._level, _AS_IT_IS), (self._step, _AS_IT_IS)]
+        if self._full:
+            wanted += [(self._cheap, SCALES), (self._own, SCALES if means else _AS_IT_IS)]
+            if self._mesh is not None:
+                wanted.append((self._mesh, SCALES if means else _AS_IT_IS))
+        return wanted
+
+    def evidence(self, *, spent: bool = False) -> Evidence:
+        """Return what the run at this level is worth."""
+        trials = self._trials
+        trials.prepare(self._level, self.wanted(means=False))
+        run, other = trials.numbers(self._level, _AS_IT_IS), trials.numbers(self._step, _AS_IT_IS)
+        varied = trials.numbers(self._cheap, SCALES) if self._full else None
+        step = float(run["residual_slip_m"][0] - other["residual_slip_m"][0])
+        mean = varied is not None and _scatter(varied["residual_slip_m"], step)
+        if mean:
+            varied = trials.numbers(self._own, SCALES)
+        scales = SCALES if mean else _AS_IT_IS
+        beside = None if self._mesh is None else trials.numbers(self._mesh, scales)
+        own = trials.numbers(self._own, scales) if self._full else run
+        worth = {
+            each.key: _worth(
+                float(own[each.key].mean()) if mean else float(run[each.key][0]),
+                float(run[each.key][0] - other[each.key][0]),
+                None if beside is None else float(own[each.key].mean() - beside[each.key].mean()),
+                None if varied is None else varied[each.key],
+            )
+            for each in HEADLINES
+        }
+        return Evidence(
+            asked="full" if self._full else "step",
+            mean=mean,
+            worth=worth,
+            time_step=trials.step_of(self._level),
+            other_step=trials.step_of(self._step),
+            across=self._options.elements_across,
+            other_across=None if self._mesh is None else trials.across_of(self._mesh),
+            failed=0 if varied is None else trials.failed(self._own if mean else self._cheap, SCALES),
+            slips=() if varied is None else tuple(varied["residual_slip_m"].tolist()),
+            runs=trials.runs,
+            work=trials.work,
+            spent=spent,
+        )

@@ -1,0 +1,146 @@
+"""Runs of one dam in one earthquake at several meshes, steps and strengths of the shaking, none of them twice."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from heeltoe.arrays import Floats
+from heeltoe.case.model import Case
+from heeltoe.kernel.dam import DAM_OUTCOMES, DamRun
+from heeltoe.models.flexible.reduced import build_flexible_dam
+from heeltoe.models.flexible.shaken import ShakenDam
+
+#: Factors on the shaking: as it is, and up to 1 % either way.
+SCALES = (1.0, 0.99, 0.995, 1.005, 1.01)
+#: What the kernel calls the headline numbers, and the factor; either rotation counts without its sign.
+_COLUMNS = {
+    "residual_slip_m": ("slip", 1.0),
+    "peak_slip_downstream_m": ("slip_max", 1.0),
+    "peak_slip_upstream_m": ("slip_min", 1.0),
+    "rocking_downstream_rad": ("rotation_min", -1.0),
+    "rocking_upstream_rad": ("rotation_max", 1.0),
+    "opening_upstream_m": ("opening_heel", 1.0),
+    "opening_downstream_m": ("opening_toe", 1.0),
+}
+_OK = DAM_OUTCOMES.index("ok")
+# Twice as many elements along the crack cost about so many times as much; half the step twice.
+_WORK_OF_MESH = 4.0
+
+
+@dataclass(frozen=True, order=True)
+class Level:
+    """How fine a run is: so many times twice the elements along the crack and half the step; -1 is half and twice."""
+
+    mesh: int
+    halvings: int
+
+    @property
+    def work(self) -> float:
+        """What a run costs, of one at level 0."""
+        return float(_WORK_OF_MESH**self.mesh * 2.0**self.halvings)
+
+
+class Trials:
+    """Runs of one dam in one earthquake.
+
+    Parameters
+    ----------
+    shaken
+        The dam as its case has it, level 0 of the meshes.
+    step
+        The first one [s], level 0 of the steps.
+    frame_step
+        Spacing of the frames of whole runs [s].
+    """
+
+    def __init__(self, shaken: ShakenDam, step: float, frame_step: float) -> None:
+        self.step = step
+        self._frame_step = frame_step
+        self._shaken = {0: shaken}
+        self._numbers: dict[tuple[Level, float], dict[str, float]] = {}
+        self._whole: dict[Level, DamRun] = {}
+
+    @property
+    def runs(self) -> int:
+        """How many there have been."""
+        return len(self._numbers)
+
+    @property
+    def work(self) -> float:
+        """What they have cost together, in runs at level 0."""
+        return sum(level.work for level, _ in self._numbers)
+
+    def cost(self, wanted: Iterable[tuple[Level, Sequence[float]]]) -> float:
+        """Return what the runs that are still to be made would cost."""
+        return sum(level.work for level, scales in wanted for scale in scales if (level, scale) not in self._numbers)
+
+    def dam_of(self, mesh: int) -> ShakenDam:
+        """Return the dam with another mesh."""
+        if mesh not in self._shaken:
+            first = self._shaken[0]
+            case = with_mesh(first.case, mesh)
+            self._shaken[mesh] = replace(first, case=case, dam=build_flexible_dam(case))
+        return self._shaken[mesh]
+
+    def across_of(self, level: Level) -> int:
+        """Return how many elements there are along the crack."""
+        return self.dam_of(level.mesh).case.flexible.elements_across
+
+    def step_of(self, level: Level) -> float:
+        """Return the length of a step [s]."""
+        return float(self.step / 2.0**level.halvings)
+
+    def whole(self, level: Level) -> DamRun:
+        """Return a run with its frames, the shaking as it is."""
+        if level not in self._whole:
+            found = self.dam_of(level.mesh).run(self.step_of(level), self._frame_step)
+            self._whole[level] = found
+            self._numbers[level, 1.0] = {**found.summary, "outcome": float(DAM_OUTCOMES.index(found.outcome))}
+        return self._whole[level]
+
+    def prepare(self, whole: Level, wanted: Iterable[tuple[Level, Sequence[float]]]) -> None:
+        """Make one run with frames and others side by side: the kernel lets go of the interpreter."""
+
+        def make(one: tuple[Level, Sequence[float]]) -> None:
+            self.numbers(*one)
+
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            shown = pool.submit(self.whole, whole)
+            list(pool.map(make, wanted))
+            shown.result()
+
+    def numbers(self, level: Level, scales: Sequence[float]) -> dict[str, Floats]:
+        """Return the headline numbers of runs with these factors on the shaking, (n,) by name."""
+        missing = [scale for scale in scales if (level, scale) not in self._numbers]
+        if missing:
+            table = self.dam_of(level.mesh).run_scaled(self.step_of(level), np.array(missing))
+            for place, scale in enumerate(missing):
+                self._numbers[level, scale] = {name: float(column[place]) for name, column in table.items()}
+        rows = [self._numbers[level, scale] for scale in scales]
+        return {
+            name: np.array([factor * row[column] + 0.0 for row in rows]) for name, (column, factor) in _COLUMNS.items()
+        }
+
+    def failed(self, level: Level, scales: Sequence[float]) -> int:
+        """Return how many of these runs, all made before, end without a result."""
+        return sum(self._numbers[level, scale]["outcome"] != _OK for scale in scales)
+
+
+def with_mesh(case: Case, mesh: int) -> Case:
+    """Return the case with so many times twice the elements along the crack; -1 for half of them, rounded up."""
+
+    def changed(across: int) -> int:
+        return math.ceil(across * 2.0**mesh)
+
+    below = case.flexible.elements_across_below
+    update = {
+        "elements_across": changed(case.flexible.elements_across),
+        "elements_across_below": None if below is None else changed(below),
+    }
+    return case.model_copy(update={"flexible": case.flexible.model_copy(update=update)})

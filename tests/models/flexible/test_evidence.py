@@ -1,0 +1,105 @@
+"""What a result is worth: other runs beside it, what is said of them, and when the program refines by itself."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from heeltoe import InputError, flexible, read_case
+from heeltoe.models.flexible.evidence import Evidence, Worth
+from heeltoe.models.flexible.refinement import _finer
+from heeltoe.models.flexible.trials import SCALES, Level, with_mesh
+from heeltoe.motion.ground_motion import GroundMotion
+
+FIELDS = {
+    "section": {"height": "30 m", "crest_width": "4 m", "base_width": "24 m"},
+    "concrete": {"modulus": "20 GPa"},
+    "crack": {"friction": 0.7},
+    "reservoir": {"depth": "24 m"},
+}
+TIME = np.linspace(0.0, 2.0, 201)
+MOTION = GroundMotion.from_points(TIME, 5.0 * np.sin(2.0 * np.pi * 2.0 * TIME))
+
+
+def dam(**options):
+    return read_case(FIELDS | {"flexible": options})
+
+
+def slip(scale=1.0, **options):
+    motion = GroundMotion.from_points(TIME, scale * MOTION.acceleration)
+    return flexible(dam(evidence="none", **options), motion).residual_slip_m
+
+
+def test_each_part_is_the_difference_of_two_runs_of_ones_own():
+    response = flexible(dam(elements_across=6), MOTION)
+    found = response.evidence
+    step = response.time_step_s
+    assert response.residual_slip_m > 0.01
+    assert (found["elements_across"], found["other_elements_across"]) == (6, 3)
+    assert found["other_time_step_s"] == pytest.approx(2.0 * step)
+    assert found["value_is"] == "run"
+    worth = found["residual_slip_m"]
+    assert worth["value"] == response.residual_slip_m == slip(elements_across=6)
+    longer = f"{2.0 * step} s"
+    other = slip(elements_across=6, time_step=longer)
+    assert worth["step"] == pytest.approx(abs(worth["value"] - other), abs=1e-12)
+    assert worth["mesh"] == pytest.approx(abs(other - slip(elements_across=3, time_step=longer)), abs=1e-12)
+    members = [slip(scale, elements_across=3, time_step=longer) for scale in SCALES]
+    assert found["residual_slips_m"] == pytest.approx(members, abs=1e-12)
+    assert worth["shaking"] == pytest.approx(np.std(members, ddof=1), abs=1e-12)
+    assert worth["uncertainty"] == pytest.approx(worth["step"] + worth["mesh"] + worth["shaking"])
+    assert found["runs"] == 7
+
+
+def test_a_result_is_the_same_whatever_is_compared_with_it():
+    slips = {each: flexible(dam(elements_across=2), MOTION, evidence=each) for each in ("none", "step", "full")}
+    assert len({each.residual_slip_m for each in slips.values()}) == 1
+    assert slips["none"].evidence is None
+    assert slips["step"].evidence["residual_slip_m"]["mesh"] is None
+    assert slips["step"].evidence["runs"] == 2
+    # Two elements have no coarser mesh worth a comparison.
+    assert slips["full"].evidence["other_elements_across"] == 4
+
+
+def test_evidence_that_there_is_none_is_refused():
+    with pytest.raises(InputError) as caught:
+        flexible(dam(), MOTION, evidence="some")
+    assert caught.value.code == "not-a-choice"
+    with pytest.raises(InputError, match=r"flexible\.evidence"):
+        dam(evidence="some")
+
+
+@pytest.mark.parametrize(
+    ("moved", "given", "finer"),
+    [
+        ((0.001, 0.002, 0.003), {}, None),
+        ((0.001, 0.02, 0.003), {}, Level(1, 0)),
+        ((0.02, 0.001, 0.003), {}, Level(0, 1)),
+        # Nothing is to be had where the shaking moves it most, or where step and mesh are the case's own.
+        ((0.001, 0.002, 0.03), {}, None),
+        ((0.001, 0.02, 0.003), {"elements_across": 8}, None),
+        ((0.02, 0.001, 0.003), {"time_step": "0.1 ms"}, None),
+    ],
+)
+def test_what_is_refined(moved, given, finer):
+    found = Evidence(
+        asked="full",
+        mean=False,
+        worth={"residual_slip_m": Worth(0.1, *moved)},
+        time_step=1e-4,
+        other_step=2e-4,
+        across=8,
+        other_across=4,
+        failed=0,
+        slips=(),
+        runs=8,
+        work=4.0,
+        spent=False,
+    )
+    assert _finer(found, Level(0, 0), dam(**given).flexible) == finer
+
+
+def test_other_meshes_of_a_case():
+    case = dam(elements_across=5, elements_across_below=8)
+    assert [with_mesh(case, mesh).flexible.elements_across for mesh in (-1, 0, 1, 2)] == [3, 5, 10, 20]
+    assert [with_mesh(case, mesh).flexible.elements_across_below for mesh in (-1, 1)] == [4, 16]
