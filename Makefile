@@ -27,7 +27,7 @@ help:
 check:
 	@command -v $(PYTHON) >/dev/null || { echo "missing: Python 3.11 or newer (set PYTHON=...)"; exit 1; }
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "missing: Python 3.11 or newer; $(PYTHON) is older (set PYTHON=...)"; exit 1; }
-	@command -v cargo >/dev/null || { echo "missing: cargo (Rust 1.88 or newer)"; exit 1; }
+	@command -v cargo >/dev/null || { echo "missing: cargo (Rust 1.89 or newer)"; exit 1; }
 	@mkdir -p $(VENV) && date +%s > $(VENV)/.started
 
 $(VENV)/.packages: requirements.lock | check

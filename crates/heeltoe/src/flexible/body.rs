@@ -9,6 +9,7 @@
 //! with `w` mass-normalised, `f` the static loads, `a` the ground and `p` the forces on the nodes of the crack, which
 //! are counted along it (all first) and across it, away from the lower part.
 
+use super::wide::Wide;
 /// Modes are kept in groups this wide, so that one instruction works on a group.
 pub(super) const LANES: usize = 8;
 /// Groups are worked on in bundles of so many, so that their sums run side by side.
@@ -36,8 +37,8 @@ pub struct ReducedBody {
     pub(super) participation: [Vec<Group>; 2],
     /// Modes of the state at the start.
     pub(super) start: Vec<Group>,
-    /// Motion of the crack nodes in each mode: for each group of modes all `2 nodes` components, then the rates of the
-    /// dashpots.
+    /// Motion of the crack nodes in each mode: for each bundle of groups all `2 nodes` components, then the rates of the
+    /// dashpots, each with what it is in every group of the bundle.
     pub(super) shapes: Vec<Group>,
     /// Where the nodes are at the start: along the crack, then across it.
     pub(super) position: Vec<f64>,
@@ -99,12 +100,12 @@ impl ReducedBody {
         let mut shapes = vec![[0.0; LANES]; groups * width];
         for (mode, row) in modes.shapes.chunks_exact(columns).enumerate() {
             for (c, value) in row.iter().enumerate() {
-                shapes[mode / LANES * width + c][mode % LANES] = *value;
+                shapes[place(width, mode / LANES, c)][mode % LANES] = *value;
             }
         }
         for (c, row) in modes.dampers.chunks_exact(count).enumerate() {
             for (mode, value) in row.iter().enumerate() {
-                shapes[mode / LANES * width + columns + c][mode % LANES] = *value;
+                shapes[place(width, mode / LANES, columns + c)][mode % LANES] = *value;
             }
         }
         Ok(ReducedBody {
@@ -147,13 +148,26 @@ impl ReducedBody {
         self.columns() + self.dampers
     }
 
-    /// `shapes^T diag(weight) shapes`: how crack and dashpots answer to forces on them, row by row.
-    pub(super) fn compliance(&self, weight: &[Group]) -> Vec<f64> {
-        let columns = self.width();
-        let mut matrix = vec![0.0; columns * columns];
-        for (group, weight) in self.shapes.chunks_exact(columns).zip(weight) {
-            for (row, a) in matrix.chunks_exact_mut(columns).zip(group) {
-                for (value, b) in row.iter_mut().zip(group) {
+    /// Groups that hold a number for each of them.
+    pub(super) fn stride(&self) -> usize {
+        self.width().div_ceil(LANES)
+    }
+
+    /// Motion of the crack, or rates of the dashpots, in the modes of a group.
+    fn shapes_of(&self, group: usize) -> impl Iterator<Item = &Group> {
+        let width = self.width();
+        (0..width).map(move |c| &self.shapes[place(width, group, c)])
+    }
+
+    /// `shapes^T diag(weight) shapes`: how crack and dashpots answer to forces on them, row by row, each filled up with
+    /// zeros to whole groups.
+    pub(super) fn compliance(&self, weight: &[Group]) -> Vec<Group> {
+        let (width, stride) = (self.width(), self.stride());
+        let mut matrix = vec![[0.0; LANES]; width * stride];
+        for (group, weight) in weight.iter().enumerate() {
+            let shapes: Vec<Group> = self.shapes_of(group).copied().collect();
+            for (row, a) in matrix.chunks_exact_mut(stride).zip(&shapes) {
+                for (value, b) in row.as_flattened_mut().iter_mut().zip(&shapes) {
                     *value += (0..LANES).map(|l| a[l] * weight[l] * b[l]).sum::<f64>();
                 }
             }
@@ -164,12 +178,23 @@ impl ReducedBody {
     /// Motion of the crack that belongs to an amplitude of each mode.
     pub(super) fn at_crack(&self, amplitude: &[Group]) -> Vec<f64> {
         let mut motion = vec![0.0; self.columns()];
-        for (group, amplitude) in self.shapes.chunks_exact(self.width()).zip(amplitude) {
-            for (value, a) in motion.iter_mut().zip(group) {
+        for (group, amplitude) in amplitude.iter().enumerate() {
+            for (value, a) in motion.iter_mut().zip(self.shapes_of(group)) {
                 *value += (0..LANES).map(|l| a[l] * amplitude[l]).sum::<f64>();
             }
         }
         motion
+    }
+
+    /// What forces on the crack nodes are to the modes of a group.
+    pub(super) fn on_modes(&self, group: usize, force: &[f64]) -> Group {
+        let mut push = [0.0; LANES];
+        for (shape, force) in self.shapes_of(group).zip(force) {
+            for l in 0..LANES {
+                push[l] += shape[l] * force;
+            }
+        }
+        push
     }
 
     /// Strain and kinetic energy.
@@ -182,6 +207,11 @@ impl ReducedBody {
         }
         sum
     }
+}
+
+/// Where the component `c` of a group of modes stands among the shapes of a body with so many components.
+fn place(width: usize, group: usize, c: usize) -> usize {
+    (group / BUNDLE * width + c) * BUNDLE + group % BUNDLE
 }
 
 /// Number of groups for so many modes, in whole bundles.
@@ -197,6 +227,55 @@ fn grouped(values: &[f64]) -> Vec<Group> {
     groups
 }
 
+/// Add `sum_k x_k rows_k`, where each row has as many groups as `sum`.
+#[inline(always)]
+pub(super) fn combine<W: Wide>(rows: &[Group], x: &[f64], sum: &mut [Group]) {
+    let stride = sum.len();
+    let mut first = 0;
+    // What is summed up stays in registers.
+    while first < stride {
+        first += match stride - first {
+            1 => columns::<W, 1>(rows, x, first, sum),
+            2 => columns::<W, 2>(rows, x, first, sum),
+            3 => columns::<W, 3>(rows, x, first, sum),
+            4 => columns::<W, 4>(rows, x, first, sum),
+            _ => columns::<W, 5>(rows, x, first, sum),
+        }
+    }
+}
+
+/// The same for so many groups of each row from the `first` one on; returns how many.
+#[inline(always)]
+fn columns<W: Wide, const N: usize>(rows: &[Group], x: &[f64], first: usize, sum: &mut [Group]) -> usize {
+    // Closures would be compiled for any machine, so these are loops. Two sums in turn do not wait for each other.
+    let mut new = [[W::all(0.0); N]; 2];
+    for n in 0..N {
+        new[0][n] = W::load(&sum[first + n]);
+    }
+    let stride = sum.len();
+    let (pairs, last) = x.as_chunks::<2>();
+    for (x, rows) in pairs.iter().zip(rows.chunks_exact(2 * stride)) {
+        if x[0] != 0.0 || x[1] != 0.0 {
+            let (even, odd) = (&rows[first..first + N], &rows[stride + first..][..N]);
+            let x = [W::all(x[0]), W::all(x[1])];
+            for n in 0..N {
+                new[0][n] = x[0].fma(W::load(&even[n]), new[0][n]);
+                new[1][n] = x[1].fma(W::load(&odd[n]), new[1][n]);
+            }
+        }
+    }
+    for x in last {
+        let row = &rows[2 * pairs.len() * stride + first..][..N];
+        for n in 0..N {
+            new[0][n] = W::all(*x).fma(W::load(&row[n]), new[0][n]);
+        }
+    }
+    for n in 0..N {
+        new[0][n].add(new[1][n]).store(&mut sum[first + n]);
+    }
+    N
+}
+
 /// `sum a b`, lane by lane: a plain sum waits for each addition.
 #[inline(always)]
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
@@ -207,27 +286,13 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
             lanes[l] += a[l] * b[l];
         }
     }
-    total(&lanes) + rest_a.iter().zip(rest_b).map(|(a, b)| a * b).sum::<f64>()
-}
-
-/// Sum of the lanes, by halves, as wide registers can.
-#[inline(always)]
-pub(super) fn total(lanes: &Group) -> f64 {
-    let mut lanes = *lanes;
-    let mut width = LANES / 2;
-    while width > 0 {
-        for l in 0..width {
-            lanes[l] += lanes[l + width];
-        }
-        width /= 2;
-    }
-    lanes[0]
+    lanes.iter().sum::<f64>() + rest_a.iter().zip(rest_b).map(|(a, b)| a * b).sum::<f64>()
 }
 
 /// `a b + c`, in one rounding where the machine has it.
 #[inline(always)]
-pub(super) fn fma<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
-    if FUSED {
+pub(super) fn fma<W: Wide>(a: f64, b: f64, c: f64) -> f64 {
+    if W::FUSED {
         a.mul_add(b, c)
     } else {
         a * b + c

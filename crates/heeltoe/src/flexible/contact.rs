@@ -10,6 +10,8 @@
 //! with `t` along the crack and `n` across it; plus for a node of the upper face. A sliding node travels from segment
 //! to segment; one that sticks keeps the material point it stands on.
 
+use super::sides::Faces;
+
 /// Weights of crack nodes in the motion of the upper face against the lower one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Pair {
@@ -40,9 +42,6 @@ pub(super) struct Contacts {
     /// Which pairs the last `update` changed.
     pub moved: Vec<bool>,
     rigid_plane: bool,
-    /// Whether all count as moved where one is: nodes that say the same twice share by a softness that goes by the
-    /// largest of all answers.
-    together: bool,
 }
 
 impl Contacts {
@@ -74,7 +73,6 @@ impl Contacts {
             moved: vec![true; contactors.len()],
             contactors,
             rigid_plane: lower == 0,
-            together: kind == 5 && lower > 0,
         }
     }
 
@@ -83,27 +81,21 @@ impl Contacts {
         self.contactors.len()
     }
 
-    /// Whether any pair has changed.
-    #[inline(always)]
-    pub(super) fn any_moved(&self) -> bool {
-        self.moved.contains(&true)
-    }
-
     /// Find every contactor's place on the other face. Positions are all along the crack, then all across it;
     /// `sticks` says which nodes keep their place.
     #[inline(always)]
     pub(super) fn update(&mut self, upper: &[f64], lower: &[f64], sticks: impl Fn(usize) -> bool) {
         if self.rigid_plane {
-            let nodes = upper.len() / 2;
             let first = self.pairs[0].is_none();
             self.moved.fill(first);
-            for (k, c) in self.contactors.iter().enumerate() {
-                self.gaps[k] = upper[nodes + c.node];
-                self.pairs[k] = Some(Pair {
+            if first {
+                let pair = |c: &Contactor| Pair {
                     upper: [(c.node, 1.0), (c.node, 0.0)],
                     lower: [(0, 0.0); 2],
-                });
+                };
+                self.pairs = self.contactors.iter().map(|c| Some(pair(c))).collect();
             }
+            self.gaps.copy_from_slice(&upper[upper.len() / 2..]);
             return;
         }
         for (k, c) in self.contactors.iter_mut().enumerate() {
@@ -119,12 +111,44 @@ impl Contacts {
                 self.pairs[k] = pair;
             }
             self.gaps[k] = match &self.pairs[k] {
-                Some(pair) => across(pair, upper, lower),
+                Some(pair) => pair.relative(Faces { upper, lower }, 1),
                 None => f64::INFINITY,
             };
         }
-        if self.together && self.any_moved() {
-            self.moved.fill(true);
+    }
+
+    /// Motion of the upper face against the lower one at all contacts, along the crack, then across it; none where
+    /// nothing is met.
+    #[inline(always)]
+    pub(super) fn relative(&self, faces: Faces, motion: &mut [f64]) {
+        if self.rigid_plane {
+            motion.copy_from_slice(faces.upper);
+            return;
+        }
+        let (along, across) = motion.split_at_mut(self.len());
+        for ((pair, along), across) in self.pairs.iter().zip(along).zip(across) {
+            (*along, *across) = match pair {
+                Some(pair) => (pair.relative(faces, 0), pair.relative(faces, 1)),
+                None => (0.0, 0.0),
+            };
+        }
+    }
+
+    /// Put the forces that the contacts exert on both faces, up on the upper one and down on the lower one.
+    #[inline(always)]
+    pub(super) fn spread(&self, forces: &[f64], upper: &mut [f64], lower: &mut [f64]) {
+        if self.rigid_plane {
+            upper.copy_from_slice(forces);
+            return;
+        }
+        upper.fill(0.0);
+        lower.fill(0.0);
+        let (along, across) = forces.split_at(self.len());
+        for (pair, force) in self.pairs.iter().zip(along.iter().zip(across)) {
+            if let Some(pair) = pair {
+                pair.spread(0, *force.0, upper, lower);
+                pair.spread(1, *force.1, upper, lower);
+            }
         }
     }
 }
@@ -166,41 +190,25 @@ impl Contactor {
     }
 }
 
-/// Gap of a pair.
-#[inline(always)]
-pub(super) fn across(pair: &Pair, upper: &[f64], lower: &[f64]) -> f64 {
-    relative(pair, upper, lower, 1)
-}
-
-/// Motion of the upper face against the lower one: `direction` 0 along the crack, 1 across it.
-#[inline(always)]
-pub(super) fn relative(pair: &Pair, upper: &[f64], lower: &[f64], direction: usize) -> f64 {
-    let of = |motion: &[f64], nodes: &[(usize, f64); 2]| {
-        let offset = direction * (motion.len() / 2);
-        nodes
-            .iter()
-            .map(|&(node, weight)| weight * motion[offset + node])
-            .sum::<f64>()
-    };
-    let above = of(upper, &pair.upper);
-    if lower.is_empty() {
-        above
-    } else {
-        above + of(lower, &pair.lower)
+impl Pair {
+    /// Motion of the upper face against the lower one: `direction` 0 along the crack, 1 across it.
+    #[inline(always)]
+    fn relative(&self, faces: Faces, direction: usize) -> f64 {
+        let of = |motion: &[f64], nodes: &[(usize, f64); 2]| {
+            let half = &motion[direction * (motion.len() / 2)..];
+            nodes[0].1 * half[nodes[0].0] + nodes[1].1 * half[nodes[1].0]
+        };
+        of(faces.upper, &self.upper) + of(faces.lower, &self.lower)
     }
-}
 
-/// Add the force `value` that a contact exerts, up on the upper face and down on the lower one.
-#[inline(always)]
-pub(super) fn spread(pair: &Pair, direction: usize, value: f64, upper: &mut [f64], lower: &mut [f64]) {
-    let offset = direction * (upper.len() / 2);
-    for (node, weight) in pair.upper {
-        upper[offset + node] += weight * value;
-    }
-    if !lower.is_empty() {
-        let offset = direction * (lower.len() / 2);
-        for (node, weight) in pair.lower {
-            lower[offset + node] += weight * value;
+    /// Add the force `value` that a contact exerts.
+    #[inline(always)]
+    fn spread(&self, direction: usize, value: f64, upper: &mut [f64], lower: &mut [f64]) {
+        for (face, nodes) in [(upper, &self.upper), (lower, &self.lower)] {
+            let offset = direction * (face.len() / 2);
+            for (node, weight) in nodes {
+                face[offset + node] += weight * value;
+            }
         }
     }
 }

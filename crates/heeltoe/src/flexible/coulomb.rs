@@ -8,13 +8,14 @@
 //!
 //! at all contacts at once. In two dimensions each contact is open, sticking, or slipping one way; the right set of
 //! these states turns the problem into a linear one. The set of the last step is tried first, contacts that break
-//! their conditions change state, and the factors of the matrix are kept as long as the set is and what `G` has for it.
+//! their conditions change state, and the factors of the last few sets are kept as long as what `G` has for them. So `G`
+//! itself is wanted among closed contacts only; what else is said of `u` is for the faces to tell.
 
-use super::body::fma;
-use super::factors::Factors;
+use super::factors::Kept;
 use super::status::Status;
+use super::wide::Wide;
 
-/// The numbers of one problem; component `2 i` is along the crack at contact `i`, `2 i + 1` across it.
+/// The numbers of one problem; the components along the crack of all contacts stand first, then those across it.
 #[derive(Default)]
 pub(super) struct Problem {
     /// Symmetric, row by row.
@@ -25,6 +26,31 @@ pub(super) struct Problem {
     /// Coefficient of friction of each contact up to which it sticks, and with which it slips.
     pub mu_stick: Vec<f64>,
     pub mu_slip: f64,
+    /// About what impulse changes the velocity of each component by 1: a scale to measure violations by.
+    pub scale: Vec<f64>,
+}
+
+/// What the solver asks of the crack.
+pub(super) trait Answering {
+    /// See that `G` is right where both contacts are `wanted`.
+    fn fill(&mut self, problem: &mut Problem, wanted: impl Fn(usize) -> bool);
+
+    /// `u = G p + b`.
+    fn velocities<W: Wide>(&mut self, problem: &Problem, p: &[f64], u: &mut [f64]);
+}
+
+/// Nobody to ask: `G` is right everywhere.
+pub(super) struct Known;
+
+impl Answering for Known {
+    fn fill(&mut self, _: &mut Problem, _: impl Fn(usize) -> bool) {}
+
+    fn velocities<W: Wide>(&mut self, problem: &Problem, p: &[f64], u: &mut [f64]) {
+        u.copy_from_slice(&problem.b);
+        for (p, column) in p.iter().zip(problem.g.chunks_exact(p.len())) {
+            u.iter_mut().zip(column).for_each(|(u, g)| *u += p * g);
+        }
+    }
 }
 
 /// How a solution was found.
@@ -53,7 +79,7 @@ pub(super) struct Solver {
     pub p: Vec<f64>,
     /// Velocities of the solution.
     pub u: Vec<f64>,
-    factors: Factors,
+    factors: Kept,
 }
 
 impl Solver {
@@ -74,58 +100,58 @@ impl Solver {
 
     /// Solve, starting from the states of the last time; `Absent` ones must have been set by the caller.
     #[inline(always)]
-    pub(super) fn solve<const FUSED: bool>(&mut self, problem: &Problem) -> Report {
-        let mut report = Report::default();
+    pub(super) fn solve<W: Wide>(&mut self, problem: &mut Problem, crack: &mut impl Answering) -> Report {
+        let mut report = Report {
+            swept: true,
+            ..Report::default()
+        };
         while report.iterations < AT_ONCE + ONE_BY_ONE {
             report.iterations += 1;
-            if !self.factors.solve::<FUSED>(problem, &self.status, &mut self.p) {
-                break;
-            }
-            self.velocities::<FUSED>(problem);
-            if !self.amend(problem, report.iterations > AT_ONCE) {
-                report.residual = self.clip(problem);
-                return report;
-            }
-        }
-        self.sweep::<FUSED>(problem);
-        report.swept = true;
-        report.residual = self.clip(problem);
-        report
-    }
-
-    /// `u = G p + b`.
-    #[inline(always)]
-    pub(super) fn velocities<const FUSED: bool>(&mut self, problem: &Problem) {
-        let size = problem.b.len();
-        self.u.copy_from_slice(&problem.b);
-        for (&p, column) in self.p.iter().zip(problem.g.chunks_exact(size)) {
-            if p != 0.0 {
-                for (u, g) in self.u.iter_mut().zip(column) {
-                    *u = fma::<FUSED>(p, *g, *u);
+            let status = &self.status;
+            if !self.factors.turn_to(status) {
+                crack.fill(problem, |contact| status[contact].closed());
+                if !self.factors.now().factor::<W>(problem, status) {
+                    break;
                 }
             }
+            self.factors.now().solve::<W>(problem, &mut self.p);
+            crack.velocities::<W>(problem, &self.p, &mut self.u);
+            if !self.amend(problem, report.iterations > AT_ONCE) {
+                report.swept = false;
+                break;
+            }
         }
+        if report.swept {
+            let status = &self.status;
+            crack.fill(problem, |contact| status[contact] != Status::Absent);
+            self.sweep(problem);
+        }
+        if self.clip() || report.swept {
+            crack.velocities::<W>(problem, &self.p, &mut self.u);
+        }
+        report.residual = self.residual(problem);
+        report
     }
 
     /// Change the state of the contacts that break their conditions, all or the worst; false where none does.
     #[inline(always)]
     fn amend(&mut self, problem: &Problem, worst_only: bool) -> bool {
-        let size = problem.b.len();
+        let m = self.status.len();
         let fastest = problem.b.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
         let largest = self.p.iter().fold(0.0_f64, |a, p| a.max(p.abs()));
         let (slack_u, slack_p) = (SLACK * fastest, SLACK * largest);
         let mut worst = (0.0, usize::MAX, Status::Open);
         let mut changed = false;
-        for contact in 0..self.status.len() {
-            let (u_t, u_n) = (self.u[2 * contact], self.u[2 * contact + 1] + problem.h[contact]);
-            let (p_t, p_n) = (self.p[2 * contact], self.p[2 * contact + 1]);
+        for contact in 0..m {
+            let (u_t, u_n) = (self.u[contact], self.u[m + contact] + problem.h[contact]);
+            let (p_t, p_n) = (self.p[contact], self.p[m + contact]);
             let status = self.status[contact];
-            let compliance = problem.g[(2 * contact + 1) * (size + 1)];
+            let scale = problem.scale[m + contact];
             let limit = problem.mu_stick[contact] * p_n;
             let (violation, next) = match status {
                 Status::Open if u_n < -slack_u => (-u_n, Status::Stick),
                 Status::Stick | Status::SlipDownstream | Status::SlipUpstream if p_n < -slack_p => {
-                    (-p_n * compliance, Status::Open)
+                    (-p_n / scale, Status::Open)
                 }
                 Status::Stick if p_t.abs() > limit.max(0.0) + slack_p => {
                     let way = if p_t > 0.0 {
@@ -133,7 +159,7 @@ impl Solver {
                     } else {
                         Status::SlipDownstream
                     };
-                    ((p_t.abs() - limit) * compliance, way)
+                    ((p_t.abs() - limit) / scale, way)
                 }
                 Status::SlipDownstream if u_t < -slack_u => (-u_t, Status::Stick),
                 Status::SlipUpstream if u_t > slack_u => (u_t, Status::Stick),
@@ -152,31 +178,38 @@ impl Solver {
         changed
     }
 
-    /// Take rounding off the solution and return its residual.
+    /// Take rounding off the solution; false where there was none.
     #[inline(always)]
-    fn clip(&mut self, problem: &Problem) -> f64 {
-        let size = problem.b.len();
+    fn clip(&mut self) -> bool {
+        let m = self.status.len();
+        let least = self.p[m..].iter().fold(0.0_f64, |a, p| a.min(*p));
+        if least < 0.0 {
+            self.p[m..].iter_mut().for_each(|p| *p = p.max(0.0));
+        }
+        least < 0.0
+    }
+
+    /// Residual of the solution.
+    #[inline(always)]
+    fn residual(&self, problem: &Problem) -> f64 {
+        let m = self.status.len();
         let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
-        for contact in 0..self.status.len() {
+        for contact in 0..m {
             if self.status[contact] == Status::Absent {
                 continue;
             }
-            let i = 2 * contact;
-            self.p[i + 1] = self.p[i + 1].max(0.0);
-            let (p_t, p_n) = (self.p[i], self.p[i + 1]);
-            largest = largest.max(p_n);
-            let (u_t, u_n) = (self.u[i], self.u[i + 1] + problem.h[contact]);
-            let (g_t, g_n) = (problem.g[i * (size + 1)], problem.g[(i + 1) * (size + 1)]);
-            largest = largest
-                .max(problem.b[i].abs() / g_t)
-                .max(problem.b[i + 1].abs() / g_n);
+            let (p_t, p_n) = (self.p[contact], self.p[m + contact]);
+            let (u_t, u_n) = (self.u[contact], self.u[m + contact] + problem.h[contact]);
+            let (scale_t, scale_n) = (problem.scale[contact], problem.scale[m + contact]);
+            let (b_t, b_n) = (problem.b[contact], problem.b[m + contact]);
+            largest = largest.max(p_n).max(b_t.abs() * scale_t).max(b_n.abs() * scale_n);
             // The natural map: zero exactly where the conditions hold.
-            worst = worst.max(p_n.min(u_n / g_n).abs());
+            worst = worst.max(p_n.min(u_n * scale_n).abs());
             let mu = match self.status[contact] {
                 Status::Stick => problem.mu_stick[contact],
                 _ => problem.mu_slip,
             };
-            worst = worst.max((p_t - (p_t - u_t / g_t).clamp(-mu * p_n, mu * p_n)).abs());
+            worst = worst.max((p_t - (p_t - u_t * scale_t).clamp(-mu * p_n, mu * p_n)).abs());
         }
         if largest > 0.0 {
             worst / largest

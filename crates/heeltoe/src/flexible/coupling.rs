@@ -6,9 +6,11 @@
 //! G = B W B^T,      b = B u_f
 //! ```
 //!
-//! as [`super::coulomb`] needs them.
+//! as [`super::coulomb`] needs them; with dashpots (see [`super::dampers`]) less what they hold back, `G -= V N V^T` with
+//! `V = B W_cd`.
 
-use super::contact::{relative, spread, Contacts, Pair};
+use super::body::Group;
+use super::contact::{Contacts, Pair};
 use super::coulomb::{Problem, Report, Solver};
 use super::dam::Dam;
 use super::sides::{Faces, Sides};
@@ -19,15 +21,17 @@ pub(super) struct Crack {
     pub contacts: Contacts,
     pub problem: Problem,
     pub solver: Solver,
-    /// Normal velocity before the step, and whether the contact was closed.
-    pub approach: Vec<f64>,
+    pub blocks: Blocks,
+    /// Velocities before the step, and whether the contact was closed.
+    pub before: Vec<f64>,
     pub closed: Vec<bool>,
-    /// State of damping that `problem.g` belongs to.
-    pub assembled: Option<usize>,
+    /// State of damping that the answers belong to.
+    damping: Option<usize>,
 }
 
 impl Crack {
-    pub(super) fn new(dam: &Dam) -> Self {
+    /// `dampers` is the number of dashpots that hold the crack back.
+    pub(super) fn new(dam: &Dam, dampers: usize) -> Self {
         let lower = dam.bodies.lower.as_ref().map_or(0, |body| body.nodes);
         let contacts = Contacts::new(dam.contactors, dam.bodies.upper.nodes, lower);
         let m = contacts.len();
@@ -38,146 +42,79 @@ impl Crack {
                 h: vec![0.0; m],
                 mu_stick: vec![dam.friction[0]; m],
                 mu_slip: dam.friction[1],
+                scale: vec![0.0; 2 * m],
             },
             solver: Solver::new(m),
-            approach: vec![0.0; m],
+            blocks: Blocks::new(m, dampers),
+            before: vec![0.0; 2 * m],
             closed: vec![true; m],
             contacts,
-            assembled: None,
+            damping: None,
         }
     }
 
-    /// Find where the nodes of both faces meet; where pairs are others, or the state of damping is, put `G` together
-    /// from the crack's `answers`. `softness` is added to the answer to itself, and gets the largest of them to go by.
-    /// Returns whether it has been put together anew.
+    /// Find where the nodes of both faces meet, and note whose answers are others: where pairs are, or the state of
+    /// damping is.
     #[inline(always)]
     pub(super) fn meet<'w>(
         &mut self,
         position: Faces,
         damping: usize,
         answers: impl Fn() -> Sides<Answer<'w>>,
-        softness: impl Fn(f64) -> f64,
-    ) -> bool {
+    ) {
         let status = &self.solver.status;
         self.contacts
             .update(position.upper, position.lower, |k| status[k] == Status::Stick);
-        if self.assembled != Some(damping) {
+        if self.damping != Some(damping) {
             self.contacts.moved.fill(true);
+            self.damping = Some(damping);
         }
-        let other = self.contacts.any_moved();
-        if other {
-            self.assemble(answers(), softness);
-            self.assembled = Some(damping);
+        if self.contacts.moved.contains(&true) {
+            self.blocks.note(&self.contacts.moved);
+            self.solver.forget(&self.contacts.moved);
+            self.blocks
+                .measure(&mut self.problem.scale, &self.contacts, answers);
         }
-        other
     }
 
-    /// Write how each contact answers to an impulse at any other, where one of both has moved.
+    /// Take over the states of the contacts from the step before; `problem.b` is zero where nothing is met.
     #[inline(always)]
-    pub(super) fn assemble(&mut self, answers: Sides<Answer>, softness: impl Fn(f64) -> f64) {
-        let size = self.problem.b.len();
-        let moved = &self.contacts.moved;
-        let mut largest = 0.0_f64;
-        for (i, one) in self.contacts.pairs.iter().enumerate() {
-            for (j, other) in self.contacts.pairs[..=i].iter().enumerate() {
-                if !(moved[i] || moved[j]) {
-                    continue;
-                }
-                let mut block = [[0.0; 2]; 2];
-                if let (Some(one), Some(other)) = (one, other) {
-                    couple(&mut block, &one.upper, &other.upper, answers.upper);
-                    if let Some(lower) = answers.lower {
-                        couple(&mut block, &one.lower, &other.lower, lower);
-                    }
-                }
-                for (a, row) in block.iter().enumerate() {
-                    for (b, value) in row.iter().enumerate() {
-                        self.problem.g[(2 * i + a) * size + 2 * j + b] = *value;
-                        self.problem.g[(2 * j + b) * size + 2 * i + a] = *value;
-                    }
-                }
-                if i == j {
-                    largest = largest.max(block[0][0]).max(block[1][1]);
-                }
+    pub(super) fn set_up(&mut self, friction: [f64; 2]) {
+        let states = self.solver.status.iter_mut().zip(&mut self.problem.mu_stick);
+        for ((pair, closed), (status, mu)) in self.contacts.pairs.iter().zip(&mut self.closed).zip(states) {
+            *closed = status.closed();
+            match (pair, *status) {
+                (None, _) => *status = Status::Absent,
+                (_, Status::Absent) => *status = Status::Open,
+                _ => {}
             }
-        }
-        let soft = softness(largest);
-        if soft > 0.0 {
-            for k in (0..size).filter(|k| moved[k / 2]) {
-                self.problem.g[k * (size + 1)] += soft;
-            }
-        }
-        self.solver.forget(moved);
-    }
-}
-
-/// What a contact does in a step without impulses: motion along and across, the room it has, and how fast it opens.
-pub(super) struct WithoutContact {
-    pub b: [f64; 2],
-    pub h: f64,
-    pub approach: f64,
-}
-
-/// How the crack nodes of a body answer to impulses on them, row by row.
-#[derive(Clone, Copy)]
-pub(super) struct Answer<'a> {
-    pub w: &'a [f64],
-    pub nodes: usize,
-}
-
-/// Add what the nodes of one contact feel of those of another, in one part.
-#[inline(always)]
-fn couple(block: &mut [[f64; 2]; 2], one: &[(usize, f64); 2], other: &[(usize, f64); 2], answer: Answer) {
-    let Answer { w, nodes } = answer;
-    let columns = 2 * nodes;
-    for &(i, a) in one {
-        for &(j, b) in other {
-            let weight = a * b;
-            if weight != 0.0 {
-                for (r, row) in block.iter_mut().enumerate() {
-                    for (c, value) in row.iter_mut().enumerate() {
-                        *value += weight * w[(r * nodes + i) * columns + c * nodes + j];
-                    }
-                }
-            }
+            *mu = friction[usize::from(status.slips())];
         }
     }
-}
 
-impl Crack {
-    /// Write the contact problem of the step; `without` says what becomes of a contact without further impulses, from its
-    /// pair, its gap and the impulse it has had.
+    /// What to add to the answers to themselves: this share of the largest.
     #[inline(always)]
-    pub(super) fn set_up(
-        &mut self,
-        friction: [f64; 2],
-        without: impl Fn(&Pair, f64, &[f64]) -> WithoutContact,
-    ) {
-        for (k, pair) in self.contacts.pairs.iter().enumerate() {
-            let status = self.solver.status[k];
-            self.closed[k] = status.closed();
-            let Some(pair) = pair else {
-                self.solver.status[k] = Status::Absent;
-                self.problem.b[2 * k] = 0.0;
-                self.problem.b[2 * k + 1] = 0.0;
-                self.approach[k] = 0.0;
-                continue;
-            };
-            if status == Status::Absent {
-                self.solver.status[k] = Status::Open;
-            }
-            let found = without(pair, self.contacts.gaps[k], &self.solver.p[2 * k..2 * k + 2]);
-            self.problem.b[2 * k..2 * k + 2].copy_from_slice(&found.b);
-            self.problem.h[k] = found.h;
-            self.approach[k] = found.approach;
-            self.problem.mu_stick[k] = friction[usize::from(status.slips())];
+    pub(super) fn softness(&self, share: f64) -> f64 {
+        if share == 0.0 {
+            return 0.0;
         }
+        let known = self.problem.scale.iter().filter(|scale| **scale > 0.0);
+        share / known.fold(f64::INFINITY, |a, scale| a.min(*scale))
+    }
+
+    /// Put all of `G` together.
+    pub(super) fn fill(&mut self, answers: Sides<Answer>, softness: f64) {
+        let (g, contacts) = (&mut self.problem.g, &self.contacts);
+        self.blocks.fill(g, contacts, answers, &[], softness, |_| true);
     }
 
     /// Take the forces of a dam at rest for the solution of a step.
     pub(super) fn hold(&mut self, forces: &[f64], dt: f64) -> Report {
-        for (p, force) in self.solver.p.iter_mut().zip(forces) {
-            *p = dt * force;
+        let m = self.contacts.len();
+        for (k, (p, force)) in self.solver.p.iter_mut().zip(forces).enumerate() {
+            // Rounding may have put a node at an end beyond it.
+            let meets = self.contacts.pairs[k % m].is_some();
+            *p = if meets { dt * force } else { 0.0 };
         }
         self.solver.u.fill(0.0);
         Report {
@@ -186,38 +123,184 @@ impl Crack {
         }
     }
 
-    /// Put the impulses on both faces and return their sums along and across the crack.
+    /// Put the impulses on both faces.
     #[inline(always)]
-    pub(super) fn impulses(&self, upper: &mut [f64], lower: &mut [f64]) -> [f64; 2] {
-        upper.fill(0.0);
-        lower.fill(0.0);
-        let mut sum = [0.0; 2];
-        for (k, pair) in self.contacts.pairs.iter().enumerate() {
-            let Some(pair) = pair else { continue };
-            for (direction, sum) in sum.iter_mut().enumerate() {
-                let p = self.solver.p[2 * k + direction];
-                if p != 0.0 {
-                    spread(pair, direction, p, upper, lower);
-                    *sum += p;
-                }
-            }
-        }
-        sum
+    pub(super) fn impulses(&self, upper: &mut [f64], lower: &mut [f64]) {
+        self.contacts.spread(&self.solver.p, upper, lower);
     }
 
-    /// Work of the impulses on given velocities, along and across the crack.
+    /// Sums of the impulses along and across the crack.
     #[inline(always)]
-    pub(super) fn work(&self, velocity: Faces) -> [f64; 2] {
-        let mut work = [0.0; 2];
-        for (k, pair) in self.contacts.pairs.iter().enumerate() {
-            let Some(pair) = pair else { continue };
-            for (direction, work) in work.iter_mut().enumerate() {
-                let p = self.solver.p[2 * k + direction];
-                if p != 0.0 {
-                    *work += p * relative(pair, velocity.upper, velocity.lower, direction);
+    pub(super) fn sums(&self) -> [f64; 2] {
+        let (along, across) = self.solver.p.split_at(self.contacts.len());
+        [along.iter().sum(), across.iter().sum()]
+    }
+}
+
+/// How the crack nodes of a body answer to impulses on them, and then its dashpots, row by row.
+#[derive(Clone, Copy)]
+pub(super) struct Answer<'a> {
+    pub w: &'a [Group],
+    pub nodes: usize,
+    /// Groups in a row.
+    pub stride: usize,
+}
+
+impl Answer<'_> {
+    /// What a pair's nodes in a face feel, in a direction, in a row of `w`.
+    #[inline(always)]
+    fn felt(&self, row: usize, nodes: &[(usize, f64); 2], direction: usize) -> f64 {
+        let row = &self.w[row * self.stride..][..self.stride].as_flattened()[direction * self.nodes..];
+        nodes[0].1 * row[nodes[0].0] + nodes[1].1 * row[nodes[1].0]
+    }
+
+    /// Add what the nodes of one contact feel of those of another.
+    #[inline(always)]
+    fn couple(&self, block: &mut [[f64; 2]; 2], one: &[(usize, f64); 2], other: &[(usize, f64); 2]) {
+        for &(node, weight) in one {
+            if weight != 0.0 {
+                for (r, row) in block.iter_mut().enumerate() {
+                    for (c, value) in row.iter_mut().enumerate() {
+                        *value += weight * self.felt(r * self.nodes + node, other, c);
+                    }
                 }
             }
         }
-        work
     }
+}
+
+/// What is known of `G`.
+pub(super) struct Blocks {
+    /// Counts the times that something has moved.
+    now: u64,
+    /// When each contact moved last; when the block of two contacts, and what the dashpots feel of each, was worked out.
+    moved: Vec<u64>,
+    known: Vec<u64>,
+    felt: Vec<u64>,
+    /// `V` and `V N`, row by row.
+    v: Vec<f64>,
+    v_n: Vec<f64>,
+    dampers: usize,
+}
+
+impl Blocks {
+    fn new(contacts: usize, dampers: usize) -> Self {
+        Blocks {
+            now: 1,
+            moved: vec![1; contacts],
+            known: vec![0; contacts * contacts],
+            felt: vec![0; contacts],
+            v: vec![0.0; 2 * contacts * dampers],
+            v_n: vec![0.0; 2 * contacts * dampers],
+            dampers,
+        }
+    }
+
+    #[inline(always)]
+    fn note(&mut self, moved: &[bool]) {
+        self.now += 1;
+        for (at, moved) in self.moved.iter_mut().zip(moved) {
+            if *moved {
+                *at = self.now;
+            }
+        }
+    }
+
+    /// Note by what to measure contacts: how they answer to themselves where they first meet something.
+    #[inline(always)]
+    fn measure<'w>(&self, scale: &mut [f64], contacts: &Contacts, answers: impl Fn() -> Sides<Answer<'w>>) {
+        let m = contacts.len();
+        for (k, pair) in contacts.pairs.iter().enumerate() {
+            if let (Some(pair), 0.0) = (pair, scale[k]) {
+                let block = block(pair, pair, &answers());
+                (scale[k], scale[m + k]) = (1.0 / block[0][0], 1.0 / block[1][1]);
+            }
+        }
+    }
+
+    /// Write how each of the `wanted` contacts answers to an impulse at any other of them, where it is not known. `gain`
+    /// is that of the dashpots, `softness` is added to the answer to itself.
+    #[inline(always)]
+    pub(super) fn fill(
+        &mut self,
+        g: &mut [f64],
+        contacts: &Contacts,
+        answers: Sides<Answer>,
+        gain: &[f64],
+        softness: f64,
+        wanted: impl Fn(usize) -> bool,
+    ) {
+        let m = contacts.len();
+        for (i, one) in contacts.pairs.iter().enumerate() {
+            let (true, Some(one)) = (wanted(i), one) else {
+                continue;
+            };
+            self.feel(i, one, &answers, gain);
+            for (j, other) in contacts.pairs[..=i].iter().enumerate() {
+                let (true, Some(other)) = (wanted(j), other) else {
+                    continue;
+                };
+                if self.known[i * m + j] >= self.moved[i].max(self.moved[j]) {
+                    continue;
+                }
+                self.known[i * m + j] = self.now;
+                let block = block(one, other, &answers);
+                for (a, row) in block.iter().enumerate() {
+                    for (b, value) in row.iter().enumerate() {
+                        let held = self.held_back(a * m + i, b * m + j);
+                        let own = if (i, a) == (j, b) { softness } else { 0.0 };
+                        let value = value - held + own;
+                        g[(a * m + i) * 2 * m + b * m + j] = value;
+                        g[(b * m + j) * 2 * m + a * m + i] = value;
+                    }
+                }
+            }
+        }
+    }
+
+    /// Find what the dashpots feel of a contact.
+    #[inline(always)]
+    fn feel(&mut self, contact: usize, pair: &Pair, answers: &Sides<Answer>, gain: &[f64]) {
+        let d = self.dampers;
+        if d == 0 || self.felt[contact] >= self.moved[contact] {
+            return;
+        }
+        self.felt[contact] = self.now;
+        let m = self.moved.len();
+        for direction in 0..2 {
+            let first = (direction * m + contact) * d;
+            for k in 0..d {
+                let mut felt = answers
+                    .upper
+                    .felt(2 * answers.upper.nodes + k, &pair.upper, direction);
+                if let Some(lower) = &answers.lower {
+                    felt += lower.felt(2 * lower.nodes + k, &pair.lower, direction);
+                }
+                self.v[first + k] = felt;
+            }
+            for k in 0..d {
+                let row = gain[k * d..][..d].iter().zip(&self.v[first..][..d]);
+                self.v_n[first + k] = row.map(|(a, b)| a * b).sum();
+            }
+        }
+    }
+
+    /// What dashpots hold back of the answer of two components.
+    #[inline(always)]
+    fn held_back(&self, i: usize, j: usize) -> f64 {
+        let d = self.dampers;
+        let (one, other) = (&self.v[i * d..][..d], &self.v_n[j * d..][..d]);
+        one.iter().zip(other).map(|(a, b)| a * b).sum()
+    }
+}
+
+/// How a contact answers to another, but for dashpots.
+#[inline(always)]
+fn block(one: &Pair, other: &Pair, answers: &Sides<Answer>) -> [[f64; 2]; 2] {
+    let mut block = [[0.0; 2]; 2];
+    answers.upper.couple(&mut block, &one.upper, &other.upper);
+    if let Some(lower) = &answers.lower {
+        lower.couple(&mut block, &one.lower, &other.lower);
+    }
+    block
 }

@@ -12,26 +12,25 @@
 //! (Woodbury's identity), where `W` are the answers without dashpots and `S` their signs: -1 where one gives back what
 //! others take too much, as of the mass of the water; together they only take. The crack then answers with
 //! `W_cc - W_cd N W_dc`.
+//!
+//! The answers of the parts have the dashpots behind the crack nodes, and so have their velocities.
 
-use super::body::dot;
-use super::contact::Contacts;
 use super::moving::{Moving, TimeStep};
 use super::sides::Sides;
+use super::wide::Wide;
 
 /// The dashpots of a run.
 #[derive(Default)]
 pub(super) struct Dampers {
     count: usize,
     theta: f64,
-    /// `N` and `W_dd` for both states of damping, row by row.
-    gain: [Vec<f64>; 2],
-    own: [Vec<f64>; 2],
-    /// Rates before the step; after it but for the dashpots and contact; impulses.
+    /// `N` for both states of damping, row by row.
+    pub gain: [Vec<f64>; 2],
+    /// Rates before the step; impulses, and those of them that answer to contact.
     rate: Vec<f64>,
-    free: Vec<f64>,
     pull: Vec<f64>,
-    room: Vec<f64>,
     further: Vec<f64>,
+    room: Vec<f64>,
     /// Energy they have taken.
     pub taken: f64,
 }
@@ -39,27 +38,27 @@ pub(super) struct Dampers {
 impl Dampers {
     pub(super) fn new(bodies: &Sides<Moving>, step: TimeStep) -> Self {
         let count = bodies.upper.body.dampers;
-        let own = [0, 1].map(|state: usize| {
-            let mut sum = vec![0.0; count * count];
-            bodies
-                .iter()
-                .for_each(|body| add(&mut sum, &body.operator.damper_own[state]));
-            sum
-        });
         let weight = step.dt * step.theta;
         let signs = &bodies.upper.body.damper_signs;
-        let gain = [0, 1].map(|state: usize| inverse_gain(&own[state], signs, weight));
+        let gain = [0, 1].map(|state: usize| {
+            let mut own = vec![0.0; count * count];
+            for body in bodies.iter() {
+                let rows = body.damper_rows(state).chunks_exact(body.body.stride());
+                for (sum, row) in own.chunks_exact_mut(count.max(1)).zip(rows) {
+                    add(sum, &row.as_flattened()[body.body.columns()..]);
+                }
+            }
+            inverse_gain(&own, signs, weight)
+        });
         let zeros = vec![0.0; count];
         Dampers {
             count,
             theta: step.theta,
             gain,
-            own,
             rate: zeros.clone(),
-            free: zeros.clone(),
             pull: zeros.clone(),
-            room: zeros.clone(),
-            further: zeros,
+            further: zeros.clone(),
+            room: zeros,
             taken: 0.0,
         }
     }
@@ -68,93 +67,61 @@ impl Dampers {
         self.count == 0
     }
 
-    /// Change the velocities of the crack without contact by what the dashpots do of themselves; `push` of the bodies,
-    /// what acts in the crack beside contact, is known by now.
+    /// Change the velocities without contact by what the dashpots do of themselves; what acts in the crack beside contact
+    /// is known by now.
     #[inline(always)]
-    pub(super) fn begin(&mut self, bodies: &mut Sides<Moving>, damping: usize, pushed: bool) {
-        self.free.fill(0.0);
-        for body in bodies.iter() {
-            add(&mut self.free, &body.strain);
-            if pushed {
-                body.at_dampers(damping, &body.push, &mut self.free);
-            }
-        }
+    pub(super) fn begin<W: Wide>(&mut self, bodies: &mut Sides<Moving>, damping: usize) {
         let late = (1.0 - self.theta) / self.theta;
-        for ((sum, free), rate) in self.room.iter_mut().zip(&self.free).zip(&self.rate) {
-            *sum = free + late * rate;
+        for (room, rate) in self.room.iter_mut().zip(&self.rate) {
+            *room = late * rate;
         }
-        for (pull, row) in self
-            .pull
-            .iter_mut()
-            .zip(self.gain[damping].chunks_exact(self.count))
-        {
-            *pull = -dot(row, &self.room);
+        for body in bodies.iter() {
+            add(&mut self.room, body.rates(&body.free));
         }
+        respond(&self.gain[damping], &self.room, &mut self.pull);
         for body in bodies.iter_mut() {
-            body.pull_crack(damping, &self.pull);
+            body.pull_free::<W>(damping, &self.pull);
         }
     }
 
-    /// Count in the impulses of contact, which the parts have, and hand the impulses of the dashpots to the parts.
+    /// Change the answers to impulses of contact, which the parts have, by what the dashpots do about them.
     #[inline(always)]
-    pub(super) fn finish(&mut self, bodies: &mut Sides<Moving>, damping: usize) {
+    pub(super) fn follow<W: Wide>(&mut self, bodies: &mut Sides<Moving>, damping: usize) {
         self.room.fill(0.0);
         for body in bodies.iter() {
-            body.at_dampers(damping, &body.impulse, &mut self.room);
+            add(&mut self.room, body.rates(&body.answer));
         }
-        for (more, row) in self
-            .further
-            .iter_mut()
-            .zip(self.gain[damping].chunks_exact(self.count))
-        {
-            *more = -dot(row, &self.room);
-        }
+        respond(&self.gain[damping], &self.room, &mut self.further);
         for body in bodies.iter_mut() {
-            body.pull_crack(damping, &self.further);
-        }
-        add(&mut self.pull, &self.further);
-        for (k, row) in self.own[damping].chunks_exact(self.count).enumerate() {
-            let new = self.free[k] + self.room[k] + dot(row, &self.pull);
-            self.taken -= self.pull[k] * (self.theta * new + (1.0 - self.theta) * self.rate[k]);
-            self.rate[k] = new;
-        }
-        for body in bodies.iter_mut() {
-            body.pull.copy_from_slice(&self.pull);
+            body.pull_answer::<W>(damping, &self.further);
         }
     }
 
-    /// Take from the answer of the contacts what the dashpots hold back, `G -= V N V^T` with `V = B W_cd`: where a contact
-    /// has moved, as the rest is done.
+    /// Hand the impulses of the dashpots to the parts, whose velocities are final, and book what they take.
     #[inline(always)]
-    pub(super) fn soften(&self, g: &mut [f64], contacts: &Contacts, bodies: &Sides<Moving>, damping: usize) {
-        let (k, size) = (self.count, 2 * contacts.len());
-        let mut v = vec![0.0; size * k];
-        for (contact, pair) in contacts.pairs.iter().enumerate() {
-            let Some(pair) = pair else { continue };
-            for direction in 0..2 {
-                let row = &mut v[(2 * contact + direction) * k..][..k];
-                bodies.upper.felt_by_dampers(damping, &pair.upper, direction, row);
-                if let Some(lower) = &bodies.lower {
-                    lower.felt_by_dampers(damping, &pair.lower, direction, row);
-                }
-            }
+    pub(super) fn finish(&mut self, bodies: &mut Sides<Moving>) {
+        add(&mut self.pull, &self.further);
+        self.room.fill(0.0);
+        for body in bodies.iter_mut() {
+            add(&mut self.room, body.rates(&body.answer));
+            body.pull.copy_from_slice(&self.pull);
         }
-        let mut n_v = vec![0.0; size * k];
-        for (out, row) in n_v.chunks_exact_mut(k).zip(v.chunks_exact(k)) {
-            for (value, gain) in out.iter_mut().zip(self.gain[damping].chunks_exact(k)) {
-                *value = dot(gain, row);
-            }
-        }
-        for (i, line) in v.chunks_exact(k).enumerate() {
-            for (j, other) in n_v.chunks_exact(k).enumerate() {
-                if contacts.moved[i / 2] || contacts.moved[j / 2] {
-                    g[i * size + j] -= line.iter().zip(other).map(|(a, b)| a * b).sum::<f64>();
-                }
-            }
+        for ((pull, rate), new) in self.pull.iter().zip(&mut self.rate).zip(&self.room) {
+            self.taken -= pull * (self.theta * new + (1.0 - self.theta) * *rate);
+            *rate = *new;
         }
     }
 }
 
+/// The impulses of dashpots with this gain at these rates.
+#[inline(always)]
+fn respond(gain: &[f64], rate: &[f64], pull: &mut [f64]) {
+    for (pull, row) in pull.iter_mut().zip(gain.chunks_exact(rate.len())) {
+        *pull = -row.iter().zip(rate).map(|(a, b)| a * b).sum::<f64>();
+    }
+}
+
+#[inline(always)]
 fn add(sum: &mut [f64], more: &[f64]) {
     sum.iter_mut().zip(more).for_each(|(a, b)| *a += b);
 }

@@ -9,72 +9,164 @@
 //!
 //! The matrix is factored, `P G = L U`, column by column, with row pivoting.
 
-use super::body::fma;
+use super::body::{combine, fma, Group, LANES};
 use super::coulomb::Problem;
 use super::status::Status;
+use super::wide::Wide;
 
-/// The factors of a set of states; they are kept as long as the set is and what `G` has for it.
+/// Solutions with the same factors after which their inverse pays: one solution by it takes a quarter of the time.
+const INVERT_AFTER: u32 = 20;
+/// An inverse of what is closer to singular than this share of its largest pivot would not solve to rounding.
+const INVERTIBLE: f64 = 1e-6;
+
+/// Sets of states whose factors are kept: a crack that slides comes back to the same few again and again.
+const KEPT: usize = 8;
+
+/// The factors of the last few sets.
+pub(super) struct Kept {
+    all: Vec<Factors>,
+    /// The one in use.
+    now: usize,
+    /// Counts the times that another one came into use.
+    turns: u64,
+}
+
+impl Default for Kept {
+    fn default() -> Self {
+        Kept {
+            all: (0..KEPT).map(|_| Factors::default()).collect(),
+            now: 0,
+            turns: 0,
+        }
+    }
+}
+
+impl Kept {
+    /// Forget those that contain a contact that has moved, because its part of `G` is another one.
+    #[inline(always)]
+    pub(super) fn forget(&mut self, moved: &[bool]) {
+        self.all.iter_mut().for_each(|factors| factors.forget(moved));
+    }
+
+    /// Turn to the factors of a set of states; false where they are not known.
+    #[inline(always)]
+    pub(super) fn turn_to(&mut self, status: &[Status]) -> bool {
+        if self.all[self.now].belong_to(status) {
+            return true;
+        }
+        let known = self.all.iter().position(|factors| factors.belong_to(status));
+        self.turns += 1;
+        self.now = known.unwrap_or_else(|| {
+            let free = |k: &usize| self.all[*k].turn * u64::from(self.all[*k].fresh);
+            (0..KEPT).min_by_key(free).unwrap_or(0)
+        });
+        self.all[self.now].turn = self.turns;
+        known.is_some()
+    }
+
+    /// The factors turned to.
+    #[inline(always)]
+    pub(super) fn now(&mut self) -> &mut Factors {
+        &mut self.all[self.now]
+    }
+}
+
+/// The factors of a set of states; they hold as long as what `G` has for it.
 #[derive(Default)]
 pub(super) struct Factors {
     /// The set they belong to.
     of: Vec<Status>,
-    /// Contact and component of each unknown.
-    unknowns: Vec<(usize, bool)>,
+    /// Component of each unknown.
+    unknowns: Vec<usize>,
+    /// Contacts that slip, and what times the normal impulse is their friction.
+    slips: Vec<(usize, f64)>,
     lu: Vec<f64>,
     pivots: Vec<usize>,
     x: Vec<f64>,
     fresh: bool,
+    /// When they came into use last.
+    turn: u64,
+    /// How often they have been used.
+    used: u32,
+    /// The inverse, column by column, each filled up to whole groups; empty until it pays.
+    inverse: Vec<Group>,
+    sum: Vec<Group>,
 }
 
 impl Factors {
     /// Forget them where they contain a contact whose part of `G` is another one.
     #[inline(always)]
-    pub(super) fn forget(&mut self, moved: &[bool]) {
+    fn forget(&mut self, moved: &[bool]) {
         let mut pairs = self.of.iter().zip(moved);
         if pairs.any(|(status, moved)| *moved && status.closed()) {
             self.fresh = false;
         }
     }
 
-    /// Solve for the impulses `p` under these states; false where the matrix is singular.
+    /// Whether these are the factors of the set of states.
     #[inline(always)]
-    pub(super) fn solve<const FUSED: bool>(
-        &mut self,
-        problem: &Problem,
-        status: &[Status],
-        p: &mut [f64],
-    ) -> bool {
-        let known = self.fresh && self.of == status;
-        if !known && !self.factor::<FUSED>(problem, status) {
-            return false;
-        }
+    fn belong_to(&self, status: &[Status]) -> bool {
+        self.fresh && self.of == status
+    }
+
+    /// Solve for the impulses `p`.
+    #[inline(always)]
+    pub(super) fn solve<W: Wide>(&mut self, problem: &Problem, p: &mut [f64]) {
+        let m = problem.h.len();
         self.x.clear();
-        for &(contact, along) in &self.unknowns {
-            self.x.push(if along {
-                -problem.b[2 * contact]
-            } else {
-                -problem.b[2 * contact + 1] - problem.h[contact]
-            });
+        for &k in &self.unknowns {
+            let room = if k < m { 0.0 } else { problem.h[k - m] };
+            self.x.push(-problem.b[k] - room);
         }
-        self.substitute::<FUSED>();
+        self.used += 1;
+        if self.used == INVERT_AFTER {
+            self.invert::<W>();
+        }
+        if self.inverse.is_empty() {
+            self.substitute::<W>();
+        } else {
+            self.sum.fill([0.0; LANES]);
+            combine::<W>(&self.inverse, &self.x, &mut self.sum);
+            let n = self.x.len();
+            self.x.copy_from_slice(&self.sum.as_flattened()[..n]);
+        }
         p.fill(0.0);
-        for (&(contact, along), &value) in self.unknowns.iter().zip(&self.x) {
-            if along {
-                p[2 * contact] = value;
-            } else {
-                p[2 * contact + 1] = value;
-                let sign = status[contact].sign();
-                if sign != 0.0 {
-                    p[2 * contact] = -sign * problem.mu_slip * value;
-                }
-            }
+        for (&k, &value) in self.unknowns.iter().zip(&self.x) {
+            p[k] = value;
         }
-        true
+        for &(contact, factor) in &self.slips {
+            p[contact] = factor * p[m + contact];
+        }
+    }
+
+    /// Work out the inverse, unless the matrix is next to singular.
+    #[inline(always)]
+    fn invert<W: Wide>(&mut self) {
+        let n = self.unknowns.len();
+        let diagonal = || (0..n).map(|k| self.lu[k * (n + 1)].abs());
+        let (least, largest) = (
+            diagonal().fold(f64::INFINITY, f64::min),
+            diagonal().fold(0.0, f64::max),
+        );
+        if least < INVERTIBLE * largest {
+            return;
+        }
+        let stride = n.div_ceil(LANES);
+        let rhs = self.x.clone();
+        self.sum = vec![[0.0; LANES]; stride];
+        self.inverse = vec![[0.0; LANES]; n * stride];
+        for k in 0..n {
+            self.x.fill(0.0);
+            self.x[k] = 1.0;
+            self.substitute::<W>();
+            self.inverse[k * stride..][..stride].as_flattened_mut()[..n].copy_from_slice(&self.x);
+        }
+        self.x = rhs;
     }
 
     /// Turn the right-hand side in `x` into the solution.
     #[inline(always)]
-    fn substitute<const FUSED: bool>(&mut self) {
+    fn substitute<W: Wide>(&mut self) {
         let n = self.unknowns.len();
         for (k, &pivot) in self.pivots.iter().enumerate() {
             self.x.swap(k, pivot);
@@ -84,7 +176,7 @@ impl Factors {
             let factor = -self.x[k];
             let (_, below) = self.x.split_at_mut(k + 1);
             for (value, l) in below.iter_mut().zip(&self.lu[k * n + k + 1..(k + 1) * n]) {
-                *value = fma::<FUSED>(factor, *l, *value);
+                *value = fma::<W>(factor, *l, *value);
             }
         }
         for k in (0..n).rev() {
@@ -92,17 +184,19 @@ impl Factors {
             self.x[k] = value;
             let (above, _) = self.x.split_at_mut(k);
             for (other, l) in above.iter_mut().zip(&self.lu[k * n..k * n + k]) {
-                *other = fma::<FUSED>(-value, *l, *other);
+                *other = fma::<W>(-value, *l, *other);
             }
         }
     }
 
     /// Set up and factor the matrix of these states; false where it is singular.
     #[inline(always)]
-    fn factor<const FUSED: bool>(&mut self, problem: &Problem, status: &[Status]) -> bool {
-        self.set_up::<FUSED>(problem, status);
+    pub(super) fn factor<W: Wide>(&mut self, problem: &Problem, status: &[Status]) -> bool {
+        self.set_up::<W>(problem, status);
         self.pivots.clear();
-        self.fresh = self.eliminate::<FUSED>();
+        self.inverse.clear();
+        self.used = 0;
+        self.fresh = self.eliminate::<W>();
         if self.fresh {
             self.of.clear();
             self.of.extend_from_slice(status);
@@ -112,35 +206,39 @@ impl Factors {
 
     /// Write the matrix, column by column.
     #[inline(always)]
-    fn set_up<const FUSED: bool>(&mut self, problem: &Problem, status: &[Status]) {
+    fn set_up<W: Wide>(&mut self, problem: &Problem, status: &[Status]) {
+        let (m, size) = (status.len(), problem.b.len());
         self.unknowns.clear();
+        self.slips.clear();
         for (contact, status) in status.iter().enumerate() {
-            match status {
-                Status::Absent | Status::Open => {}
-                Status::Stick => self.unknowns.extend([(contact, true), (contact, false)]),
-                _ => self.unknowns.push((contact, false)),
+            if *status == Status::Stick {
+                self.unknowns.push(contact);
+            }
+            if status.slips() {
+                self.slips.push((contact, -status.sign() * problem.mu_slip));
             }
         }
-        let size = problem.b.len();
+        let closed = status.iter().enumerate().filter(|(_, status)| status.closed());
+        self.unknowns.extend(closed.map(|(contact, _)| m + contact));
         self.lu.clear();
-        for &(contact, along) in &self.unknowns {
-            let column = &problem.g[(2 * contact + usize::from(!along)) * size..][..size];
-            let sign = status[contact].sign();
-            let rows = self.unknowns.iter().map(|&(i, a)| 2 * i + usize::from(!a));
-            if sign == 0.0 || along {
-                self.lu.extend(rows.map(|row| column[row]));
-            } else {
-                let friction = &problem.g[2 * contact * size..][..size];
-                let mu = -sign * problem.mu_slip;
-                self.lu
-                    .extend(rows.map(|row| fma::<FUSED>(mu, friction[row], column[row])));
+        let mut slips = self.slips.iter().peekable();
+        for &k in &self.unknowns {
+            let column = &problem.g[k * size..][..size];
+            let rows = self.unknowns.iter();
+            match slips.next_if(|(contact, _)| k == m + contact) {
+                None => self.lu.extend(rows.map(|&row| column[row])),
+                Some(&(contact, mu)) => {
+                    let friction = &problem.g[contact * size..][..size];
+                    self.lu
+                        .extend(rows.map(|&row| fma::<W>(mu, friction[row], column[row])));
+                }
             }
         }
     }
 
     /// Gauss's elimination in place; false where a pivot vanishes.
     #[inline(always)]
-    fn eliminate<const FUSED: bool>(&mut self) -> bool {
+    fn eliminate<W: Wide>(&mut self) -> bool {
         let n = self.unknowns.len();
         for k in 0..n {
             let column = &self.lu[k * n + k..(k + 1) * n];
@@ -172,7 +270,7 @@ impl Factors {
                 let factor = -column[k];
                 if factor != 0.0 {
                     for (value, l) in column[k + 1..].iter_mut().zip(&multipliers[1..]) {
-                        *value = fma::<FUSED>(factor, *l, *value);
+                        *value = fma::<W>(factor, *l, *value);
                     }
                 }
             }

@@ -24,15 +24,16 @@
 //! step. Nothing here bounds the energy: with average acceleration contact makes some at every blow, and the ledger
 //! shows it.
 
-use super::contact::{relative, Pair};
-use super::coupling::{Answer, Crack, WithoutContact};
+use super::coulomb::Known;
+use super::coupling::{Answer, Crack};
 use super::dam::{Dam, Shaking, Wanted};
 use super::ledger::Ledger;
 use super::newmark::{Before, Moving};
 use super::result::{Outcome, Run};
-use super::sides::{Faces, Sides};
+use super::sides::Sides;
 use super::status::Status;
 use super::walk::Walk;
+use super::wide::Plain;
 
 /// The numbers of the method.
 #[derive(Clone, Copy, Debug)]
@@ -119,12 +120,11 @@ impl<'a> Newmark<'a> {
         self.set_up();
         let crack = &mut self.walk.crack;
         let held = spring_energy(crack, penalty.stiffness);
-        let report = crack.solver.solve::<false>(&crack.problem);
+        let report = crack.solver.solve::<Plain>(&mut crack.problem, &mut Known);
         self.walk.summary.note(report);
-        let (upper, lower) = (&mut self.bodies.upper, &mut self.bodies.lower);
-        let none = &mut [][..];
-        let below = lower.as_mut().map_or(none, |body| &mut body.force);
-        let force = self.walk.crack.impulses(&mut upper.force, below);
+        let (upper, lower) = self.bodies.both_mut(|body| &mut body.force);
+        self.walk.crack.impulses(upper, lower);
+        let force = self.walk.crack.sums();
         let mut work = [0.0; 2];
         for (k, (body, before)) in self.bodies.iter_mut().zip(&before).enumerate() {
             let own = body.correct(before, damping, penalty, dt, &mut self.ledger);
@@ -154,22 +154,25 @@ impl<'a> Newmark<'a> {
             bodies.map(|body| Answer {
                 w: &body.w[damping],
                 nodes: body.body.nodes,
+                stride: body.body.stride(),
             })
         };
         let old = bodies.faces(|body| &body.position);
-        let free = bodies.faces(|body| &body.free);
         let crack = &mut self.walk.crack;
-        crack.meet(old, damping, answers, |_| 1.0 / stiffness);
-        let of = |faces: Faces, pair: &Pair, d| relative(pair, faces.upper, faces.lower, d);
-        crack.set_up(self.walk.dam.friction, |pair, _, force| {
-            let along = of(free, pair, 0) - of(old, pair, 0);
-            let across = of(free, pair, 1);
-            WithoutContact {
-                b: [along - force[0] / stiffness, across],
-                h: 0.0,
-                approach: (across - of(old, pair, 1)) / dt,
+        crack.meet(old, damping, answers);
+        crack.fill(answers(), 1.0 / stiffness);
+        let free = bodies.faces(|body| &body.free);
+        crack.contacts.relative(free, &mut crack.problem.b);
+        crack.contacts.relative(old, &mut crack.before);
+        let m = crack.contacts.len();
+        for (k, before) in crack.before.iter_mut().enumerate() {
+            let free = crack.problem.b[k];
+            if k < m {
+                crack.problem.b[k] = free - *before - crack.solver.p[k] / stiffness;
             }
-        });
+            *before = (free - *before) / dt;
+        }
+        crack.set_up(self.walk.dam.friction);
     }
 
     /// All that nothing else explains is the scheme's own; so this ledger always closes.
@@ -199,10 +202,8 @@ impl<'a> Newmark<'a> {
 
 /// Energy in the springs of all closed contacts, along and across the crack.
 fn spring_energy(crack: &Crack, penalty: f64) -> [f64; 2] {
-    [0, 1].map(|d| {
-        let forces = crack.solver.p.chunks_exact(2).map(|force| force[d]);
-        forces.map(|force| force * force).sum::<f64>() / (2.0 * penalty)
-    })
+    let (along, across) = crack.solver.p.split_at(crack.contacts.len());
+    [along, across].map(|forces| forces.iter().map(|force| force * force).sum::<f64>() / (2.0 * penalty))
 }
 
 fn energy(bodies: &Sides<Moving>) -> f64 {

@@ -28,6 +28,7 @@ mod sweep;
 #[cfg(test)]
 mod tests;
 mod walk;
+mod wide;
 
 pub use acting::{FaceAnchor, FollowingWater, Inside, Point};
 pub use body::{Modes, ReducedBody};

@@ -1,8 +1,9 @@
 //! One body of the dam on its way through time by Newmark's scheme; the equations are those of [`super::idce`].
 
-use super::body::{Group, ReducedBody, LANES};
+use super::body::{combine, Group, ReducedBody, LANES};
 use super::idce::Penalty;
 use super::ledger::Ledger;
+use super::wide::Plain;
 
 /// The state of a body.
 pub(super) struct Moving<'a> {
@@ -10,7 +11,7 @@ pub(super) struct Moving<'a> {
     /// Share of the right-hand side that becomes acceleration, for both states of damping.
     gain: [Vec<Group>; 2],
     /// Answer of the crack nodes to forces on them.
-    pub w: [Vec<f64>; 2],
+    pub w: [Vec<Group>; 2],
     pub q: Vec<Group>,
     pub v: Vec<Group>,
     a: Vec<Group>,
@@ -35,7 +36,8 @@ impl<'a> Moving<'a> {
         });
         let w = [0, 1].map(|state: usize| {
             let mut w = body.compliance(&gain[state]);
-            w.iter_mut().for_each(|value| *value *= penalty.beta * dt * dt);
+            let values = w.as_flattened_mut().iter_mut();
+            values.for_each(|value| *value *= penalty.beta * dt * dt);
             w
         });
         let at_start = body.at_crack(&body.start);
@@ -106,14 +108,8 @@ impl<'a> Moving<'a> {
         ledger: &mut Ledger,
     ) -> [f64; 2] {
         let body = self.body;
-        let columns = body.columns();
-        for (group, shapes) in body.shapes.chunks_exact(columns).enumerate() {
-            let mut push = [0.0; LANES];
-            for (shape, force) in shapes.iter().zip(&self.force) {
-                for l in 0..LANES {
-                    push[l] += shape[l] * force;
-                }
-            }
+        for group in 0..body.groups() {
+            let push = body.on_modes(group, &self.force);
             for (l, push) in push.iter().enumerate() {
                 let (c, w) = (body.damping[damping][group][l], body.omega_squared[group][l]);
                 let further = self.gain[damping][group][l] * penalty.beta * dt * dt * push;
@@ -132,7 +128,9 @@ impl<'a> Moving<'a> {
             }
         }
         let mut work = [0.0; 2];
-        let answer = multiply(&self.w[damping], &self.force);
+        let mut answer = vec![[0.0; LANES]; body.stride()];
+        combine::<Plain>(&self.w[damping], &self.force, &mut answer);
+        let answer = answer.as_flattened();
         for (k, position) in self.position.iter_mut().enumerate() {
             let new = self.free[k] + answer[k];
             let mean = (self.force[k] + self.force_before[k]) / 2.0;
@@ -148,14 +146,4 @@ impl<'a> Moving<'a> {
 pub(super) struct Before {
     q: Vec<Group>,
     ground: [[f64; 2]; 2],
-}
-
-fn multiply(matrix: &[f64], vector: &[f64]) -> Vec<f64> {
-    let mut product = vec![0.0; vector.len()];
-    for (value, row) in vector.iter().zip(matrix.chunks_exact(vector.len())) {
-        if *value != 0.0 {
-            product.iter_mut().zip(row).for_each(|(sum, w)| *sum += value * w);
-        }
-    }
-    product
 }

@@ -27,6 +27,16 @@ impl<T> Sides<T> {
         }
     }
 
+    /// One quantity of the crack nodes of both, to be written; empty on a rigid plane.
+    #[inline(always)]
+    pub(super) fn both_mut(&mut self, of: impl Fn(&mut T) -> &mut Vec<f64>) -> (&mut [f64], &mut [f64]) {
+        let lower = self
+            .lower
+            .as_mut()
+            .map_or(&mut [][..], |lower| &mut of(lower)[..]);
+        (of(&mut self.upper), lower)
+    }
+
     /// One quantity of the crack nodes of both.
     #[inline(always)]
     pub(super) fn faces<'a>(&'a self, of: impl Fn(&'a T) -> &'a [f64]) -> Faces<'a> {

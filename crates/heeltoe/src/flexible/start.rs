@@ -9,13 +9,14 @@
 //! with the conditions of contact and Coulomb on the motion of the step, as in [`super::coulomb`], until nothing moves
 //! any more. The small `s` holds a part that is free; it plays no part in the state that is found.
 
-use super::body::{Group, ReducedBody, LANES};
-use super::contact::relative;
-use super::coupling::{Answer, Crack, WithoutContact};
+use super::body::{Group, ReducedBody};
+use super::coulomb::Known;
+use super::coupling::{Answer, Crack};
 use super::dam::Dam;
 use super::observe::mean_along;
 use super::sides::Sides;
 use super::status::Status;
+use super::wide::Plain;
 
 /// What holds a free part, as a share of the smallest squared frequency.
 const HOLD: f64 = 1e-2;
@@ -64,7 +65,7 @@ impl Still {
 struct Side<'a> {
     body: &'a ReducedBody,
     d: Vec<Group>,
-    w: Vec<f64>,
+    w: Vec<Group>,
     q: Vec<Group>,
     way: Vec<Group>,
     position: Vec<f64>,
@@ -76,11 +77,9 @@ impl<'a> Side<'a> {
     fn new(body: &'a ReducedBody, hold: f64) -> Self {
         let inverse = |w: &Group| -> Group { std::array::from_fn(|l| 1.0 / (w[l] + hold)) };
         let d: Vec<Group> = body.omega_squared.iter().map(inverse).collect();
-        let (columns, width) = (body.columns(), body.width());
-        let whole = body.compliance(&d);
-        let rows = whole.chunks_exact(width).take(columns);
+        let columns = body.columns();
         Side {
-            w: rows.flat_map(|row| &row[..columns]).copied().collect(),
+            w: body.compliance(&d),
             q: body.start.clone(),
             way: d.clone(),
             position: body.position.clone(),
@@ -95,6 +94,7 @@ impl<'a> Side<'a> {
         Answer {
             w: &self.w,
             nodes: self.body.nodes,
+            stride: self.body.stride(),
         }
     }
 
@@ -112,13 +112,8 @@ impl<'a> Side<'a> {
     /// Add the motion that the forces of contact make, and return how far the crack has moved at most.
     fn finish(&mut self) -> f64 {
         let body = self.body;
-        for (group, shapes) in body.shapes.chunks_exact(body.width()).enumerate() {
-            let mut push = [0.0; LANES];
-            for (shape, force) in shapes.iter().zip(&self.force) {
-                for l in 0..LANES {
-                    push[l] += shape[l] * force;
-                }
-            }
+        for group in 0..body.groups() {
+            let push = body.on_modes(group, &self.force);
             for (l, push) in push.iter().enumerate() {
                 self.way[group][l] += self.d[group][l] * push;
                 self.q[group][l] += self.way[group][l];
@@ -146,7 +141,7 @@ pub(super) fn find(dam: &Dam) -> Option<Still> {
         return None;
     }
     let mut sides = dam.bodies.map(|body| Side::new(body, HOLD * lowest));
-    let mut crack = Crack::new(dam);
+    let mut crack = Crack::new(dam, 0);
     let bonded = slip(&sides);
     let stretched = dam.bodies.iter().flat_map(stretch);
     let scale = stretched.fold(0.0_f64, |a, u| a.max(u.abs()));
@@ -172,31 +167,21 @@ pub(super) fn find(dam: &Dam) -> Option<Still> {
 
 /// Find the forces of contact of one step.
 fn step(dam: &Dam, crack: &mut Crack, sides: &mut Sides<Side>) {
-    // Softness creeps; here it must not.
-    let softness = 1e-2 * dam.softness();
     let position = sides.faces(|side| &side.position);
-    crack.meet(
-        position,
-        0,
-        || sides.map(Side::answer),
-        |largest| softness * largest,
-    );
+    crack.meet(position, 0, || sides.map(Side::answer));
+    // Softness creeps; here it must not.
+    let softness = 1e-2 * crack.softness(dam.softness());
+    crack.fill(sides.map(Side::answer), softness);
     sides.iter_mut().for_each(Side::begin);
-    let free = sides.faces(|side| &side.free);
     // Motion stands for velocity, forces for impulses. A gap may be negative: what an unfinished search has let enter
     // comes out again.
-    crack.set_up(dam.friction, |pair, gap, _| WithoutContact {
-        b: [0, 1].map(|d| relative(pair, free.upper, free.lower, d)),
-        h: gap,
-        approach: 0.0,
-    });
-    crack.solver.solve::<false>(&crack.problem);
-    let (upper, lower) = (&mut sides.upper, &mut sides.lower);
-    let none = &mut [][..];
-    crack.impulses(
-        &mut upper.force,
-        lower.as_mut().map_or(none, |side| &mut side.force),
-    );
+    let free = sides.faces(|side| &side.free);
+    crack.contacts.relative(free, &mut crack.problem.b);
+    crack.problem.h.copy_from_slice(&crack.contacts.gaps);
+    crack.set_up(dam.friction);
+    crack.solver.solve::<Plain>(&mut crack.problem, &mut Known);
+    let (upper, lower) = sides.both_mut(|side| &mut side.force);
+    crack.impulses(upper, lower);
 }
 
 /// How far the static loads would move the crack of a part by its deformation.
@@ -221,7 +206,7 @@ fn still(sides: &Sides<Side>, crack: Crack, bonded: f64) -> Still {
         .enumerate()
         .map(|(k, status)| match status {
             Status::Absent => Status::Absent,
-            _ if crack.solver.p[2 * k + 1] > 0.0 => Status::Stick,
+            _ if crack.solver.p[crack.contacts.len() + k] > 0.0 => Status::Stick,
             _ => Status::Open,
         });
     let (upper, lower) = (&sides.upper, sides.lower.as_ref());

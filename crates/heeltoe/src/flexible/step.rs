@@ -19,8 +19,10 @@
 //! that.
 
 use super::acting::Acting;
-use super::contact::relative;
-use super::coupling::{Answer, WithoutContact};
+use super::body::dot;
+use super::contact::Contacts;
+use super::coulomb::{Answering, Problem};
+use super::coupling::Blocks;
 use super::dam::{Dam, Shaking, Wanted};
 use super::dampers::Dampers;
 use super::ledger::Ledger;
@@ -30,6 +32,9 @@ use super::sides::Sides;
 use super::start::Still;
 use super::status::Status;
 use super::walk::Walk;
+#[cfg(target_arch = "x86_64")]
+use super::wide::x86;
+use super::wide::{Plain, Wide};
 
 /// Shake the dam; `theta` is the weight of the new state within a step.
 pub(super) fn simulate(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run {
@@ -44,33 +49,33 @@ pub(super) fn simulate(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted)
             return unsafe { simulate_avx2(dam, shaking, theta, wanted) };
         }
     }
-    run::<false>(dam, shaking, theta, wanted)
+    run::<Plain>(dam, shaking, theta, wanted)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx2,fma")]
 fn simulate_avx512(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run {
-    run::<true>(dam, shaking, theta, wanted)
+    run::<x86::Avx512>(dam, shaking, theta, wanted)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma")]
 fn simulate_avx2(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run {
-    run::<true>(dam, shaking, theta, wanted)
+    run::<x86::Avx2>(dam, shaking, theta, wanted)
 }
 
 #[inline(always)]
-fn run<const FUSED: bool>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run {
+fn run<W: Wide>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run {
     let mut moreau = Moreau::new(dam, shaking, theta, wanted);
-    moreau.go_on::<FUSED>(None, 0, 0);
+    moreau.go_on::<W>(None, 0, 0);
     if moreau.walk.observed() {
         moreau.ledger.stored = moreau.ledger.start;
         let start = moreau.ledger;
         moreau.keep(&start);
     }
     for step in 0..shaking.ground.len() {
-        moreau.set_up::<FUSED>();
-        let impulse = moreau.contact::<FUSED>();
+        moreau.set_up::<W>();
+        let impulse = moreau.contact::<W>();
         let position = moreau.bodies.faces(|body| &body.position);
         moreau.walk.book(step, position, impulse[1] / shaking.dt);
         if moreau.walk.observed() {
@@ -79,7 +84,7 @@ fn run<const FUSED: bool>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Want
         moreau.join();
         // The modes follow, and begin the next step.
         let sticks = moreau.walk.crack.solver.status.contains(&Status::Stick);
-        moreau.go_on::<FUSED>(Some(moreau.drive), step + 1, usize::from(!sticks));
+        moreau.go_on::<W>(Some(moreau.drive), step + 1, usize::from(!sticks));
         if moreau.walk.due(step) {
             let now = moreau.balance();
             moreau.keep(&now);
@@ -150,7 +155,7 @@ impl<'a> Moreau<'a> {
 
     /// Let the modes finish the step `now`, unless this is the start, and begin another with this state of damping.
     #[inline(always)]
-    fn go_on<const FUSED: bool>(&mut self, now: Option<Drive>, next: usize, damping: usize) {
+    fn go_on<W: Wide>(&mut self, now: Option<Drive>, next: usize, damping: usize) {
         let Shaking { ground, dt, scale } = self.shaking;
         let a = ground.get(next).copied().unwrap_or([0.0; 2]);
         self.drive = Drive {
@@ -158,48 +163,39 @@ impl<'a> Moreau<'a> {
             damping,
         };
         for body in self.bodies.iter_mut() {
-            body.advance::<FUSED>(now, self.drive, self.step);
+            body.advance::<W>(now, self.drive, self.step);
         }
     }
 
     /// Write the contact problem of the step, with what else acts in the crack.
     #[inline(always)]
-    fn set_up<const FUSED: bool>(&mut self) {
-        let (dam, damping) = (self.walk.dam, self.drive.damping);
-        let softness = dam.softness();
-        let bodies = &self.bodies;
-        let answers = || {
-            bodies.map(|body| Answer {
-                w: &body.operator.w[damping],
-                nodes: body.body.nodes,
-            })
-        };
+    fn set_up<W: Wide>(&mut self) {
+        let (bodies, damping) = (&self.bodies, self.drive.damping);
         let position = bodies.faces(|body| &body.position);
         let crack = &mut self.walk.crack;
-        let other = crack.meet(position, damping, answers, |largest| softness * largest);
-        if other && !self.dampers.is_empty() {
-            self.dampers
-                .soften(&mut crack.problem.g, &crack.contacts, bodies, damping);
-        }
+        crack.meet(position, damping, || bodies.map(|body| body.answers(damping)));
         self.act();
         // A dam that stands under loads that do not change goes on standing, to the last bit.
         self.quiet = self.still.is_some() && self.bodies.iter().all(Moving::rests);
         if self.quiet {
             return;
         }
-        self.push::<FUSED>();
+        self.push::<W>();
         let TimeStep { dt, theta } = self.step;
         let back = (1.0 - theta) / theta;
-        let free = self.bodies.faces(|body| &body.free);
-        let before = self.bodies.faces(|body| &body.velocity);
-        self.walk.crack.set_up(dam.friction, |pair, gap, _| {
-            let approach = relative(pair, before.upper, before.lower, 1);
-            WithoutContact {
-                b: [0, 1].map(|d| relative(pair, free.upper, free.lower, d)),
-                h: (gap.max(0.0) / dt).max(back * approach),
-                approach,
-            }
-        });
+        let bodies = &self.bodies;
+        let crack = &mut self.walk.crack;
+        let contacts = &crack.contacts;
+        contacts.relative(
+            bodies.faces(|body| body.at_crack(&body.free)),
+            &mut crack.problem.b,
+        );
+        contacts.relative(bodies.faces(|body| &body.velocity), &mut crack.before);
+        let approach = &crack.before[contacts.len()..];
+        for ((h, gap), approach) in crack.problem.h.iter_mut().zip(&contacts.gaps).zip(approach) {
+            *h = (gap.max(0.0) / dt).max(back * approach);
+        }
+        crack.set_up(self.walk.dam.friction);
     }
 
     /// Let what is in the crack beside contact push the nodes of both faces.
@@ -224,7 +220,7 @@ impl<'a> Moreau<'a> {
 
     /// Let the crack feel what acts beside contact, the forces that the start has in it, and the dashpots.
     #[inline(always)]
-    fn push<const FUSED: bool>(&mut self) {
+    fn push<W: Wide>(&mut self) {
         let (alone, damping) = (self.acting.is_none(), self.drive.damping);
         let pushed = !alone || self.still.is_some();
         for body in self.bodies.iter_mut() {
@@ -232,11 +228,11 @@ impl<'a> Moreau<'a> {
                 body.let_go(self.step.dt, alone);
             }
             if pushed {
-                body.push_crack::<FUSED>(damping, alone);
+                body.push_crack::<W>(damping, alone);
             }
         }
         if !self.dampers.is_empty() {
-            self.dampers.begin(&mut self.bodies, damping, pushed);
+            self.dampers.begin::<W>(&mut self.bodies, damping);
         }
     }
 
@@ -256,53 +252,87 @@ impl<'a> Moreau<'a> {
     /// Solve the contact problem and move the nodes; the bodies get their impulses, the ledger its works. Returns the sum
     /// of the impulses along and across the crack.
     #[inline(always)]
-    fn contact<const FUSED: bool>(&mut self) -> [f64; 2] {
+    fn contact<W: Wide>(&mut self) -> [f64; 2] {
         let crack = &mut self.walk.crack;
+        let softness = crack.softness(self.walk.dam.softness());
         let report = match self.still.filter(|_| self.quiet) {
-            Some(still) => crack.hold(&still.contact, self.step.dt),
-            None => crack.solver.solve::<FUSED>(&crack.problem),
+            Some(still) => {
+                let report = crack.hold(&still.contact, self.step.dt);
+                let (upper, lower) = self.bodies.both_mut(|body| &mut body.impulse);
+                crack.impulses(upper, lower);
+                report
+            }
+            None => {
+                let mut faces = FacesAnswer {
+                    contacts: &crack.contacts,
+                    blocks: &mut crack.blocks,
+                    bodies: &mut self.bodies,
+                    dampers: &mut self.dampers,
+                    damping: self.drive.damping,
+                    softness,
+                };
+                crack.solver.solve::<W>(&mut crack.problem, &mut faces)
+            }
         };
         self.walk.summary.note(report);
-        let before = self.works();
-        let (upper, lower) = (&mut self.bodies.upper, &mut self.bodies.lower);
-        let none = &mut [][..];
-        let below = lower.as_mut().map_or(none, |body| &mut body.impulse);
-        let impulse = self.walk.crack.impulses(&mut upper.impulse, below);
+        self.book_contact(softness);
+        let before = self.acted();
         if !self.quiet {
             if !self.dampers.is_empty() {
-                self.dampers.finish(&mut self.bodies, self.drive.damping);
+                self.dampers.finish(&mut self.bodies);
             }
             for body in self.bodies.iter_mut() {
-                body.move_crack::<FUSED>(self.drive.damping, self.step);
+                body.move_crack::<W>(self.step);
             }
         }
-        let after = self.works();
+        self.book_acted(before);
+        self.walk.crack.sums()
+    }
+
+    /// Book the work of the impulses of contact.
+    #[inline(always)]
+    fn book_contact(&mut self, softness: f64) {
         let theta = self.step.theta;
-        let mean = |k: usize, d: usize| (1.0 - theta) * before[k][d] + theta * after[k][d];
+        let crack = &self.walk.crack;
+        let m = crack.contacts.len();
+        let (p, u) = (&crack.solver.p, &crack.solver.u);
+        let work = [0..m, m..2 * m].map(|part| {
+            let p = &p[part.clone()];
+            let own = if softness > 0.0 { softness * dot(p, p) } else { 0.0 };
+            (1.0 - theta) * dot(p, &crack.before[part.clone()]) + theta * (dot(p, &u[part]) - own)
+        });
         let ledger = &mut self.ledger;
-        let work = [mean(0, 0), mean(0, 1)];
         ledger.friction -= work[0];
         ledger.impact -= work[1];
         ledger.gained += (work[0] + work[1]).max(0.0);
         ledger.turnover += work[0].abs() + work[1].abs();
-        if let Some(acting) = &mut self.acting {
-            let work = [mean(1, 0), mean(1, 1)];
-            let taken_up = acting.settle(self.bodies.faces(|body| &body.position));
-            ledger.input += work[0];
-            // What the anchors have not taken up of their work is the scheme's doing.
-            ledger.numerical -= work[1] + taken_up;
-            ledger.springs = acting.stored;
-            ledger.turnover += work[0].abs() + work[1].abs();
-        }
-        impulse
     }
 
-    /// Work of the impulses on the velocities as they are: of contact along and across the crack, of water and anchors.
+    /// Work of the impulses of water and anchors on the velocities as they are.
     #[inline(always)]
-    fn works(&self) -> [[f64; 2]; 2] {
-        let velocity = self.bodies.faces(|body| &body.velocity);
-        let acted = self.acting.as_ref().map(|acting| acting.work(velocity));
-        [self.walk.crack.work(velocity), acted.unwrap_or_default()]
+    fn acted(&self) -> [f64; 2] {
+        let velocity = || self.bodies.faces(|body| &body.velocity);
+        self.acting
+            .as_ref()
+            .map_or([0.0; 2], |acting| acting.work(velocity()))
+    }
+
+    /// Book it, from what it was before the step.
+    #[inline(always)]
+    fn book_acted(&mut self, before: [f64; 2]) {
+        let after = self.acted();
+        let Some(acting) = &mut self.acting else {
+            return;
+        };
+        let theta = self.step.theta;
+        let work = [0, 1].map(|k| (1.0 - theta) * before[k] + theta * after[k]);
+        let taken_up = acting.settle(self.bodies.faces(|body| &body.position));
+        let ledger = &mut self.ledger;
+        ledger.input += work[0];
+        // What the anchors have not taken up of their work is the scheme's doing.
+        ledger.numerical -= work[1] + taken_up;
+        ledger.springs = acting.stored;
+        ledger.turnover += work[0].abs() + work[1].abs();
     }
 
     /// Keep a frame.
@@ -322,6 +352,52 @@ impl<'a> Moreau<'a> {
         ledger.turnover += self.dampers.taken;
         ledger.stored = energy(&self.bodies) + ledger.springs;
         ledger
+    }
+}
+
+/// How the crack answers in a step, by what its faces do.
+struct FacesAnswer<'s, 'a> {
+    contacts: &'s Contacts,
+    blocks: &'s mut Blocks,
+    bodies: &'s mut Sides<Moving<'a>>,
+    dampers: &'s mut Dampers,
+    damping: usize,
+    softness: f64,
+}
+
+impl Answering for FacesAnswer<'_, '_> {
+    #[inline(always)]
+    fn fill(&mut self, problem: &mut Problem, wanted: impl Fn(usize) -> bool) {
+        let answers = self.bodies.map(|body| body.answers(self.damping));
+        let gain = &self.dampers.gain[self.damping];
+        self.blocks.fill(
+            &mut problem.g,
+            self.contacts,
+            answers,
+            gain,
+            self.softness,
+            wanted,
+        );
+    }
+
+    #[inline(always)]
+    fn velocities<W: Wide>(&mut self, _: &Problem, p: &[f64], u: &mut [f64]) {
+        let (upper, lower) = self.bodies.both_mut(|body| &mut body.impulse);
+        self.contacts.spread(p, upper, lower);
+        for body in self.bodies.iter_mut() {
+            body.find_answer::<W>(self.damping);
+        }
+        if !self.dampers.is_empty() {
+            self.dampers.follow::<W>(self.bodies, self.damping);
+        }
+        for body in self.bodies.iter_mut() {
+            body.finish_answer();
+        }
+        let faces = self.bodies.faces(|body| body.at_crack(&body.answer));
+        self.contacts.relative(faces, u);
+        if self.softness > 0.0 {
+            u.iter_mut().zip(p).for_each(|(u, p)| *u += self.softness * p);
+        }
     }
 }
 

@@ -2,8 +2,9 @@
 //!
 //! Each contact is solved with the others held, `u = G_ii p_i + (u - G_ii p_i)_held`, until nothing changes.
 
-use super::coulomb::{Problem, Solver};
+use super::coulomb::{Answering, Known, Problem, Solver};
 use super::status::Status;
+use super::wide::Plain;
 
 /// Most sweeps.
 const SWEEPS: u32 = 5000;
@@ -11,30 +12,30 @@ const SWEEPS: u32 = 5000;
 impl Solver {
     /// Sweep until nothing changes.
     #[inline(always)]
-    pub(super) fn sweep<const FUSED: bool>(&mut self, problem: &Problem) {
-        let size = problem.b.len();
-        for contact in 0..self.status.len() {
-            let p_n = self.p[2 * contact + 1].max(0.0);
+    pub(super) fn sweep(&mut self, problem: &Problem) {
+        let (m, size) = (self.status.len(), problem.b.len());
+        for contact in 0..m {
+            let p_n = self.p[m + contact].max(0.0);
             let limit = problem.mu_stick[contact] * p_n;
-            self.p[2 * contact + 1] = if self.status[contact].closed() { p_n } else { 0.0 };
-            self.p[2 * contact] = if self.status[contact].closed() {
-                self.p[2 * contact].clamp(-limit, limit)
+            self.p[m + contact] = if self.status[contact].closed() { p_n } else { 0.0 };
+            self.p[contact] = if self.status[contact].closed() {
+                self.p[contact].clamp(-limit, limit)
             } else {
                 0.0
             };
         }
         for _ in 0..SWEEPS {
-            self.velocities::<FUSED>(problem);
+            Known.velocities::<Plain>(problem, &self.p, &mut self.u);
             let (mut change, mut largest) = (0.0_f64, 0.0_f64);
-            for contact in 0..self.status.len() {
+            for contact in 0..m {
                 if self.status[contact] == Status::Absent {
                     continue;
                 }
-                let i = 2 * contact;
-                let g = |r: usize, c: usize| problem.g[(i + r) * size + i + c];
-                let (p_t, p_n) = (self.p[i], self.p[i + 1]);
+                let (i, j) = (contact, m + contact);
+                let g = |r: usize, c: usize| problem.g[(i + r * m) * size + i + c * m];
+                let (p_t, p_n) = (self.p[i], self.p[j]);
                 let free_t = self.u[i] - g(0, 0) * p_t - g(0, 1) * p_n;
-                let free_n = self.u[i + 1] + problem.h[contact] - g(1, 0) * p_t - g(1, 1) * p_n;
+                let free_n = self.u[j] + problem.h[contact] - g(1, 0) * p_t - g(1, 1) * p_n;
                 let local = Local {
                     g: [[g(0, 0), g(0, 1)], [g(1, 0), g(1, 1)]],
                     free: [free_t, free_n],
@@ -47,16 +48,15 @@ impl Solver {
                 change = change.max(dt.abs()).max(dn.abs());
                 largest = largest.max(new_n.abs());
                 self.p[i] = new_t;
-                self.p[i + 1] = new_n;
+                self.p[j] = new_n;
                 for (row, u) in self.u.iter_mut().enumerate() {
-                    *u += problem.g[i * size + row] * dt + problem.g[(i + 1) * size + row] * dn;
+                    *u += problem.g[i * size + row] * dt + problem.g[j * size + row] * dn;
                 }
             }
             if change <= 1e-13 * largest {
                 break;
             }
         }
-        self.velocities::<FUSED>(problem);
     }
 }
 

@@ -37,7 +37,7 @@ impl<'a> Walk<'a> {
     pub(super) fn new(dam: &'a Dam, dt: f64, wanted: Wanted, start: Faces) -> Self {
         let zero = mean_along(start.upper) - mean_along(start.lower);
         let upper = &dam.bodies.upper;
-        let crack = Crack::new(dam);
+        let crack = Crack::new(dam, upper.dampers);
         Walk {
             dam,
             stance: Stance::new(dam.give, &crack.contacts, start),
@@ -95,8 +95,9 @@ impl<'a> Walk<'a> {
     #[inline(always)]
     fn strikes(&mut self) {
         let (crack, summary) = (&self.crack, &mut self.summary);
+        let approach = &crack.before[crack.contacts.len()..];
         for (k, status) in crack.solver.status.iter().enumerate() {
-            let speed = -crack.approach[k];
+            let speed = -approach[k];
             if status.closed() && !crack.closed[k] && speed > 0.0 {
                 summary.impacts += 1;
                 summary.impact_velocity = summary.impact_velocity.max(speed);
