@@ -12,7 +12,8 @@ import numpy as np
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
-from heeltoe.kernel import BlockRun, Limits, Shaking, run_block
+from heeltoe.kernel.block import BlockRun, Limits, run_block
+from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.rigid.varying import varying
 from heeltoe.validation.row import Row
