@@ -10,7 +10,6 @@ mod coulomb;
 mod coupling;
 mod dam;
 mod dampers;
-mod factors;
 mod frames;
 mod idce;
 mod ledger;
@@ -24,7 +23,6 @@ mod stance;
 mod start;
 mod status;
 mod step;
-mod sweep;
 #[cfg(test)]
 mod tests;
 mod walk;

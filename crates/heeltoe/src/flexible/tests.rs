@@ -216,6 +216,23 @@ fn body(dice: &mut Dice) -> ReducedBody {
     .unwrap()
 }
 
+/// Answers of ten components of two faces, drawn at random.
+fn answers(dice: &mut Dice) -> [Vec<Group>; 2] {
+    [(); 2].map(|()| (0..20).map(|_| std::array::from_fn(|_| dice.roll())).collect())
+}
+
+fn faces(answers: &[Vec<Group>; 2]) -> Sides<Answer<'_>> {
+    let [upper, lower] = [0, 1].map(|k| Answer {
+        w: &answers[k],
+        nodes: 5,
+        stride: 2,
+    });
+    Sides {
+        upper,
+        lower: Some(lower),
+    }
+}
+
 #[test]
 fn what_has_not_moved_keeps_its_answer() {
     let mut dice = Dice(11);
@@ -231,20 +248,8 @@ fn what_has_not_moved_keeps_its_answer() {
             give: Give::default(),
             still: None,
         };
-        let answers: Vec<Vec<Group>> = (0..2)
-            .map(|_| (0..20).map(|_| std::array::from_fn(|_| dice.roll())).collect())
-            .collect();
-        let answer = || {
-            let of = |k: usize| Answer {
-                w: &answers[k][..],
-                nodes: 5,
-                stride: 2,
-            };
-            Sides {
-                upper: of(0),
-                lower: Some(of(1)),
-            }
-        };
+        let answers = answers(&mut dice);
+        let answer = || faces(&answers);
         let mut kept = Crack::new(&dam, 0);
         kept.solver.status.fill(Status::Open);
         let mut upper = dam.bodies.upper.position.clone();

@@ -9,10 +9,10 @@
 //!
 //! The matrix is factored, `P G = L U`, column by column, with row pivoting.
 
-use super::body::{combine, fma, Group, LANES};
-use super::coulomb::Problem;
-use super::status::Status;
-use super::wide::Wide;
+use super::super::body::{combine, fma, Group, LANES};
+use super::super::status::Status;
+use super::super::wide::Wide;
+use super::Problem;
 
 /// Solutions with the same factors after which their inverse pays: one solution by it takes a quarter of the time.
 const INVERT_AFTER: u32 = 20;

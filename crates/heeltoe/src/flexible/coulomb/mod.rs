@@ -11,7 +11,10 @@
 //! their conditions change state, and the factors of the last few sets are kept as long as what `G` has for them. So `G`
 //! itself is wanted among closed contacts only; what else is said of `u` is for the faces to tell.
 
-use super::factors::Kept;
+mod factors;
+mod sweep;
+
+use self::factors::Kept;
 use super::status::Status;
 use super::wide::Wide;
 
