@@ -12,7 +12,15 @@ from heeltoe.validation.table import run_all
 
 _NEED_RECORDS = {"triangular", "table-7.6-taft", "table-7.6-el-centro"}
 # Half a second to minutes each.
-_LONG = {"elastic-impulse", "elastic-sliding", "elastic-rocking", "contactors", "random-blocks", "random-dams"}
+_LONG = {
+    "elastic-impulse",
+    "elastic-sliding",
+    "elastic-rocking",
+    "contactors",
+    "random-blocks",
+    "random-dams",
+    "evidence",
+}
 _LONG_ON_RECORDS = {"table-7.1", "table-7.7", "table-7.8", "table-7.10", "halving", "penalty"}
 _SHORT = [name for name in CASES if name not in _NEED_RECORDS | _LONG | _LONG_ON_RECORDS]
 

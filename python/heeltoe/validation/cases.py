@@ -8,6 +8,7 @@ from heeltoe.errors import InputError
 from heeltoe.validation import (
     closed_forms,
     elastic_bar,
+    evidence,
     flexible_blocks,
     flexible_dams,
     penalty,
@@ -45,6 +46,7 @@ CASES: dict[str, Callable[[], Iterable[Row]]] = {
     "table-7.8": flexible_dams.table_7_8,
     "table-7.10": flexible_dams.table_7_10,
     "halving": flexible_dams.halving,
+    "evidence": evidence.evidence,
     "penalty": penalty.penalty,
 }
 

@@ -1,0 +1,230 @@
+"""Dams drawn at random: whether what the program calls converged stays where it is on a finer mesh and with a shorter
+step.
+
+``python -m heeltoe.validation.evidence FIRST COUNT FILE`` judges many, a line of JSON each, and goes on where it
+stopped."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Iterable, Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from heeltoe.case.model import Case
+from heeltoe.case.read import read_case
+from heeltoe.mechanics.block import build_block
+from heeltoe.models.flexible.evidence import Evidence
+from heeltoe.models.flexible.reduced import build_flexible_dam
+from heeltoe.models.flexible.refinement import answer
+from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.models.flexible.trials import SCALES, Level, Trials
+from heeltoe.models.run import earthquake
+from heeltoe.validation.row import Row
+from heeltoe.validation.thesis_dams import record_named
+
+#: So many of those that are called converged must stay where they are.
+COVERED = 0.95
+#: How many a validation judges.
+FEW = 6
+_WHICH = "drawn at random; the others say themselves that they are not"
+# Frames are not looked at; few cost little [s].
+_FRAMES = 0.1
+_RECORDS = (
+    "elcentro-1940-180-nga",
+    "elcentro-1940-270-nga",
+    "pacoima-1971-164-nga",
+    "pacoima-1971-254-nga",
+    "loma-prieta-1989-corralitos-000-nga",
+    "loma-prieta-1989-corralitos-090-nga",
+    "northridge-1994-sylmar-090-nga",
+    "northridge-1994-sylmar-360-nga",
+)
+
+
+@dataclass(frozen=True)
+class Judged:
+    """What a dam's evidence says, and what became of it.
+
+    Attributes
+    ----------
+    seed
+        It was drawn with.
+    high
+        Whether its crack is at a height.
+    value, uncertainty
+        Of the residual slip [m].
+    converged, mean, spent, most, runs
+        As the evidence has them.
+    across
+        Elements along its crack in the end.
+    by_mesh, by_step
+        By how much twice the elements and a quarter of the step move the value [m]; None where it is not converged.
+    """
+
+    seed: int
+    high: bool
+    value: float
+    uncertainty: float
+    converged: bool
+    mean: bool
+    spent: bool
+    most: str
+    runs: int
+    across: int
+    by_mesh: float | None
+    by_step: float | None
+
+    @property
+    def covered(self) -> bool:
+        """Whether it is converged and stays where it is."""
+        if self.by_mesh is None or self.by_step is None:
+            return False
+        return max(abs(self.by_mesh), abs(self.by_step)) <= self.uncertainty
+
+    def __str__(self) -> str:
+        said = f"dam {self.seed}: {1e3 * self.value:.4g} ± {1e3 * self.uncertainty:.2g} mm"
+        if self.by_mesh is None or self.by_step is None:
+            return f"{said}, not converged"
+        return f"{said}, by mesh {1e3 * self.by_mesh:.2g} and step {1e3 * self.by_step:.2g} mm"
+
+
+def draw(seed: int) -> Case:
+    """Draw a dam as dams are, its crack at the base or a height, and the first seconds of an earthquake that is strong
+    enough for most of them to slide; half of them made to order."""
+    rng = np.random.default_rng(seed)
+    height = 10.0 ** rng.uniform(1.3, 2.15)
+    base, crest, neck = (
+        height * rng.uniform(0.6, 0.9),
+        height * rng.uniform(0.06, 0.15),
+        height * rng.uniform(0.75, 0.95),
+    )
+    lean = height * float(rng.choice([0.0, rng.uniform(0.0, 0.1)]))
+    corners = ((0.0, 0.0), (base, 0.0), (lean + crest, neck), (lean + crest, height), (lean, height))
+    elevation = height * float(rng.choice([0.0, 0.0, rng.uniform(0.3, 0.85)]))
+    record = str(rng.choice(_RECORDS))
+    if rng.random() < 0.4:
+        record = f"synthetic:M{rng.uniform(6.0, 7.5):.2f},{rng.uniform(8.0, 40.0):.1f}km,seed={seed}"
+    fields: dict[str, Any] = {
+        "title": f"dam {seed}, drawn at random",
+        "section": {"polygon": [[f"{x} m", f"{z} m"] for x, z in corners]},
+        "concrete": {
+            "modulus": f"{rng.uniform(10.0, 40.0):.4g} GPa",
+            "poisson": 0.2,
+            "damping": float(rng.uniform(0.03, 0.08)),
+        },
+        "crack": {"elevation": f"{elevation} m", "friction": float(rng.uniform(0.6, 1.4))},
+        "reservoir": {"depth": f"{elevation + (height - elevation) * rng.uniform(0.7, 1.0)} m"},
+        "uplift": {"pattern": "triangular"},
+        "motion": {
+            "file": record,
+            "pga": f"{rng.uniform(0.3, 0.9):.3f} g",
+            "duration": f"{rng.uniform(5.0, 8.0):.1f} s",
+        },
+    }
+    return read_case(fields)
+
+
+def judge(seed: int) -> Judged | None:
+    """Judge the dam of a seed; None where it slides under its static loads alone.
+
+    Raises
+    ------
+    Skipped
+        Where its record is not there.
+    """
+    case = draw(seed)
+    safety = build_block(case).sliding_safety_factor
+    dam = build_flexible_dam(case)
+    if (safety is not None and safety < 1.0) or not dam.start.stands:
+        return None
+    file = "" if case.motion is None else str(case.motion.file)
+    if file in _RECORDS:
+        record_named(file)
+    found = answer(ShakenDam(case, dam, earthquake(case).shaking), _FRAMES)
+    evidence = found.evidence
+    assert evidence is not None
+    by_mesh, by_step = _moved(found.shaken, evidence) if evidence.converged else (None, None)
+    return Judged(
+        seed,
+        dam.lower is not None,
+        evidence.slip.value,
+        evidence.slip.uncertainty,
+        evidence.converged,
+        evidence.mean,
+        evidence.spent,
+        evidence.slip.most,
+        evidence.runs,
+        evidence.across,
+        by_mesh,
+        by_step,
+    )
+
+
+def _moved(shaken: ShakenDam, evidence: Evidence) -> tuple[float, float]:
+    """Return by how much twice the elements and a quarter of the step move the slip [m]."""
+    trials = Trials(shaken, evidence.time_step, _FRAMES)
+    scales = SCALES if evidence.mean else SCALES[:1]
+    # Means are over runs at the longer of the two steps.
+    halvings = -1 if evidence.mean and evidence.other_step > evidence.time_step else 0
+    finer, shorter = Level(1, halvings), Level(0, halvings + 2)
+    mesh, step = (
+        float(trials.numbers(level, scales)["residual_slip_m"].mean()) - evidence.slip.value
+        for level in (finer, shorter)
+    )
+    return mesh, step
+
+
+def judge_all(seeds: Iterable[int], file: Path) -> Iterator[Judged]:
+    """Judge the dams of some seeds, one after the other, those in the file not again."""
+    lines = file.read_text(encoding="utf-8").splitlines() if file.exists() else []
+    done = {line["seed"]: line for line in map(json.loads, lines)}
+    for seed in seeds:
+        if seed not in done:
+            found = judge(seed)
+            done[seed] = {"seed": seed} if found is None else asdict(found)
+            with file.open("a", encoding="utf-8") as out:
+                out.write(json.dumps(done[seed]) + "\n")
+        if len(done[seed]) > 1:
+            yield Judged(**done[seed])
+
+
+def evidence() -> Iterator[Row]:
+    """Random dams: of those that the program calls converged, how many stay within what it says."""
+    yield from table([found for found in map(judge, range(FEW)) if found is not None])
+
+
+def table(judged: list[Judged]) -> Iterator[Row]:
+    """Return what became of dams: how many are converged, and how many of these stay where they are."""
+    converged = [each for each in judged if each.converged]
+    covered = [each for each in converged if each.covered]
+    missed = ", ".join(map(str, (each for each in converged if not each.covered)))
+    share = len(covered) / len(converged) if converged else 1.0
+    least = np.floor(COVERED * len(converged)) / max(len(converged), 1)
+    yield Row(
+        f"converged, of {len(judged)}", len(judged), len(converged), None, relative=False, remark=_WHICH, kind="own run"
+    )
+    yield Row(
+        "of these within their uncertainty with twice the elements and a quarter of the step",
+        1.0,
+        share,
+        1.0 - least,
+        relative=False,
+        remark=missed or "none leaves it",
+        kind="own run",
+    )
+
+
+if __name__ == "__main__":
+    first, count, name = int(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3])
+    judged = []
+    for each in judge_all(range(first, first + count), name):
+        judged.append(each)
+        sys.stdout.write(f"{each}\n")
+        sys.stdout.flush()
+    for row in table(judged):
+        sys.stdout.write(f"{row.what}: {row.ours:.3g}; {row.remark}\n")
