@@ -254,8 +254,8 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
     "dam-still-moves": (
         "caution",
         "motion.duration",
-        "the dam still moves when the run ends: in the last {span} its slip changes by {change_m:.3g mm}; the residual "
-        "slip is that of this moment, and a longer motion.duration lets it come to rest",
+        "the dam still moves when the run ends: in the last {span} its {what} changes by {change_m:.3g mm}; the "
+        "residual slip is that of this moment, and a longer motion.duration lets it come to rest",
     ),
     "anchor-yields": (
         "grave",
@@ -285,11 +285,6 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "flexible.contact",
         "contact has made energy out of nothing, {gained_j:.3g J} in a turnover of {turnover_j:.3g J}, as a penalty "
         'does at every blow: compare with another time_step and with flexible.contact = "coulomb"',
-    ),
-    "rotation-beyond-model": (
-        "grave",
-        "",
-        "the largest rotation is {rotation_rad:.3g rad}; the model is one of small rotations",
     ),
     # decoupled chain, spread
     "sampling-matters": (

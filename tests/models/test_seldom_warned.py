@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from types import SimpleNamespace
 
 import pytest
 
@@ -80,14 +79,6 @@ def test_what_moves_the_slip_of_an_elastic_dam(typical_both, moved, mean, failed
 def test_too_few_modes(typical_both, error, warned):
     dam = replace(typical_both.crack.dam, basis_error=error)
     assert ("modes-few" in codes(flexible._about_the_concrete(example("typical-base"), dam))) is warned
-
-
-@pytest.mark.parametrize(("rotation", "warned"), [(0.09, False), (0.11, True)])
-def test_rotations_beyond_the_elastic_model(typical_both, rotation, warned):
-    case, history = example("typical-base", *FAST), typical_both.crack
-    numbers = dict.fromkeys(("contact_residual", "energy_residual", "energy_gained", "rotation_max"), 0.0)
-    run = SimpleNamespace(summary={**numbers, "energy_turnover": 1.0, "rotation_min": -rotation})
-    assert ("rotation-beyond-model" in codes(flexible._about_the_contact(case, run, history))) is warned
 
 
 @pytest.mark.parametrize("warned", [False, True])

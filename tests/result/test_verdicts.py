@@ -26,7 +26,8 @@ def with_slip(response: Response, *slips: float) -> Response:
     """The same with a slip that goes straight from value to value [m]."""
     time = response.histories["time_s"]
     slip = np.interp(time, np.linspace(0.0, time[-1], len(slips)), slips)
-    return replace(response, histories={**response.histories, "slip_m": slip})
+    closed = {name: np.zeros_like(time) for name in ("gap_heel_m", "gap_toe_m")}
+    return replace(response, histories={**response.histories, **closed, "slip_m": slip})
 
 
 def test_slides(response):

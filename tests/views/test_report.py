@@ -56,7 +56,7 @@ def test_numbers_of_one_run_equal_those_of_the_json(block):
 
 def test_numbers_of_both_models_equal_those_of_the_json(both, document):
     reader, printed = check_numbers(document, both[1])
-    for key in ("rigid.residual_slip_m", "flexible.residual_slip_m", "ratio.residual_slip_m", "flexible.periods_s.0"):
+    for key in ("residual_slip_m", "beside.residual_slip_m", "ratio.residual_slip_m", "periods_s.0"):
         assert key in reader.numbers
     assert squeezed(both[1].meaning()) in printed
 
@@ -110,7 +110,8 @@ def test_figures_of_a_report_are_there_and_not_empty(document):
                 yield each
 
     found = {figure.name: figure for figure in figures(document.blocks)}
-    assert {"section", "comparison", "flexible/response", "flexible/crack", "flexible/spectrum"} <= set(found)
+    assert {"section", "comparison", "response", "crack", "spectrum"} <= set(found)
+    assert found["response"].caption.startswith("Flexible dam. ")
     for figure in found.values():
         assert len(figure.svg) > 5000
         assert figure.caption.endswith(".")

@@ -147,8 +147,6 @@ class _Asked:
             check_packages()
         if self.vtk and self.out is None and not self.report:
             raise InputError("vtk-without-out", "--vtk")
-        if self.vtk and self.model in ("rigid", "decoupled"):
-            raise InputError("vtk-rigid", "--vtk")
         if self.vary:
             for option, given in (
                 ("--vtk", self.vtk),
@@ -157,6 +155,13 @@ class _Asked:
             ):
                 if given:
                     raise InputError("vary-option", option)
+
+    def check_elastic(self, case: Case) -> None:
+        """Refuse what shows elastic parts where there are none."""
+        from heeltoe.models.run import models_of
+
+        if self.vtk and "flexible" not in models_of(case, self.model)[0]:
+            raise InputError("vtk-rigid", "--vtk")
 
     def runs(self) -> int | Literal["cheap"] | None:
         """Return how many runs with the shaking varied are asked for; a report has what costs little without asking."""
@@ -181,6 +186,7 @@ def _run(path: str, changes: list[str], reverse: bool, output_step: str | None, 
     if reverse and case.motion is not None:
         changes.append(f"motion.reverse={'false' if case.motion.reverse else 'true'}")
         case = read_case(path, changes)
+    asked.check_elastic(case)
     step = None if output_step is None else parse(output_step, "duration", "--output-step")
     place = asked.out or (Path(f"{Path(path).stem}-report") if asked.report else None)
     if place is not None:

@@ -20,6 +20,7 @@ from heeltoe.geometry.section import CutSection
 from heeltoe.kernel.block import BLOCK
 from heeltoe.mechanics.loads import Resultant, concrete_mass, face_at, static_forces, total
 from heeltoe.mechanics.virtual_water import VirtualMass, virtual_mass
+from heeltoe.units.sentences import Sentence
 
 #: A sum of forces that is a smaller part of them is none.
 ROUNDING_OF_FORCES = 1e-13
@@ -253,6 +254,28 @@ def build_block(case: Case) -> Block:
         gravity=case.gravity,
         section=section,
     )
+
+
+def instability(block: Block) -> Sentence | None:
+    """Say what moves a block under its static loads alone, and by how much; None where it stands."""
+    if block.normal_force <= 0.0:
+        return Sentence("the water pressure below the dam is more than its weight: it floats")
+    reasons = []
+    factor = block.sliding_safety_factor
+    if factor is not None and factor < 1.0:
+        text = "it slides under its static loads alone (sliding safety factor {factor:.3f})"
+        reasons.append(Sentence.of(text, factor=factor))
+    position = block.resultant_position
+    if position is not None and not 0.0 <= position <= block.width:
+        text = (
+            "it overturns about its {corner} under its static loads alone (resultant {position_m:.2f m} from the heel, "
+            "crack {width_m:.2f m} wide)"
+        )
+        corner = "toe" if position > block.width else "heel"
+        reasons.append(Sentence.of(text, corner=corner, position_m=position, width_m=block.width))
+    if len(reasons) > 1:
+        return Sentence.of("{sliding} and {overturning}", sliding=reasons[0], overturning=reasons[1])
+    return reasons[0] if reasons else None
 
 
 def across_crack(force: Resultant, section: CutSection) -> Resultant:

@@ -70,7 +70,7 @@ def run(
     """
     check_model(model, "model")
     shaking = earthquake(case, motion, vertical)
-    names, why = _chosen(case, model)
+    names, why = models_of(case, model)
     *block, better = (_timed(name, case, shaking, output_step) for name in names)
     found = replace(_completed(better, case), chosen=Chosen(model, why))
     if not block:
@@ -93,8 +93,8 @@ def check_model(name: str, field: str) -> None:
         raise InputError("unknown-model", field, name, models=models)
 
 
-def _chosen(case: Case, model: str) -> tuple[tuple[str, ...], str]:
-    """Return the models to run, the better one last, and why it is that."""
+def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
+    """Return the models that are run for a case where `model` is asked for, the better one last, and why it is that."""
     if model in BOTH:
         return (BOTH[model], "flexible"), "it is the better one of the two that were asked for"
     if model != AUTO:
@@ -197,7 +197,7 @@ def _completed(response: R, case: Case) -> R:
     return replace(
         response,
         warnings=(*warnings, *standing_warnings(case, response.static)),
-        limits=check_limits(case.limits, response.summary),
+        limits=check_limits(case.limits, response.summary, response.outcome),
     )
 
 

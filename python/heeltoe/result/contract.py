@@ -51,6 +51,12 @@ LEAST_M, LEAST_RAD = 1e-5, 1e-6
 #: elastic dam shift by hundredths of a millimetre in every earthquake, with nothing happening to the dam.
 JOINT_METER_M = 1e-4
 
+#: Small rotations are told from large ones here [rad]: the cosine of more is no longer one within half a per cent, and
+#: the models that take rotations for small have no result beyond.
+LARGEST_ROTATION = 0.1
+#: What the outcome of such a run is called.
+TOO_FAR = "large rotation"
+
 HEADLINES = (
     Quantity("residual_slip_m", "residual slip", "residual", "slip", 1, True, LEAST_M),
     Quantity("peak_slip_downstream_m", "peak slip downstream", "peak\ndown", "slip", 1, False, LEAST_M),

@@ -13,6 +13,7 @@ import pyarrow as pa
 from heeltoe.arrays import Floats
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.beside import meaning, ratio
+from heeltoe.result.contract import TOO_FAR
 from heeltoe.result.limits import LimitCheck
 from heeltoe.result.verdict import verdict
 from heeltoe.result.write import build_info, motion_json, write_table
@@ -25,7 +26,7 @@ T = TypeVar("T")
 R = TypeVar("R", bound="Response")
 
 #: Outcomes of a run; only the first two come with a result to trust.
-OUTCOMES = ("ok", "overturned", "unstable", "paradox", "event limit", "cycling", "lost", "blown up")
+OUTCOMES = ("ok", "overturned", "unstable", "paradox", "event limit", "cycling", "lost", "blown up", TOO_FAR)
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 _IN_THE_AIR_S = 0.05
 # Less time on one end of the crack in all [s] is a blow, and no rocking.
 _ROCKS_S = 0.02
+# What a model takes the dam for.
+_AS = {"rigid": "As a rigid block", "decoupled": "As a rigid block on an elastic part below it"}
 # Whether a dam that vibrates is still on its way is seen over this time [s].
 _LAST_S = 1.0
 
@@ -29,7 +31,10 @@ def verdict(response: Response, units: str = "si") -> str:
     if response.outcome == "overturned":
         about = response.overturned_about
         way = "downstream" if about == "toe" else "upstream"
-        sentences = [f"The dam overturns {way}, about its {about}: it lies on its side at {response.end_time_s:.2f} s."]
+        sentences = [
+            f"{_AS[response.model]}, the dam overturns {way}, about its {about}: it lies on its side at "
+            f"{response.end_time_s:.2f} s, where the run and its histories end."
+        ]
     elif response.elastic:
         sentences = [_elastic_slip(response, units), _openings(response, units), _elastic_end(response, units)]
     else:
@@ -46,6 +51,8 @@ def _limits(response: Response, units: str) -> str:
     """Say which of the limits that the user has set are met."""
     if not response.limits:
         return ""
+    if response.outcome == "overturned":
+        return "It keeps none of its limits: a dam that has overturned has failed."
     broken = [
         f"{check.label} of {length(check.value_m, units)} is more than the {length(check.allowed_m, units)} allowed"
         for check in response.limits
@@ -53,23 +60,46 @@ def _limits(response: Response, units: str) -> str:
     ]
     if broken:
         return f"It does not keep within its limits: its {' and its '.join(broken)}."
+    if response.model == "rigid":
+        return "As a rigid block it keeps within its limits; as a dam that vibrates it may not."
+    if response.model == "decoupled":
+        return "As a rigid block it keeps within its limits; as a dam whose top vibrates, too, it may not."
     return "It keeps within its limits."
 
 
-def last_change(time: Floats, slip: Floats) -> tuple[float, float]:
-    """Return how long [s] the last second of a run is, half of a shorter one, and by how much the slip varies in it."""
+class LastChange(NamedTuple):
+    """What moves most in the last second of a run, by how much [m], and how long that second is [s]."""
+
+    seconds: float
+    what: str
+    change_m: float
+
+
+def last_change(time: Floats, slip: Floats, gap_heel: Floats, gap_toe: Floats) -> LastChange:
+    """Return what of slip and openings at either face varies most in the last second of a run, half of a shorter one.
+
+    A part that turns opens and closes one of its faces, so that no motion of it is missed.
+    """
     since = max(time[-1] - _LAST_S, time[-1] / 2.0)
-    return float(time[-1] - since), float(np.ptp(slip[time >= since]))
+    moved = {"slip": slip, "opening at the upstream face": gap_heel, "opening at the downstream face": gap_toe}
+    changes = {name: float(np.ptp(values[time >= since])) for name, values in moved.items()}
+    what = max(changes, key=lambda name: changes[name])
+    return LastChange(float(time[-1] - since), what, changes[what])
+
+
+def _last(response: Response) -> LastChange:
+    h = response.histories
+    return last_change(h["time_s"], h["slip_m"], h["gap_heel_m"], h["gap_toe_m"])
 
 
 def comes_to_rest(response: Response) -> bool:
-    """Whether the dam has stopped sliding when the run ends.
+    """Whether the dam has stopped sliding and rocking when the run ends.
 
     A rigid block says so itself. An elastic dam is never quite still, and where its crack stays open in part it is not
-    in the state of rest: it has stopped where its slip changes by nothing measurable any more.
+    in the state of rest: it has stopped where its slip and its openings change by nothing measurable any more.
     """
     if response.elastic:
-        return last_change(response.histories["time_s"], response.histories["slip_m"])[1] < JOINT_METER_M
+        return _last(response).change_m < JOINT_METER_M
     return bool(response.final_mode == "rest")
 
 
@@ -87,11 +117,12 @@ def _spread(response: Response, units: str) -> str:
 def _slip(response: Response, units: str) -> str:
     slip: float = response.residual_slip_m
     down, up = response.peak_slip_downstream_m, -response.peak_slip_upstream_m
+    dam = f"{_AS[response.model]}, the dam"
     if max(down, up) == 0.0:
-        return "The dam does not slide."
+        return f"{dam} does not slide."
     if abs(slip) < LEAST_M:
-        return f"The dam slides to and fro by up to {length(max(down, up), units)} and ends where it began."
-    text = f"The dam slides {length(abs(slip), units)} {_way(slip)}{_spread(response, units)}"
+        return f"{dam} slides to and fro by up to {length(max(down, up), units)} and ends where it began."
+    text = f"{dam} slides {length(abs(slip), units)} {_way(slip)}{_spread(response, units)}"
     return text + _on_the_way(slip, down, up, LEAST_M, units) + "."
 
 
@@ -166,9 +197,12 @@ def _elastic_end(response: Response, units: str) -> str:
     factor = response.static["sliding_safety_factor"]
     if factor is not None and factor < 1.0:
         return "It slides away: its static loads alone move it, and nothing stops it."
-    seconds, change = last_change(response.histories["time_s"], response.histories["slip_m"])
-    moved = length(change, units)
-    return f"It has not come to rest when the run ends: in the last {seconds:.2g} s its slip changes by {moved}."
+    last = _last(response)
+    moved = length(last.change_m, units)
+    return (
+        f"It has not come to rest when the run ends: in the last {last.seconds:.2g} s its {last.what} changes by "
+        f"{moved}."
+    )
 
 
 def _rocking(response: Response, units: str) -> str:

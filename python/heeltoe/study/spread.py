@@ -24,7 +24,7 @@ from heeltoe.models.rigid.tables import opening
 from heeltoe.models.rigid.varying import varies
 from heeltoe.models.rigid.walk import limits_of, walk
 from heeltoe.models.run import earthquake
-from heeltoe.result.contract import HEADLINES, JOINT_METER_M
+from heeltoe.result.contract import HEADLINES, JOINT_METER_M, LARGEST_ROTATION
 from heeltoe.result.response import Response
 from heeltoe.warnings import Notice
 
@@ -145,8 +145,8 @@ def _rigid(case: Case, shaking: Shaking, scales: Floats, progress: Progress | No
     for face, way in (("upstream", "downstream"), ("downstream", "upstream")):
         rotations = found[f"rocking_{way}_rad"].tolist()
         found[f"opening_{face}_m"] = np.array([opening(case, block, rotation) for rotation in rotations])
-    good = [OUTCOMES.index(name) for name in ("ok", "overturned")]
-    return found, np.isin(rows["outcome"], good)
+    good = np.isin(rows["outcome"], [OUTCOMES.index(name) for name in ("ok", "overturned")])
+    return found, good if case.analysis.rotation == "finite" else good & _small(rows)
 
 
 def _walked(case: Case, block: Block, shaking: Shaking, scales: Floats, progress: Progress | None) -> dict[str, Floats]:
@@ -179,7 +179,12 @@ def _flexible(shaken: ShakenDam, scales: Floats, step: float, progress: Progress
     found = _named(rows)
     found["opening_upstream_m"] = rows["opening_heel"]
     found["opening_downstream_m"] = rows["opening_toe"]
-    return found, rows["outcome"] == DAM_OUTCOMES.index("ok")
+    return found, (rows["outcome"] == DAM_OUTCOMES.index("ok")) & _small(rows)
+
+
+def _small(rows: Mapping[str, Floats]) -> NDArray[np.bool_]:
+    """Return where rotations are small, as what takes them for that needs it."""
+    return np.maximum(rows["rotation_max"], -rows["rotation_min"]) <= LARGEST_ROTATION
 
 
 def _named(rows: Mapping[str, Floats]) -> dict[str, Floats]:

@@ -12,7 +12,7 @@ from heeltoe.models.flexible.refinement import answer
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.models.flexible.shaken import ShakenDam
 from heeltoe.models.flexible.tables import energy_of, histories_of, history_of, summary_of
-from heeltoe.models.flexible.warnings import advice_of, warnings_of
+from heeltoe.models.flexible.warnings import outcome_of, warnings_of
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.references import cited
 
@@ -48,18 +48,15 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
     # Its mesh may be finer by now.
     case, dam = shaken.case, shaken.dam
     block = build_block(case)
-    safety = block.sliding_safety_factor
-    # Anchors with stiffness hold what friction does not.
-    stands = dam.start.stands and not (safety is not None and safety < 1.0)
-    outcome = "unstable" if run.outcome == "ok" and not (stands or dam.anchors) else run.outcome
+    outcome, advice = outcome_of(dam, block, run)
     growth = self_excitation(shaken, run)
     history = history_of(case, dam, run)
     return FlexibleResponse(
         model="flexible",
         title=case.title,
         outcome=outcome,
-        advice=advice_of(outcome, run.summary),
-        warnings=tuple(warnings_of(shaken, run, history, evidence, growth, safety)),
+        advice=advice,
+        warnings=tuple(warnings_of(shaken, run, history, evidence, growth, block.sliding_safety_factor)),
         summary=summary_of(shaken, run, evidence)
         | {
             "self_excitation": None if growth is None else growth.to_json(),

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from heeltoe.case.model import Case
 from heeltoe.kernel.dam import DamRun
+from heeltoe.mechanics.block import Block, instability
 from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.models.flexible.evidence import MOVED_BY, Evidence
 from heeltoe.models.flexible.growth import Growth
@@ -14,16 +15,15 @@ from heeltoe.models.flexible.modes import ENOUGH
 from heeltoe.models.flexible.reduced import FlexibleDam
 from heeltoe.models.flexible.shaken import ShakenDam
 from heeltoe.models.flexible.tables import anchors_of
-from heeltoe.result.contract import JOINT_METER_M
+from heeltoe.result.contract import JOINT_METER_M, LARGEST_ROTATION, TOO_FAR
 from heeltoe.result.verdict import last_change
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings import Notice
 
-ADVICE = {
-    "unstable": (
-        "the dam slides under its static loads alone, and goes on for as long as the run lasts; give it more friction, "
-        "less uplift or less water until it stands before the earthquake"
-    ),
+# What to do about it.
+_STAND = "give the dam more friction, less uplift or less water until it stands before the earthquake"
+_REMEDIES = {
+    "unstable": f"the dam slides under its static loads alone, and goes on for as long as the run lasts; {_STAND}",
     "lost": "the part above the crack has gone over 100 crack widths away: the dam has failed; see its static safety",
     "blown up": (
         'energy came from nothing, as penalties can make it; use flexible.contact = "coulomb" or a smaller time_step'
@@ -31,15 +31,36 @@ ADVICE = {
 }
 
 
-def advice_of(outcome: str, raw: Mapping[str, float]) -> Sentence | None:
-    """Say where a run stopped, and what to do; None where there is a result to trust."""
-    if outcome not in ADVICE:
-        return None
+def outcome_of(dam: FlexibleDam, block: Block, run: DamRun) -> tuple[str, Sentence | None]:
+    """Return how a run ended, and what to do about it; none where there is a result to trust.
+
+    A dam that slides, overturns or floats under its static loads is none that an earthquake moves; anchors with
+    stiffness hold what friction and weight do not. Rotations that are not small are none of this model.
+    """
+    raw, why = run.summary, instability(block)
+    if run.outcome in ("ok", "lost") and not dam.anchors:
+        if why is not None:
+            return "unstable", Sentence.of("{why}: {remedy}", why=why, remedy=_STAND)
+        if not dam.start.stands:
+            return "unstable", _stopped("unstable", raw)
+    largest = max(-raw["rotation_min"], raw["rotation_max"])
+    if run.outcome == "ok" and largest > LARGEST_ROTATION:
+        text = (
+            "it rotates by {rotation_rad:.3g rad}; beyond {largest_rad:g rad} a rotation is not small, and the "
+            "flexible model knows no other: no setting of it has a result here, and a rigid block with "
+            'analysis.rotation = "finite" says whether it overturns'
+        )
+        return TOO_FAR, Sentence.of(text, rotation_rad=largest, largest_rad=LARGEST_ROTATION)
+    return run.outcome, _stopped(run.outcome, raw) if run.outcome in _REMEDIES else None
+
+
+def _stopped(outcome: str, raw: Mapping[str, float]) -> Sentence:
+    """Say where a run stopped, and what to do."""
     return Sentence.of(
         "stopped at {time_s:.3f s} with slip {slip_m:.4g m}: {remedy}",
         time_s=raw["end_time"],
         slip_m=raw["slip"],
-        remedy=ADVICE[outcome],
+        remedy=_REMEDIES[outcome],
     )
 
 
@@ -116,10 +137,13 @@ def _about_the_concrete(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
 
 
 def _about_the_end(case: Case, run: DamRun) -> Iterator[Notice]:
-    seconds, change = last_change(run.frames["time"], run.frames["slip"])
-    if run.outcome == "ok" and change > JOINT_METER_M:
-        span = "second" if seconds == 1.0 else f"{seconds:.2g} s"
-        yield Notice("dam-still-moves", time_s=run.summary["end_time"], span=span, change_m=change)
+    frames = run.frames
+    last = last_change(frames["time"], frames["slip"], frames["opening_heel"], frames["opening_toe"])
+    if run.outcome == "ok" and last.change_m > JOINT_METER_M:
+        span = "second" if last.seconds == 1.0 else f"{last.seconds:.2g} s"
+        yield Notice(
+            "dam-still-moves", time_s=run.summary["end_time"], span=span, what=last.what, change_m=last.change_m
+        )
     for number, anchor in enumerate(anchors_of(case, run), start=1):
         tension, capacity = anchor["peak_tension_n"] or 0.0, anchor["capacity_n"]
         if capacity is not None and tension > capacity:
@@ -138,6 +162,3 @@ def _about_the_contact(case: Case, run: DamRun, history: CrackHistory) -> Iterat
         yield Notice("energy-open", residual=raw["energy_residual"])
     if raw["energy_gained"] > 1e-4 * raw["energy_turnover"]:
         yield Notice("energy-made", gained_j=raw["energy_gained"], turnover_j=raw["energy_turnover"])
-    largest = max(-raw["rotation_min"], raw["rotation_max"])
-    if largest > 0.1:
-        yield Notice("rotation-beyond-model", rotation_rad=largest)

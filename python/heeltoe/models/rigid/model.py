@@ -11,7 +11,7 @@ from heeltoe.kernel.block import MODES
 from heeltoe.mechanics.block import Block, build_block, static_state
 from heeltoe.models.rigid.tables import energy_of, events_of, histories_of, references_of, summary_of
 from heeltoe.models.rigid.walk import walk
-from heeltoe.models.rigid.warnings import advice_of, warnings_of
+from heeltoe.models.rigid.warnings import advice_of, outcome_of, warnings_of
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.response import Response
 
@@ -43,12 +43,13 @@ def run_rigid(
     moments = _moments(shaking.time, output_step)
     run = walk(case, block, shaking, moments)
     moments = moments[: run.mode.size]
-    started = run.outcome != "unstable"
+    outcome = outcome_of(case, run)
+    started = outcome != "unstable"
     return Response(
         model="rigid",
         title=case.title,
-        outcome=run.outcome,
-        advice=advice_of(block, run),
+        outcome=outcome,
+        advice=advice_of(block, run, outcome),
         warnings=tuple(warnings_of(case, block, run)),
         summary=summary_of(case, block, run) if started else {},
         energy=energy_of(run) if started else None,

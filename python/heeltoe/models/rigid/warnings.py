@@ -6,12 +6,17 @@ import math
 
 from heeltoe.case.model import Case
 from heeltoe.kernel.block import BlockRun
-from heeltoe.mechanics.block import Block
+from heeltoe.mechanics.block import Block, instability
 from heeltoe.models.rigid.tables import tensions
+from heeltoe.result.contract import LARGEST_ROTATION, TOO_FAR
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings import Notice
 
 ADVICE = {
+    TOO_FAR: (
+        f"beyond {LARGEST_ROTATION:g} rad a rotation is not small, and small ones know nothing of overturning: set "
+        'analysis.rotation = "finite"'
+    ),
     "unstable": "give the dam more friction, less uplift or less water until it stands before the earthquake",
     "paradox": (
         'no motion agrees with Coulomb friction here (Painlevé); set analysis.paradox = "tangential impact" to let the '
@@ -29,13 +34,25 @@ _SLIP_TO_TALK_ABOUT = 1e-3
 _SHARE_OF_WIDTH = 0.1
 
 
-def advice_of(block: Block, run: BlockRun) -> Sentence | None:
+def outcome_of(case: Case, run: BlockRun) -> str:
+    """Return how a run ended: rotations that are taken for small and are not leave no result."""
+    large = max(run.summary["rotation_max"], -run.summary["rotation_min"]) > LARGEST_ROTATION
+    return TOO_FAR if run.outcome == "ok" and large and case.analysis.rotation != "finite" else run.outcome
+
+
+def advice_of(block: Block, run: BlockRun, outcome: str) -> Sentence | None:
     """Say where a run stopped, and what to do; None where there is a result to trust."""
-    raw, outcome = run.summary, run.outcome
+    raw = run.summary
     if outcome in ("ok", "overturned"):
         return None
     if outcome == "unstable":
-        return Sentence.of("{why}: {remedy}", why=_instability(block), remedy=ADVICE[outcome])
+        why = instability(block) or Sentence("its static loads are at the limit of friction or of overturning")
+        return Sentence.of("{why}: {remedy}", why=why, remedy=ADVICE[outcome])
+    if outcome == TOO_FAR:
+        largest = max(raw["rotation_max"], -raw["rotation_min"])
+        return Sentence.of(
+            "it rotates by {rotation_rad:.3g rad}; {remedy}", rotation_rad=largest, remedy=ADVICE[outcome]
+        )
     return Sentence.of(
         "stopped at {time_s:.6f s} in mode {mode} with slip {slip_m:.6g m} at {slip_velocity_m_s:.6g m/s}, heel gap "
         "{gap_heel_m:.6g m}, toe gap {gap_toe_m:.6g m}: {remedy}",
@@ -47,28 +64,6 @@ def advice_of(block: Block, run: BlockRun) -> Sentence | None:
         gap_toe_m=raw["gap_toe"],
         remedy=ADVICE[outcome],
     )
-
-
-def _instability(block: Block) -> Sentence:
-    """Say what moves the dam before any earthquake, and by how much."""
-    if block.normal_force <= 0.0:
-        return Sentence("the water pressure below the dam is more than its weight: it floats")
-    reasons = []
-    factor = block.sliding_safety_factor
-    if factor is not None and factor < 1.0:
-        text = "it slides under its static loads alone (sliding safety factor {factor:.3f})"
-        reasons.append(Sentence.of(text, factor=factor))
-    position = block.resultant_position
-    if position is not None and not 0.0 <= position <= block.width:
-        text = (
-            "it overturns about its {corner} under its static loads alone (resultant {position_m:.2f m} from the heel, "
-            "crack {width_m:.2f m} wide)"
-        )
-        corner = "toe" if position > block.width else "heel"
-        reasons.append(Sentence.of(text, corner=corner, position_m=position, width_m=block.width))
-    if len(reasons) > 1:
-        return Sentence.of("{sliding} and {overturning}", sliding=reasons[0], overturning=reasons[1])
-    return reasons[0] if reasons else Sentence("its static loads are at the limit of friction or of overturning")
 
 
 def warnings_of(case: Case, block: Block, run: BlockRun) -> list[Notice]:

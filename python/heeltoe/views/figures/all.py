@@ -112,13 +112,14 @@ def all_figures(case: Case | None, result: Response, units: str = "si") -> Figur
 
         drawings["section"] = lambda: section_figure(case, units)
     beside = result.beside
-    if beside is not None:
-        if has_pictures(result) and has_pictures(beside):
-            from heeltoe.views.figures.beside import comparison_figure
+    if beside is not None and has_pictures(result) and has_pictures(beside):
+        from heeltoe.views.figures.beside import comparison_figure
 
-            drawings["comparison"] = lambda: comparison_figure(result, beside, units)
+        drawings["comparison"] = lambda: comparison_figure(result, beside, units)
+    drawings |= _drawings(result, units)
+    if beside is not None:
         drawings |= {f"{beside.model}/{name}": draw for name, draw in _drawings(beside, units).items()}
-    return Figures(drawings | _drawings(result, units))
+    return Figures(drawings)
 
 
 def has_pictures(response: Response) -> bool:

@@ -51,8 +51,11 @@ def drawings(figures: Mapping[str, Figure]) -> dict[str, FigureBlock]:
 
     They lose their headings, and some are made lower: what is to be written as a file is to be written before.
     """
-    two = "comparison" in figures
-    return {name: _block(name, figures[name]) for name in figures if not two or name in _OF_BOTH}
+    if "comparison" not in figures:
+        return {name: _block(name, figures[name], caption(name)) for name in figures}
+    shared = ("section", "comparison")
+    said = {name: caption(name if "/" in name or name in shared else f"flexible/{name}") for name in _OF_BOTH}
+    return {name: _block(name, figures[name], said[name]) for name in figures if name in _OF_BOTH}
 
 
 def caption(name: str) -> str:
@@ -66,7 +69,7 @@ def caption(name: str) -> str:
     )
 
 
-def _block(name: str, figure: Figure) -> FigureBlock:
+def _block(name: str, figure: Figure, text: str) -> FigureBlock:
     import matplotlib as mpl
 
     from heeltoe.views.figures.style import laid_out, without_heading
@@ -82,4 +85,4 @@ def _block(name: str, figure: Figure) -> FigureBlock:
     with laid_out(figure), mpl.rc_context({"svg.fonttype": "path", "svg.hashsalt": "heeltoe"}):
         figure.savefig(file, format="svg", metadata={"Date": None})
     share = _SHARES.get(own, 1.0) if height > _FLAT * width else 1.0
-    return FigureBlock(name, caption(name), file.getvalue(), (float(width), float(height)), share)
+    return FigureBlock(name, text, file.getvalue(), (float(width), float(height)), share)
