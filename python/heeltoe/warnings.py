@@ -144,6 +144,19 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "that follows lifts with {lift_n:.4g kN/m} more than the uplift of the case, which this run keeps: {remedy}",
     ),
     # rigid model
+    "rigid-block": (
+        "caution",
+        "concrete.modulus",
+        "a rigid block leaves out the vibration of the dam: with {moduli_pa:g GPa|to} it swings in about "
+        "{periods_s:.2g s|to}, where this motion shakes it with {accelerations_g:.2g g|to}, {times:.2g|to} times its "
+        "peak{level}; it may slide and rock several times as far: {remedy}, and the dam is elastic",
+    ),
+    "rigid-top": (
+        "caution",
+        "decoupled",
+        "the decoupled chain leaves out the vibration of the part above the crack, and what its sliding and rocking "
+        "spare the part below: run it with --model auto, and the dam is elastic",
+    ),
     "block-still-moves": (
         "caution",
         "motion.duration",

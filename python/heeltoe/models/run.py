@@ -11,6 +11,7 @@ from heeltoe.case.model import Case
 from heeltoe.case.shaking import resolve
 from heeltoe.case.warnings import case_warnings
 from heeltoe.errors import InputError
+from heeltoe.models.rigid.omitted import omitted
 from heeltoe.models.statics.standing import standing_warnings
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
@@ -72,9 +73,9 @@ def run(
     shaking = earthquake(case, motion, vertical)
     names, why = models_of(case, model)
     *block, better = (_timed(name, case, shaking, output_step) for name in names)
-    found = replace(_completed(better, case), chosen=Chosen(model, why))
     if not block:
-        return found
+        return _alone(better, case, Chosen(model, why))
+    found = replace(_completed(better, case), chosen=Chosen(model, why))
     # The better model is judged.
     simpler = replace(_completed(block[0], case), chosen=Chosen(model, _BESIDE), limits=())
     return replace(found, beside=simpler)
@@ -184,9 +185,14 @@ def earthquake(
     return Earthquake(motion, vertical, end, rotation)
 
 
-def _alone(response: R, case: Case) -> R:
-    """Return a response of the model that was asked for by its name."""
-    return replace(_completed(response, case), chosen=Chosen(response.model, _ASKED_FOR))
+def _alone(response: R, case: Case, chosen: Chosen | None = None) -> R:
+    """Return a response with no better model beside it, which says what it leaves out; its model was asked for by name
+    where nothing else is said."""
+    found = replace(_completed(response, case), chosen=chosen or Chosen(response.model, _ASKED_FOR))
+    if not found.summary or found.elastic:
+        return found
+    left_out = omitted(case, found.motion) if found.model == "rigid" else (Notice("rigid-top"),)
+    return replace(found, warnings=(*found.warnings, *left_out))
 
 
 def _completed(response: R, case: Case) -> R:
