@@ -89,7 +89,7 @@ def test_a_report_holds_all_that_it_shall(block):
         "heeltoe run x.toml --report",
         input_hash(case, (response.motion, response.vertical)),
         case.title,
-        "The dam slides",
+        "the dam slides",
     ):
         assert words in reader.text
     for text in map(str, response.warnings):
