@@ -9,7 +9,7 @@ point is the centroid of the concrete.
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 import numpy as np
@@ -87,6 +87,8 @@ class Block:
         One g of the case [m/s2].
     section
         The part above the crack.
+    case
+        That it was made of, which says what changes as it moves.
     """
 
     mass_horizontal: float
@@ -108,6 +110,7 @@ class Block:
     restitution: float
     gravity: float
     section: CutSection
+    case: Case = field(repr=False)
 
     @property
     def width(self) -> float:
@@ -253,6 +256,7 @@ def build_block(case: Case) -> Block:
         restitution=case.crack.restitution,
         gravity=case.gravity,
         section=section,
+        case=case,
     )
 
 

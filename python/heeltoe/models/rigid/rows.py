@@ -1,0 +1,135 @@
+"""What many runs are asked to do, checked before any of them: a number that is none must not come back as a result."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe.arrays import Floats, Integers
+from heeltoe.case.model import Case
+from heeltoe.errors import InputError
+from heeltoe.kernel.block import BLOCK, Limits
+from heeltoe.mechanics.block import Block, build_block
+from heeltoe.motion.ground_motion import GroundMotion
+
+_POSITIVE = ("mass_horizontal", "mass_vertical", "inertia")
+
+
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """Runs, one a row.
+
+    Attributes
+    ----------
+    numbers
+        (n, 21) of the blocks, in the order of :data:`heeltoe.kernel.block.BLOCK`.
+    blocks
+        (n,) blocks; none where only their numbers are known.
+    which
+        (n,) motion that each of them meets.
+    scales
+        (n, 2) factor on the horizontal and on the vertical one.
+    """
+
+    numbers: Floats
+    blocks: Sequence[Block]
+    which: Integers
+    scales: Floats
+
+
+def rows_of(
+    blocks: Sequence[Block | Case] | Floats,
+    motions: Sequence[object],
+    motion_of: Sequence[int] | Integers | None,
+    scales: Sequence[float] | Floats | None,
+) -> Rows:
+    """Return what is to be run.
+
+    Raises
+    ------
+    InputError
+        Naming field, row and value, where something cannot be used.
+    """
+    for place, motion in enumerate(motions):
+        parts = motion if isinstance(motion, tuple) else (motion,)
+        if not 1 <= len(parts) <= 2 or not all(isinstance(part, GroundMotion) for part in parts):
+            kind = type(motion).__name__
+            raise InputError("blocks-motion", f"motions[{place}]", kind, bounds="ground motions or pairs of them")
+    built: list[Block] = []
+    if isinstance(blocks, np.ndarray):
+        numbers = blocks
+    else:
+        built = [_built(each, row) for row, each in enumerate(blocks)]
+        numbers = np.array([each.parameters() for each in built]).reshape(-1, len(BLOCK))
+    if numbers.ndim != 2 or numbers.shape[1] != len(BLOCK) or numbers.dtype.kind not in "fiu":
+        raise InputError("blocks-shape", "blocks", f"{_shape(numbers)} of {numbers.dtype}", columns=len(BLOCK))
+    numbers = np.ascontiguousarray(numbers, dtype=np.float64)
+    _check_numbers(numbers)
+    count = len(numbers)
+    return Rows(numbers, built, _which(motion_of, count, len(motions)), _scales(scales, count))
+
+
+def check_limits(limits: Limits) -> None:
+    """Refuse limits that end nothing."""
+    if not (np.isfinite(limits.settle) and limits.settle >= 0.0):
+        raise InputError("blocks-limit", "limits.settle", limits.settle, bounds="a finite number, 0 or more")
+    if limits.event_limit < 1:
+        raise InputError("blocks-limit", "limits.event_limit", limits.event_limit, bounds="1 or more")
+
+
+def _built(each: Block | Case, row: int) -> Block:
+    if isinstance(each, Case):
+        return build_block(each)
+    if not isinstance(each, Block):
+        raise InputError("blocks-shape", f"blocks[{row}]", type(each).__name__, columns=len(BLOCK))
+    return each
+
+
+def _check_numbers(numbers: Floats) -> None:
+    """Refuse the first block whose numbers are those of none."""
+    column = dict(zip(BLOCK, numbers.T, strict=True))
+    friction, kinetic, bounce = (column[name] for name in ("friction_static", "friction_kinetic", "restitution"))
+    wrong = [(name, ~np.isfinite(column[name]), "a finite number") for name in BLOCK]
+    wrong += [(name, column[name] <= 0.0, "more than 0") for name in _POSITIVE]
+    wrong += [
+        ("toe_distance", column["heel_distance"] + column["toe_distance"] <= 0.0, "one downstream of the heel"),
+        ("friction_static", friction < 0.0, "0 or more"),
+        ("friction_kinetic", (kinetic < 0.0) | (kinetic > friction), "0 to friction_static"),
+        ("restitution", (bounce < 0.0) | (bounce > 1.0), "0 to 1"),
+    ]
+    found = [(int(bad.argmax()), order) for order, (_, bad, _) in enumerate(wrong) if bad.any()]
+    if found:
+        row, order = min(found)
+        name, _, bounds = wrong[order]
+        raise InputError("block-number", f"blocks[{row}].{name}", f"{column[name][row]:g}", bounds=bounds)
+
+
+def _which(motion_of: Sequence[int] | Integers | None, count: int, motions: int) -> Integers:
+    given = np.zeros(count, dtype=np.int64) if motion_of is None else np.asarray(motion_of)
+    if given.shape != (count,):
+        raise InputError("blocks-many", "motion_of", _shape(given), count=count)
+    bad = np.flatnonzero(~((given >= 0) & (given < motions) & (given == np.floor(given))))
+    if bad.size:
+        bounds = f"0 to {motions - 1}" if motions else "a motion"
+        raise InputError("blocks-motion", f"motion_of[{bad[0]}]", f"{given[bad[0]]:g}", bounds=bounds)
+    return np.ascontiguousarray(given, dtype=np.int64)
+
+
+def _scales(scales: Sequence[float] | Floats | None, count: int) -> Floats:
+    given = np.ones(count) if scales is None else np.asarray(scales, dtype=np.float64)
+    if given.shape not in ((count,), (count, 2)):
+        raise InputError("blocks-many", "scales", _shape(given), count=count)
+    pairs = np.column_stack([given, given]) if given.ndim == 1 else np.ascontiguousarray(given)
+    bad = np.argwhere(~np.isfinite(pairs))
+    if bad.size:
+        row, column = bad[0]
+        raise InputError("blocks-scale", f"scales[{row}]", f"{pairs[row, column]:g}")
+    return pairs
+
+
+def _shape(given: NDArray[Any]) -> str:
+    return " x ".join(map(str, given.shape)) or "one number"
