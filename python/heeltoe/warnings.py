@@ -219,7 +219,7 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "caution",
         "flexible.evidence",
         "single runs scatter: {runs} of them, the shaking varied by 1 %, slide {slip_m:.4g mm} in the mean with a "
-        "standard deviation of {scatter_m:.2g mm}; take the mean, as histories and figures are those of one of them",
+        "standard deviation of {scatter_m:.2g mm}; the numbers are means, histories and figures those of one run",
     ),
     "not-converged": (
         "grave",

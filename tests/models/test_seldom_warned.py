@@ -61,7 +61,7 @@ def test_what_moves_the_slip_of_an_elastic_dam(typical_both, moved, mean, failed
     evidence = Evidence(
         asked="full",
         mean=mean,
-        worth={"residual_slip_m": Worth(0.1, *moved)},
+        worth={"residual_slip_m": Worth(0.1, 0.1, *moved)},
         time_step=1e-4,
         other_step=2e-4,
         across=8,

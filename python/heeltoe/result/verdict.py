@@ -145,11 +145,8 @@ def _elastic_slip(response: Response, units: str) -> str:
 
 def _worth(response: Response, units: str) -> str:
     """Return how far an elastic dam slides, and how certain that is."""
-    found = response.summary["evidence"]
-    if found is None:
-        return length(abs(response.residual_slip_m), units)
-    slip = found["residual_slip_m"]
-    return f"{length(abs(slip['value']), units)} (give or take {length(slip['uncertainty'], units)})"
+    slip, found = length(abs(response.residual_slip_m), units), response.summary["evidence"]
+    return slip if found is None else f"{slip} (give or take {length(found['residual_slip_m']['uncertainty'], units)})"
 
 
 def _way(slip: float) -> str:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from heeltoe import InputError, flexible, read_case
+from heeltoe.models.flexible import refinement
 from heeltoe.models.flexible.evidence import Evidence, Worth
 from heeltoe.models.flexible.refinement import _finer
 from heeltoe.models.flexible.trials import SCALES, Level, with_mesh
@@ -76,7 +77,8 @@ def test_evidence_that_there_is_none_is_refused():
         ((0.001, 0.02, 0.003), {}, Level(1, 0)),
         ((0.02, 0.001, 0.003), {}, Level(0, 1)),
         # Nothing is to be had where the shaking moves it most, or where step and mesh are the case's own.
-        ((0.001, 0.002, 0.03), {}, None),
+        ((0.001, 0.002, 0.009), {}, None),
+        ((0.001, 0.02, 0.03), {}, None),
         ((0.001, 0.02, 0.003), {"elements_across": 8}, None),
         ((0.02, 0.001, 0.003), {"time_step": "0.1 ms"}, None),
     ],
@@ -85,7 +87,7 @@ def test_what_is_refined(moved, given, finer):
     found = Evidence(
         asked="full",
         mean=False,
-        worth={"residual_slip_m": Worth(0.1, *moved)},
+        worth={"residual_slip_m": Worth(0.1, 0.1, *moved)},
         time_step=1e-4,
         other_step=2e-4,
         across=8,
@@ -103,3 +105,34 @@ def test_other_meshes_of_a_case():
     case = dam(elements_across=5, elements_across_below=8)
     assert [with_mesh(case, mesh).flexible.elements_across for mesh in (-1, 0, 1, 2)] == [3, 5, 10, 20]
     assert [with_mesh(case, mesh).flexible.elements_across_below for mesh in (-1, 1)] == [4, 16]
+
+
+def test_where_runs_scatter_the_numbers_are_means(monkeypatch):
+    monkeypatch.setattr(refinement, "_scatter", lambda slips, step: True)
+    response = flexible(dam(elements_across=4), MOTION)
+    found = response.evidence
+    longer = f"{2.0 * response.time_step_s} s"
+    members = {across: [slip(s, elements_across=across, time_step=longer) for s in SCALES] for across in (4, 2)}
+    worth = found["residual_slip_m"]
+    assert found["value_is"] == "mean"
+    assert response.residual_slip_m == worth["value"] == pytest.approx(np.mean(members[4]), abs=1e-12)
+    assert worth["mesh"] == pytest.approx(abs(np.mean(members[4]) - np.mean(members[2])), abs=1e-12)
+    assert worth["shaking"] == pytest.approx(np.std(members[4], ddof=1), abs=1e-12)
+    assert worth["run"] == pytest.approx(response.histories["slip_m"][-1], abs=1e-12) != worth["value"]
+    assert any("single runs scatter" in str(each) for each in response.warnings)
+    assert "give or take" in response.to_json()["verdict"]
+
+
+@pytest.mark.parametrize(
+    ("slips", "step", "scatters"),
+    [
+        # On a line, whatever its slope.
+        ([0.300, 0.280, 0.290, 0.310, 0.320], 0.001, False),
+        ([0.300, 0.300, 0.280, 0.310, 0.300], 0.001, True),
+        ([0.300, 0.280, 0.290, 0.310, 0.320], 0.004, True),
+        # Less than anybody would refine for.
+        ([1e-4, 3e-4, 1e-4, 2e-4, 2e-4], 5e-5, False),
+    ],
+)
+def test_what_is_scatter(slips, step, scatters):
+    assert refinement._scatter(np.array(slips), step) is scatters

@@ -35,6 +35,8 @@ class Worth:
     ----------
     value
         The number to trust: that of the run, or the mean of the runs with the shaking varied.
+    run
+        That of the run.
     step, mesh
         By how much another step and another mesh move it; None where that was not asked, or there is none.
     shaking
@@ -42,6 +44,7 @@ class Worth:
     """
 
     value: float
+    run: float
     step: float
     mesh: float | None
     shaking: float | None
@@ -61,6 +64,7 @@ class Worth:
         """Return the numbers of the contract."""
         return {
             "value": self.value,
+            "run": self.run,
             "uncertainty": self.uncertainty,
             "step": self.step,
             "mesh": self.mesh,

@@ -68,9 +68,9 @@ def answer(shaken: ShakenDam, frame_step: float) -> Answer:
 
 def _finer(found: Evidence, level: Level, options: Flexible) -> Level | None:
     """Return the level at which the slip may be certain enough; None where it is, or nothing can make it so."""
-    if found.converged:
-        return None
     slip = found.slip
+    if found.converged or (slip.shaking or 0.0) > found.allowed:
+        return None
     # What the case gives is kept.
     step = 0.0 if options.time_step is not None else slip.step
     mesh = 0.0 if "elements_across" in options.model_fields_set else slip.mesh or 0.0
@@ -79,9 +79,9 @@ def _finer(found: Evidence, level: Level, options: Flexible) -> Level | None:
     return Level(level.mesh, level.halvings + 1) if step > mesh else Level(level.mesh + 1, level.halvings)
 
 
-def _worth(value: float, step: float, mesh: float | None, varied: Floats | None) -> Worth:
+def _worth(value: float, run: float, other: float, mesh: float | None, varied: Floats | None) -> Worth:
     deviation = None if varied is None else float(varied.std(ddof=1))
-    return Worth(value, abs(step), None if mesh is None else abs(mesh), deviation)
+    return Worth(value, run, abs(run - other), None if mesh is None else abs(mesh), deviation)
 
 
 def _scatter(slips: Floats, step: float) -> bool:
@@ -146,7 +146,8 @@ class _Stand:
         worth = {
             each.key: _worth(
                 float(own[each.key].mean()) if mean else float(run[each.key][0]),
-                float(run[each.key][0] - other[each.key][0]),
+                float(run[each.key][0]),
+                float(other[each.key][0]),
                 None if beside is None else float(own[each.key].mean() - beside[each.key].mean()),
                 None if varied is None else varied[each.key],
             )

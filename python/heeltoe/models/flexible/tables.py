@@ -103,6 +103,8 @@ def summary_of(shaken: ShakenDam, run: DamRun, evidence: Evidence | None) -> dic
         "evidence": None if evidence is None else evidence.to_json(),
         **({"anchors": anchors_of(case, run)} if case.anchors else {}),
         "uplift_during_shaking": case.uplift.during_shaking,
+        # Where single runs scatter, what is shown first is the mean of several.
+        **({} if evidence is None else {name: each.value for name, each in evidence.worth.items()}),
     }
 
 
