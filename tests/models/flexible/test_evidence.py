@@ -8,8 +8,11 @@ import pytest
 from heeltoe import InputError, flexible, read_case
 from heeltoe.models.flexible import refinement
 from heeltoe.models.flexible.evidence import Evidence, Worth
+from heeltoe.models.flexible.reduced import build_flexible_dam
 from heeltoe.models.flexible.refinement import _finer
-from heeltoe.models.flexible.trials import SCALES, Level, with_mesh
+from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.models.flexible.trials import SCALES, Level, Trials, with_mesh
+from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
 
 FIELDS = {
@@ -136,3 +139,14 @@ def test_where_runs_scatter_the_numbers_are_means(monkeypatch):
 )
 def test_what_is_scatter(slips, step, scatters):
     assert refinement._scatter(np.array(slips), step) is scatters
+
+
+def test_the_work_of_runs_is_counted_once():
+    case = dam(elements_across=2)
+    shaken = ShakenDam(case, build_flexible_dam(case), Earthquake(MOTION, None, 1.0).shaking)
+    trials = Trials(shaken, 1e-3, 0.1)
+    own, finer = Level(0, 0), Level(1, -1)
+    assert trials.cost([(own, (1.0,)), (finer, SCALES), (finer, (1.0,))]) == 1.0 + 5.0 * 2.0
+    trials.prepare(own, [(finer, (1.0, 0.99))])
+    assert (trials.runs, trials.work) == (3, 1.0 + 2.0 * 2.0)
+    assert trials.cost([(own, (1.0,)), (finer, SCALES)]) == 3.0 * 2.0

@@ -78,7 +78,8 @@ class Trials:
 
     def cost(self, wanted: Iterable[tuple[Level, Sequence[float]]]) -> float:
         """Return what the runs that are still to be made would cost."""
-        return sum(level.work for level, scales in wanted for scale in scales if (level, scale) not in self._numbers)
+        runs = {(level, scale) for level, scales in wanted for scale in scales}
+        return sum(level.work for level, _ in runs - self._numbers.keys())
 
     def dam_of(self, mesh: int) -> ShakenDam:
         """Return the dam with another mesh."""
