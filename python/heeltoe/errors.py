@@ -212,7 +212,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     ),
     "mesh-tip": ("{value} element across cannot fill a pointed crest", "give at least 2"),
     "mesh-none-below": ("{value} has no place: the crack is at the base", "remove it"),
-    "mesh-missing": ("there is no such file", "give the path of a mesh"),
+    "mesh-missing": ("there is no file {value}", "give the path of a mesh"),
     "mesh-package": ("meshes from files need the package meshio", "pip install heeltoe[mesh]"),
     "mesh-unreadable": (
         "cannot be read ({reason})",

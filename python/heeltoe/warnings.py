@@ -52,7 +52,26 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "silt",
         "{field}: {densities_kg_m3:g kg/m^3} look as if the water were in them; it is counted by itself",
     ),
+    "tailwater-below-crack": (
+        "note",
+        "tailwater",
+        "{field}: it ends below the crack, so that none of it presses on the part above or in the crack",
+    ),
     "tailwater-deeper": ("note", "tailwater.depth", "{field}: the water is deeper downstream than upstream"),
+    # fields that change nothing
+    "fields-unused": ("note", "", "{readers} no use of {fields}"),
+    "fields-idle": ("note", "", "no effect of {fields}: {why}"),
+    "rotation-unused": (
+        "note",
+        "analysis.rotation",
+        "{field} = {value} has no say in the flexible model: it is of the rigid block, and its own rotations are small",
+    ),
+    "restitution-unused": (
+        "note",
+        "crack.restitution",
+        "{field} = {value} has no say in the flexible model: it is of the blows of a rigid block, and how elastic faces "
+        "rebound comes of the waves in the concrete",
+    ),
     # ground motion
     "motion-still": ("note", "motion", "{name} is zero throughout: in this direction the ground does not move"),
     "motion-strong": (
@@ -275,12 +294,6 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "anchors",
         "anchor {number:d} is pulled with {tension_n:.4g kN/m}, beyond its capacity of {capacity_n:.4g kN/m}, and "
         "would have yielded; the result takes it for elastic",
-    ),
-    "rotation-unused": (
-        "note",
-        "analysis.rotation",
-        '{field} = "{rotation}" has no say here: it is of the rigid block, and the rotations of the flexible model are '
-        "small",
     ),
     "faces-penetrate": (
         "caution",

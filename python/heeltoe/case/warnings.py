@@ -28,6 +28,9 @@ def case_warnings(case: Case) -> tuple[Notice, ...]:
         said.append(
             Notice("silt-with-water", densities_kg_m3=(case.silt.horizontal_density, case.silt.vertical_density))
         )
+    toe = case.cut.toe[1] - case.cut.base_elevation
+    if case.tailwater and 0.0 < case.tailwater.depth <= toe:
+        said.append(Notice("tailwater-below-crack"))
     if case.tailwater and case.tailwater.depth > upstream:
         said.append(Notice("tailwater-deeper"))
     return tuple(said)

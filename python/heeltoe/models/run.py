@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from time import perf_counter
 from typing import TYPE_CHECKING, Literal, TypeVar
 
 from heeltoe.case.model import Case
 from heeltoe.case.shaking import resolve
+from heeltoe.case.use import unused_fields
 from heeltoe.case.warnings import case_warnings
 from heeltoe.errors import InputError
 from heeltoe.models.rigid.omitted import omitted
@@ -75,9 +76,9 @@ def run(
     *block, better = (_timed(name, case, shaking, output_step) for name in names)
     if not block:
         return _alone(better, case, Chosen(model, why))
-    found = replace(_completed(better, case), chosen=Chosen(model, why))
+    found = replace(_completed(better, case, names), chosen=Chosen(model, why))
     # The better model is judged.
-    simpler = replace(_completed(block[0], case), chosen=Chosen(model, _BESIDE), limits=())
+    simpler = replace(_completed(block[0], case, names), chosen=Chosen(model, _BESIDE), limits=())
     return replace(found, beside=simpler)
 
 
@@ -188,16 +189,19 @@ def earthquake(
 def _alone(response: R, case: Case, chosen: Chosen | None = None) -> R:
     """Return a response with no better model beside it, which says what it leaves out; its model was asked for by name
     where nothing else is said."""
-    found = replace(_completed(response, case), chosen=chosen or Chosen(response.model, _ASKED_FOR))
+    completed = _completed(response, case, (response.model,))
+    found = replace(completed, chosen=chosen or Chosen(response.model, _ASKED_FOR))
     if not found.summary or found.elastic:
         return found
     left_out = omitted(case, found.motion) if found.model == "rigid" else (Notice("rigid-top"),)
     return replace(found, warnings=(*found.warnings, *left_out))
 
 
-def _completed(response: R, case: Case) -> R:
-    """Add what does not depend on the model. A run that never started says why by itself."""
-    warnings = (*case_warnings(case), *response.motion.warnings, *response.warnings)
+def _completed(response: R, case: Case, models: Sequence[str]) -> R:
+    """Add what every result has; a field that one of the `models` side by side reads is not said to change nothing. A
+    run that never started says why by itself."""
+    unused = unused_fields(case, models)
+    warnings = (*case_warnings(case), *response.motion.warnings, *response.warnings, *unused)
     if not response.summary:
         return replace(response, warnings=warnings)
     return replace(

@@ -275,7 +275,7 @@ def test_element_of_nodes_that_are_not_there(tmp_path):
 
 
 def test_missing_file(tmp_path):
-    with pytest.raises(InputError, match=r"own\.msh: there is no such file; give the path of a mesh"):
+    with pytest.raises(InputError, match=r"flexible\.mesh_above: there is no file .*own\.msh; give the path of a mesh"):
         meshed(TYPICAL, 0.0, tmp_path, mesh_above="own.msh")
 
 

@@ -148,8 +148,6 @@ def _about_the_end(case: Case, run: DamRun) -> Iterator[Notice]:
         tension, capacity = anchor["peak_tension_n"] or 0.0, anchor["capacity_n"]
         if capacity is not None and tension > capacity:
             yield Notice("anchor-yields", number=number, tension_n=tension, capacity_n=capacity)
-    if case.analysis.rotation != "small":
-        yield Notice("rotation-unused", rotation=case.analysis.rotation)
 
 
 def _about_the_contact(case: Case, run: DamRun, history: CrackHistory) -> Iterator[Notice]:

@@ -21,13 +21,15 @@ def statics_after(case: Case, *runs: Response) -> Statics:
     """
     trusted = next((run for run in runs if run.outcome == "ok"), None)
     overturned = next((run for run in runs if run.outcome == "overturned"), None)
+    beside = tuple(run.model for run in runs)
     if trusted is None and overturned is not None:
-        return statics(case, overturned_about=overturned.overturned_about)
+        return statics(case, overturned_about=overturned.overturned_about, beside=beside)
     if case.statics.residual_slip is not None:
-        return statics(case)
+        return statics(case, beside=beside)
     if trusted is None:
-        return statics(case, 0.0, slip_source=f"the {runs[0].model} model ends {runs[0].outcome!r}, zero is taken")
+        source = f"the {runs[0].model} model ends {runs[0].outcome!r}, zero is taken"
+        return statics(case, 0.0, slip_source=source, beside=beside)
     source = f"{trusted.model} model, {trusted.motion.name}, PGA {trusted.motion.pga / trusted.gravity:.4g} g"
     if not comes_to_rest(trusted):
         source += ", still moving when the run ends"
-    return statics(case, trusted.residual_slip_m, slip_source=source)
+    return statics(case, trusted.residual_slip_m, slip_source=source, beside=beside)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from heeltoe.case.model import Case
+from heeltoe.case.use import unused_fields
 from heeltoe.case.warnings import case_warnings
 from heeltoe.mechanics.block import build_block, static_state
 from heeltoe.mechanics.loads import water_above_crack
@@ -89,7 +90,12 @@ class Statics(Shown):
 
 
 def statics(
-    case: Case, slip_m: float | None = None, *, slip_source: str = "given", overturned_about: str | None = None
+    case: Case,
+    slip_m: float | None = None,
+    *,
+    slip_source: str = "given",
+    overturned_about: str | None = None,
+    beside: tuple[str, ...] = (),
 ) -> Statics:
     """Judge the stability of the block above the crack.
 
@@ -108,6 +114,8 @@ def statics(
         Where `slip_m` comes from, for the result.
     overturned_about
         "toe" or "heel" where the earthquake has overturned the block: the check after it fails then.
+    beside
+        Models whose runs stand beside these checks: of fields that they read it is not said that they change nothing.
 
     Returns
     -------
@@ -153,6 +161,7 @@ def statics(
         warnings.append(Notice("residual-friction-high"))
     if any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors):
         warnings.append(Notice("anchors-as-prestress"))
+    warnings += unused_fields(case, ("statics", *beside))
     references = dict.fromkeys(check.source for check in checks if check.required is not None)
     if choice.seismic_coefficient is not None and water_above_crack(case, case.reservoir):
         references[REFERENCES["water"]] = None

@@ -117,6 +117,8 @@ def _check_ends(section: CutSection, *, grounded: bool) -> None:
 
 
 def _from_file(path: Path, section: CutSection, area: float, *, above: bool) -> BodyMesh:
+    if not path.is_file():
+        raise InputError("mesh-missing", f"flexible.mesh_{'above' if above else 'below'}", path)
     # Needs an optional package and is seldom used.
     from heeltoe.models.flexible.mesh.file import read_quadrilaterals
 

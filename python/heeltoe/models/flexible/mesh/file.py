@@ -66,8 +66,6 @@ def read_quadrilaterals(path: Path) -> tuple[Floats, Integers]:
 
 
 def _read(path: Path) -> Any:
-    if not path.is_file():
-        raise InputError("mesh-missing", str(path))
     try:
         import meshio
     except ImportError:

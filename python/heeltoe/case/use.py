@@ -1,0 +1,196 @@
+"""Which models read which field of a case, and what is said of a field that is given and changes nothing.
+
+:data:`READ_BY` is the one place that knows; tests/case/test_every_field.py proves it by changing every field under
+every model. A field that its own model reads only together with another one is in :func:`_idle`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from heeltoe.case.fields import Fields
+from heeltoe.case.model import Case
+from heeltoe.errors import shown
+from heeltoe.warnings import Notice
+
+_READERS = {
+    "rigid": "the rigid model",
+    "decoupled": "the decoupled chain",
+    "flexible": "the flexible model",
+    "statics": "the static checks",
+}
+_BLOCKS, _ELASTIC = frozenset({"rigid", "decoupled"}), frozenset({"decoupled", "flexible"})
+_SHAKEN = _BLOCKS | _ELASTIC
+
+# Whether it holds, what the reason is, and which fields have no effect then.
+Rule = tuple[bool, str, tuple[str, ...]]
+
+#: Fields, or whole blocks, that not every model reads, and those that do; of a field and its block, the field counts.
+READ_BY: dict[str, frozenset[str]] = {
+    "concrete.modulus": _ELASTIC,
+    "concrete.poisson": _ELASTIC,
+    "concrete.damping": _ELASTIC,
+    "crack.restitution": _BLOCKS,
+    "anchors.axial_stiffness": _SHAKEN,
+    "anchors.shear_stiffness": _SHAKEN,
+    "anchors.capacity": _SHAKEN,
+    "uplift.during_shaking": _SHAKEN,
+    "uplift.opening": _SHAKEN,
+    "motion": _SHAKEN,
+    "flexible": frozenset({"flexible"}),
+    **dict.fromkeys(
+        (
+            f"flexible.{name}"
+            for name in (
+                *("plane", "virtual_mass"),
+                *("elements_across", "elements_across_below", "mesh_above", "mesh_below"),
+            )
+        ),
+        _ELASTIC,
+    ),
+    "decoupled": frozenset({"decoupled"}),
+    "statics": frozenset({"statics"}),
+    "limits": _SHAKEN,
+    "analysis": _BLOCKS,
+}
+
+# What a reader would expect to matter to the flexible model has a sentence of its own.
+_EXPECTED = {"analysis.rotation": "rotation-unused", "crack.restitution": "restitution-unused"}
+
+
+def unused_fields(case: Case, models: Sequence[str]) -> tuple[Notice, ...]:
+    """Return what is to be said of the fields that are given in a case, and that nobody reads.
+
+    Parameters
+    ----------
+    case
+        As the user gave it: of defaults nothing is said.
+    models
+        ``"rigid"``, ``"decoupled"``, ``"flexible"``, ``"statics"``: those whose results stand side by side. What one
+        of them reads is read.
+    """
+    given = dict(_given(case))
+    foreign = [path for path in given if not _readers(path) & set(models)]
+    said = []
+    if "flexible" in models:
+        # Rotations beyond small ones are asked for because they matter, and one of two models leaves them out.
+        rotates = case.analysis.rotation != "small"
+        expected = [
+            path for path in _EXPECTED if path in foreign or (path == "analysis.rotation" and path in given and rotates)
+        ]
+        foreign = [path for path in foreign if path not in expected]
+        said = [Notice(_EXPECTED[path], value=shown(given[path])) for path in expected]
+    if foreign:
+        names = [name for model, name in _READERS.items() if model in models]
+        readers = f"{' and '.join(names)} {'make' if len(names) > 1 else 'makes'}"
+        said.append(Notice("fields-unused", readers=readers, fields=", ".join(foreign)))
+    for why, paths in _idle(case, models).items():
+        idle = [path for path in given if _plain(path) in paths and path not in foreign]
+        if idle:
+            said.append(Notice("fields-idle", field=idle[0], fields=", ".join(idle), why=why))
+    return tuple(said)
+
+
+def _given(block: Fields, above: str = "") -> Iterator[tuple[str, Any]]:
+    """Walk the fields that the user has given: their paths and values."""
+    for name in type(block).model_fields:
+        if name not in block.model_fields_set:
+            continue
+        value, path = getattr(block, name), above + name
+        if isinstance(value, Fields):
+            yield from _given(value, f"{path}.")
+        elif isinstance(value, tuple) and value and isinstance(value[0], Fields):
+            for place, each in enumerate(value):
+                yield from _given(each, f"{path}[{place}].")
+        elif value is not None:
+            yield path, value
+
+
+def _plain(path: str) -> str:
+    """Return a path without places in lists."""
+    return re.sub(r"\[\d+\]", "", path)
+
+
+def _readers(path: str) -> frozenset[str]:
+    path = _plain(path)
+    while path:
+        if path in READ_BY:
+            return READ_BY[path]
+        path = path.rpartition(".")[0]
+    return frozenset(_READERS)
+
+
+def _idle(case: Case, models: Sequence[str]) -> dict[str, tuple[str, ...]]:
+    """Return fields that have no effect though models like these read them, by the reason why."""
+    rules = [*_idle_water(case, models), *_idle_choices(case, models)]
+    return {why: paths for holds, why, paths in rules if holds}
+
+
+def _idle_water(case: Case, models: Sequence[str]) -> Iterator[Rule]:
+    uplift, section = case.uplift, case.cut
+    dry = not any(
+        water and section.base_elevation + water.depth > end[1]
+        for water, end in ((case.reservoir, section.heel), (case.tailwater, section.toe))
+    )
+    # The static checks fill the reservoir until the dam moves.
+    still = "statics" not in models
+    yield (
+        still and dry and uplift.pattern != "profile",
+        "no water stands above the crack",
+        tuple(f"uplift.{name}" for name in type(uplift).model_fields),
+    )
+    yield (
+        uplift.pattern == "none" and uplift.during_shaking == "constant" and not dry,
+        'uplift.pattern = "none"',
+        ("uplift.intensity",),
+    )
+    yield (
+        _stands_upright(case, below="flexible" in models),
+        "the silt stands before a vertical face",
+        ("silt.vertical_density",),
+    )
+    still_water = tuple(f"{side}.follows_vertical_motion" for side in ("reservoir", "tailwater"))
+    yield (
+        set(models) == {"statics"} and not case.statics.vertical_seismic_coefficient,
+        "there is no statics.vertical_seismic_coefficient",
+        still_water,
+    )
+
+
+def _idle_choices(case: Case, models: Sequence[str]) -> Iterator[Rule]:
+    options, choice = case.flexible, case.statics
+    flexible, elastic = "flexible" in models, not _ELASTIC.isdisjoint(models)
+    penalty = tuple(f"flexible.{name}" for name in ("penalty_factor", "newmark_gamma", "newmark_beta"))
+    yield flexible and options.contact == "coulomb", 'flexible.contact = "coulomb"', penalty
+    yield flexible and options.contact == "idce", 'flexible.contact = "idce"', ("flexible.theta",)
+    water = any(each and each.depth for each in (case.reservoir, case.tailwater))
+    yield elastic and not water, "there is no water", ("flexible.virtual_mass", "flexible.damping_on_water")
+    below = case.outline.area - case.cut.area > 1e-9 * case.outline.area
+    across, across_below = "flexible.elements_across", "flexible.elements_across_below"
+    yield elastic and not below, "nothing is below the crack", (across_below,)
+    yield elastic and bool(options.mesh_below), "flexible.mesh_below is given", (across_below,)
+    meshed_below = not below or options.mesh_below or options.elements_across_below
+    yield elastic and bool(options.mesh_above and meshed_below), "flexible.mesh_above is given", (across,)
+    yield (
+        "decoupled" in models and bool(case.motion and case.motion.vertical),
+        "the block feels a vertical motion of the ground in any case",
+        ("decoupled.vertical",),
+    )
+    slid = case.motion or choice.residual_slip is not None or choice.residual_friction is not None
+    yield (
+        set(models) == {"statics"} and (not slid or choice.residual_friction is not None),
+        "statics.residual_friction is given" if slid else "nothing slides in these checks",
+        ("crack.kinetic_friction",),
+    )
+
+
+def _stands_upright(case: Case, *, below: bool) -> bool:
+    """Whether silt stands before a vertical face alone, above the crack and, if that counts, `below` it."""
+    if case.silt is None:
+        return False
+    face = case.cut.upstream_face
+    wet = face[: int((face[:, 1] < case.cut.base_elevation + case.silt.depth).sum()) + 1, 0]
+    straight = bool((abs(wet - wet[0]) < 1e-9).all())
+    return straight and (not below or case.outline.bounds[0] >= wet[0] - 1e-9)

@@ -1,0 +1,134 @@
+"""Every field of the schema, changed by itself under every model: the numbers change, or somebody says why not."""
+
+from __future__ import annotations
+
+import functools
+import json
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import pytest
+
+from heeltoe import InputError, read_case, run, statics
+from heeltoe.case.use import READ_BY, unused_fields
+from heeltoe.warnings import Notice
+from shared.every_field import GONE, Fields, leaves, pair
+from shared.record_samples import GAL, csmip
+
+Skip = Callable[[str, list[str]], bool]
+
+#: What a run of seconds never meets, and where it is tested.
+RARE = {"analysis.paradox": "tests/models/rigid/test_kernel_scenarios.py"}
+SILENT = {"fields-unused", "fields-idle", "restitution-unused", "rotation-unused"}
+
+
+@pytest.fixture(scope="module")
+def records(tmp_path_factory) -> dict[str, tuple[Fields, Any]]:
+    """What fields of records need: files."""
+    place = tmp_path_factory.mktemp("records")
+    bare = " ".join(f"{3.0 * value / 981.0:.6f}" for value in GAL)
+    for name, text in {
+        "three.V2": csmip({"90 DEG": GAL, "UP": -0.5 * GAL, "0 DEG": 0.8 * GAL}),
+        "bare.txt": bare.replace(" ", "\n"),
+        "stepless.txt": "# units: [g]\n" + bare.replace(" ", "\n"),
+        "a.txt": "# time step: 0.01 s\n# units: [g]\n" + bare.replace(" ", "\n"),
+        "b.txt": "# time step: 0.011 s\n# units: [g]\n" + bare.replace(" ", "\n"),
+    }.items():
+        (place / name).write_text(text)
+    found: dict[str, tuple[Fields, Any]] = {}
+    flat = [["0 s", "0 g"], ["1 s", "0 g"]]
+    for block in ("motion", "motion.vertical"):
+        source = {f"{block}.points": GONE}
+        found |= {
+            f"{block}.file": ({**source, f"{block}.file": str(place / "a.txt")}, str(place / "b.txt")),
+            f"{block}.channel": ({**source, f"{block}.file": str(place / "three.V2"), f"{block}.channel": 1}, 3),
+            f"{block}.unit": (
+                {
+                    **source,
+                    f"{block}.file": str(place / "bare.txt"),
+                    f"{block}.unit": "g",
+                    f"{block}.time_step": "0.01 s",
+                },
+                "m/s^2",
+            ),
+            f"{block}.time_step": (
+                {**source, f"{block}.file": str(place / "stepless.txt"), f"{block}.time_step": "0.01 s"},
+                "0.012 s",
+            ),
+            f"{block}.points": ({}, [["0 s", "0 g"], ["0.2 s", "0.5 g"], ["0.4 s", "0 g"]]),
+            f"{block}.pga": ({}, "0.5 g"),
+        }
+    found["motion.duration"] = ({}, "0.35 s")
+    found["motion.allow_zero"] = ({"motion": {"points": flat}}, True)
+    return found
+
+
+ALL = dict(leaves())
+
+
+@functools.cache
+def outcome(model: str, written: str) -> tuple[Any, list[str], list[str]]:
+    """Return the numbers of a run of a case in JSON, all that it warns of, and which fields it says have no effect."""
+    try:
+        case = read_case(json.loads(written))
+        found = statics(case) if model == "statics" else run(case, model)
+    except InputError as error:
+        return str(error), [str(error)], []
+    numbers = json.loads(json.dumps(found.to_json()))
+    for name in ("warnings", "build"):
+        numbers.pop(name)
+    return numbers, [str(each) for each in found.warnings], idle(found.warnings)
+
+
+def idle(warnings: Sequence[Notice]) -> list[str]:
+    """Return the fields that warnings say have no effect."""
+    said = [dict(each.quantities).get("fields", each.field) for each in warnings if each.code in SILENT]
+    return [path for text in said for path in text.split(", ")]
+
+
+def told(model: str, fields: Fields) -> list[str]:
+    """Return the fields of a case that are said to have no effect, without a run."""
+    try:
+        return idle(unused_fields(read_case(fields), [model]))
+    except InputError:
+        return []
+
+
+def faults(model: str, records: dict[str, tuple[Fields, Any]], skip: Skip) -> list[str]:
+    """Return what fields are silent about, and what is untrue about them; the base must run wherever it can."""
+    found = []
+    for path, field in ALL.items():
+        before, after, written = pair(path, field, records)
+        if skip(path, told(model, after)):
+            continue
+        old, _, _ = outcome(model, json.dumps(before))
+        new, said, unread = outcome(model, json.dumps(after))
+        if isinstance(old, str) and path != "motion.allow_zero":
+            found.append(f"{path}: {old}")
+        if new == old and path not in RARE and not any(written in text for text in said):
+            found.append(f"{path} changes nothing, and nobody says so")
+        if new != old and written in unread:
+            found.append(f"{path} changes something, though it is said to have no effect")
+    return found
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("model", ["decoupled", "flexible", "statics"])
+def test_every_field_changes_something_or_is_told(model, records):
+    assert faults(model, records, lambda path, said: False) == []
+
+
+def test_every_field_changes_something_or_is_told_under_the_rigid_model(records):
+    assert faults("rigid", records, lambda path, said: False) == []
+
+
+@pytest.mark.parametrize("model", ["decoupled", "flexible", "statics"])
+def test_what_is_not_told_to_be_idle_changes_something(model, records):
+    """The quick form: without motions, which are the same for all models, and without runs to prove what is told."""
+    assert faults(model, records, lambda path, said: path.startswith("motion.") or path in said) == []
+
+
+def test_what_is_known_of_fields_is_of_fields_that_there_are():
+    plain = {path.replace("[0]", "") for path in ALL}
+    for known in READ_BY:
+        assert any(path == known or path.startswith(f"{known}.") for path in plain), known

@@ -1,0 +1,192 @@
+"""Every field of a case, and another sensible value for each: what the schema says, with the few that need help."""
+
+from __future__ import annotations
+
+import copy
+import re
+import types
+import typing
+from collections.abc import Iterator
+from typing import Any, Literal
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+from heeltoe import Case, read_case
+
+Fields = dict[str, Any]
+
+PULSE = [["0 s", "0 g"], ["0.1 s", "2.4 g"], ["0.2 s", "-2 g"], ["0.3 s", "1.8 g"], ["0.4 s", "0 g"], ["0.6 s", "0 g"]]
+UP = [["0 s", "0 g"], ["0.1 s", "0.3 g"], ["0.25 s", "-0.4 g"], ["0.4 s", "0 g"]]
+STEPS: dict[str, Fields] = {
+    "baseline": {},
+    "band-pass": {"low": "0.5 Hz", "high": "4 Hz"},
+    "taper": {},
+    "cut": {},
+    "scale-to-arias": {"intensity": "2 m/s"},
+    "scale-to-spectrum": {"period": "0.2 s", "acceleration": "1 g"},
+    "scale-time": {"factor": 1.2, "allow": True},
+}
+# A dam that slides, rocks and strikes in half a second, under all that a case knows of.
+BASE: Fields = {
+    "section": {
+        "height": "30 m",
+        "crest_width": "5 m",
+        "neck_height": "25 m",
+        "neck_width": "6 m",
+        "base_width": "26 m",
+    },
+    "concrete": {"modulus": "20 GPa"},
+    "crack": {"elevation": "6 m", "static_friction": 0.7, "kinetic_friction": 0.6},
+    "reservoir": {"depth": "26 m"},
+    "tailwater": {"depth": "10 m"},
+    "ice": {"force": "50 kN/m"},
+    "silt": {"depth": "12 m"},
+    "anchors": [
+        {
+            "distance": "4 m",
+            "inclination": "5 deg",
+            "prestress": "300 kN/m",
+            "axial_stiffness": "20 MN/m/m",
+            "shear_stiffness": "10 MN/m/m",
+            "capacity": "2 MN/m",
+        }
+    ],
+    "uplift": {
+        "pattern": "drained",
+        "drain_position": 0.15,
+        "drain_efficiency": 0.5,
+        "during_shaking": "zero while open",
+        "opening": "0.2 mm",
+    },
+    "motion": {"points": PULSE, "vertical": {"points": UP}},
+    "flexible": {"elements_across": 4, "convergence_check": False, "modes": 12},
+    "limits": {
+        "residual_slip": "10 mm",
+        "peak_slip": "20 mm",
+        "opening_upstream": "10 mm",
+        "opening_downstream": "10 mm",
+    },
+    "statics": {
+        "bonded": 0.3,
+        "cohesion": "0.5 MPa",
+        "tensile_strength": "0.1 MPa",
+        "compressive_strength": "20 MPa",
+        "flood_depth": "29 m",
+        "flood_tailwater": "11 m",
+        "seismic_coefficient": 0.2,
+        "vertical_seismic_coefficient": 0.1,
+        "residual_friction": 0.5,
+        "residual_slip": "20 mm",
+        "drain_diameter": "75 mm",
+    },
+}
+GONE = object()
+#: For fields that stand only in another case than the base, or have no value there: what changes first, then the value.
+HELPED: dict[str, tuple[Fields, Any]] = {
+    "title": ({}, "another"),
+    "section.polygon": (
+        {"section": {"polygon": [["0 m", "0 m"], ["26 m", "0 m"], ["5 m", "30 m"], ["0 m", "30 m"]]}},
+        [["-2 m", "0 m"], ["26 m", "0 m"], ["5 m", "30 m"], ["0 m", "30 m"]],
+    ),
+    "crack.friction": ({"crack.static_friction": GONE, "crack.kinetic_friction": GONE, "crack.friction": 0.6}, 0.5),
+    "crack.inclination": ({}, "5 deg"),
+    "uplift.pattern": ({"uplift": {"pattern": "uniform"}, "statics.drain_diameter": GONE}, None),
+    "uplift.extent": ({"uplift": {"pattern": "cut-off", "extent": 0.5}, "statics.drain_diameter": GONE}, 0.4),
+    "uplift.points": (
+        {"uplift": {"pattern": "profile", "points": [[0.0, "20 m"], [1.0, "4 m"]]}, "statics.drain_diameter": GONE},
+        [[0.0, "20 m"], [1.0, "3 m"]],
+    ),
+    "flexible.elements_across_below": ({}, 5),
+    "flexible.time_step": ({}, "0.3 ms"),
+    "flexible.mesh_above": ({}, "nowhere.msh"),
+    "flexible.mesh_below": ({}, "nowhere.msh"),
+    "flexible.damping_on_water": ({"flexible.damping": "relative"}, None),
+    "flexible.contact": ({"flexible.damping": "stiffness"}, None),
+    "flexible.newmark_beta": ({}, 0.4),
+    "analysis.event_limit": ({}, 3),
+    "decoupled.vertical": ({"motion.vertical": GONE}, None),
+    "statics.tensile_strength": ({"statics.bonded": 1.0, "statics.tensile_strength": "0.01 MPa"}, "0.05 MPa"),
+}
+_NUMBER = re.compile(r"-?\d+(?:\.\d*)?(?:e[+-]?\d+)?")
+
+
+def leaves(model: type[BaseModel] = Case, above: str = "") -> Iterator[tuple[str, FieldInfo]]:
+    """Walk the schema: every field that holds a value, with its path; of a list of blocks the first, of steps each."""
+    for name, field in model.model_fields.items():
+        path = above + name
+        if name == "processing":
+            for kind in _blocks(field.annotation):
+                step = typing.get_args(kind.model_fields["step"].annotation)[0]
+                yield from ((f"{path}[{step}].{inner}", each) for inner, each in _own(kind))
+            continue
+        blocks = _blocks(field.annotation)
+        many = typing.get_origin(field.annotation) is tuple
+        if blocks:
+            yield from leaves(blocks[0], f"{path}[0]." if many else f"{path}.")
+        else:
+            yield path, field
+
+
+def _own(kind: type[BaseModel]) -> list[tuple[str, FieldInfo]]:
+    return [(name, field) for name, field in kind.model_fields.items() if name != "step"]
+
+
+def _blocks(annotation: Any) -> list[type[BaseModel]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [block for inner in typing.get_args(annotation) for block in _blocks(inner)]
+
+
+def pair(path: str, field: FieldInfo, records: dict[str, tuple[Fields, Any]]) -> tuple[Fields, Fields, str]:
+    """Return the fields of two cases that differ in one field alone, and how its path is written in messages."""
+    changes, value = (HELPED | records).get(path, ({}, None))
+    before = copy.deepcopy(BASE)
+    for place, each in changes.items():
+        put(before, place, each)
+    if found := re.fullmatch(r"(.*processing)\[(.*?)\]\.(.*)", path):
+        put(before, found[1], [{"step": found[2], **STEPS[found[2]]}])
+        path = f"{found[1]}[0].{found[3]}"
+    after = copy.deepcopy(before)
+    put(after, path, other(path, field, read_case(before)) if value is None else value)
+    return before, after, path
+
+
+def put(fields: Fields, path: str, value: Any) -> None:
+    """Set a field, or take it out."""
+    *way, last = re.sub(r"\[(\d+)\]", r".\1", path).split(".")
+    block: Any = fields
+    for name in way:
+        block = block[int(name)] if name.isdigit() else block.setdefault(name, {})
+    if value is GONE:
+        block.pop(last, None)
+    else:
+        block[last] = copy.deepcopy(value)
+
+
+def other(path: str, field: FieldInfo, case: Case) -> Any:
+    """Return another value of the same kind as the one in a case."""
+    written: Any = case.model_dump(mode="json")
+    for name in re.sub(r"\[(\d+)\]", r".\1", path).split("."):
+        written = written[int(name)] if name.isdigit() else written[name]
+    choices = _choices(field.annotation)
+    if choices:
+        return next(each for each in choices if each != written)
+    if isinstance(written, bool):
+        return not written
+    if isinstance(written, int):
+        return written + 1
+    if isinstance(written, float):
+        return written * 1.1 if written else 0.1
+    assert isinstance(written, str), f"{path} has no value to change: give one in HELPED of tests/shared/every_field.py"
+    number = _NUMBER.match(written)
+    assert number, path
+    return f"{float(number[0]) * 1.1!r}{written[number.end() :]}"
+
+
+def _choices(annotation: Any) -> tuple[Any, ...]:
+    if typing.get_origin(annotation) is Literal:
+        return typing.get_args(annotation)
+    if isinstance(annotation, types.UnionType) or typing.get_origin(annotation) is typing.Annotated:
+        return next((found for each in typing.get_args(annotation) if (found := _choices(each))), ())
+    return ()
