@@ -14,6 +14,7 @@ from heeltoe.warnings import CATALOGUE, Notice
 # Endings of the names of quantities, the longest first, and the kinds of quantity that they are.
 ENDINGS = {
     "_kg_m3": "density",
+    "_m_s2": "acceleration",
     "_m_s": "velocity",
     "_rad": None,
     "_pa": "pressure",

@@ -28,6 +28,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "override-form": ("{value} sets nothing", "write PATH=VALUE, for example crack.friction=1.0"),
     "unit-missing": ("{value} has no unit", "write for example {example}"),
     "unit-unknown": ("{value} has a unit that is not known, {unit}", "write for example {example}"),
+    "unit-ton": (
+        "{value} may mean the metric ton of 1000 kg or the one of 2000 lb",
+        'write "t" (or "tonne") for the metric one, "short_ton" for the other',
+    ),
     "wrong-quantity": ("{value} is not {kind}", "write for example {example}"),
     "not-finite": ("{value} is not a finite number", "write for example {example}"),
     "unknown-field": ("no such field", "{suggestion}"),
@@ -114,6 +118,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "{name} peaks at {value}, beyond any earthquake",
         "check its unit (motion.unit) and its values",
     ),
+    "motion-spike": (
+        "{name} jumps to {value} at {moment} and back, {ratio} times as far as it reaches anywhere else",
+        "correct this value of the file; a pulse that is meant can be drawn by motion.points",
+    ),
     "motion-resample": (
         "a step of {value} does not divide the record's {step}",
         "refine by a whole number; coarser steps would change the motion",
@@ -136,6 +144,14 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     ),
     "record-channel-missing": ("has several channels ({value})", "choose one in {channel_field}"),
     "record-channel": ("{value} means {count} of the channels of {name} ({channels})", "choose one by its number"),
+    "record-channels-lost": (
+        "opens {opened} channels, but has the accelerations of one alone ({value})",
+        "get the whole file, or say in {channel_field} that this one is meant",
+    ),
+    "record-marker": (
+        "value {number} is {value}, which marks what is missing and was never measured",
+        "correct the file",
+    ),
     "record-number": ("line {line}: {value} is not a number", "correct the file"),
     "record-ragged": ("line {line} has {value} where others have {width}", "correct the file"),
     "record-not-acceleration": ("is a {value} record", "give the acceleration record"),

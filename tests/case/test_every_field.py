@@ -75,8 +75,8 @@ def outcome(model: str, written: str) -> tuple[Any, list[str], list[str]]:
     except InputError as error:
         return str(error), [str(error)], []
     numbers = json.loads(json.dumps(found.to_json()))
-    for name in ("warnings", "build"):
-        numbers.pop(name)
+    for name in ("warnings", "build", "seconds"):
+        numbers.pop(name, None)
     return numbers, [str(each) for each in found.warnings], idle(found.warnings)
 
 

@@ -20,7 +20,7 @@ def test_python_and_the_command_line_warn_of_the_same():
     changes = [f"--set={change}" for change in OPENED]
     told = json.loads(command("run", str(BASE), "--model", "rigid", *changes, "--json", "-").stdout)
     response = heeltoe.rigid(read_case(BASE, OPENED))
-    assert [each.code for each in response.warnings] == ["crack-opens", "rigid-block"]
+    assert [each.code for each in response.warnings] == ["fields-unused", "crack-opens", "rigid-block"]
     assert response.to_json() == told
 
 
@@ -34,8 +34,11 @@ def test_every_way_to_a_model_is_the_same():
         assert [check.name for check in one.limits] == ["residual_slip"]
     both = run(case, "both")
     assert both.to_json() == one.to_json() | {
-        **{name: both.to_json()[name] for name in ("chosen", "beside", "ratio", "meaning")}
+        **{name: both.to_json()[name] for name in ("chosen", "beside", "ratio", "meaning", "warnings")}
     }
+    # What the block reads is not said to change nothing.
+    unread = {each.code for each in one.warnings} - {each.code for each in both.warnings}
+    assert unread == {"restitution-unused"}
     # The better model is judged.
     assert both.limits
     assert not both.beside.limits

@@ -35,6 +35,9 @@ from heeltoe.units.parse import (
         ("2650 kg/m3", "density", 2650.0),
         ("2650 kg/m³", "density", 2650.0),
         ("2.65 t/m^3", "density", 2650.0),
+        ("2.65 tonne/m^3", "density", 2650.0),
+        ("0.075 short_ton/ft^3", "density", 150 * 0.45359237 / 0.3048**3),
+        ("15 metric_ton_force/m", "line force", 15e3 * STANDARD_GRAVITY),
         ("150 lb/ft^3", "density", 150 * 0.45359237 / 0.3048**3),
         ("20 GPa", "pressure", 20e9),
         ("4 Mpsi", "pressure", 4e6 * 0.45359237 * 9.80665 / 0.0254**2),
@@ -89,6 +92,12 @@ def test_read(text, dimension, expected):
         (math.inf, "number", "is not a finite number; write for example 1.0"),
         (10**400, "number", "is not a finite number"),
         (True, "number", "true is not a number"),
+        # 907 kg to pint: a tenth less than most who write it mean.
+        ("2.65 ton/m^3", "density", 'may mean the metric ton of 1000 kg or the one of 2000 lb; write "t" (or "tonne")'),
+        ("2.65 tons / m^3", "density", "may mean the metric ton"),
+        ("2 kton/m^3", "density", "may mean the metric ton"),
+        ("15 ton_force/m", "line force", "may mean the metric ton"),
+        ("15 force_ton/m", "line force", "may mean the metric ton"),
         # An angle is no number, although pint takes it for one.
         ("45 deg", "number", '"45 deg" is not a number; write for example 1.0'),
     ],

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from heeltoe.case.motion import Motion, Source
 from heeltoe.errors import InputError
-from heeltoe.motion.check import check
+from heeltoe.motion.check import check, check_pair, check_record
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.processing import process
 from heeltoe.motion.records import read_record
@@ -16,7 +16,7 @@ from heeltoe.motion.scenario import PREFIX, synthetic
 
 
 def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[GroundMotion, GroundMotion | None]:
-    """Read, process, scale, reverse and cut the ground motions of a case, in this order, and check them.
+    """Read, check, process, scale, reverse and cut the ground motions of a case, in this order, and check them again.
 
     A peak asked for is the peak of the whole record. A vertical motion without a peak of its own is scaled by the
     same factor as the horizontal one, as both were recorded together.
@@ -55,6 +55,7 @@ def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[Grou
             )
         elif factor != 1.0:
             vertical = vertical.scaled(factor, f"scaled by {factor:.6g} like the horizontal motion")
+        vertical = vertical.with_warnings(*check_pair(horizontal, vertical))
         vertical = _finish(vertical, shaking.vertical, shaking.duration)
         vertical = vertical.with_warnings(*check(vertical, gravity, allow_zero=True, field="motion.vertical"))
     horizontal = _finish(horizontal, shaking, shaking.duration)
@@ -63,8 +64,10 @@ def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[Grou
 
 
 def _read(shaking: Source, gravity: float, base_directory: Path, field: str) -> GroundMotion:
-    """Read, or make, the motion, and process it."""
+    """Read, or make, the motion, look for damage that would be hidden later, and process it."""
     motion = _source(shaking, gravity, base_directory, field)
+    upward = field == "motion.vertical"
+    motion = motion.with_warnings(*check_record(motion, gravity, field=field, upward=upward))
     return process(motion, shaking.processing, gravity, field=f"{field}.processing")
 
 

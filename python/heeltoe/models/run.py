@@ -201,7 +201,8 @@ def _completed(response: R, case: Case, models: Sequence[str]) -> R:
     """Add what every result has; a field that one of the `models` side by side reads is not said to change nothing. A
     run that never started says why by itself."""
     unused = unused_fields(case, models)
-    warnings = (*case_warnings(case), *response.motion.warnings, *response.warnings, *unused)
+    vertical = () if response.vertical is None else response.vertical.warnings
+    warnings = (*case_warnings(case), *response.motion.warnings, *vertical, *response.warnings, *unused)
     if not response.summary:
         return replace(response, warnings=warnings)
     return replace(

@@ -10,6 +10,7 @@ import numpy as np
 
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
+from heeltoe.case.warnings import concrete_warnings
 from heeltoe.mechanics.block import build_block
 from heeltoe.models.decoupled.chain import Chain, bonded_chain, chain
 from heeltoe.models.decoupled.crack_motion import CrackMotion, crack_motion, crack_motion_at, relative
@@ -79,7 +80,7 @@ def run_decoupled(case: Case, earthquake: Earthquake, output_step: float | None 
         earthquake,
         summary={**found.summary, "crack_level": level},
         histories=_histories(found, at_crack, earthquake),
-        warnings=(*found.warnings, *_warnings(level)),
+        warnings=(*found.warnings, *concrete_warnings(case), *_warnings(level)),
         references=(*found.references, *cited("decoupled", "piecewise exact")),
     )
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 
 from heeltoe.case.model import Case
+from heeltoe.case.warnings import concrete_warnings
 from heeltoe.kernel.dam import DamRun
 from heeltoe.mechanics.block import Block, instability
 from heeltoe.mechanics.loads import water_above_crack
@@ -127,11 +128,7 @@ def _about_the_concrete(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
     full = case.reservoir is not None and water_above_crack(case, case.reservoir) > 0.9 * dam.section.height
     if case.concrete.damping < 0.005 and full:
         yield Notice("damping-hardly")
-    if case.concrete.poisson > 0.35:
-        yield Notice("poisson-unusual", poisson=case.concrete.poisson)
-    modulus = case.concrete.modulus or 0.0
-    if not 5e9 <= modulus <= 1e11:
-        yield Notice("modulus-unusual", modulus_pa=modulus)
+    yield from concrete_warnings(case)
     if dam.basis_error > ENOUGH:
         yield Notice("modes-few", error=dam.basis_error)
 

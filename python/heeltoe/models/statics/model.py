@@ -127,7 +127,7 @@ def statics(
         Where the crack does not cut the section in two.
     """
     section, choice = case.cut, case.statics
-    warnings = list(case_warnings(case))
+    warnings = [*case_warnings(case), *unused_fields(case, ("statics", *beside))]
     before = usual(case)
     solved = [before]
     if choice.flood_depth is not None:
@@ -161,7 +161,6 @@ def statics(
         warnings.append(Notice("residual-friction-high"))
     if any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors):
         warnings.append(Notice("anchors-as-prestress"))
-    warnings += unused_fields(case, ("statics", *beside))
     references = dict.fromkeys(check.source for check in checks if check.required is not None)
     if choice.seismic_coefficient is not None and water_above_crack(case, case.reservoir):
         references[REFERENCES["water"]] = None

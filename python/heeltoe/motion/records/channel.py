@@ -44,6 +44,7 @@ def choose(records: list[RawRecord], wanted: str | int | None, name: str, field:
     """
     if wanted is None:
         if len(records) == 1:
+            _check_whole(records[0], name, field)
             return records[0]
         raise InputError("record-channel-missing", name, listed(records), channel_field=field)
     text = str(wanted).strip()
@@ -54,6 +55,14 @@ def choose(records: list[RawRecord], wanted: str | int | None, name: str, field:
         count = len(found) or "none"
         raise InputError("record-channel", field, repr(text[:30]), count=count, name=name, channels=listed(records))
     return found[0]
+
+
+def _check_whole(record: RawRecord, name: str, field: str) -> None:
+    """Refuse the only channel left of a file that had more: which one was meant is not known."""
+    for lost in record.warnings:
+        if lost.code == "record-channels":
+            opened = dict(lost.quantities)["opened"]
+            raise InputError("record-channels-lost", name, listed([record]), opened=opened, channel_field=field)
 
 
 def listed(records: list[RawRecord]) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,6 +17,10 @@ from heeltoe.warnings import Notice
 
 # Beyond these the numbers are no record in any unit, and displacements would overflow.
 _LARGEST_VALUE, _LARGEST_GAP = 1e12, 1e4
+# No instrument for strong motion is slower [s].
+_LONGEST_STEP = 1.0
+# What stands for a missing value: nines alone, and far from all that was measured.
+_NINES, _FAR = re.compile(r"9{3,}(?:\.9*0*)?"), 1.5
 # The commonest of digitised records.
 _LIKELY_STEP = 0.01
 
@@ -57,6 +62,7 @@ def to_motion(raw: RawRecord, format_: str, name: str, channels: int, told: Told
     if not np.isfinite(raw.values).all():
         bad = int(np.flatnonzero(~np.isfinite(raw.values))[0])
         raise InputError("motion-not-finite", name, str(raw.values[bad]), number=bad + 1)
+    _check_markers(raw, name)
     peak = float(np.abs(raw.values).max())
     time, unsure = _time(raw, name, told)
     unit, read_as, unsure_too = _unit(raw, name, peak, told)
@@ -76,6 +82,15 @@ def to_motion(raw: RawRecord, format_: str, name: str, channels: int, told: Told
         warnings=(*raw.warnings, *unsure, *unsure_too),
         **raw.about,
     )
+
+
+def _check_markers(raw: RawRecord, name: str) -> None:
+    """Refuse -9999 and its like among smaller values; scaled to a peak it would hide all that was measured."""
+    size = np.abs(raw.values)
+    worst = int(size.argmax())
+    rest = float(size[size < size[worst]].max(initial=0.0))
+    if _NINES.fullmatch(f"{size[worst]:.10g}") and size[worst] > _FAR * rest:
+        raise InputError("record-marker", name, f"{raw.values[worst]:g}", number=worst + 1)
 
 
 def _unit(raw: RawRecord, name: str, peak: float, told: Told) -> tuple[str, str, tuple[Notice, ...]]:
@@ -114,8 +129,9 @@ def _time(raw: RawRecord, name: str, told: Told) -> tuple[Floats, tuple[Notice, 
     if raw.time is not None:
         with np.errstate(invalid="ignore", over="ignore"):
             gap = float(np.abs(np.diff(raw.time)).max())
-        if gap > _LARGEST_GAP:
-            raise InputError("record-step", name, f"{gap:g} s")
+        middle = float(np.median(np.diff(raw.time)))
+        if gap > _LARGEST_GAP or middle > _LONGEST_STEP:
+            raise InputError("record-step", name, f"{gap if gap > _LARGEST_GAP else middle:g} s")
         return raw.time, ()
     step, field = raw.time_step or told.time_step, f"{told.field}.time_step"
     warnings: tuple[Notice, ...] = ()
@@ -126,6 +142,6 @@ def _time(raw: RawRecord, name: str, told: Told) -> tuple[Floats, tuple[Notice, 
         raise InputError("record-step-missing", name, step_field=field)
     if raw.time_step and told.time_step and abs(raw.time_step - told.time_step) > 1e-9 * told.time_step:
         raise InputError("record-step-conflict", field, f"{told.time_step:g} s", stated=raw.time_step)
-    if not 1e-6 <= step <= 10.0:
+    if not 1e-6 <= step <= _LONGEST_STEP:
         raise InputError("record-step", name, f"{step:g} s")
     return np.arange(raw.values.size, dtype=np.float64) * step, warnings

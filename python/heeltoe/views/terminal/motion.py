@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from rich.console import Console
 
 from heeltoe.errors import InputError
-from heeltoe.motion.check import check
+from heeltoe.motion.check import check, check_record
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import measures
 from heeltoe.units.parse import STANDARD_GRAVITY
@@ -54,7 +56,10 @@ def _measure_lines(motion: GroundMotion, gravity: float, units: str) -> list[tup
 
 def _suspicions(motion: GroundMotion, gravity: float, units: str) -> tuple[str, ...]:
     """What an analysis would say about the record; here even what it would refuse is only said."""
-    try:
-        return tuple(each.text(units) for each in check(motion, gravity, allow_zero=True))
-    except InputError as error:
-        return (str(error),)
+    said: list[str] = []
+    for look in (partial(check_record, upward=None), partial(check, allow_zero=True)):
+        try:
+            said += [each.text(units) for each in look(motion, gravity)]
+        except InputError as error:
+            said.append(str(error))
+    return tuple(dict.fromkeys(said))

@@ -1,0 +1,154 @@
+"""What is wrong with a record is looked for in the record, before scaling and filters hide it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from heeltoe import InputError, read_case, rigid
+from heeltoe.motion.check import check_record
+from heeltoe.motion.records import read_channels
+from shared.command import command
+from shared.dams import BLOCK
+from shared.record_samples import GAL, G, channels, cosmos, csmip, read
+
+WAVE = 0.3 * np.sin(0.13 * np.arange(400)) * np.hanning(400)
+
+
+def record(path, values=WAVE, unit="g", step="0.01 s"):
+    path.write_text(f"# time step: {step}\n# units: [{unit}]\n" + "\n".join(f"{value:.6g}" for value in values))
+    return path
+
+
+def damaged(value, width=1, wave=WAVE):
+    values = wave.copy()
+    values[150 : 150 + width] = value
+    return values
+
+
+def run(file, *changes):
+    return rigid(read_case(BLOCK, [f"motion.file={file}", *changes]))
+
+
+HIDING = [
+    (),
+    ("motion.pga=0.3 g",),
+    ('motion.processing=[{step="band-pass", low="0.2 Hz", high="10 Hz"}]', "motion.pga=0.3 g"),
+    ('motion.processing=[{step="scale-to-arias", intensity="1 m/s"}]',),
+]
+
+
+@pytest.mark.parametrize("changes", HIDING)
+@pytest.mark.parametrize(
+    ("values", "unit", "code"),
+    [
+        (damaged(-9999.0), "g", "record-marker"),
+        (damaged(-999.9, width=4, wave=100.0 * WAVE), "mm/s^2", "record-marker"),
+        (damaged(9.99), "g", "motion-spike"),
+        (damaged(-1.2), "g", "motion-spike"),
+        (1e4 * WAVE, "g", "motion-peak"),
+    ],
+)
+def test_no_scaling_or_filter_hides_damage(values, unit, code, changes, tmp_path):
+    file = record(tmp_path / "a.txt", values, unit)
+    with pytest.raises(InputError) as caught:
+        run(file, *changes)
+    assert caught.value.code == code
+    assert "scale" not in str(caught.value)
+    assert "pga" not in str(caught.value)
+
+
+def test_a_doubtful_value_is_pointed_at_and_a_sound_record_is_not(tmp_path):
+    doubted = run(record(tmp_path / "a.txt", damaged(0.75)), "motion.pga=0.3 g")
+    (said,) = (each for each in doubted.warnings if each.code == "motion-spike")
+    assert said.time_s == pytest.approx(1.5)
+    assert dict(said.quantities)["peak_g"] == pytest.approx(0.75)
+    sound = run(record(tmp_path / "b.txt"), "motion.pga=0.3 g")
+    assert not {"motion-spike", "motion-coarse", "component-vertical"} & {each.code for each in sound.warnings}
+
+
+def test_nines_that_were_measured_are_no_marker(tmp_path):
+    values = 1000.0 * WAVE / np.abs(WAVE).max()
+    values[np.abs(values).argmax()] = 999.0
+    assert run(record(tmp_path / "a.txt", values, "cm/s^2"), "motion.pga=0.3 g").summary
+
+
+def test_clipping_shows_before_a_filter_rounds_it_off(tmp_path):
+    file = record(tmp_path / "a.txt", np.clip(WAVE, -0.15, 0.15))
+    for changes in HIDING:
+        assert "motion-clipped" in {each.code for each in run(file, *changes).warnings}
+
+
+def test_real_records_have_no_spikes(records):
+    doubted = set()
+    for path in sorted((records / "ensemble").iterdir()):
+        for motion in read_channels(path) if path.suffix else []:
+            doubted |= {path.stem for each in check_record(motion, G) if each.code == "motion-spike"}
+    assert all("cape-mendocino" in name for name in doubted), doubted
+
+
+@pytest.mark.parametrize("step", ["10 s", "1.5 s"])
+def test_a_step_of_seconds_is_no_record(step, tmp_path):
+    bare = tmp_path / "bare.txt"
+    bare.write_text("# units: [g]\n" + "\n".join(f"{value:.6g}" for value in WAVE))
+    columns = tmp_path / "columns.txt"
+    seconds = float(step.split()[0])
+    columns.write_text("# units: [g]\n" + "\n".join(f"{k * seconds} {value:.6g}" for k, value in enumerate(WAVE)))
+    for file, changes in ((record(tmp_path / "a.txt", step=step), []), (columns, []), (bare, [f"time_step={step}"])):
+        with pytest.raises(InputError, match="is not that of a record"):
+            run(file, *(f"motion.{each}" for each in changes))
+
+
+def test_a_step_that_is_too_long_for_a_dam_is_told(tmp_path):
+    said = run(record(tmp_path / "a.txt", step="0.2 s")).warnings
+    assert any(each.code == "motion-coarse" and "every 0.2 s" in str(each) for each in said)
+
+
+@pytest.mark.parametrize("component", ["UP", "Up", "vertical UP", "DWN", "U-D", "HNZ", "Vert."])
+def test_a_vertical_component_that_shakes_horizontally_is_told(component, tmp_path):
+    file = tmp_path / "a.V2"
+    file.write_text(csmip({component: GAL}))
+    for other, code in (("", "component-vertical"), ("vertical.", None)):
+        changes = [f"motion.{other}file={file}"] + ([f"motion.file={record(tmp_path / 'b.txt')}"] if other else [])
+        said = {each.code for each in rigid(read_case(BLOCK, changes)).warnings}
+        assert {each for each in said if each.startswith("component-")} == ({code} if code else set())
+
+
+@pytest.mark.parametrize("component", ["90 DEG", "S69E", "N-S", "EW", "164 (S16E)", "HNN", "360"])
+def test_a_horizontal_component_that_shakes_vertically_is_told(component, tmp_path):
+    file = tmp_path / "a.V2"
+    file.write_text(csmip({component: GAL}))
+    case = read_case(BLOCK, [f"motion.file={file}", f"motion.vertical.file={file}"])
+    said = {each.code for each in rigid(case).warnings}
+    assert {each for each in said if each.startswith("component-")} == {"component-horizontal"}
+
+
+def test_a_name_tells_where_a_file_does_not(tmp_path):
+    said = run(record(tmp_path / "quake_up.txt")).warnings
+    assert "component-vertical" in {each.code for each in said}
+
+
+def test_components_of_two_earthquakes_are_told(tmp_path):
+    one, other = tmp_path / "a.V2", tmp_path / "b.V2"
+    one.write_text(cosmos())
+    for event, told in (("Nowhere Earthquake of Tue Jan 1, 1980 20:00 UTC", False), ("Elsewhere in 1999", True)):
+        other.write_text(cosmos(direction="Up", event=event))
+        case = read_case(BLOCK, [f"motion.file={one}", f"motion.vertical.file={other}"])
+        said = [each for each in rigid(case).warnings if each.code == "components-differ"]
+        assert bool(said) is told
+
+
+def test_the_first_of_two_channels_is_not_taken_for_the_record():
+    whole = csmip({"90 DEG": GAL, "UP": -0.5 * GAL})
+    cut = whole[: whole.index("POINTS OF ACCEL DATA", whole.index("POINTS OF ACCEL DATA") + 1) - 2]
+    with pytest.raises(InputError, match=r"opens 2 channels, but has the accelerations of one alone \(1: 90 DEG"):
+        read(cut)
+    assert read(cut, channel=1).component == "90 DEG"
+    assert [motion.component for motion in channels(cut)] == ["90 DEG"]
+
+
+def test_a_look_at_a_record_says_what_an_analysis_would_refuse(tmp_path):
+    file = record(tmp_path / "up.txt", damaged(9.99))
+    said = " ".join(command("motion", file, "--no-figure", cwd=tmp_path).stdout.split())
+    assert "jumps to 9.99 g at 1.5 s and back" in said
+    assert "shakes the dam" not in said
