@@ -162,6 +162,11 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "{name} states a step of {step_s:g s}, {values:g} values and {duration_s:g s}: check it",
     ),
     "record-channels": ("caution", "", "{name} opens {opened:d} channels and has accelerations of {found:d}"),
+    "record-breaks-off": (
+        "caution",
+        "",
+        "{name} breaks off before its end: what comes behind this channel, other channels too, is missing",
+    ),
     "record-torn": ("caution", "", "{name} ends in the middle of a number: its last value may be wrong"),
     "record-flagged": ("caution", "", "{name} flags a problem with its data: see the comments in it"),
     "record-unit-assumed": (

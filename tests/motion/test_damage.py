@@ -152,3 +152,25 @@ def test_a_look_at_a_record_says_what_an_analysis_would_refuse(tmp_path):
     said = " ".join(command("motion", file, "--no-figure", cwd=tmp_path).stdout.split())
     assert "jumps to 9.99 g at 1.5 s and back" in said
     assert "shakes the dam" not in said
+
+
+@pytest.mark.parametrize(
+    "whole",
+    [
+        csmip({"90 DEG": GAL, "UP": -0.5 * GAL}),
+        cosmos() + cosmos("velocity") + cosmos(values=0.5 * GAL, number=2, direction="Up"),
+    ],
+)
+def test_a_file_of_two_channels_that_is_cut_anywhere_says_so(whole):
+    lines = whole.splitlines(keepends=True)
+    ends = [k for k, line in enumerate(lines, 1) if "end of data" in line.lower() or "end-of-data" in line.lower()]
+    silent = []
+    for k in range(2, len(lines)):
+        try:
+            found = read("".join(lines[:k]))
+        except InputError:
+            continue
+        if not found.warnings:
+            silent.append(k)
+    # Between two channels nothing is missing, as far as the file tells.
+    assert set(silent) <= {*ends, *(k + 1 for k in ends)}

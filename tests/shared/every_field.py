@@ -60,7 +60,7 @@ BASE: Fields = {
         "opening": "0.2 mm",
     },
     "motion": {"points": PULSE, "vertical": {"points": UP}},
-    "flexible": {"elements_across": 4, "convergence_check": False, "modes": 12},
+    "flexible": {"elements_across": 4, "modes": 12, "evidence": "none"},
     "limits": {
         "residual_slip": "10 mm",
         "peak_slip": "20 mm",

@@ -299,3 +299,14 @@ def criteria(
         and row.structure in (None, structure)
         and row.site_information in (None, site_information)
     )
+
+
+def unread(name: str) -> tuple[str, ...]:
+    """Return which fields of ``[statics]`` these criteria do not ask for."""
+    rows = CRITERIA[name]
+    asked = {
+        "structure": any(row.structure for row in rows),
+        "site_information": any(row.site_information for row in rows),
+        "compressive_strength": any(row.check == "compression" for row in rows),
+    }
+    return tuple(field for field, wanted in asked.items() if not wanted)

@@ -7,12 +7,14 @@ from dataclasses import dataclass
 from typing import Any
 
 from heeltoe.case.model import Case
+from heeltoe.case.options import StaticsChoice
 from heeltoe.case.use import unused_fields
 from heeltoe.case.warnings import case_warnings
 from heeltoe.mechanics.block import build_block, static_state
 from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.models.statics.cases import flood, post_seismic, pseudo_static, usual
 from heeltoe.models.statics.checks import Check, check_case, fallen
+from heeltoe.models.statics.criteria import unread
 from heeltoe.models.statics.levels import critical_water_levels
 from heeltoe.models.statics.load_case import LoadCase
 from heeltoe.references import REFERENCES
@@ -127,7 +129,7 @@ def statics(
         Where the crack does not cut the section in two.
     """
     section, choice = case.cut, case.statics
-    warnings = [*case_warnings(case), *unused_fields(case, ("statics", *beside))]
+    warnings = [*case_warnings(case), *unused_fields(case, ("statics", *beside)), *_unread(choice)]
     before = usual(case)
     solved = [before]
     if choice.flood_depth is not None:
@@ -178,6 +180,13 @@ def statics(
         warnings=tuple(warnings),
         references=tuple(references),
     )
+
+
+def _unread(choice: StaticsChoice) -> tuple[Notice, ...]:
+    """Say what is given and not asked for by the criteria."""
+    idle = [f"statics.{name}" for name in unread(choice.criteria) if name in choice.model_fields_set]
+    why = f'statics.criteria = "{choice.criteria}"'
+    return (Notice("fields-idle", field=idle[0], fields=", ".join(idle), why=why),) if idle else ()
 
 
 _UNKNOWN = "no slip is given, taken as zero"

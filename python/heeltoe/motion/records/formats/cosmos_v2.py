@@ -16,6 +16,7 @@ Real 62 is the step of the series in milliseconds. Real 34, in seconds, is the r
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from heeltoe.arrays import Floats
 from heeltoe.errors import InputError
@@ -63,6 +64,8 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
             records.append(_channel(header, values, real(found[1]), name, start + 1))
         else:
             others.append({"vel": "velocity", "dis": "displacement"}[quantity])
+    if records and _first(lines, starts[-1], len(lines), _END) == len(lines):
+        records[-1] = replace(records[-1], warnings=(*records[-1].warnings, Notice("record-breaks-off", name=name)))
     if not records:
         raise InputError("record-not-acceleration", name, others[0])
     return records

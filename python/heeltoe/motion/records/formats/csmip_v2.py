@@ -23,6 +23,7 @@ _ACCELERATION = re.compile(
     re.IGNORECASE,
 )
 _END = re.compile(r"\s*/&|.*(?:end of data| points of |corrected accelerogram)", re.IGNORECASE)
+_CLOSED = re.compile(r"\s*/&|.*end of data", re.IGNORECASE)
 _FORMAT = re.compile(r"\(\s*\d+\s*[a-z](\d{1,2})\.", re.IGNORECASE)
 _CHANNEL = re.compile(r"\bchan\s*(\d+):\s*(\S+(?: \S+)*)", re.IGNORECASE)
 _FIRST = re.compile(r"\s*corrected accelerogram", re.IGNORECASE)
@@ -46,6 +47,8 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
         end = next((j for j in range(k + 1, len(lines)) if _END.match(lines[j][:_WIDTH])), len(lines))
         header = [line[:_WIDTH] for line in lines[max(before + 1, k - _HEADER_LINES) : k]]
         records.append(_channel(header, lines[k][:_WIDTH], lines[k + 1 : end], name, k + 2))
+    if starts and not any(_CLOSED.match(line[:_WIDTH]) for line in lines[starts[-1] :]):
+        records[-1] = replace(records[-1], warnings=(*records[-1].warnings, Notice("record-breaks-off", name=name)))
     opened = sum(_FIRST.match(line[:_WIDTH]) is not None for line in lines)
     if opened > len(records):
         lost = Notice("record-channels", name=name, opened=opened, found=len(records))

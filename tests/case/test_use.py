@@ -1,0 +1,172 @@
+"""What is said of a field that is given and changes nothing: of another model, or put out of use by another choice."""
+
+from __future__ import annotations
+
+import pytest
+
+from heeltoe import read_case, rigid, run, statics
+from heeltoe.case.use import unused_fields
+from heeltoe.models.statics.criteria import CRITERIA, unread
+from shared.cases import dam
+from shared.dams import FAST, PULSE, TYPICAL_SECTION, example
+
+BATTERED = {"polygon": [["0 m", "0 m"], ["80 m", "0 m"], ["10 m", "100 m"], ["4 m", "100 m"], ["4 m", "40 m"]]}
+SILT = {"depth": "20 m", "vertical_density": "900 kg/m^3"}
+
+
+def said(fields, *models):
+    return [str(each) for each in unused_fields(read_case(fields), models)]
+
+
+def test_fields_of_other_models_are_told_in_one_line():
+    fields = dam(concrete={"modulus": "20 GPa", "damping": 0.03}, flexible={"modes": 20, "mesh_above": "nowhere.msh"})
+    assert said(fields, "rigid") == [
+        "the rigid model makes no use of concrete.modulus, concrete.damping, flexible.mesh_above, flexible.modes"
+    ]
+    assert said(fields, "decoupled") == ["the decoupled chain makes no use of flexible.modes"]
+    assert said(fields, "flexible") == said(fields, "rigid", "flexible") == []
+    anchored = dam(anchors=[{"distance": "5 m", "prestress": "1 MN/m", "capacity": "2 MN/m"}], motion=None)
+    assert said(anchored, "statics") == ["the static checks make no use of anchors[0].capacity"]
+
+
+def test_defaults_are_not_told():
+    assert said(dam(motion=None), "statics") == said(dam(), "rigid") == said(dam(), "flexible") == []
+
+
+def test_what_a_reader_expects_to_matter_is_told_by_itself():
+    fields = dam(crack={"friction": 1.0, "restitution": 0.3}, analysis={"rotation": "finite", "event_limit": 10})
+    first, second, third = said(fields, "flexible")
+    assert first.startswith('analysis.rotation = "finite" has no say in the flexible model')
+    assert second.startswith("crack.restitution = 0.3 has no say in the flexible model")
+    assert third == "the flexible model makes no use of analysis.event_limit"
+    # Beside a block it is read; but the better of the two knows nothing of large rotations.
+    (both,) = said(fields, "rigid", "flexible")
+    assert both == first
+    assert said(fields, "rigid") == []
+
+
+@pytest.mark.parametrize(
+    ("changes", "models", "fields", "why"),
+    [
+        ({"flexible": {"theta": 0.6, "penalty_factor": 500}}, ["flexible"], "flexible.penalty_factor", '"coulomb"'),
+        (
+            {"flexible": {"theta": 0.6, "penalty_factor": 500, "contact": "idce", "damping": "stiffness"}},
+            ["flexible"],
+            "flexible.theta",
+            '"idce"',
+        ),
+        ({"flexible": {"elements_across_below": 3}}, ["flexible"], "flexible.elements_across_below", "below the crack"),
+        (
+            {"flexible": {"elements_across": 3, "mesh_above": "a.msh"}},
+            ["rigid", "flexible"],
+            "flexible.elements_across",
+            "mesh_above",
+        ),
+        (
+            {"reservoir": None, "flexible": {"virtual_mass": "thesis"}},
+            ["flexible"],
+            "flexible.virtual_mass",
+            "no water",
+        ),
+        ({"silt": SILT}, ["rigid"], "silt.vertical_density", "vertical face"),
+        (
+            {"silt": SILT | {"depth": "60 m"}, "section": BATTERED, "crack": {"friction": 1.0, "elevation": "40 m"}},
+            ["rigid"],
+            "silt.vertical_density",
+            "vertical face",
+        ),
+        (
+            {"uplift": {"intensity": 0.5}, "crack": {"friction": 1.0, "elevation": "96 m"}},
+            ["rigid"],
+            "uplift.intensity",
+            "no water stands above the crack",
+        ),
+        ({"uplift": {"pattern": "none", "intensity": 0.5}}, ["rigid"], "uplift.intensity", '"none"'),
+        (
+            {"motion": PULSE | {"vertical": PULSE}, "decoupled": {"vertical": True}},
+            ["decoupled"],
+            "decoupled.vertical",
+            "in any case",
+        ),
+        (
+            {"crack": {"static_friction": 1, "kinetic_friction": 0.9}, "motion": None},
+            ["statics"],
+            "crack.kinetic_friction",
+            "nothing slides",
+        ),
+        (
+            {"crack": {"static_friction": 1, "kinetic_friction": 0.9}, "statics": {"residual_friction": 0.8}},
+            ["statics"],
+            "crack.kinetic_friction",
+            "residual_friction",
+        ),
+        (
+            {"reservoir": {"depth": "95 m", "follows_vertical_motion": True}, "motion": None},
+            ["statics"],
+            "reservoir.follows_vertical_motion",
+            "vertical_seismic_coefficient",
+        ),
+    ],
+)
+def test_fields_put_out_of_use_by_others_are_told_with_the_reason(changes, models, fields, why):
+    idle = [each for each in unused_fields(read_case(dam(**changes)), models) if each.code == "fields-idle"]
+    (found,) = idle
+    assert str(found).startswith(f"no effect of {fields}: ")
+    assert why in str(found)
+
+
+@pytest.mark.parametrize(
+    ("changes", "models"),
+    [
+        ({"silt": SILT, "section": BATTERED}, ["rigid"]),
+        ({"silt": SILT, "section": BATTERED, "crack": {"friction": 1.0, "elevation": "60 m"}}, ["flexible"]),
+        (
+            {"flexible": {"elements_across": 3, "mesh_above": "a.msh"}, "crack": {"friction": 1, "elevation": "9 m"}},
+            ["flexible"],
+        ),
+        ({"uplift": {"intensity": 0.5}, "reservoir": None, "tailwater": {"depth": "9 m"}}, ["rigid"]),
+        ({"section": TYPICAL_SECTION, "flexible": {"virtual_mass": "thesis"}}, ["flexible"]),
+    ],
+)
+def test_what_has_an_effect_is_not_told(changes, models):
+    assert "fields-idle" not in {each.code for each in unused_fields(read_case(dam(**changes)), models)}
+
+
+@pytest.mark.parametrize("criteria", CRITERIA)
+def test_criteria_tell_what_they_do_not_ask_for(criteria):
+    asked = {"structure": "normal", "site_information": "well defined", "compressive_strength": "20 MPa"}
+    plain = dam(motion=None, statics={"criteria": criteria, "bonded": 0.5, "cohesion": "1 MPa"})
+    told = []
+    for name, value in asked.items():
+        found = statics(read_case(dam(motion=None, statics=plain["statics"] | {name: value})))
+        same = [each.to_json() for each in found.checks] == [
+            each.to_json() for each in statics(read_case(plain)).checks
+        ]
+        idle = [each for each in found.warnings if each.code == "fields-idle"]
+        assert same is bool(idle), name
+        told += [name] if idle else []
+    assert tuple(told) == unread(criteria)
+
+
+def test_checks_after_a_run_count_what_the_run_reads():
+    case = example("typical-base", *FAST)
+    (alone,) = (each for each in statics(case).warnings if each.code == "fields-unused")
+    assert "motion.file" in str(alone)
+    (beside,) = (each for each in statics(case, 0.1, beside=("rigid",)).warnings if each.code == "fields-unused")
+    assert str(beside).startswith("the rigid model and the static checks make no use of concrete.modulus")
+    assert "motion" not in str(beside)
+
+
+def test_every_result_tells_it():
+    case = example("koyna", "motion.duration=1s", "flexible.elements_across=2", "flexible.evidence=none")
+    assert "fields-unused" in {each.code for each in rigid(case).warnings}
+    both = run(case, "decoupled,flexible")
+    assert {each.code for each in both.warnings} & {"fields-unused", "restitution-unused"} == set()
+    assert {each.code for each in both.beside.warnings} & {"fields-unused", "restitution-unused"} == set()
+
+
+def test_an_unusual_modulus_is_told_wherever_it_is_read():
+    changes = ("concrete.modulus=20 MPa", "motion.duration=1s", "flexible.elements_across=2", "flexible.evidence=none")
+    for model in ("decoupled", "flexible"):
+        told = {each.code for each in run(example("koyna", *changes), model).warnings}
+        assert "modulus-unusual" in told
