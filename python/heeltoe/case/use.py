@@ -84,7 +84,7 @@ def unused_fields(case: Case, models: Sequence[str]) -> tuple[Notice, ...]:
         said = [Notice(_EXPECTED[path], value=shown(given[path])) for path in expected]
     if foreign:
         names = [name for model, name in _READERS.items() if model in models]
-        readers = f"{' and '.join(names)} {'make' if len(names) > 1 else 'makes'}"
+        readers = f"{' and '.join(names)} {'makes' if len(names) == 1 and 'statics' not in models else 'make'}"
         said.append(Notice("fields-unused", readers=readers, fields=", ".join(foreign)))
     for why, paths in _idle(case, models).items():
         idle = [path for path in given if _plain(path) in paths and path not in foreign]
