@@ -166,6 +166,16 @@ def test_flexible_says_what_its_result_rests_on(tmp_path):
     assert (tmp_path / "crack.parquet").exists()
 
 
+def test_evidence_is_chosen_on_the_command_line():
+    short = ("run", *RIGID, "--model", "flexible", *COARSE, "--duration", "1s", "--json", "-", "--evidence")
+    found = [json.loads(command(*short, each).stdout)["evidence"] for each in ("none", "step")]
+    assert found[0] is None
+    assert (found[1]["asked"], found[1]["runs"]) == ("step", 2)
+    result = command(*short, "some")
+    assert result.returncode == 2
+    assert "flexible.evidence" in result.stderr
+
+
 @pytest.mark.usefixtures("empty_figures")
 def test_both_models_side_by_side(tmp_path):
     arguments = ("--model", "both", *FAST, "--spread", "3", "--out", tmp_path, "--json", "-")

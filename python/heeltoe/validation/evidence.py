@@ -123,7 +123,7 @@ def draw(seed: int) -> Case:
         "motion": {
             "file": record,
             "pga": f"{rng.uniform(0.3, 0.9):.3f} g",
-            "duration": f"{rng.uniform(5.0, 8.0):.1f} s",
+            "duration": f"{rng.uniform(3.0, 5.0):.1f} s",
         },
     }
     return read_case(fields)
