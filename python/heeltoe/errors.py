@@ -10,7 +10,10 @@ from __future__ import annotations
 
 import json
 
+from heeltoe.plain import plain
+
 _SHOWN_LENGTH = 60
+_LONGEST = 5000
 
 # Code -> (what is wrong, what to do). The braces are filled from the context of the raiser, and {value}.
 CATALOGUE: dict[str, tuple[str, str]] = {
@@ -362,4 +365,4 @@ class InputError(HeeltoeError):
         super().__init__(str(self))
 
     def __str__(self) -> str:
-        return f"{self.field}: {self.problem}; {self.remedy}"
+        return plain(f"{self.field}: {self.problem}; {self.remedy}", _LONGEST)

@@ -9,6 +9,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use crate::tables::{named, pool, rows, shaped, wrong, Numbers};
+use crate::watch::watched;
 
 /// A body in its modes as Python gives it, by the names of `Modes`.
 #[derive(FromPyObject)]
@@ -208,11 +209,15 @@ impl CrackedDam {
         let scheme = self.scheme(theta, penalty)?;
         let ground = rows(ground.as_slice()?, "ground")?;
         let shaking = Shaking { ground, dt, scale };
-        let wanted = Wanted {
-            stride,
-            modes: keep_modes,
-        };
-        let run = py.detach(|| simulate(&self.dam, &shaking, &scheme, wanted));
+        let reached = |run: &heeltoe::flexible::Run| Some(run.summary.end_time);
+        let run = watched(py, reached, |stop| {
+            let wanted = Wanted {
+                stride,
+                modes: keep_modes,
+                stop,
+            };
+            simulate(&self.dam, &shaking, &scheme, wanted)
+        })?;
         let frames = run.frames;
         let count = frames.rows.len();
         Ok((
@@ -247,7 +252,11 @@ impl CrackedDam {
             scale: [1.0; 2],
         };
         let pool = pool(threads)?;
-        let runs = py.detach(|| pool.install(|| many::run(&self.dam, &shaking, &scheme, &scales)));
+        let runs = watched(
+            py,
+            |_| None,
+            |stop| pool.install(|| many::run(&self.dam, &shaking, &scheme, &scales, stop)),
+        )?;
         shaped(py, runs.iter().flat_map(numbers).collect(), scales.len())
     }
 }

@@ -3,6 +3,7 @@
 mod flexible;
 mod rigid;
 mod tables;
+mod watch;
 
 use heeltoe::flexible::{self as elastic, Frames, State, Status};
 use heeltoe::rigid::varying::VaryingNumbers;
@@ -11,6 +12,7 @@ use numpy::PyArray2;
 use pyo3::prelude::*;
 
 use tables::{table, wrong, Numbers};
+use watch::watched;
 
 /// The compiled half of heeltoe.
 #[pymodule]
@@ -36,7 +38,11 @@ mod _kernel {
         if !(0.0..1.0).contains(&damping) || !periods.iter().all(|p| *p >= 0.0 && p.is_finite()) {
             return Err(wrong("damping must be in [0, 1) and periods not negative"));
         }
-        let peaks = py.detach(|| heeltoe::spectrum::spectrum(time, ground, periods, damping));
+        let peaks = watched(
+            py,
+            |_| None,
+            |stop| heeltoe::spectrum::spectrum(time, ground, periods, damping, stop),
+        )?;
         Ok(table(
             py,
             peaks.iter().map(|p| [p.displacement, p.total_acceleration]),

@@ -7,6 +7,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2}
 use pyo3::prelude::*;
 
 use crate::tables::{named, pool, row, rows, slice, table, wrong, Numbers};
+use crate::watch::watched;
 
 type Result<'py> = (
     Bound<'py, PyArray1<f64>>,
@@ -22,6 +23,11 @@ type VaryingResult<'py> = (
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray1<f64>>,
 );
+
+/// How far a run has come (s).
+fn reached(run: &Run) -> Option<f64> {
+    Some(run.summary.end_time)
+}
 
 /// Summary, histories, modes and events.
 fn arrays<'py>(py: Python<'py>, run: &Run) -> Result<'py> {
@@ -61,11 +67,15 @@ pub fn run_rigid<'py>(
         event_limit,
         jam,
     };
-    let wanted = Wanted {
-        times: output_times.as_slice()?,
-        events: true,
-    };
-    let run = py.detach(|| exact::simulate(&block, &shaking, start, options, wanted));
+    let times = output_times.as_slice()?;
+    let run = watched(py, reached, |stop| {
+        let wanted = Wanted {
+            times,
+            events: true,
+            stop,
+        };
+        exact::simulate(&block, &shaking, start, options, wanted)
+    })?;
     Ok(arrays(py, &run))
 }
 
@@ -108,11 +118,15 @@ pub fn run_rigid_varying<'py>(
         event_limit,
         jam,
     };
-    let wanted = Wanted {
-        times: output_times.as_slice()?,
-        events: true,
-    };
-    let run = py.detach(|| varying::simulate(&block, &body, &shaking, start, options, wanted));
+    let times = output_times.as_slice()?;
+    let run = watched(py, reached, |stop| {
+        let wanted = Wanted {
+            times,
+            events: true,
+            stop,
+        };
+        varying::simulate(&block, &body, &shaking, start, options, wanted)
+    })?;
     let (summary, histories, modes, events) = arrays(py, &run);
     Ok((summary, histories, modes, events, run.tensions.into_pyarray(py)))
 }
@@ -168,6 +182,10 @@ pub fn run_rigid_many<'py>(
         (BlockNumbers::from_row(&blocks[k]), shaking)
     };
     let pool = pool(threads)?;
-    let summaries = py.detach(|| pool.install(|| many::run(count, options, case)));
+    let summaries = watched(
+        py,
+        |_| None,
+        |stop| pool.install(|| many::run(count, options, stop, case)),
+    )?;
     Ok(table(py, summaries.iter().map(heeltoe::rigid::Summary::row)))
 }

@@ -9,4 +9,5 @@ pub mod inside;
 mod parallel;
 pub mod rigid;
 pub mod spectrum;
+pub mod stop;
 mod table;

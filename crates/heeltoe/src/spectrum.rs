@@ -10,6 +10,7 @@
 //! for one more period, in which a long-period peak may lie.
 
 use crate::parallel::each;
+use crate::stop::Stop;
 
 /// Largest relative displacement and largest total acceleration of one oscillator.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -275,8 +276,11 @@ pub fn peak(time: &[f64], ground: &[f64], frequency: f64, damping: f64) -> Peak 
 }
 
 /// Peaks of many oscillators, by their periods; a period of zero is the ground itself.
-pub fn spectrum(time: &[f64], ground: &[f64], periods: &[f64], damping: f64) -> Vec<Peak> {
+pub fn spectrum(time: &[f64], ground: &[f64], periods: &[f64], damping: f64, stop: Stop) -> Vec<Peak> {
     each(periods.len(), 1, |k| {
+        if stop.asked() {
+            return Peak::default();
+        }
         if periods[k] == 0.0 {
             let pga = ground.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
             return Peak {

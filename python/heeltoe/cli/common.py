@@ -12,6 +12,8 @@ from typing import Annotated, Any
 import typer
 from rich.console import Console
 
+from heeltoe.cli.streams import console, print_data
+from heeltoe.plain import plain
 from heeltoe.whole import check_file, write_text
 
 app = typer.Typer(
@@ -25,6 +27,8 @@ app = typer.Typer(
 
 BAD_INPUT = 2
 NO_RESULT = 3
+INTERRUPTED = 130
+LONGEST_PATH = 5000
 
 CasePath = Annotated[str, typer.Argument(metavar="CASE.toml", help="The case file (TOML or JSON).")]
 Changes = Annotated[
@@ -67,15 +71,20 @@ def finish(
     text = json_text(data)
     if json_ not in (None, "-"):
         written = [*written, write_text(str(json_), text + "\n", "--json")]
-    console = Console(stderr=json_ == "-", highlight=False)
-    show(console)
+    words = console(stderr=json_ == "-")
+    show(words)
     for done, paths in (("wrote", written), ("removed", removed)):
         for path in paths:
             # There are as many of these as frames; what lists them is told.
             if path.suffix != ".vtu":
-                console.print(f"  {done} {path}", soft_wrap=True, markup=False)
+                say_file(done, path, words)
     if json_ == "-":
-        print(text)
+        print_data(text)
+
+
+def say_file(done: str, path: Path, words: Console) -> None:
+    """Say what was done to a file."""
+    words.print(f"  {done} {plain(path, LONGEST_PATH)}", soft_wrap=True, markup=False)
 
 
 @contextmanager
@@ -87,6 +96,6 @@ def status() -> Iterator[Callable[[str], None]]:
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
 
     columns = (SpinnerColumn(), TextColumn("{task.description}", markup=False), TimeElapsedColumn())
-    with Progress(*columns, console=Console(stderr=True), transient=True) as bar:
+    with Progress(*columns, console=console(stderr=True), transient=True) as bar:
         task = bar.add_task("reading")
         yield lambda text: bar.update(task, description=text)

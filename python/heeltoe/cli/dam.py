@@ -7,9 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 
 from heeltoe.cli.common import (
+    LONGEST_PATH,
     NO_RESULT,
     CasePath,
     Changes,
@@ -20,7 +20,9 @@ from heeltoe.cli.common import (
     finish,
     status,
 )
+from heeltoe.cli.streams import console
 from heeltoe.errors import InputError
+from heeltoe.plain import plain
 from heeltoe.units.systems import unit_system
 from heeltoe.whole import check_directory, check_file
 
@@ -159,10 +161,15 @@ def animate(
                 loaded, response, place, exaggerate=many, frames_per_second=fps, speed=speed, window=(start, end)
             )
         drawn = perf_counter()
-    console = Console(highlight=False)
+    words = console()
     if response.histories:
         spent = f"analysis {analysed - began:.1f} s, writing {drawn - analysed:.1f} s"
-        console.print(f"wrote {place} ({place.stat().st_size / 1e6:.1f} MB; {spent})", soft_wrap=True, markup=False)
+        size = place.stat().st_size / 1e6 if place.is_file() else 0.0
+        words.print(
+            f"wrote {plain(place, LONGEST_PATH)} ({size:.1f} MB; {spent})",
+            soft_wrap=True,
+            markup=False,
+        )
     if not response.ok:
-        console.print(f"{response.outcome}: {response.advice}", soft_wrap=True, markup=False)
+        words.print(f"{response.outcome}: {response.advice}", soft_wrap=True, markup=False)
         raise typer.Exit(NO_RESULT)

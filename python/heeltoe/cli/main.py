@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import gc
+import os
 import sys
 from pathlib import Path
 from typing import Annotated
 
 import typer
-from rich.console import Console
 
 from heeltoe.cli import dam as dam_commands
 from heeltoe.cli import motion as motion_command
 from heeltoe.cli import run as run_command
-from heeltoe.cli.common import BAD_INPUT, app
+from heeltoe.cli.common import BAD_INPUT, INTERRUPTED, app
+from heeltoe.cli.streams import console, streams
 from heeltoe.errors import InputError
 from heeltoe.whole import write_text
 
@@ -25,15 +26,24 @@ def main() -> None:
     # Figures are made of many small objects that live until the end: looking for rubbish among them as often as Python
     # does by default takes a fifth of the time of a report.
     gc.set_threshold(_OBJECTS_BEFORE_COLLECTING)
+    # No window opens here, whatever a notebook that calls has chosen for itself.
+    os.environ["MPLBACKEND"] = "agg"
     try:
-        app()
+        with streams():
+            app()
     except InputError as error:
         print(f"heeltoe: {error}", file=sys.stderr)
         sys.exit(BAD_INPUT)
-    except BrokenPipeError:
-        # The reader of our output has closed it, as `head` does; nothing is wrong.
-        sys.stderr.close()
-        sys.exit(0)
+    except SystemExit as ended:
+        if ended.code == INTERRUPTED:
+            print("; ".join(["heeltoe: interrupted", *_known(ended)]), file=sys.stderr)
+        raise
+
+
+def _known(ended: BaseException) -> list[str]:
+    """Return what the kernels have noted on the interruption that ended a command."""
+    cause = ended.__cause__ or ended.__context__
+    return [*getattr(ended, "__notes__", ()), *(_known(cause) if cause else ())]
 
 
 def _version(wanted: bool) -> None:
@@ -59,7 +69,7 @@ def validate(
     """Recompute the reference cases: reference, ours, deviation, verdict."""
     from heeltoe.validation.table import run_all
 
-    if not run_all(name, Console(highlight=False)):
+    if not run_all(name, console()):
         raise typer.Exit(1)
 
 

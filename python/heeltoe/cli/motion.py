@@ -6,10 +6,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
-from rich.console import Console
 
-from heeltoe.cli.common import UnitsName
+from heeltoe.cli.common import UnitsName, say_file
+from heeltoe.cli.streams import console
 from heeltoe.errors import InputError
+from heeltoe.plain import plain
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.systems import unit_system
 
@@ -33,11 +34,11 @@ def motion(
     from heeltoe.motion.records.catalog import available
     from heeltoe.views.terminal.motion import print_motion
 
-    console = Console(highlight=False)
+    words = console()
     unit_system(units, "--units")
     if list_:
         for name, where in available():
-            console.print(f"{name:40s} {where}", soft_wrap=True)
+            words.print(f"{plain(name):40s} {plain(where)}", soft_wrap=True, markup=False)
         return
     if file is None:
         raise InputError("record-missing", "FILE-or-NAME")
@@ -51,12 +52,12 @@ def motion(
             raise InputError("figure-format", "--figure", place)
         written = write_motion_figure(motions[0], STANDARD_GRAVITY, place, units)
     for each in motions:
-        print_motion(each, console, units)
-        console.print()
+        print_motion(each, words, units)
+        words.print()
     if written:
-        console.print(f"  wrote {written}", soft_wrap=True)
+        say_file("wrote", written, words)
     elif len(motions) > 1:
-        console.print(f"{len(motions)} channels; --channel NUMBER shows and draws one", soft_wrap=True)
+        words.print(f"{len(motions)} channels; --channel NUMBER shows and draws one", soft_wrap=True)
 
 
 def _motions(file: str, unit: str | None, time_step: str | None, channel: str | None) -> list[GroundMotion]:

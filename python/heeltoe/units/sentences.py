@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from string import Formatter
 from typing import Any
 
+from heeltoe.plain import plain
 from heeltoe.units.systems import FOOT, KIP, POUND, Scale, unit_system
 from heeltoe.units.write import number
 
@@ -50,6 +51,8 @@ UNITS: dict[str, tuple[float, str]] = {
 _OTHERS = {"ms": 1e-3, "%": 1e-2}
 # Digits of what is written in full in SI (format "g").
 _IN_FULL = 4
+# Words within a sentence may be sentences themselves.
+_LONGEST = 2000
 
 
 def scale(quantity: str, largest: float) -> Scale:
@@ -153,4 +156,4 @@ class _Writer(Formatter):
     def format_field(self, value: Any, format_spec: str) -> str:
         if isinstance(value, Sentence):
             return value.text(self.units)
-        return value if isinstance(value, str) else quantity(value, format_spec, self.units)
+        return plain(value, _LONGEST) if isinstance(value, str) else quantity(value, format_spec, self.units)

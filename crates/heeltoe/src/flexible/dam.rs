@@ -6,6 +6,7 @@ use super::idce::Penalty;
 use super::sides::Sides;
 use super::stance::Give;
 use super::start::{self, Still};
+use crate::stop::Stop;
 
 /// Two bodies, and the crack between them.
 pub struct Dam {
@@ -95,9 +96,11 @@ pub enum Scheme {
 
 /// What is wanted of a run beside its summary.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Wanted {
+pub struct Wanted<'a> {
     /// Steps from frame to frame; 0 for no frames.
     pub stride: usize,
     /// Whether frames keep the amplitudes of all modes, too.
     pub modes: bool,
+    /// What ends the run before its time.
+    pub stop: Stop<'a>,
 }

@@ -92,7 +92,7 @@ struct Newmark<'a> {
 }
 
 impl<'a> Newmark<'a> {
-    fn new(dam: &'a Dam, dt: f64, penalty: &'a Penalty, wanted: Wanted) -> Self {
+    fn new(dam: &'a Dam, dt: f64, penalty: &'a Penalty, wanted: Wanted<'a>) -> Self {
         let bodies = dam.bodies.map(|body| Moving::new(body, penalty, dt));
         let start = energy(&bodies);
         Newmark {

@@ -4,14 +4,19 @@ use super::dam::{Dam, Scheme, Shaking, Wanted};
 use super::result::Summary;
 use super::simulate;
 use crate::parallel::each;
+use crate::stop::Stop;
 
 /// Shake the dam once for each pair of factors on the horizontal and the vertical acceleration.
-pub fn run(dam: &Dam, shaking: &Shaking, scheme: &Scheme, scales: &[[f64; 2]]) -> Vec<Summary> {
+pub fn run(dam: &Dam, shaking: &Shaking, scheme: &Scheme, scales: &[[f64; 2]], stop: Stop) -> Vec<Summary> {
     each(scales.len(), 1, |k| {
         let shaking = Shaking {
             scale: scales[k],
             ..*shaking
         };
-        simulate(dam, &shaking, scheme, Wanted::default()).summary
+        let wanted = Wanted {
+            stop,
+            ..Wanted::default()
+        };
+        simulate(dam, &shaking, scheme, wanted).summary
     })
 }

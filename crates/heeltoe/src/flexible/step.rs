@@ -114,7 +114,7 @@ struct Moreau<'a> {
 }
 
 impl<'a> Moreau<'a> {
-    fn new(dam: &'a Dam, shaking: &'a Shaking, theta: f64, wanted: Wanted) -> Self {
+    fn new(dam: &'a Dam, shaking: &'a Shaking, theta: f64, wanted: Wanted<'a>) -> Self {
         let dt = shaking.dt;
         let step = TimeStep { dt, theta };
         let still = dam.still.as_ref();

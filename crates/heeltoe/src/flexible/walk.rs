@@ -22,7 +22,7 @@ pub(super) struct Walk<'a> {
     pub crack: Crack,
     pub summary: Summary,
     dt: f64,
-    wanted: Wanted,
+    wanted: Wanted<'a>,
     /// Mean position along the crack of the upper face less that of the lower one at the start.
     zero: f64,
     motion: Motion,
@@ -34,7 +34,7 @@ pub(super) struct Walk<'a> {
 
 impl<'a> Walk<'a> {
     /// `start` is where the nodes of both faces are.
-    pub(super) fn new(dam: &'a Dam, dt: f64, wanted: Wanted, start: Faces) -> Self {
+    pub(super) fn new(dam: &'a Dam, dt: f64, wanted: Wanted<'a>, start: Faces) -> Self {
         let zero = mean_along(start.upper) - mean_along(start.lower);
         let upper = &dam.bodies.upper;
         let crack = Crack::new(dam, upper.dampers);
@@ -128,7 +128,7 @@ impl<'a> Walk<'a> {
         self.since.clear();
     }
 
-    /// Whether the upper part is off any scale; the outcome says so.
+    /// Whether the upper part is off any scale, which the outcome says, or somebody has stopped the run.
     #[inline(always)]
     pub(super) fn lost(&mut self) -> bool {
         let (slip, opening) = (self.motion.slip, self.motion.opening_heel);
@@ -140,7 +140,7 @@ impl<'a> Walk<'a> {
                 Outcome::BlownUp
             };
         }
-        !here
+        !here || self.wanted.stop.asked()
     }
 
     /// Hand over what there is to tell.

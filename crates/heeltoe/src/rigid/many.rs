@@ -6,6 +6,7 @@ use super::result::Summary;
 use super::shaking::Shaking;
 use super::walk::{Options, Wanted};
 use crate::parallel::each;
+use crate::stop::Stop;
 
 /// Fewest runs that are worth a thread of their own.
 const CHUNK: usize = 16;
@@ -14,10 +15,15 @@ const CHUNK: usize = 16;
 pub fn run<'a>(
     count: usize,
     options: Options,
+    stop: Stop,
     case: impl Fn(usize) -> (BlockNumbers, Shaking<'a>) + Sync + Send,
 ) -> Vec<Summary> {
     each(count, CHUNK, |k| {
         let (numbers, shaking) = case(k);
-        simulate(&Block::new(&numbers), &shaking, None, options, Wanted::default()).summary
+        let wanted = Wanted {
+            stop,
+            ..Wanted::default()
+        };
+        simulate(&Block::new(&numbers), &shaking, None, options, wanted).summary
     })
 }

@@ -15,6 +15,7 @@ use super::block::{Block, Vector, HEEL, SLIP, TOE};
 use super::impact::{impact, jam, Impact};
 use super::mode::Mode;
 use super::result::{Event, EventKind, Moment, Outcome, Run, Summary};
+use crate::stop::Stop;
 
 /// A slip slower than this many times the bound of bounces may jam unasked; it would end within a nanometre or so.
 const CRAWL: f64 = 100.0;
@@ -41,6 +42,8 @@ pub struct Wanted<'a> {
     pub times: &'a [f64],
     /// Whether events are to be told.
     pub events: bool,
+    /// What ends the run before its time.
+    pub stop: Stop<'a>,
 }
 
 /// What ended a piece before its time.
@@ -137,7 +140,13 @@ impl<'a> Walk<'a> {
         } else if self.standing > STANDING {
             self.summary.outcome = Outcome::Cycling;
         }
-        self.summary.outcome == Outcome::Done
+        self.summary.outcome == Outcome::Done && !self.stopped()
+    }
+
+    /// Whether somebody has stopped the run.
+    #[inline(always)]
+    pub(super) fn stopped(&self) -> bool {
+        self.wanted.stop.asked()
     }
 }
 

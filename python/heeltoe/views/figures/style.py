@@ -14,6 +14,7 @@ from typing import Any, ParamSpec
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
+from heeltoe.plain import plain
 from heeltoe.result.response import Response
 from heeltoe.views.figures.fonts import PLAIN, readable, wrapped
 
@@ -78,7 +79,7 @@ def styled(draw: Callable[_P, Figure]) -> Callable[_P, Figure]:
 
 def heading(figure: Figure, *lines: str) -> None:
     """Write lines above a figure, from the left; they may say anything, at any length."""
-    parts = [readable(line) for line in lines if line]
+    parts = [readable(plain(line)) for line in lines if line]
     families = list(dict.fromkeys(family for _, found in parts for family in found))
     text = "\n".join(wrapped(line, _LINE) for line, _ in parts)
     # A dollar in a title is a dollar, no formula.

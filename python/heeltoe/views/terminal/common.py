@@ -11,7 +11,14 @@ from rich.markup import escape
 from rich.table import Table
 
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.plain import plain
 from heeltoe.units.write import angle, length
+
+
+def print_title(title: str, what: str, console: Console) -> None:
+    """Print the title of a case, and what is shown of it."""
+    # Titles and names are people's words, in which brackets mean brackets.
+    console.print(f"[bold]{escape(plain(title) or 'Untitled case')}[/bold]  ({what})", soft_wrap=True)
 
 
 def quiet_table() -> Table:

@@ -6,9 +6,8 @@ from itertools import zip_longest
 from typing import TYPE_CHECKING
 
 from rich.console import Console
-from rich.markup import escape
 
-from heeltoe.views.terminal.common import label_grid, quiet_table
+from heeltoe.views.terminal.common import label_grid, print_title, quiet_table
 from heeltoe.views.terminal.elastic import damping_line, mesh_line
 
 # Not at run time: neither waits for the other's parts.
@@ -19,7 +18,7 @@ if TYPE_CHECKING:
 
 def print_periods(periods: DamPeriods, console: Console) -> None:
     """Print the periods of a dam and of its parts."""
-    console.print(f"[bold]{escape(periods.title or 'Untitled case')}[/bold]  (periods)", soft_wrap=True)
+    print_title(periods.title, "periods", console)
     console.print()
     columns = {
         "intact, dry": periods.intact_dry,
@@ -46,7 +45,7 @@ def print_periods(periods: DamPeriods, console: Console) -> None:
 
 def print_overturning(found: OverturningMap, console: Console) -> None:
     """Print which pulses overturn a block."""
-    console.print(f"[bold]{escape(found.title or 'Untitled case')}[/bold]  (overturning)", soft_wrap=True)
+    print_title(found.title, "overturning", console)
     console.print()
     grid = label_grid()
     p, slenderness = found.frequency_parameter_1_s, found.slenderness_rad

@@ -17,6 +17,7 @@ from heeltoe.result.response import Response
 from heeltoe.result.verdict import advice, comes_to_rest
 from heeltoe.study.grid import Grid
 from heeltoe.units.systems import INCH
+from heeltoe.views.terminal.common import print_title
 
 
 def _length(metres: float, units: str) -> str:
@@ -56,7 +57,7 @@ def print_grid(grid: Grid, console: Console, units: str = "si") -> None:
     """Print the table: lengths in mm or inches, rotations in mrad, slip positive downstream."""
     first = grid.responses[0]
     peak = first.motion.pga / first.gravity
-    console.print(f"[bold]{escape(grid.title or 'Untitled case')}[/bold]  ({grid.model} model)", soft_wrap=True)
+    print_title(grid.title, f"{grid.model} model", console)
     runs = f"{first.motion.name}, peak {peak:.3g} g; {len(grid.cells)} runs"
     console.print(escape(runs), style="dim", soft_wrap=True)
     _print_crack_level(grid, console)

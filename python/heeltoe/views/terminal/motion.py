@@ -5,11 +5,13 @@ from __future__ import annotations
 from functools import partial
 
 from rich.console import Console
+from rich.markup import escape
 
 from heeltoe.errors import InputError
 from heeltoe.motion.check import check, check_record
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import measures
+from heeltoe.plain import plain
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.sentences import quantity, written
 from heeltoe.views.terminal.common import label_grid, print_warnings, sampling
@@ -35,7 +37,7 @@ def print_motion(motion: GroundMotion, console: Console, units: str = "si", grav
         ("source", motion.source),
     ):
         if text:
-            grid.add_row(label, text)
+            grid.add_row(label, escape(plain(text)))
     console.print(grid)
     print_warnings((*(each.text(units) for each in motion.warnings), *_suspicions(motion, gravity, units)), console)
 

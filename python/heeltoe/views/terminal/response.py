@@ -9,12 +9,21 @@ from rich.table import Table
 from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.plain import plain
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.verdict import comes_to_rest, verdict
 from heeltoe.units.sentences import written
 from heeltoe.units.write import length
-from heeltoe.views.terminal.common import headline, label_grid, label_lines, print_warnings, quiet_table, sampling
+from heeltoe.views.terminal.common import (
+    headline,
+    label_grid,
+    label_lines,
+    print_title,
+    print_warnings,
+    quiet_table,
+    sampling,
+)
 from heeltoe.views.terminal.decoupled import crack_lines
 from heeltoe.views.terminal.elastic import elastic_lines
 from heeltoe.views.words.starts import of_what, starts
@@ -37,8 +46,7 @@ def print_summary(response: Response, console: Console, units: str = "si") -> No
 
 def print_head(response: Response, model: str, console: Console, units: str) -> None:
     """Print title, motion and static state and, of the flexible model, all that its result rests on."""
-    # Titles and names are people's words, in which brackets mean brackets.
-    console.print(f"[bold]{escape(response.title or 'Untitled case')}[/bold]  ({model})", soft_wrap=True)
+    print_title(response.title, model, console)
     console.print()
     grid = label_grid()
     for label, motion in (("motion", response.motion), ("vertical motion", response.vertical)):
@@ -77,7 +85,7 @@ def _motion_line(motion: GroundMotion, gravity: float, units: str) -> str:
         duration_s=motion.duration,
         sampling=sampling(motion),
     )
-    return "\n".join([line, *motion.processing])
+    return "\n".join([line, *map(plain, motion.processing)])
 
 
 def _static_lines(response: Response) -> list[tuple[str, str]]:

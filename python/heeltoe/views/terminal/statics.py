@@ -13,7 +13,7 @@ from heeltoe.models.statics.checks import Check
 from heeltoe.models.statics.load_case import LoadCase
 from heeltoe.models.statics.model import Statics
 from heeltoe.units.sentences import numbers, quantity
-from heeltoe.views.terminal.common import label_grid, label_lines, print_warnings, quiet_table
+from heeltoe.views.terminal.common import label_grid, label_lines, print_title, print_warnings, quiet_table
 
 # Label, how numbers are written (in SI, without a minus before zero), what they are; or words without a form.
 _ROWS: tuple[tuple[str, str, Callable[[LoadCase], float | str | None]], ...] = (
@@ -39,7 +39,7 @@ _ROWS: tuple[tuple[str, str, Callable[[LoadCase], float | str | None]], ...] = (
 
 def print_statics(found: Statics, console: Console, units: str = "si") -> None:
     """Print what the checks rest on, the load cases, the checks, warnings and verdict."""
-    console.print(f"[bold]{escape(found.title or 'Untitled case')}[/bold]  (statics)", soft_wrap=True)
+    print_title(found.title, "statics", console)
     console.print()
     console.print(label_lines((label, escape(text)) for label, text in _head(found, units)))
     console.print()

@@ -64,6 +64,9 @@ impl Exact<'_> {
             if length <= 0.0 {
                 continue;
             }
+            if self.walk.stopped() {
+                return;
+            }
             let inverse = 1.0 / length;
             let whole = Piece {
                 ground: a0,

@@ -195,7 +195,7 @@ impl Varying<'_> {
                 return Err(());
             }
             cause = ended;
-            if cause.is_some() && !self.walk.count(moved) {
+            if cause.is_some() && !self.walk.count(moved) || self.walk.stopped() {
                 return Err(());
             }
         }

@@ -1,0 +1,78 @@
+"""The streams of the process: where they are closed, full or broken, a command ends quietly or with one line.
+
+Whoever reads our output may close it, as ``head`` does: then the process ends as others do, by SIGPIPE.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+
+from rich.console import Console
+
+from heeltoe.errors import InputError
+
+#: Consoles that say to be narrower than this say nothing of use.
+_NARROWEST, _USUAL = 20, 80
+
+
+def console(*, stderr: bool = False) -> Console:
+    """Return where words go."""
+    found = Console(stderr=stderr, highlight=False)
+    if found.width < _NARROWEST:
+        found.width = _USUAL
+    return found
+
+
+def print_data(text: str) -> None:
+    """Print what programs read: UTF-8 wherever it goes; what no text may hold (lone surrogates) escaped, as in JSON."""
+    _say_all(sys.stdout, "utf-8")
+    print(text)
+
+
+@contextmanager
+def streams() -> Iterator[None]:
+    """Make sure of the standard streams while a command runs, and that all it has said is said.
+
+    Raises
+    ------
+    InputError
+        Where standard output cannot be written.
+    """
+    _open()
+    before = signal.signal(signal.SIGPIPE, signal.SIG_DFL) if hasattr(signal, "SIGPIPE") else None
+    try:
+        try:
+            yield
+        finally:
+            sys.stdout.flush()
+    except OSError as error:
+        # What could not be written shall not be tried again at the end of the process.
+        with suppress(OSError):
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        raise InputError("cannot-write", "standard output", reason=error.strerror or error, value="it") from None
+    finally:
+        if before is not None:
+            signal.signal(signal.SIGPIPE, before)
+
+
+def _open() -> None:
+    """Let no file that a command opens take the number of a closed stream, and every letter find its way out."""
+    if sys.stdin is None:
+        os.open(os.devnull, os.O_RDONLY)
+    if sys.stdout is None:
+        # Not for writing: what should be told and cannot is an error.
+        sys.stdout = os.fdopen(os.open(os.devnull, os.O_RDONLY), "w")
+    if sys.stderr is None:
+        sys.stderr = os.fdopen(os.open(os.devnull, os.O_WRONLY), "w")
+    for stream in (sys.stdout, sys.stderr):
+        _say_all(stream)
+
+
+def _say_all(stream: object, encoding: str | None = None) -> None:
+    """Let a stream escape what its encoding cannot say."""
+    if hasattr(stream, "reconfigure"):  # tests have others
+        stream.reconfigure(encoding=encoding, errors="backslashreplace")
