@@ -49,11 +49,13 @@ class Problem:
 
 
 PROBLEMS = (
-    Problem("base crack, all modes", "typical-base.toml", (), BASE_STEP),
-    Problem("base crack, 200 modes and static shapes", "typical-base.toml", ("flexible.modes=200",), BASE_STEP),
-    Problem("base crack, 16 across", "typical-base.toml", ("flexible.elements_across=16",), BASE_STEP),
-    Problem("crack at 90 m, all modes", "typical-height.toml", (), HEIGHT_STEP),
-    Problem("crack at 90 m, 200 modes and static shapes", "typical-height.toml", ("flexible.modes=200",), HEIGHT_STEP),
+    Problem("base crack, all modes", "thesis/typical-base.toml", (), BASE_STEP),
+    Problem("base crack, 200 modes and static shapes", "thesis/typical-base.toml", ("flexible.modes=200",), BASE_STEP),
+    Problem("base crack, 16 across", "thesis/typical-base.toml", ("flexible.elements_across=16",), BASE_STEP),
+    Problem("crack at 90 m, all modes", "thesis/typical-height.toml", (), HEIGHT_STEP),
+    Problem(
+        "crack at 90 m, 200 modes and static shapes", "thesis/typical-height.toml", ("flexible.modes=200",), HEIGHT_STEP
+    ),
 )
 
 

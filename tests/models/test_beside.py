@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heeltoe import InputError, Response, flexible, read_case, rigid, run
+from heeltoe import InputError, Response, flexible, read_case, rigid, run, verdict
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.write import json_text
 from heeltoe.units.sentences import Sentence
@@ -127,3 +127,15 @@ def test_a_state_that_is_not_finite_is_null_in_json(both):
     data = json.loads(json_text(blown.to_json()), parse_constant=pytest.fail)
     assert data["residual_slip_m"] is None
     assert data["beside"]["residual_slip_m"] is not None
+
+
+@pytest.mark.parametrize("elevation", [0, 30])
+def test_what_a_rigid_block_passes_and_the_dam_fails(elevation):
+    """Its own limit of 50 mm, by the model that is run by itself."""
+    quick = ("flexible.elements_across=4", "flexible.evidence=none", "motion.duration=12 s")
+    case = example("lift-joint", *quick, f"crack.elevation={elevation} m")
+    assert all(check.met for check in rigid(case).limits)
+    found = run(case)
+    assert found.model == "flexible"
+    assert not any(check.met for check in found.limits)
+    assert "It does not keep within its limits" in verdict(found)

@@ -81,18 +81,23 @@ def statics(
     ] = None,
     slip: Annotated[
         str | None,
-        typer.Option(metavar="0.15m", help="Residual slip of the post-seismic case; without it that of a rigid run."),
+        typer.Option(metavar="0.15m", help="Residual slip of the post-seismic case; without it that of a run."),
     ] = None,
+    model: Annotated[
+        str, typer.Option(metavar="auto|rigid|decoupled|flexible", help="Which model says the slip, as of a run.")
+    ] = "auto",
     json_: JsonPath = None,
     units: UnitsName = "si",
 ) -> None:
     """Judge the stability before, during (pseudo-static) and after the earthquake."""
     from heeltoe.case.read import read_case
+    from heeltoe.models.run import check_model
     from heeltoe.models.statics.model import statics as judge
     from heeltoe.units.parse import parse
     from heeltoe.views.terminal.statics import print_statics
 
     unit_system(units, "--units")
+    check_model(model, "--model")
     changes = [*(set_ or []), *([] if criteria is None else [f"statics.criteria={criteria}"])]
     loaded = read_case(case, changes)
     check_json(json_)
@@ -100,11 +105,11 @@ def statics(
         if slip is not None:
             found = judge(loaded, parse(slip, "length", "--slip"), slip_source="--slip")
         elif loaded.motion is not None and loaded.statics.residual_slip is None:
-            from heeltoe.models.run import rigid
+            from heeltoe.models.run import run
             from heeltoe.models.statics.after import statics_after
 
-            say("running the rigid model")
-            found = statics_after(loaded, rigid(loaded))
+            say("running the earthquake")
+            found = statics_after(loaded, *reversed(run(loaded, model).responses))
         else:
             found = judge(loaded)
     finish(found.to_json(), json_, [], lambda console: print_statics(found, console, units))

@@ -64,8 +64,8 @@ class Grid:
 
     @property
     def ok(self) -> bool:
-        """Whether any run has a result to trust; that friction too low has none belongs in the table."""
-        return any(each.ok for each in self.responses)
+        """Whether all runs have a result to trust."""
+        return all(each.ok for each in self.responses)
 
     def rows(self) -> list[dict[str, Any]]:
         """Return the table: the varied fields, numbers by their JSON names (None without a result), the outcome."""
@@ -158,6 +158,10 @@ def run_grid(
     return Grid(tuple(variations), cells, tuple(responses))
 
 
+def _beside(block: Response) -> float | None:
+    return block.residual_slip_m if block.ok else None
+
+
 def _numbers(response: Response) -> dict[str, Any]:
     found = response.summary if response.ok else {}
     by_mode = found.get("slip_by_mode_m", {})
@@ -167,5 +171,7 @@ def _numbers(response: Response) -> dict[str, Any]:
         **{name: found.get(name) for name in slips},
         **{f"slip_{name}_m": by_mode.get(name) for name in _MODES},
         **{name: found.get(name) for name in (*others, "impacts")},
+        **({} if response.beside is None else {"beside_residual_slip_m": _beside(response.beside)}),
+        "limits_met": all(check.met for check in response.limits) if response.limits else None,
         "outcome": response.outcome,
     }

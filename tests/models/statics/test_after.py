@@ -6,12 +6,13 @@ import json
 
 import pytest
 
+import heeltoe
 from heeltoe import read_case, rigid
 from heeltoe.models.statics.after import statics_after
 from heeltoe.views.report.html import html
 from heeltoe.views.report.write import build_report
-from shared.command import command
-from shared.dams import ROOT
+from shared.command import command, options
+from shared.dams import COARSE, ROOT
 from shared.report_reader import Reader
 
 EXAMPLES = ROOT / "examples"
@@ -22,7 +23,7 @@ PUSHED = 'motion.points=[["0 s", "-0.4 g"], ["0.3 s", "-0.4 g"], ["0.3 s", "0 g"
 def both(example, *changes):
     """Return what the command finds, and all that a report of the rigid run says."""
     given = [part for change in changes for part in ("--set", change)]
-    said = command("statics", EXAMPLES / f"{example}.toml", *given, "--json", "-")
+    said = command("statics", EXAMPLES / f"{example}.toml", *given, "--model", "rigid", "--json", "-")
     assert said.returncode == 0, said.stderr
     case = read_case(EXAMPLES / f"{example}.toml", changes)
     response = rigid(case)
@@ -46,3 +47,16 @@ def test_command_and_report_agree(example, changes, slip, expected):
     assert found["slip_m"] == (response.residual_slip_m if slip is None else slip)
     after = statics_after(read_case(EXAMPLES / f"{example}.toml", [PUSHED, *changes]), response)
     assert after.to_json()["checks"] == found["checks"]
+
+
+def test_the_model_of_the_slip_is_named_and_can_be_chosen():
+    """The better one by itself, as in the report of the same run."""
+    quick = ("--set", PUSHED, *options(COARSE))
+    found = {
+        model: json.loads(command("statics", EXAMPLES / "typical-base.toml", *quick, *more, "--json", "-").stdout)
+        for model, more in (("flexible", ()), ("rigid", ("--model", "rigid")))
+    }
+    for model, each in found.items():
+        assert each["slip_source"].startswith(f"{model} model, points of the case")
+        run = heeltoe.run(read_case(EXAMPLES / "typical-base.toml", [PUSHED, *COARSE]), model)
+        assert each["slip_m"] == run.residual_slip_m

@@ -9,6 +9,7 @@ from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
 from heeltoe.mechanics.loads import Resultant, concrete_mass, static_forces
 from heeltoe.mechanics.virtual_water import virtual_mass
+from heeltoe.models.statics.checks import check_case
 from heeltoe.models.statics.contact import Contact
 from heeltoe.models.statics.criteria import UPLIFT_IN_EARTHQUAKE, Loads
 from heeltoe.models.statics.load_case import Given, Solved, solve_case
@@ -41,12 +42,13 @@ def at_depth(case: Case, depth: float) -> Case:
     return case.model_copy(update={"reservoir": _water(case.reservoir, depth)})
 
 
-def pseudo_static(case: Case, before: Solved) -> tuple[Solved, Solved]:
+def pseudo_static(case: Case, before: Solved) -> tuple[Solved, ...]:
     """Return the cases of a seismic coefficient that pushes the block downstream and upstream.
 
     The concrete's inertia acts at its centroid, Westergaard's water on the upstream face, both the same way; the
-    vertical coefficient acts up or down, whichever leaves the smaller sliding factor. `before` is the usual case: the
-    crack that it has opened is open already and no longer bonded.
+    vertical coefficient acts up or down, whichever leaves more checks unmet, or the smaller sliding factor where both
+    leave as many. Where the other leaves one unmet that this meets, it is a case of its own. `before` is the usual
+    case: the crack that it has opened is open already and no longer bonded.
     """
     horizontal = case.statics.seismic_coefficient
     assert horizontal is not None
@@ -60,7 +62,7 @@ def pseudo_static(case: Case, before: Solved) -> tuple[Solved, Solved]:
     )
     water = water_in_earthquake(before.settled.profile, still.start, still.end, opened, vanishes=vanishes)
     vertical = case.statics.vertical_seismic_coefficient
-    found = []
+    found: list[Solved] = []
     for way, sign in (("downstream", -1.0), ("upstream", 1.0)):
         tried = []
         for up in (-1.0, 1.0) if vertical else (0.0,):
@@ -68,13 +70,23 @@ def pseudo_static(case: Case, before: Solved) -> tuple[Solved, Solved]:
             said = [Sentence(f"uplift: {source}")]
             if vertical:
                 way_up = "down" if up > 0.0 else "up"
-                said.append(Sentence(f"vertical coefficient {way_up}ward on the block, the worse way"))
+                said.append(Sentence(f"vertical coefficient {way_up}ward on the block"))
             given = Given(
                 f"pseudo-static {way}", "earthquake", case.crack.mu_static, case.statics.cohesion, tuple(said)
             )
             tried.append(solve_case(given, case.cut, forces, contact, water))
-        found.append(min(tried, key=lambda each: _or_infinite(each.load_case.sliding_factor)))
-    return found[0], found[1]
+        found += _worse(case, tried)
+    return tuple(found)
+
+
+def _worse(case: Case, tried: list[Solved]) -> list[Solved]:
+    """Return the worse direction of the vertical coefficient, and the other if it misses what that one meets."""
+
+    def missed(each: Solved) -> set[str]:
+        return {check.name for check in check_case(each.load_case, case.statics) if not check.met}
+
+    first, *others = sorted(tried, key=lambda each: (-len(missed(each)), _or_infinite(each.load_case.sliding_factor)))
+    return [first, *(each for each in others if missed(each) - missed(first))]
 
 
 def post_seismic(case: Case, slip: float, source: str) -> Solved | None:

@@ -6,7 +6,7 @@ import re
 
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.verdict import advice, comes_to_rest, verdict
-from heeltoe.units.write import NOTHING, digits
+from heeltoe.units.write import NOTHING, digits, length
 from heeltoe.views.report.content import (
     Block,
     Code,
@@ -37,7 +37,7 @@ def question(subject: Subject) -> Section:
                 "Whether that is safe enough is not judged: the case sets no limits under ", Code("[limits]"), "."
             )
         )
-    blocks = (_failures(subject), *answers, _warnings(subject), _numbers(subject))
+    blocks = (_failures(subject), *answers, _not_met(subject), _warnings(subject), _numbers(subject))
     return Section("Question and answer", without_gaps(*blocks))
 
 
@@ -82,6 +82,23 @@ def _failures(subject: Subject) -> Block | None:
     elif failed[0].summary:
         items.append(("Numbers below are those of the moment at which the run stopped; they are no result.",))
     return Notes("failure", "No result to trust", tuple(items))
+
+
+def _not_met(subject: Subject) -> Block | None:
+    """Say which limits and static checks are not met."""
+    units, items = subject.units, []
+    for check in subject.result.limits:
+        if not check.met:
+            found, allowed = length(check.value_m, units), length(check.allowed_m, units)
+            text = f"{check.label} of {found}, {allowed} allowed{', by a dam that has failed' if check.failed else ''}."
+            items.append((Strong("Limit. "), glued(text)))
+    checks = () if subject.statics is None else subject.statics.checks
+    missed = [check for check in checks if not check.met]
+    if missed:
+        of = {check.load_case: [each.name for each in missed if each.load_case == check.load_case] for check in missed}
+        text = "; ".join(f"{case}: {', '.join(dict.fromkeys(names))}" for case, names in of.items())
+        items.append((Strong(f"{len(missed)} of {len(checks)} static checks. "), f"{text}."))
+    return Notes("failure", "Not met", tuple(items)) if items else None
 
 
 def warnings(subject: Subject) -> tuple[str, ...]:

@@ -50,6 +50,8 @@ _SLIP: tuple[_Column, ...] = (
     ("drifting", "slip_drifting_m", 1.0, _length),
 )
 _ROCKING: tuple[_Column, ...] = (*_HEADLINES[_SLIPS:], ("impacts", "impacts", 1.0, _count))
+# Whether the limits are kept, as the rows have it.
+_KEPT = {True: "yes", False: "[red]NO[/]", None: "-"}
 _UNITS = {"si": "mm", "us": "inches"}
 
 
@@ -62,11 +64,17 @@ def print_grid(grid: Grid, console: Console, units: str = "si") -> None:
     console.print(escape(runs), style="dim", soft_wrap=True)
     _print_crack_level(grid, console)
     # One table where there is room for it, else one of the slips and one of the rocking, in parts if need be.
-    whole = _SLIP + _ROCKING
+    slip = _SLIP
+    blocks = {each.beside.model for each in grid.responses if each.beside is not None}
+    if len(blocks) == 1:
+        # What the simpler model says stands beside what the better one does.
+        beside = (f"residual,\n{blocks.pop()}", "beside_residual_slip_m", 1.0, _length)
+        slip = (_SLIP[0], beside, *_SLIP[1:])
+    whole = slip + _ROCKING
     groups = (
         [whole]
         if _fits(grid, whole, console, units)
-        else [*_parts(grid, _SLIP, console, units), *_parts(grid, _ROCKING, console, units)]
+        else [*_parts(grid, slip, console, units), *_parts(grid, _ROCKING, console, units)]
     )
     for columns in groups:
         console.print()
@@ -75,6 +83,22 @@ def print_grid(grid: Grid, console: Console, units: str = "si") -> None:
     console.print(footer, style="dim")
     for text in _remarks(grid, units):
         console.print(f"[yellow]warning[/yellow]  {escape(text)}")
+    for text in _judged(grid):
+        console.print(f"\n[bold]Verdict[/bold]  {text}")
+
+
+def _judged(grid: Grid) -> list[str]:
+    """Say how many runs keep within the limits, and how many have no result."""
+    said = []
+    judged = [each for each in grid.responses if each.limits]
+    if judged:
+        kept = sum(all(check.met for check in each.limits) for each in judged)
+        as_what = "" if judged[0].elastic else ", each as a rigid block"
+        said.append(f"{kept} of {len(grid.responses)} runs keep within the limits{as_what}.")
+    failed = sum(not each.ok for each in grid.responses)
+    if failed:
+        said.append(f"{failed} of {len(grid.responses)} runs have no result to trust.")
+    return [" ".join(said)] if said else []
 
 
 def _fits(grid: Grid, columns: tuple[_Column, ...], console: Console, units: str) -> bool:
@@ -118,8 +142,12 @@ def _table(grid: Grid, columns: tuple[_Column, ...], units: str) -> Table:
     for heading, *_ in columns:
         table.add_column(heading, justify="right", no_wrap=True)
     table.add_column("in the\nend", no_wrap=True)
+    judged = any(response.limits for response in grid.responses)
+    if judged:
+        table.add_column("limits\nkept", no_wrap=True)
     for cell, row, response in zip(grid.cells, grid.rows(), grid.responses, strict=True):
-        table.add_row(*map(escape, cell), *(_written(row, column, units) for column in columns), _end(response))
+        kept = [_KEPT[row["limits_met"]]] if judged else []
+        table.add_row(*map(escape, cell), *(_written(row, column, units) for column in columns), _end(response), *kept)
     return table
 
 
