@@ -27,7 +27,7 @@ base_width = "80 m"
 
 [concrete]
 density = "2400 kg/m^3"
-# modulus = "20 GPa"               # for the flexible model, as are the next two
+modulus = "20 GPa"                 # without it the dam can only be a rigid block; the next two are of the elastic dam
 # poisson = 0.2
 # damping = 0.05
 
