@@ -170,3 +170,14 @@ def test_an_unusual_modulus_is_told_wherever_it_is_read():
     for model in ("decoupled", "flexible"):
         told = {each.code for each in run(example("koyna", *changes), model).warnings}
         assert "modulus-unusual" in told
+
+
+def test_choices_for_what_never_happened_are_told():
+    rare = {"analysis.event_limit": "1000", "analysis.paradox": "tangential impact", "motion.allow_zero": "true"}
+    case = example("block", *(f"{path}={value}" for path, value in rare.items()))
+    told = {each.field: str(each) for each in rigid(case).warnings if each.code == "fields-idle"}
+    assert told.keys() == rare.keys()
+    assert told["analysis.event_limit"] == "no effect of analysis.event_limit: the run has fewer events"
+    few = rigid(example("block", "analysis.event_limit=1"))
+    assert few.outcome == "event limit"
+    assert "fields-idle" not in {each.code for each in few.warnings}

@@ -13,6 +13,7 @@ from heeltoe.motion.processing import process
 from heeltoe.motion.records import read_record
 from heeltoe.motion.records.catalog import find
 from heeltoe.motion.scenario import PREFIX, synthetic
+from heeltoe.warnings import Notice
 
 
 def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[GroundMotion, GroundMotion | None]:
@@ -60,7 +61,12 @@ def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[Grou
         vertical = vertical.with_warnings(*check(vertical, gravity, allow_zero=True, field="motion.vertical"))
     horizontal = _finish(horizontal, shaking, shaking.duration)
     allowed = shaking.allow_zero or (vertical is not None and vertical.pga > 0.0)
-    return horizontal.with_warnings(*check(horizontal, gravity, allow_zero=allowed)), vertical
+    horizontal = horizontal.with_warnings(*check(horizontal, gravity, allow_zero=allowed))
+    if "allow_zero" in shaking.model_fields_set and horizontal.pga > 0.0:
+        field = "motion.allow_zero"
+        idle = Notice("fields-idle", field=field, fields=field, why="the motion is not zero")
+        horizontal = horizontal.with_warnings(idle)
+    return horizontal, vertical
 
 
 def _read(shaking: Source, gravity: float, base_directory: Path, field: str) -> GroundMotion:

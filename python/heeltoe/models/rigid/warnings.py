@@ -75,6 +75,7 @@ def warnings_of(case: Case, block: Block, run: BlockRun) -> list[Notice]:
         said.append(Notice("restitution-lowered", impacts=int(raw["energy_limited_impacts"])))
     if raw["jams"]:
         said.append(Notice("paradox-jammed", jams=int(raw["jams"])))
+    said += _about_rare_choices(case, run)
     said += _about_the_slip(case, block, run)
     # Integration is exact to a part of the crack's width, of which tiny motions are a tiny part.
     if raw["energy_residual"] > (1e-9 if run.exact else 1e-6):
@@ -87,6 +88,19 @@ def warnings_of(case: Case, block: Block, run: BlockRun) -> list[Notice]:
     if case.analysis.rotation == "small":
         said += _about_the_rotation(block, run)
     return said
+
+
+def _about_rare_choices(case: Case, run: BlockRun) -> list[Notice]:
+    """Say where a choice for a rare situation is given, and the run never came into one."""
+    met = {
+        "event_limit": (run.outcome == "event limit", "the run has fewer events"),
+        "paradox": (run.outcome == "paradox" or run.summary["jams"] > 0.0, "no paradox was met"),
+    }
+    return [
+        Notice("fields-idle", field=f"analysis.{name}", fields=f"analysis.{name}", why=why)
+        for name, (happened, why) in met.items()
+        if name in case.analysis.model_fields_set and not happened
+    ]
 
 
 def _about_the_slip(case: Case, block: Block, run: BlockRun) -> list[Notice]:
