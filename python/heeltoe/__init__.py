@@ -5,6 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from heeltoe.near import near
 from heeltoe.shown import hand_in
 
 # Where each public name is at home; type checkers read the same below, and tests/test_names.py compares.
@@ -86,13 +87,20 @@ def _html(thing: object) -> str:
     return html(thing)
 
 
-hand_in(html=_html)
+def _plot(thing: object, name: str | None, path: Any, units: str) -> Any:
+    from heeltoe.views.figures.plot import plot
+
+    return plot(thing, name, path, units)
+
+
+hand_in(html=_html, plot=_plot)
 
 
 def __getattr__(name: str) -> Any:
     """Import on first use, so that ``heeltoe --help`` does not wait for the plots."""
     if name not in _HOME:
-        raise AttributeError(f"module 'heeltoe' has no attribute {name!r}")
+        said = "" if name.startswith("_") else near(name, _HOME)
+        raise AttributeError(f"module 'heeltoe' has no attribute {name!r}{said}", name=name, obj=None)
     value = getattr(import_module(f"heeltoe.{_HOME[name]}"), name)
     globals()[name] = value
     return value

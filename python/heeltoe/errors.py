@@ -28,6 +28,14 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "is not valid {kind}: {reason}",
         "correct it; `heeltoe new NAME` writes a case to compare with",
     ),
+    "case-source": (
+        "a {kind} is no case file, nor the fields of one",
+        "give a path or a dictionary; a case changes by its with_",
+    ),
+    "not-a-case": ("a {kind} is no case", "give what heeltoe.read_case returns"),
+    "not-a-response": ("a {kind} is no response", "give what heeltoe.run, rigid, decoupled or flexible returns"),
+    "not-a-motion": ("a {kind} is no ground motion", "give what heeltoe.read_record returns"),
+    "not-a-list": ("a {kind} is no list", "put it into one"),
     "override-form": ("{value} sets nothing", "write PATH=VALUE, for example crack.friction=1.0"),
     "unit-missing": ("{value} has no unit", "write for example {example}"),
     "unit-unknown": ("{value} has a unit that is not known, {unit}", "write for example {example}"),
@@ -284,9 +292,12 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "is required and not there",
         "add [motion] with a file or points, or give --motion FILE-or-NAME",
     ),
+    "unknown-figure": ("{value} is no figure of this", "choose {names}{near}"),
+    "figure-nothing": ('has nothing to draw (outcome "{value}")', "draw a run that has started"),
+    "pandas-package": ("needs the package pandas, which is not installed", "pip install heeltoe[pandas]"),
     "figure-format": ("{value} has no ending of a figure", "end it in .png, .svg or .pdf"),
     "output-step": ("{value} is not a step within the run", "give one above 0 s and up to {duration}"),
-    "unknown-model": ("{value} is no model", "use {models}"),
+    "unknown-model": ("{value} is no model", "use {models}{near}"),
     "unknown-units": ("{value} is no system of units", "use si or us"),
     "block-number": ("{value} is no number of a block", "give {bounds}"),
     "blocks-shape": ("{value} is no table of blocks", "give blocks, cases, or numbers of shape (n, {columns})"),
@@ -324,6 +335,18 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "not-a-directory": ("{value} is a file", "give a directory"),
     "cannot-write": ("{value} cannot be written ({reason})", "give a place where you may write"),
 }
+
+
+def expect(given: object, kind: type, code: str, field: str) -> None:
+    """Refuse what is of another kind than a public function takes.
+
+    Raises
+    ------
+    InputError
+        With the code, for the field.
+    """
+    if not isinstance(given, kind):
+        raise InputError(code, field, kind=type(given).__name__)
 
 
 def shown(value: object) -> str:

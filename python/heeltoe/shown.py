@@ -1,4 +1,5 @@
-"""How a thing shows itself in a notebook, without knowing who draws it.
+"""How a thing shows itself in a notebook and as a figure, without knowing who draws it, and what it says to a name
+that it does not have.
 
 What is shown stands below what shows it: cases, motions and results know no views. The root of the package stands above
 all of them and hands the faces in.
@@ -7,17 +8,75 @@ all of them and hands the faces in.
 from __future__ import annotations
 
 from collections.abc import Callable
+from os import PathLike
+from typing import TYPE_CHECKING, Any, Protocol
 
-_FACES: dict[str, Callable[[object], str]] = {}
+from heeltoe.near import near
+
+# Not at run time: who draws nothing does not wait for it.
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
-def hand_in(*, html: Callable[[object], str]) -> None:
-    """Take over what writes a thing as HTML."""
-    _FACES["html"] = html
+class Plot(Protocol):
+    """Draws a thing."""
+
+    def __call__(self, thing: object, name: str | None, path: str | PathLike[str] | None, units: str, /) -> Figure: ...
 
 
-class Shown:
-    """A thing that notebooks show as more than its name."""
+_FACES: dict[str, Any] = {}
+
+
+def hand_in(*, html: Callable[[object], str], plot: Plot) -> None:
+    """Take over what writes a thing as HTML, and what draws it."""
+    _FACES.update(html=html, plot=plot)
+
+
+class Named:
+    """A thing that says which attribute may have been meant where it has none of a name."""
+
+    # Type checkers would take any name for one that is there.
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            """Say what is nearest; what a class defines itself says why it is not to be had."""
+            for cls in type(self).__mro__:
+                if name in vars(cls) and hasattr(vars(cls)[name], "__get__"):
+                    return vars(cls)[name].__get__(self, type(self))
+            parent = getattr(super(), "__getattr__", None)
+            if parent is not None:
+                try:
+                    return parent(name)
+                except AttributeError:
+                    pass
+            said = "" if name.startswith("_") else near(name, (each for each in dir(self) if not each.startswith("_")))
+            # With another object Python adds no guess of its own.
+            raise AttributeError(f"a {type(self).__name__} has no attribute {name!r}{said}", name=name, obj=None)
+
+
+class Shown(Named):
+    """A thing that notebooks show as more than its name, and that can be drawn."""
 
     def _repr_html_(self) -> str:
-        return _FACES["html"](self)
+        html: str = _FACES["html"](self)
+        return html
+
+    def plot(self, name: str | None = None, *, path: str | PathLike[str] | None = None, units: str = "si") -> Figure:
+        """Draw it and return the figure.
+
+        Parameters
+        ----------
+        name
+            Which figure, of those that `heeltoe run --out` writes; the main one where it is not given.
+        path
+            File to write it to as well; its ending says the format.
+        units
+            ``"si"`` or ``"us"``.
+
+        Raises
+        ------
+        InputError
+            Where there is no such figure, nothing to draw, or the file cannot be written.
+        """
+        figure: Figure = _FACES["plot"](self, name, path, units)
+        return figure

@@ -23,7 +23,7 @@ def test_there_are_some():
 @pytest.mark.parametrize("block", [block for _, block, _ in PYTHON], ids=[place for place, _, _ in PYTHON])
 def test_programs_run(block, tmp_path, monkeypatch):
     # As they stand, with few elements and for a short time.
-    monkeypatch.setattr(heeltoe, "read_case", lambda source, changes=(): read_case(source, [*changes, *FAST]))
+    monkeypatch.setattr(heeltoe, "read_case", lambda source, changes=(): read_case(source, changes).with_(*FAST))
     (tmp_path / "examples").symlink_to(ROOT / "examples")
     monkeypatch.chdir(tmp_path)
     exec(compile(block, "block", "exec"), {})

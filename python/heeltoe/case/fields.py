@@ -7,6 +7,7 @@ from typing import Annotated
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
 
 from heeltoe.case.quantities import DimensionlessNumber, Duration, Length
+from heeltoe.shown import Named
 
 Fraction = Annotated[DimensionlessNumber, Field(ge=0.0, le=1.0)]
 FrictionCoefficient = Annotated[DimensionlessNumber, Field(ge=0.0, le=10.0)]
@@ -32,7 +33,7 @@ Truth = Annotated[bool, Field(strict=True)]
 Count = Annotated[int, Field(strict=True, ge=1)]
 
 
-class Fields(BaseModel):
+class Fields(Named, BaseModel):
     """A block of fields: no unknown ones, no changes later; the texts below them go into the JSON schema."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True)

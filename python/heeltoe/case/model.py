@@ -8,16 +8,17 @@ from pathlib import Path
 from typing import Annotated, Any, Self
 
 import shapely
-from pydantic import Field, PrivateAttr, model_validator
+from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
+from heeltoe.case.changes import apply
 from heeltoe.case.dam import Anchor, Concrete, Crack, Ice, Section, Silt, Uplift, Water
 from heeltoe.case.fields import Fields
 from heeltoe.case.motion import Motion
 from heeltoe.case.options import Analysis, Decoupled, Flexible, Limits, StaticsChoice
 from heeltoe.case.quantities import Gravity
-from heeltoe.case.sentences import collected
+from heeltoe.case.sentences import collected, first_error
 from heeltoe.errors import InputError
-from heeltoe.geometry.section import CutSection, cut, outline
+from heeltoe.geometry.section import ON_LINE, CutSection, cut, outline
 from heeltoe.shown import Shown
 
 
@@ -60,6 +61,16 @@ class Case(Shown, Fields):
     analysis: Analysis = Analysis()
     """Choices for rare situations."""
 
+    def __repr__(self) -> str:
+        levels = [z for _, z in self.section.vertices()]
+        parts = [
+            f"dam of {max(levels) - min(levels):.4g} m",
+            f"crack at {self.crack.elevation:.4g} m, friction {self.crack.mu_kinetic:g}",
+            f"water of {self.reservoir.depth:.4g} m" if self.reservoir else "no water",
+            self.motion.told() if self.motion else "no motion",
+        ]
+        return f"<Case {self.title or 'untitled'!r}: {'; '.join(parts)}>"
+
     @model_validator(mode="after")
     @collected
     def _agree(self) -> Self:
@@ -78,6 +89,42 @@ class Case(Shown, Fields):
         if self.statics.drain_diameter is not None and self.uplift.pattern != "drained":
             raise InputError("needs-other", "statics.drain_diameter", other='uplift.pattern = "drained"')
         return self
+
+    @classmethod
+    def of(cls, fields: Mapping[str, Any]) -> Case:
+        """Return the case of some fields, as a file has them.
+
+        Raises
+        ------
+        InputError
+            The first thing that is wrong, and how many more there are.
+        """
+        try:
+            case = cls.model_validate(fields)
+        except ValidationError as found:
+            raise first_error(found, cls) from None
+        _check_loads(case)
+        return case
+
+    def with_(self, *changes: str | Mapping[str, Any]) -> Case:
+        """Return the case with some fields changed, read and checked as from a file; this one stays as it is.
+
+        Parameters
+        ----------
+        changes
+            Fields by their paths, with units as in a file: ``case.with_("crack.friction=1.2", "reservoir.depth=95m")``,
+            or from a program ``case.with_({"crack.friction": mu, "reservoir.depth": f"{depth} m"})``. Blocks may be
+            nested, ``{"crack": {"friction": mu}}``, and keep their other fields; what says the same thing in another
+            way goes, as `motion.points` where `motion.file` is given. None takes back what the case says.
+
+        Raises
+        ------
+        InputError
+            Where a change cannot be used, or does not go together with the rest.
+        """
+        fields = self.model_dump(mode="json", exclude_unset=True)
+        apply(fields, changes)
+        return Case.of(fields).based_in(self.base_directory)
 
     _base_directory: Path = PrivateAttr(default_factory=Path)
 
@@ -121,3 +168,25 @@ class Case(Shown, Fields):
         copy = self.model_copy()
         copy._base_directory = directory
         return copy
+
+
+def _check_loads(case: Case) -> None:
+    """Refuse water and silt above the crest, as flow over a dam is another problem, and anchors beyond the toe."""
+    section = case.cut
+    height = section.crest_elevation - section.base_elevation
+    highest = height * (1.0 + ON_LINE)
+    surfaces = {
+        "reservoir.depth": case.reservoir.depth if case.reservoir else None,
+        "tailwater.depth": case.tailwater.depth if case.tailwater else None,
+        "statics.flood_depth": case.statics.flood_depth,
+        "statics.flood_tailwater": case.statics.flood_tailwater,
+    }
+    for field, depth in surfaces.items():
+        if depth is not None and depth > highest:
+            raise InputError("water-above-crest", field, f"{depth:g} m", height=f"{height:g} m")
+    if case.silt is not None and case.silt.depth > highest:
+        raise InputError("silt-above-crest", "silt.depth", f"{case.silt.depth:g} m", height=f"{height:g} m")
+    for place, anchor in enumerate(case.anchors):
+        if anchor.distance > section.crack_width * (1.0 + ON_LINE):
+            field, width = f"anchors[{place}].distance", f"{section.crack_width:g} m"
+            raise InputError("anchor-outside", field, f"{anchor.distance:g} m", width=width)

@@ -10,7 +10,7 @@ from heeltoe.errors import InputError
 from heeltoe.motion.check import check, check_pair, check_record
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.processing import process
-from heeltoe.motion.records import read_record
+from heeltoe.motion.records import called, read_record
 from heeltoe.motion.records.catalog import find
 from heeltoe.motion.scenario import PREFIX, synthetic
 from heeltoe.warnings import Notice
@@ -99,10 +99,7 @@ def _source(shaking: Source, gravity: float, base_directory: Path, field: str) -
             motion.reversed(),
             processing=(*motion.processing, "the record counts down as positive: turned to up"),
         )
-    # The name a user gave is the one that tells versions of a record apart.
-    if path.stem == shaking.file:
-        return motion
-    return replace(motion, name=Path(shaking.file).stem + motion.name.removeprefix(path.stem))
+    return called(motion, path, shaking.file)
 
 
 def _finish(motion: GroundMotion, shaking: Source, duration: float | None) -> GroundMotion:

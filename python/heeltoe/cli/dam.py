@@ -144,7 +144,7 @@ def animate(
     from heeltoe.views.animation.write import check_options
 
     if model not in (AUTO, *MODELS):
-        raise InputError("unknown-model", "--model", model, models=", ".join((AUTO, *MODELS)))
+        raise InputError("unknown-model", "--model", model, models=", ".join((AUTO, *MODELS)), near="")
     place = to or Path(f"{Path(case).stem}.animation.html")
     many = None if exaggerate == "auto" else parse(exaggerate, "number", "--exaggerate")
     start = parse(from_, "duration", "--from")

@@ -16,6 +16,7 @@ import numpy as np
 
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
+from heeltoe.errors import expect
 from heeltoe.geometry.section import CutSection
 from heeltoe.kernel.block import BLOCK
 from heeltoe.mechanics.loads import Resultant, concrete_mass, face_at, static_forces, total
@@ -112,6 +113,14 @@ class Block:
     section: CutSection
     case: Case = field(repr=False)
 
+    def __repr__(self) -> str:
+        factor = self.sliding_safety_factor
+        return (
+            f"<Block: {self.concrete_mass:.4g} kg/m of concrete and {self.water.mass:.4g} kg/m of water on a crack of "
+            f"{self.width:.4g} m, friction {self.friction_kinetic:g}, "
+            f"{'no force along it' if factor is None else f'sliding factor {factor:.3f}'}>"
+        )
+
     @property
     def width(self) -> float:
         """Width of the crack [m]."""
@@ -204,6 +213,7 @@ def build_block(case: Case) -> Block:
     InputError
         Where the crack does not cut the section in two.
     """
+    expect(case, Case, "not-a-case", "case")
     section = case.cut
     concrete = concrete_mass(case)
     offset = section.in_crack_frame(section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1])

@@ -11,11 +11,12 @@ from heeltoe.case.model import Case
 from heeltoe.case.shaking import resolve
 from heeltoe.case.use import unused_fields
 from heeltoe.case.warnings import case_warnings
-from heeltoe.errors import InputError
+from heeltoe.errors import InputError, expect
 from heeltoe.models.rigid.omitted import omitted
 from heeltoe.models.statics.standing import standing_warnings
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.near import near
 from heeltoe.result.limits import check_limits
 from heeltoe.result.response import Chosen, Response
 from heeltoe.warnings import Notice
@@ -92,7 +93,7 @@ def check_model(name: str, field: str) -> None:
     """
     if name not in (AUTO, *MODELS, *BOTH):
         models = f"{AUTO}, {', '.join(MODELS)}, both or decoupled,flexible"
-        raise InputError("unknown-model", field, name, models=models)
+        raise InputError("unknown-model", field, name, models=models, near=near(str(name), (AUTO, *MODELS, *BOTH)))
 
 
 def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
@@ -175,6 +176,10 @@ def earthquake(
     InputError
         Where there is no motion, or one that cannot be used.
     """
+    expect(case, Case, "not-a-case", "case")
+    for name, given in (("motion", motion), ("vertical", vertical), ("rotation", rotation)):
+        if given is not None:
+            expect(given, GroundMotion, "not-a-motion", name)
     if motion is None:
         if case.motion is None:
             raise InputError("motion-missing", "motion")

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from heeltoe.arrays import Floats
+from heeltoe.dataframe import dataframe
 from heeltoe.errors import InputError
 from heeltoe.shown import Shown
 from heeltoe.warnings import Notice
@@ -84,6 +86,17 @@ class GroundMotion(Shown):
             shifted.flags.writeable = False
             object.__setattr__(self, "time", shifted)
             object.__setattr__(self, "processing", (*self.processing, f"time counted from {t[0]:g} s"))
+
+    def __repr__(self) -> str:
+        ways = "".join(f", {each}" for each in (self.event, self.component) if each)
+        return (
+            f"<GroundMotion {self.name}{ways}: peak {self.pga:.4g} m/s2, "
+            f"{self.duration:.4g} s in {self.time.size} samples>"
+        )
+
+    def to_pandas(self) -> Any:
+        """Return time [s] and acceleration [m/s2] as a ``pandas.DataFrame``."""
+        return dataframe({"time_s": self.time, "acceleration_m_s2": self.acceleration})
 
     @classmethod
     def from_points(cls, time: ArrayLike, acceleration: ArrayLike, *, name: str = "points") -> GroundMotion:

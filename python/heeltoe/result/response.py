@@ -11,6 +11,7 @@ from typing import Any, ClassVar, Generic, Protocol, Self, TypeVar, overload
 import pyarrow as pa
 
 from heeltoe.arrays import Floats
+from heeltoe.dataframe import dataframe
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.beside import meaning, ratio
 from heeltoe.result.contract import TOO_FAR
@@ -200,6 +201,14 @@ class Response(Shown):
     #: Whether the parts of the dam are elastic, so that both ends of a crack shift with nothing happening to the dam.
     elastic: ClassVar[bool] = False
 
+    def __repr__(self) -> str:
+        beside = "" if self.beside is None else f" with the {self.beside.model} one beside it"
+        title = self.title or "untitled case"
+        shaken = f"{self.motion.name}, peak {self.motion.pga / self.gravity:.4g} g"
+        count = sum(len(each.warnings) for each in self.responses)
+        warned = f"\n  {count} warning{'s' if count > 1 else ''} in .warnings" if count else ""
+        return f"<{type(self).__name__}: {self.model} model{beside}, {title!r}, {shaken}\n  {verdict(self)}{warned}>"
+
     @property
     def responses(self) -> tuple[Response, ...]:
         """Itself, after the one beside it."""
@@ -265,6 +274,10 @@ class Response(Shown):
     def to_table(self) -> pa.Table:
         """Return the histories with the mode as a table."""
         return pa.table({**self.histories, "mode": list(self.mode)})
+
+    def to_pandas(self) -> Any:
+        """Return the histories with the mode as a ``pandas.DataFrame``."""
+        return dataframe({**self.histories, "mode": list(self.mode)})
 
     def events_table(self) -> pa.Table:
         """Return the events as a table."""

@@ -12,10 +12,12 @@ import pyarrow as pa
 
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
+from heeltoe.dataframe import dataframe
 from heeltoe.errors import InputError, shown
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.write import build_info
+from heeltoe.shown import Shown
 
 #: More runs than this are a study, not a table.
 MOST = 32
@@ -35,7 +37,7 @@ class Variation:
 
 
 @dataclass(frozen=True, eq=False)
-class Grid:
+class Grid(Shown):
     """Every combination of some values.
 
     Attributes
@@ -67,6 +69,11 @@ class Grid:
         """Whether all runs have a result to trust."""
         return all(each.ok for each in self.responses)
 
+    def __repr__(self) -> str:
+        varied = ", ".join(f"{each.path} {len(each.values)} times" for each in self.variations)
+        title = self.title or "untitled case"
+        return f"<Grid: {len(self.responses)} runs of the {self.model} model, {title!r}, {varied}>"
+
     def rows(self) -> list[dict[str, Any]]:
         """Return the table: the varied fields, numbers by their JSON names (None without a result), the outcome."""
         paths = [each.path for each in self.variations]
@@ -78,6 +85,11 @@ class Grid:
     def to_table(self) -> pa.Table:
         """Return the same as an Arrow table."""
         return pa.Table.from_pylist(self.rows())
+
+    def to_pandas(self) -> Any:
+        """Return the same as a ``pandas.DataFrame``."""
+        rows = self.rows()
+        return dataframe({name: [row[name] for row in rows] for name in rows[0]})
 
     def to_json(self) -> dict[str, Any]:
         """Return all results in full, with the values that belong to them."""

@@ -19,11 +19,12 @@ from numpy.typing import NDArray
 
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError
+from heeltoe.errors import InputError, expect
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block, CriticalAccelerations, build_block
 from heeltoe.models.rigid.walk import walk
 from heeltoe.result.write import build_info
+from heeltoe.shown import Shown
 
 Pulse = Literal["sine", "half-sine", "cosine"]
 
@@ -36,7 +37,7 @@ _WAIT = 12.0
 
 
 @dataclass(frozen=True, eq=False)
-class OverturningMap:
+class OverturningMap(Shown):
     """Ends of a block in pulses of many frequencies and amplitudes.
 
     Attributes
@@ -142,6 +143,7 @@ def overturning_map(
     InputError
         Where the pulse is none of these, or there are too many, or the block stands not even without a pulse.
     """
+    expect(case, Case, "not-a-case", "case")
     if pulse not in ("sine", "half-sine", "cosine"):
         raise InputError("pulse-kind", "pulse", pulse)
     if not 2 <= count <= _MOST:

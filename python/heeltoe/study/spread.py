@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError
+from heeltoe.errors import InputError, expect
 from heeltoe.kernel.block import OUTCOMES, run_blocks
 from heeltoe.kernel.dam import DAM_OUTCOMES
 from heeltoe.kernel.shaking import Shaking
@@ -96,6 +96,8 @@ def with_spread(response: R, case: Case, runs: int = RUNS, *, progress: Progress
     InputError
         Where the number of runs cannot be used.
     """
+    expect(case, Case, "not-a-case", "case")
+    expect(response, Response, "not-a-response", "response")
     runs = check_runs(runs, "runs")
     scales = np.linspace(WEAKEST, STRONGEST, runs)
     ground = earthquake(case, response.motion, response.vertical)

@@ -9,7 +9,7 @@ from typing import Any
 from heeltoe.result.response import Of, Response
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class DecoupledResponse(Response):
     """Result of the decoupled chain: that of its block, with the motion that has shaken it.
 

@@ -52,6 +52,10 @@ class CrackHistory:
     dam: FlexibleDam
     contactors: int = 3
 
+    def __repr__(self) -> str:
+        nodes = self.upper_position.shape[-1]
+        return f"<CrackHistory: {self.time.size} frames of {nodes} nodes, up to {self.time[-1]:.4g} s>"
+
     def frame_at(self, time: float) -> int:
         """Return the frame nearest to a moment [s]."""
         return int(np.argmin(np.abs(self.time - time)))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError
+from heeltoe.errors import InputError, expect
 from heeltoe.models.flexible.modes import intact_periods, part_periods
 from heeltoe.models.flexible.reduced import build_flexible_dam
 from heeltoe.result.write import build_info
@@ -89,6 +89,7 @@ def dam_periods(case: Case, count: int = COUNT, *, field: str = "count") -> DamP
     InputError
         Where the count, the modulus or the mesh cannot be used.
     """
+    expect(case, Case, "not-a-case", "case")
     if not 1 <= count <= _MOST:
         raise InputError("period-count", field, count, most=_MOST)
     dam = build_flexible_dam(case)

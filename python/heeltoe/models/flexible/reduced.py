@@ -9,6 +9,7 @@ import numpy as np
 
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
+from heeltoe.errors import expect
 from heeltoe.geometry.axes import along_and_across, places
 from heeltoe.geometry.section import CutSection
 from heeltoe.kept import Kept
@@ -117,6 +118,11 @@ class FlexibleDam(Dam):
     anchors: tuple[CrackAnchor, ...]
     give: tuple[float, float]
 
+    def __repr__(self) -> str:
+        parts = zip(self.bodies, self.modes, strict=True)
+        counts = " and ".join(f"{len(body.mesh.nodes)} nodes in {modes.shapes.shape[1]} modes" for body, modes in parts)
+        return f"<FlexibleDam: {counts}; first period {self.periods[0]:.4g} s>"
+
     @property
     def periods(self) -> Floats:
         """Longest periods of the intact dam, water included [s]."""
@@ -134,6 +140,7 @@ def build_flexible_dam(case: Case) -> FlexibleDam:
     InputError
         Where the case has no modulus, or a mesh cannot be made or used.
     """
+    expect(case, Case, "not-a-case", "case")
     # The earthquake plays no part, and files may change under their name.
     key = (case.model_dump_json(exclude={"motion", "title", "analysis"}), *fingerprints(case))
     return _KEPT.get(key, lambda: _build(case))

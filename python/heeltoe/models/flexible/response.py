@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 _LETS_GO_S = 0.02
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class FlexibleResponse(Response):
     """Result of the flexible model, signs and attributes as in :class:`~heeltoe.result.response.Response`.
 

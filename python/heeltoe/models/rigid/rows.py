@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from heeltoe.arrays import Floats, Integers
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError
+from heeltoe.errors import InputError, expect
 from heeltoe.kernel.block import BLOCK, Limits
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.motion.ground_motion import GroundMotion
@@ -54,6 +54,7 @@ def rows_of(
     InputError
         Naming field, row and value, where something cannot be used.
     """
+    expect(motions, Sequence, "not-a-list", "motions")
     for place, motion in enumerate(motions):
         parts = motion if isinstance(motion, tuple) else (motion,)
         if not 1 <= len(parts) <= 2 or not all(isinstance(part, GroundMotion) for part in parts):
@@ -63,6 +64,7 @@ def rows_of(
     if isinstance(blocks, np.ndarray):
         numbers = blocks
     else:
+        expect(blocks, Sequence, "not-a-list", "blocks")
         built = [_built(each, row) for row, each in enumerate(blocks)]
         numbers = np.array([each.parameters() for each in built]).reshape(-1, len(BLOCK))
     if numbers.ndim != 2 or numbers.shape[1] != len(BLOCK) or numbers.dtype.kind not in "fiu":

@@ -10,6 +10,8 @@ from heeltoe.case.model import Case
 from heeltoe.case.options import StaticsChoice
 from heeltoe.case.use import unused_fields
 from heeltoe.case.warnings import case_warnings
+from heeltoe.dataframe import dataframe
+from heeltoe.errors import expect
 from heeltoe.mechanics.block import build_block, static_state
 from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.models.statics.cases import flood, post_seismic, pseudo_static, usual
@@ -21,6 +23,9 @@ from heeltoe.references import REFERENCES
 from heeltoe.result.write import build_info
 from heeltoe.shown import Shown
 from heeltoe.warnings import Notice
+
+# So many checks that are not met are told at once.
+_MOST_MISSED = 3
 
 
 @dataclass(frozen=True)
@@ -64,6 +69,20 @@ class Statics(Shown):
     slip_source: str | None
     warnings: tuple[Notice, ...]
     references: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        missed = [check for check in self.checks if not check.met]
+        lines = [f"<Statics: {self.title or 'untitled case'!r}, {', '.join(each.name for each in self.cases)}"]
+        lines.append(f"  {len(self.checks) - len(missed)} of {len(self.checks)} checks are met ({self.criteria})")
+        lines += [f"  not met: {check.sentence}" for check in missed[:_MOST_MISSED]]
+        if len(missed) > _MOST_MISSED:
+            lines.append(f"  and {len(missed) - _MOST_MISSED} more in .checks")
+        return "\n".join(lines) + ">"
+
+    def to_pandas(self) -> Any:
+        """Return the checks, one in each row, as a ``pandas.DataFrame``."""
+        rows = [check.to_json() for check in self.checks]
+        return dataframe({name: [row[name] for row in rows] for name in rows[0]})
 
     @property
     def ok(self) -> bool:
@@ -128,6 +147,7 @@ def statics(
     InputError
         Where the crack does not cut the section in two.
     """
+    expect(case, Case, "not-a-case", "case")
     section, choice = case.cut, case.statics
     warnings = [*case_warnings(case), *unused_fields(case, ("statics", *beside)), *_unread(choice)]
     before = usual(case)

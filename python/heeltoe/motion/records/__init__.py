@@ -8,15 +8,18 @@ from __future__ import annotations
 
 import os
 import stat
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
 from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.motion.records.catalog import find
 from heeltoe.motion.records.channel import choose, numbered
 from heeltoe.motion.records.formats import columns, cosmos_v2, csmip_v2, foreign, knet, peer_at2, usgs_smc
 from heeltoe.motion.records.raw import RawRecord
 from heeltoe.motion.records.to_motion import Told, to_motion
+from heeltoe.motion.scenario import PREFIX, synthetic
 from heeltoe.units.parse import STANDARD_GRAVITY
 
 __all__ = ["READERS", "RawRecord", "read_channels", "read_record", "read_text", "read_text_channels"]
@@ -44,7 +47,8 @@ def read_record(
     Parameters
     ----------
     path
-        The file.
+        The file, or the name of a record as a case takes it: of a file in ``$HEELTOE_RECORDS``, or of one that
+        `heeltoe motion --list` shows, or ``synthetic:...`` for a motion made to order.
     channel
         Which one of a file of several, by number or by direction (``1``, ``"90 deg"``, ``"up"``).
     unit
@@ -69,8 +73,12 @@ def read_record(
     InputError
         Where there is no such file, or what is in it cannot be used.
     """
-    data, name = _load(path)
-    return read_text(data, name, channel, Told(unit, time_step, gravity, field, assume))
+    text = os.fspath(path)
+    if text.startswith(PREFIX):
+        return synthetic(text, gravity=gravity, field=f"{field}.file")
+    place = _place(path, field)
+    data, name = _load(place)
+    return called(read_text(data, name, channel, Told(unit, time_step, gravity, field, assume)), place, text)
 
 
 def read_channels(
@@ -83,8 +91,15 @@ def read_channels(
     assume: bool = True,
 ) -> list[GroundMotion]:
     """Read all channels of a file, to look at them; see :func:`read_record`. Most files have one."""
-    data, name = _load(path)
+    data, name = _load(_place(path, field))
     return read_text_channels(data, name, Told(unit, time_step, gravity, field, assume))
+
+
+def called(motion: GroundMotion, path: Path, given: str) -> GroundMotion:
+    """Return a motion under the name that a user gave, which is the one that tells versions of a record apart."""
+    if path.stem == given:
+        return motion
+    return replace(motion, name=Path(given).stem + motion.name.removeprefix(path.stem))
 
 
 def read_text(data: bytes, name: str, channel: str | int | None = None, told: Told = _NOTHING_TOLD) -> GroundMotion:
@@ -98,6 +113,11 @@ def read_text_channels(data: bytes, name: str, told: Told = _NOTHING_TOLD) -> li
     """Read all channels from the bytes of a file; see :func:`read_channels`."""
     records, format_ = _records(data, name)
     return [to_motion(raw, format_, name, len(records), told) for raw in records]
+
+
+def _place(path: str | os.PathLike[str], field: str) -> Path:
+    """Return where a record is that is given by its path or by its name."""
+    return Path(path) if os.path.exists(path) else find(path, Path(), field=f"{field}.file")
 
 
 def _load(path: str | os.PathLike[str]) -> tuple[bytes, str]:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError
+from heeltoe.errors import InputError, expect
 from heeltoe.result.response import Response
 from heeltoe.whole import written
 
@@ -65,6 +65,8 @@ def animate(
         Where the file's ending is not known, a number is out of range, the response has no histories, the package for
         videos is missing, or the file cannot be written.
     """
+    expect(case, Case, "not-a-case", "case")
+    expect(response, Response, "not-a-response", "response")
     place = Path(path)
     check_options(place, exaggerate=exaggerate, frames_per_second=frames_per_second, speed=speed)
     if not response.histories:

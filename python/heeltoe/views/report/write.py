@@ -7,7 +7,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from heeltoe.errors import InputError
+from heeltoe.errors import InputError, expect
 from heeltoe.whole import write_whole
 
 if TYPE_CHECKING:
@@ -105,6 +105,11 @@ def write_report(
     InputError
         Where the directory cannot be written, or a package is not installed (``pip install heeltoe[report]``).
     """
+    from heeltoe.case.model import Case
+    from heeltoe.result.response import Response
+
+    expect(case, Case, "not-a-case", "case")
+    expect(result, Response, "not-a-response", "result")
     check_packages(kinds, "kinds")
     document = build_report(case, result, statics=statics, units=units, command=command)
     return write_document(document, directory, kinds)

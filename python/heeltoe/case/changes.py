@@ -1,0 +1,119 @@
+"""Changes of single fields of a case, each by its path: on the command line, as a file is read, and from Python."""
+
+from __future__ import annotations
+
+import copy
+import tomllib
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from heeltoe.case.dam import UPLIFT_OPTIONS
+from heeltoe.case.motion import NO_MOTION
+from heeltoe.errors import InputError, shown
+
+#: ``"crack.friction=1.0"``, ``{"crack.friction": 1.0}``, ``{"crack": {"friction": 1.0}}``, or several of these.
+Changes = str | Mapping[str, Any] | Sequence[str | Mapping[str, Any]]
+
+# An override says how it shall be now: what the file says in the other form of the same thing goes.
+_REPLACES = {
+    # Channel, unit and time step belong to the file that goes; taken for another one's they would spoil it silently.
+    "motion.file": ("motion.points", "motion.channel", "motion.unit", "motion.time_step"),
+    "motion.points": ("motion.file", "motion.channel", "motion.unit", "motion.time_step"),
+    "motion.vertical.file": tuple(f"motion.vertical.{name}" for name in ("points", "channel", "unit", "time_step")),
+    "motion.vertical.points": tuple(f"motion.vertical.{name}" for name in ("file", "channel", "unit", "time_step")),
+    "crack.friction": ("crack.static_friction", "crack.kinetic_friction"),
+    "crack.static_friction": ("crack.friction",),
+    "crack.kinetic_friction": ("crack.friction",),
+}
+
+
+def apply(fields: dict[str, Any], changes: Changes) -> None:
+    """Change the fields of a case, as a file has them, in place.
+
+    Raises
+    ------
+    InputError
+        Where a change says nothing, or what it says does not go together with the rest.
+    """
+    split = list(_split_all(changes))
+    _check_pair(fields, split)
+    for path, value in split:
+        for other in (*_REPLACES.get(".".join(path), ()), *_of_other_patterns(path, value)):
+            _remove(fields, other.split("."))
+    for path, value in split:
+        block = fields
+        for name in path[:-1]:
+            inner = block.setdefault(name, {})
+            if not isinstance(inner, dict):
+                raise InputError("unknown-field", ".".join(path), suggestion=f'"{name}" has no fields')
+            block = inner
+        block[path[-1]] = value
+
+
+def _check_pair(fields: dict[str, Any], split: Sequence[tuple[list[str], Any]]) -> None:
+    """Refuse another horizontal motion beside the vertical one of the case: they are of one earthquake, and the
+    vertical one would be scaled by a factor that is none of its own."""
+    motion = fields.get("motion")
+    if not isinstance(motion, dict) or motion.get("vertical") in (None, NO_MOTION):
+        return
+    given = {".".join(path): value for path, value in split}
+    if not given.keys().isdisjoint({"motion", "motion.vertical", "motion.vertical.file", "motion.vertical.points"}):
+        return
+    for name in ("motion.file", "motion.points"):
+        if name in given and given[name] != motion.get(name.removeprefix("motion.")):
+            raise InputError("vertical-of-another", name, shown(given[name]), none=NO_MOTION)
+
+
+def _of_other_patterns(path: Sequence[str], value: Any) -> tuple[str, ...]:
+    """Return what belongs to another pattern of uplift than the one that is set."""
+    if list(path) != ["uplift", "pattern"]:
+        return ()
+    gone = [f"uplift.{option}" for option, pattern in UPLIFT_OPTIONS.items() if pattern != value]
+    return (*gone, "statics.drain_diameter") if value != "drained" else tuple(gone)
+
+
+def _split_all(changes: Changes) -> Iterator[tuple[list[str], Any]]:
+    """Walk through all fields that change: path and value."""
+    if isinstance(changes, str):
+        yield _split(changes)
+    elif isinstance(changes, Mapping):
+        for name, value in changes.items():
+            if not isinstance(name, str) or not all(part.strip() for part in name.split(".")):
+                raise InputError("override-form", "changes", shown(name))
+            path = [part.strip() for part in name.split(".")]
+            if isinstance(value, Mapping):
+                yield from (([*path, *inner], each) for inner, each in _split_all(value))
+            else:
+                yield path, copy.deepcopy(value)
+    elif isinstance(changes, Sequence):
+        for each in changes:
+            yield from _split_all(each)
+    else:
+        raise InputError("override-form", "changes", shown(changes))
+
+
+def _split(override: str) -> tuple[list[str], Any]:
+    name, equals, text = override.partition("=")
+    path = [part.strip() for part in name.split(".")]
+    if not equals or not all(path):
+        raise InputError("override-form", "--set", shown(override))
+    return path, _value(text.strip())
+
+
+def _value(text: str) -> Any:
+    """Return a number, truth value, list or table where `text` reads as one in TOML, else `text` itself."""
+    try:
+        read = tomllib.loads(f"value = {text}")
+    except (ValueError, RecursionError):
+        return text
+    value = read.get("value")
+    # A line break would smuggle in more fields, and TOML's dates are no values of ours.
+    return value if len(read) == 1 and isinstance(value, bool | int | float | str | list | dict) else text
+
+
+def _remove(fields: dict[str, Any], path: Sequence[str]) -> None:
+    block: Any = fields
+    for name in path[:-1]:
+        block = block.get(name) if isinstance(block, dict) else None
+    if isinstance(block, dict):
+        block.pop(path[-1], None)

@@ -1,0 +1,60 @@
+"""How far each static check is from what it requires."""
+
+from __future__ import annotations
+
+from matplotlib.figure import Figure
+
+from heeltoe.models.statics.checks import Check
+from heeltoe.models.statics.model import Statics
+from heeltoe.units.write import number
+from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled
+
+# A check that is met so many times over ends the axis.
+_MOST = 3.0
+_ROW, _AROUND = 0.24, 1.6
+
+
+@styled
+def statics_figure(found: Statics) -> Figure:
+    """Draw each check as a bar: what is there over what is required, or for what may be at most so much the other way
+    round, so that a check is met where its bar reaches one."""
+    figure = Figure(figsize=(WIDTH, _AROUND + _ROW * len(found.checks)), layout="constrained")
+    axes = figure.subplots()
+    missed = sum(not check.met for check in found.checks)
+    said = "all checks are met" if not missed else f"{missed} of {len(found.checks)} checks are not met"
+    heading(figure, found.title or "Untitled case", f"{found.criteria}: {said}")
+    names = []
+    for row, check in enumerate(found.checks):
+        reached = min(_share(check), _MOST)
+        axes.barh(
+            row,
+            reached,
+            height=0.65,
+            facecolor=COLOURS["slip"] if check.met else "white",
+            edgecolor=COLOURS["slip"] if check.met else COLOURS["crack"],
+            hatch="" if check.met else "///",
+            linewidth=1.0,
+        )
+        names.append(f"{check.load_case}: {check.name}{_numbers(check)}")
+    axes.axvline(1.0, color="#000000", linewidth=1.0, linestyle="--")
+    axes.set_yticks(range(len(names)), names, fontsize=8)
+    axes.tick_params(axis="y", length=0)
+    axes.invert_yaxis()
+    axes.set_xlim(0.0, _MOST)
+    axes.grid(visible=False, axis="y")
+    axes.set_xlabel("reached over required [-]; met from 1 on")
+    return figure
+
+
+def _share(check: Check) -> float:
+    """Return how much of what is required there is; from one on it is met."""
+    if check.value is None or check.required is None:
+        return 1.0 if check.met else 0.0
+    over, under = (check.value, check.required) if check.at_least else (check.required, check.value)
+    return _MOST if under <= 0.0 else max(over / under, 0.0)
+
+
+def _numbers(check: Check) -> str:
+    if check.value is None or check.required is None:
+        return ""
+    return f" {number(check.value)} ({'at least' if check.at_least else 'at most'} {number(check.required)})"

@@ -1,0 +1,90 @@
+"""Changes of a case from Python: texts and dictionaries, as a file is read and of a case that is there."""
+
+from __future__ import annotations
+
+import pytest
+
+from heeltoe import Case, InputError, read_case
+from shared.cases import DAM
+from shared.dams import ALL_EXAMPLES, BASE, EXAMPLES, example
+
+FIELDS = {"crack.friction": 1.2, "reservoir.depth": "95 m"}
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        "crack.friction=1.2",
+        ["crack.friction=1.2"],
+        {"crack.friction": 1.2},
+        {"crack": {"friction": 1.2}},
+        [{"crack.friction": 1.2}],
+        {"crack.friction": "1.2"},
+    ],
+)
+def test_one_change_can_be_said_in_several_ways(changes):
+    wanted = read_case(BASE, ["crack.friction=1.2"])
+    assert read_case(BASE, changes) == wanted
+    several = changes if isinstance(changes, list) else [changes]
+    assert example("typical-base").with_(*several).model_dump() == wanted.model_dump()
+
+
+def test_a_case_stays_as_it_is():
+    case = example("typical-base")
+    changed = case.with_(FIELDS, "uplift.intensity=0.5")
+    assert (changed.crack.friction, changed.reservoir.depth, changed.uplift.intensity) == (1.2, 95.0, 0.5)
+    assert (case.crack.friction, case.reservoir.depth, case.uplift.intensity) == (1.0, 100.0, 1.0)
+    # What was said beside it stays said, and files are looked for where they were.
+    assert changed.concrete == case.concrete
+    assert changed.base_directory == case.base_directory == EXAMPLES
+
+
+@pytest.mark.parametrize("path", ALL_EXAMPLES, ids=lambda path: path.stem)
+def test_no_change_changes_nothing(path):
+    case = read_case(path)
+    again = case.with_()
+    assert again.model_dump() == case.model_dump()
+    assert again.model_dump(exclude_unset=True) == case.model_dump(exclude_unset=True)
+
+
+def test_a_change_is_checked_as_a_file_is():
+    case = read_case(DAM)
+    for change, code, words in (
+        ("crack.frictoin=1.2", "unknown-field", 'did you mean "friction"?'),
+        ({"reservoir": {"depht": "3 m"}}, "unknown-field", 'did you mean "depth"?'),
+        ({"reservoir.depth": 95}, "unit-missing", '"95 m"'),
+        ({"reservoir.depth": "120 m"}, "water-above-crest", "above the crest"),
+        ("crack.friction", "override-form", "PATH=VALUE"),
+        ({"": 1}, "override-form", "PATH=VALUE"),
+        ({3: 1}, "override-form", "PATH=VALUE"),
+        (5, "override-form", "PATH=VALUE"),
+    ):
+        for changed in (lambda: case.with_(change), lambda: read_case(DAM, change)):  # noqa: B023
+            with pytest.raises(InputError) as refused:
+                changed()
+            assert refused.value.code == code
+            assert words in str(refused.value)
+
+
+def test_what_says_the_same_in_another_way_goes():
+    case = read_case(DAM)
+    apart = case.with_({"crack": {"static_friction": 1.1, "kinetic_friction": 0.9}})
+    assert (apart.crack.friction, apart.crack.mu_static, apart.crack.mu_kinetic) == (None, 1.1, 0.9)
+    drawn = case.with_({"motion.points": [["0 s", "0 g"], ["1 s", "0.1 g"]]})
+    assert drawn.motion.file is None
+    assert case.with_({"reservoir": None}).reservoir is None
+
+
+def test_a_dictionary_that_changes_a_case_is_not_changed_itself():
+    points = [["0 s", "0 g"], ["1 s", "0.1 g"]]
+    changes = {"motion.points": points}
+    read_case(DAM, changes).with_({"motion.points": [["0 s", "0 g"], ["2 s", "0.2 g"]]})
+    assert changes == {"motion.points": [["0 s", "0 g"], ["1 s", "0.1 g"]]}
+
+
+def test_what_is_no_source_of_a_case_is_refused():
+    for source in (read_case(DAM), 3, None):
+        with pytest.raises(InputError, match="no case file, nor the fields of one") as refused:
+            read_case(source)
+        assert refused.value.code == "case-source"
+    assert isinstance(read_case(str(BASE)), Case)
