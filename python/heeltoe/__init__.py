@@ -88,7 +88,7 @@ def _html(thing: object) -> str:
 
 
 def _plot(thing: object, name: str | None, path: Any, units: str) -> Any:
-    from heeltoe.views.figures.plot import plot
+    from heeltoe.views.plot import plot
 
     return plot(thing, name, path, units)
 

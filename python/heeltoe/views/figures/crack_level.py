@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, NullFormatter
 
 from heeltoe.models.decoupled.response import DecoupledResponse
-from heeltoe.views.figures.periods import mark_periods
+from heeltoe.views.figures.spectrum import mark_periods
 from heeltoe.views.figures.style import COLOURS, heading, styled
 from heeltoe.views.figures.time_axis import time_axis
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from heeltoe.motion.ground_motion import GroundMotion
@@ -12,12 +14,14 @@ from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.result.response import Response
 from heeltoe.units.systems import unit_system
 from heeltoe.units.write import number
-from heeltoe.views.figures.periods import mark_periods
 from heeltoe.views.figures.style import COLOURS, WIDTH, describe, styled
 from heeltoe.views.words.starts import starts
 
 _MARKED = 4
 _PERIODS = "#006B4E"
+# Two names nearer to each other than this part of the width of the axis stand one above the other.
+_APART = 0.07
+_ROWS = 3
 
 
 @styled
@@ -83,6 +87,29 @@ def spectrum_figure(response: Response, units: str = "si", periods_s: Sequence[f
     # One below the other: what they say has numbers in it.
     figure.legend(*axes.get_legend_handles_labels(), loc="outside lower center", ncols=1)
     return figure
+
+
+def mark_periods(axes: Axes, periods: Sequence[float], colour: str) -> None:
+    """Draw a line for each period [s] within the limits of a logarithmic axis, counted from the longest."""
+    low, high = (math.log(limit) for limit in axes.get_xlim())
+    row, before = 0, math.inf
+    for number, period in enumerate(periods, 1):
+        place = (math.log(period) - low) / (high - low)
+        if not 0.0 < place < 1.0:
+            continue
+        row = (row + 1) % _ROWS if before - place < _APART else 0
+        before = place
+        axes.axvline(period, color=colour, linewidth=0.9, linestyle=(0, (4, 2)), zorder=1.6)
+        axes.annotate(
+            f"T{number}",
+            (period, 1.0),
+            xycoords=("data", "axes fraction"),
+            xytext=(0, 2 + 8 * row),
+            textcoords="offset points",
+            ha="center",
+            fontsize=7,
+            color=colour,
+        )
 
 
 def _crack_motion(response: Response) -> GroundMotion | None:
