@@ -93,7 +93,7 @@ def mark_periods(axes: Axes, periods: Sequence[float], colour: str) -> None:
     """Draw a line for each period [s] within the limits of a logarithmic axis, counted from the longest."""
     low, high = (math.log(limit) for limit in axes.get_xlim())
     row, before = 0, math.inf
-    for number, period in enumerate(periods, 1):
+    for count, period in enumerate(periods, 1):
         place = (math.log(period) - low) / (high - low)
         if not 0.0 < place < 1.0:
             continue
@@ -101,7 +101,7 @@ def mark_periods(axes: Axes, periods: Sequence[float], colour: str) -> None:
         before = place
         axes.axvline(period, color=colour, linewidth=0.9, linestyle=(0, (4, 2)), zorder=1.6)
         axes.annotate(
-            f"T{number}",
+            f"T{count}",
             (period, 1.0),
             xycoords=("data", "axes fraction"),
             xytext=(0, 2 + 8 * row),
