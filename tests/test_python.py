@@ -34,8 +34,8 @@ def grid():
 def test_things_say_what_they_are_in_a_few_lines(case, response, grid, typical_both):
     for thing, words in (
         (case, ("<Case 'Typical dam cracked at its base'", "100 m", "friction 1", "peak 0.4 g")),
-        (response, ("<Response: rigid model", "peak 0.4 g", "The dam slides")),
-        (typical_both, ("<FlexibleResponse: flexible model with the rigid one beside it", "The dam slides")),
+        (response, ("<Response: rigid model", "peak 0.4 g", "dam slides")),
+        (typical_both, ("<FlexibleResponse: flexible model with the rigid one beside it", "dam slides")),
         (typical_both.crack, ("<CrackHistory: 301 frames",)),
         (typical_both.crack.dam, ("<FlexibleDam: ", "first period 0.3")),
         (response.motion, ("<GroundMotion elcentro-1940-180-nga", "3.923 m/s2", "301 samples")),

@@ -151,9 +151,7 @@ def statics(
     section, choice = case.cut, case.statics
     warnings = [*case_warnings(case), *unused_fields(case, ("statics", *beside)), *_unread(choice)]
     before = usual(case)
-    solved = [before]
-    if choice.flood_depth is not None:
-        solved.append(flood(case))
+    solved = [before, *([flood(case)] if choice.flood_depth is not None else [])]
     if choice.seismic_coefficient is not None:
         solved += pseudo_static(case, before)
     cases = [each.load_case for each in solved]
