@@ -215,7 +215,7 @@ def table(judged: list[Judged]) -> Iterator[Row]:
         1.0 - least,
         relative=False,
         remark=missed or "none leaves it",
-        kind="own run",
+        kind="condition",
     )
 
 
