@@ -10,7 +10,7 @@ from pathlib import Path
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import numpy as np
-from measure import heading, repeat, require, seconds, table, timed
+from measure import Timing, heading, repeat, require, seconds, table, timed
 
 from heeltoe import Case, GroundMotion, InputError, read_case, read_record
 from heeltoe.kernel.build import PROFILE
@@ -20,8 +20,12 @@ from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.records.catalog import find
 
 DURATION = 20.0
-# The step of the base crack is the one at which it was found converged; a dam that strikes needs half of it.
+# The program's own steps for these two.
 BASE_STEP, HEIGHT_STEP = 2e-4, 1e-4
+# With the program's own damping, and friction that slides a while.
+DAM = ("crack.friction=1.2", "flexible.damping=relative", "flexible.virtual_mass=complete")
+ALL = "flexible.modes=5000"
+ABREAST = 8
 EXAMPLES = Path(__file__).parent.parent / "examples"
 COLUMNS = [
     "case",
@@ -30,6 +34,7 @@ COLUMNS = [
     "step",
     "set-up",
     "20 s of shaking",
+    f"each of {ABREAST}",
     "per step",
     "contact sets per step",
     "rate",
@@ -49,13 +54,11 @@ class Problem:
 
 
 PROBLEMS = (
-    Problem("base crack, all modes", "thesis/typical-base.toml", (), BASE_STEP),
-    Problem("base crack, 200 modes and static shapes", "thesis/typical-base.toml", ("flexible.modes=200",), BASE_STEP),
+    Problem("base crack", "thesis/typical-base.toml", (), BASE_STEP),
+    Problem("base crack, all modes", "thesis/typical-base.toml", (ALL,), BASE_STEP),
     Problem("base crack, 16 across", "thesis/typical-base.toml", ("flexible.elements_across=16",), BASE_STEP),
-    Problem("crack at 90 m, all modes", "thesis/typical-height.toml", (), HEIGHT_STEP),
-    Problem(
-        "crack at 90 m, 200 modes and static shapes", "thesis/typical-height.toml", ("flexible.modes=200",), HEIGHT_STEP
-    ),
+    Problem("crack at 90 m", "thesis/typical-height.toml", (), HEIGHT_STEP),
+    Problem("crack at 90 m, all modes", "thesis/typical-height.toml", (ALL,), HEIGHT_STEP),
 )
 
 
@@ -72,7 +75,12 @@ def machine_rate() -> float:
     """Return what one core reaches in products of matrices [operations/s], the best that ordinary programs do."""
     size = 1000
     one, two = np.random.default_rng(1).random((2, size, size))
-    return 2.0 * size**3 / repeat(lambda: one @ two).median
+    return 2.0 * size**3 / least(repeat(lambda: one @ two))
+
+
+def least(timing: Timing) -> float:
+    """Return the least processor time [s]: what else a shared server does makes a run longer, never shorter."""
+    return min(timing.cpu)
 
 
 def operations(dam: flexible_parts.FlexibleDam) -> float:
@@ -82,15 +90,20 @@ def operations(dam: flexible_parts.FlexibleDam) -> float:
 
 def row(problem: Problem, peak: float) -> list[str]:
     """Measure one problem."""
-    case = read_case(EXAMPLES / problem.file, problem.changes)
+    case = read_case(EXAMPLES / problem.file, (*DAM, *problem.changes))
     shaking = motion(case)
     setup = repeat(lambda: flexible_parts._build(case), 5)
     dam = flexible_parts.build_flexible_dam(case)
     shaken = ShakenDam(case, dam, Earthquake(shaking, None, DURATION).shaking)
     raw = shaken.run(problem.step).summary
     require(raw["steps"] == round(DURATION / problem.step) and raw["slip"] > 1e-3, "the dam did not slide")
-    timing = repeat(lambda: shaken.run(problem.step), 5)
-    per_step = timing.median / raw["steps"]
+    ours = least(repeat(lambda: shaken.run(problem.step), 7))
+    # On one core, to be compared with that one run.
+    count, step = shaken._steps(problem.step)
+    scales = np.repeat(np.linspace(0.98, 1.02, ABREAST)[:, None], 2, axis=1)
+    ground, theta = shaken._ground(count), case.flexible.theta
+    several = least(repeat(lambda: dam.kernel.run_many(ground, step, theta, scales, threads=1), 3)) / ABREAST
+    per_step = ours / raw["steps"]
     rate = operations(dam) / per_step
     return [
         problem.name,
@@ -98,7 +111,8 @@ def row(problem: Problem, peak: float) -> list[str]:
         str(dam.upper.mesh.crack.size + (2 if dam.lower else 0)),
         seconds(problem.step),
         timed(setup),
-        timed(timing),
+        seconds(ours),
+        seconds(several),
         seconds(per_step),
         f"{raw['iterations'] / raw['steps']:.2f}",
         f"{rate / 1e9:.1f} G/s",
@@ -112,7 +126,9 @@ def report() -> str:
     require(PROFILE == "release", "the kernel is a debug build")
     peak = machine_rate()
     text = (
-        "Typical dam, 100 m, on one core. The rate counts the arithmetic on the modes alone, not that of the contact; "
+        "Typical dam, 100 m, friction 1.2, damping `relative`, 0.4 g, on one core: the least processor time of 7 runs "
+        "without frames, and of 3 times eight runs one after the other. The rate counts the arithmetic on the modes "
+        "alone, not that of the contact; "
         f"the share is of {peak / 1e9:.0f} G/s, what numpy reaches here on one core in products of large matrices."
     )
     return "\n\n".join(

@@ -200,3 +200,58 @@ pub(super) mod x86 {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::body::combine;
+    use super::{Group, Plain, Wide, LANES};
+
+    /// Sums of 7 rows of 11 groups, with what was there, and of the lanes of the first eight.
+    fn found<W: Wide>() -> (Vec<Group>, Group) {
+        let number = |k: usize| ((k * 7919 + 13) % 1009) as f64 / 1009.0 - 0.5;
+        let rows: Vec<Group> = (0..77)
+            .map(|row| std::array::from_fn(|l| number(row * LANES + l)))
+            .collect();
+        let x = [0.3, 0.0, -0.7, 0.0, 0.0, 1.1, 0.9];
+        let mut sum = rows[60..71].to_vec();
+        combine::<W>(&rows, &x, &mut sum);
+        let lanes = rows.as_chunks().0;
+        (sum, W::sums(&lanes[0]))
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    fn check<W: Wide>() {
+        let ((sums, totals), (ours, our_totals)) = (found::<Plain>(), found::<W>());
+        let pairs = sums.as_flattened().iter().zip(ours.as_flattened());
+        for (one, other) in pairs.chain(totals.iter().zip(&our_totals)) {
+            assert!((one - other).abs() < 4e-16, "{one} {other}");
+        }
+    }
+
+    #[test]
+    fn plain_sums_are_what_they_say() {
+        let (sums, totals) = found::<Plain>();
+        let number = |k: usize| ((k * 7919 + 13) % 1009) as f64 / 1009.0 - 0.5;
+        for (k, sum) in sums.as_flattened().iter().enumerate() {
+            let terms = [(0, 0.3), (2, -0.7), (5, 1.1), (6, 0.9)];
+            let expected = terms.map(|(row, x)| x * number(row * 88 + k)).iter().sum::<f64>();
+            assert!((sum - expected - number(480 + k)).abs() < 4e-16);
+        }
+        for (k, total) in totals.iter().enumerate() {
+            let expected = (0..LANES).map(|l| number(k * LANES + l)).sum::<f64>();
+            assert!((total - expected).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    #[cfg(target_arch = "x86_64")]
+    fn wide_registers_sum_like_plain_numbers() {
+        use super::x86::{Avx2, Avx512};
+        if is_x86_feature_detected!("avx512f") {
+            check::<Avx512>();
+        }
+        if is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma") {
+            check::<Avx2>();
+        }
+    }
+}

@@ -20,7 +20,7 @@ const INVERT_AFTER: u32 = 20;
 const INVERTIBLE: f64 = 1e-6;
 
 /// Sets of states whose factors are kept: a crack that slides comes back to the same few again and again.
-const KEPT: usize = 8;
+const KEPT: usize = 24;
 
 /// The factors of the last few sets.
 pub(super) struct Kept {

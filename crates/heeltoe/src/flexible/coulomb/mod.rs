@@ -83,6 +83,8 @@ pub(super) struct Solver {
     /// Velocities of the solution.
     pub u: Vec<f64>,
     factors: Kept,
+    /// A set met before, to know a circle by.
+    mark: Vec<Status>,
 }
 
 impl Solver {
@@ -104,36 +106,57 @@ impl Solver {
     /// Solve, starting from the states of the last time; `Absent` ones must have been set by the caller.
     #[inline(always)]
     pub(super) fn solve<W: Wide>(&mut self, problem: &mut Problem, crack: &mut impl Answering) -> Report {
-        let mut report = Report {
-            swept: true,
-            ..Report::default()
-        };
-        while report.iterations < AT_ONCE + ONE_BY_ONE {
+        let mut report = Report::default();
+        let mut found = false;
+        for (worst_only, most) in [(false, AT_ONCE), (true, ONE_BY_ONE)] {
+            found = found || self.search::<W>(problem, crack, worst_only, most, &mut report);
+        }
+        if !found {
+            let status = &self.status;
+            crack.fill(problem, |contact| status[contact] != Status::Absent);
+            self.sweep(problem);
+            report.swept = true;
+        }
+        if self.clip() || !found {
+            crack.velocities::<W>(problem, &self.p, &mut self.u);
+        }
+        report.residual = self.residual(problem);
+        report
+    }
+
+    /// Go from set to set; false where none is right of so many, or they come round in a circle.
+    #[inline(always)]
+    fn search<W: Wide>(
+        &mut self,
+        problem: &mut Problem,
+        crack: &mut impl Answering,
+        worst_only: bool,
+        most: u32,
+        report: &mut Report,
+    ) -> bool {
+        self.mark.clear();
+        for trial in 1..=most {
             report.iterations += 1;
             let status = &self.status;
             if !self.factors.turn_to(status) {
                 crack.fill(problem, |contact| status[contact].closed());
                 if !self.factors.now().factor::<W>(problem, status) {
-                    break;
+                    return false;
                 }
             }
             self.factors.now().solve::<W>(problem, &mut self.p);
             crack.velocities::<W>(problem, &self.p, &mut self.u);
-            if !self.amend(problem, report.iterations > AT_ONCE) {
-                report.swept = false;
-                break;
+            if !self.amend(problem, worst_only) {
+                return true;
+            }
+            if self.status == self.mark {
+                return false;
+            }
+            if trial.is_power_of_two() {
+                self.mark.clone_from(&self.status);
             }
         }
-        if report.swept {
-            let status = &self.status;
-            crack.fill(problem, |contact| status[contact] != Status::Absent);
-            self.sweep(problem);
-        }
-        if self.clip() || report.swept {
-            crack.velocities::<W>(problem, &self.p, &mut self.u);
-        }
-        report.residual = self.residual(problem);
-        report
+        false
     }
 
     /// Change the state of the contacts that break their conditions, all or the worst; false where none does.
@@ -192,27 +215,29 @@ impl Solver {
         least < 0.0
     }
 
-    /// Residual of the solution.
+    /// Residual of the solution. Nothing is known or felt of an absent contact, so that it adds nothing.
     #[inline(always)]
     fn residual(&self, problem: &Problem) -> f64 {
         let m = self.status.len();
+        let (p_t, p_n) = self.p.split_at(m);
+        let (u_t, u_n) = self.u.split_at(m);
+        let (b_t, b_n) = problem.b.split_at(m);
+        let (scale_t, scale_n) = problem.scale.split_at(m);
         let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
-        for contact in 0..m {
-            if self.status[contact] == Status::Absent {
-                continue;
-            }
-            let (p_t, p_n) = (self.p[contact], self.p[m + contact]);
-            let (u_t, u_n) = (self.u[contact], self.u[m + contact] + problem.h[contact]);
-            let (scale_t, scale_n) = (problem.scale[contact], problem.scale[m + contact]);
-            let (b_t, b_n) = (problem.b[contact], problem.b[m + contact]);
-            largest = largest.max(p_n).max(b_t.abs() * scale_t).max(b_n.abs() * scale_n);
+        for (k, status) in self.status.iter().enumerate() {
+            let (p_t, p_n, scale_t, scale_n) = (p_t[k], p_n[k], scale_t[k], scale_n[k]);
+            let stops = (b_t[k].abs() * scale_t).max(b_n[k].abs() * scale_n);
+            largest = largest.max(p_n).max(stops);
             // The natural map: zero exactly where the conditions hold.
-            worst = worst.max(p_n.min(u_n * scale_n).abs());
-            let mu = match self.status[contact] {
-                Status::Stick => problem.mu_stick[contact],
-                _ => problem.mu_slip,
-            };
-            worst = worst.max((p_t - (p_t - u_t * scale_t).clamp(-mu * p_n, mu * p_n)).abs());
+            worst = worst.max(p_n.min((u_n[k] + problem.h[k]) * scale_n).abs());
+            let sticks = *status == Status::Stick;
+            let limit = p_n
+                * if sticks {
+                    problem.mu_stick[k]
+                } else {
+                    problem.mu_slip
+                };
+            worst = worst.max((p_t - (p_t - u_t[k] * scale_t).max(-limit).min(limit)).abs());
         }
         if largest > 0.0 {
             worst / largest
