@@ -46,6 +46,7 @@ def test_things_say_what_they_are_in_a_few_lines(case, response, grid, typical_b
         (heeltoe.overturning_map(read_case(SLENDER), count=2), ("OverturningMap",)),
     ):
         said = repr(thing)
+        assert str(thing) == said
         assert all(word in said for word in words), said
         assert len(said) < 1200
         assert said.count("\n") < 8

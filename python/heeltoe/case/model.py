@@ -71,6 +71,8 @@ class Case(Shown, Fields):
         ]
         return f"<Case {self.title or 'untitled'!r}: {'; '.join(parts)}>"
 
+    __str__ = __repr__
+
     @model_validator(mode="after")
     @collected
     def _agree(self) -> Self:
