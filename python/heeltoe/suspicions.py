@@ -94,6 +94,12 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "{name} ends at {end_velocity_m_s:.3g m/s}, {share:.0%} of its largest velocity: its baseline drifts, or it "
         "was cut",
     ),
+    "motion-jumps": (
+        "caution",
+        "motion",
+        "{name} {place} at {jump_g:.3g g}, {share:.0%} of its peak: the ground jumps by as much against the rest that "
+        "it is in before and after the record; give more of the record, or taper it (motion.processing)",
+    ),
     "motion-spike": (
         "caution",
         "motion",

@@ -169,6 +169,11 @@ def test_checks():
     assert codes(motion(1e-4 * G * wave)) == ["motion-weak"]
     assert "motion-clipped" in codes(motion(np.clip(wave, -0.5, 0.5)))
     assert "motion-drifts" in codes(motion(wave + 0.5))
+    wave = -0.4 * G * np.cos(np.arange(346) * np.pi / 30.0)
+    (jump,) = check_record(motion(wave), G)
+    assert str(jump).startswith("m starts at -0.4 g, 100% of its peak: the ground jumps by as much")
+    (jump,) = check_record(motion(wave[::-1]), G)
+    assert str(jump).startswith("m ends at -0.4 g")
     gap = GroundMotion.from_points(np.r_[np.arange(30), np.arange(60, 90)] * 0.01, np.tile(wave[:60:2], 2))
     (said,) = (said for said in check_record(gap, G) if said.code == "motion-gap")
     assert said.time_s == pytest.approx(0.29)

@@ -17,6 +17,8 @@ _DRAWN = 20
 # How far the peak reaches beyond all but its next neighbours: of some seventy records of strong motion Landers 1992 has
 # the most, 1.5, but for Cape Mendocino 1992, whose spikes are doubted: 2.1 and 3.0 beyond three samples on each side.
 _LONE, _DOUBTED = 3.0, 2.0
+# A record that starts or ends at more than this part of its peak jumps there from rest, or to it.
+_JUMP = 0.1
 # Longest step [s] with which a record tells what a dam feels.
 _COARSE = 0.1
 _UP = re.compile(r"\b(?:up|ud|u-d|vert(?:ical)?|ver|down|dwn|dn|[behl][hnl]z)\b|^\s*[vz]\s*$", re.IGNORECASE)
@@ -82,6 +84,9 @@ def check_record(
     top = np.abs(motion.acceleration) >= motion.pga * (1.0 - 1e-12)
     if motion.pga > 0.0 and (top[:-3] & top[1:-2] & top[2:-1] & top[3:]).any():
         say("motion-clipped")
+    for place, value in (("starts", motion.acceleration[0]), ("ends", motion.acceleration[-1])):
+        if motion.format != "points" and abs(value) > _JUMP * motion.pga:
+            say("motion-jumps", place=place, jump_g=float(value) / gravity, share=float(abs(value)) / motion.pga)
     return tuple(said)
 
 
