@@ -88,3 +88,9 @@ def test_a_rigid_pass_has_its_caveat():
     assert all(check.met for check in response.limits)
     assert verdict(response).startswith("As a rigid block, the dam slides")
     assert "As a rigid block it keeps within its limits; as a dam that vibrates it may not." in verdict(response)
+
+
+def test_the_event_limit_counts_the_events_that_are_told():
+    response = rigid(example("koyna-top", "analysis.event_limit=5"))
+    assert response.outcome == "event limit"
+    assert response.events == response.events_table().num_rows
