@@ -23,6 +23,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "give the path of a case file; `heeltoe new NAME` writes one",
     ),
     "case-file-unreadable": ("cannot be read ({reason})", "give the path of a case file in TOML or JSON"),
+    "case-file-large": ("has more than {value}", "give a case file"),
     "case-file-encoding": ("is not UTF-8 text", "save it as UTF-8"),
     "case-file-syntax": (
         "is not valid {kind}: {reason}",
@@ -245,6 +246,8 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "cannot be read ({reason})",
         "give a mesh in a format that meshio reads, for example .msh, .vtu or .inp",
     ),
+    "mesh-include": ("includes another file, which is not read", "put all of the mesh into one file"),
+    "mesh-large": ("has more than {value}", "give a mesh of some thousand elements"),
     "mesh-not-finite": ("node {value} has no finite coordinates", "correct it"),
     "mesh-plane": ("is not plane", "give a mesh in the plane x, y or x, z"),
     "mesh-kind": (
@@ -297,6 +300,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "pandas-package": ("needs the package pandas, which is not installed", "pip install heeltoe[pandas]"),
     "figure-format": ("{value} has no ending of a figure", "end it in .png, .svg or .pdf"),
     "output-step": ("{value} is not a step within the run", "give one above 0 s and up to {duration}"),
+    "output-many": ("a step of {value} makes {count:.3g} moments", "give a step that makes up to {most:.3g}"),
     "unknown-model": ("{value} is no model", "use {models}{near}"),
     "unknown-units": ("{value} is no system of units", "use si or us"),
     "block-number": ("{value} is no number of a block", "give {bounds}"),

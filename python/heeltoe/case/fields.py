@@ -30,7 +30,7 @@ Channel = Annotated[
 STEEPEST = 0.7853982
 
 Truth = Annotated[bool, Field(strict=True)]
-Count = Annotated[int, Field(strict=True, ge=1)]
+Count = Annotated[int, Field(strict=True, ge=1, le=10**12)]
 
 
 class Fields(Named, BaseModel):

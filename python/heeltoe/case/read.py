@@ -18,6 +18,9 @@ from heeltoe.case.changes import Changes, apply
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError, shown
 
+# A case is some kilobytes; what never ends, as /dev/zero, is none.
+_LARGEST = 10_000_000
+
 
 def read_case(source: str | os.PathLike[str] | Mapping[str, Any], changes: Changes = ()) -> Case:
     """Read and check a case.
@@ -59,7 +62,11 @@ def case_schema() -> dict[str, Any]:
 def _parsed(path: Path) -> dict[str, Any]:
     name = str(path)
     try:
-        text = path.read_bytes().decode("utf-8-sig")  # editors on Windows begin a file with a byte order mark
+        with path.open("rb") as file:
+            content = file.read(_LARGEST + 1)
+        if len(content) > _LARGEST:
+            raise InputError("case-file-large", name, f"{_LARGEST // 10**6} MB")
+        text = content.decode("utf-8-sig")  # editors on Windows begin a file with a byte order mark
     except FileNotFoundError:
         raise InputError("case-file-missing", name) from None
     except UnicodeDecodeError:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shlex
 import sys
 from collections.abc import Callable, Iterator, Sequence
@@ -48,7 +49,7 @@ def command_line() -> str:
 
 def as_given(motion: str) -> str:
     """A path on the command line is relative to where the user stands, not to the case file."""
-    path = Path(motion).expanduser()
+    path = Path(os.path.expanduser(motion))  # unlike that of paths, it leaves nobody's home as it is
     return str(path.resolve()) if path.is_file() else motion
 
 

@@ -64,9 +64,15 @@ def run_rigid(
     )
 
 
+#: Moments that a history may have: each takes some 200 bytes, here and in the file.
+MOST_MOMENTS = 2_000_000
+
+
 def _moments(time: Floats, step: float | None) -> Floats:
     if step is None:
         return np.unique(time)
     if not 0.0 < step <= time[-1]:
         raise InputError("output-step", "output_step", f"{step:g} s", duration=f"{time[-1]:g} s")
+    if time[-1] / step > MOST_MOMENTS:
+        raise InputError("output-many", "output_step", f"{step:g} s", count=time[-1] / step, most=MOST_MOMENTS)
     return np.arange(int(np.floor(time[-1] / step * (1.0 + 1e-12))) + 1, dtype=np.float64) * step

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import re
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,8 @@ from heeltoe.models.flexible.mesh.checks import check_elements, check_pieces
 
 # Meshers write the boundary beside the body.
 _BOUNDARY = {"vertex", "line", "line3"}
+# More than a mesh of a section takes in any format; some files never end, as /dev/zero.
+_LARGEST = 100_000_000
 
 
 def read_quadrilaterals(path: Path) -> tuple[Floats, Integers]:
@@ -73,11 +76,18 @@ def _read(path: Path) -> Any:
     try:
         with path.open("rb") as file:
             # Ansys has files of the same ending.
-            kind = "gmsh" if file.read(11) == b"$MeshFormat" else None
+            content = file.read(_LARGEST + 1)
+        kind = "gmsh" if content.startswith(b"$MeshFormat") else None
+        if len(content) > _LARGEST:
+            raise InputError("mesh-large", str(path), f"{_LARGEST // 10**6} MB")
+        if re.search(rb"^\s*\*include", content, re.IGNORECASE | re.MULTILINE):
+            raise InputError("mesh-include", str(path))
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             return meshio.read(path, kind)
     except SystemExit:  # this is how meshio ends when no reader for the ending knows the file
         raise InputError("mesh-unreadable", str(path), reason="it is not what its ending says") from None
+    except InputError:
+        raise
     except Exception as error:  # its readers fail in any way that Python knows
         raise InputError("mesh-unreadable", str(path), reason=str(error).rstrip(".")) from None
 

@@ -1,0 +1,69 @@
+"""What has no end, or asks for more than there is, is refused in one line before anything runs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from heeltoe import InputError, rigid
+from heeltoe.cli.common import as_given
+from heeltoe.models.flexible.mesh.file import _read
+from heeltoe.plain import plain
+from shared.cases import refusal
+from shared.command import process
+from shared.dams import BLOCK, example
+
+
+def test_a_case_without_end(tmp_path):
+    assert refusal("/dev/zero").code == "case-file-large"
+
+
+def test_more_moments_than_there_is_room_for():
+    with pytest.raises(InputError) as refused:
+        rigid(example("block"), output_step=1e-9)
+    assert refused.value.code == "output-many"
+
+
+def test_more_events_than_can_be_counted():
+    assert refusal(BLOCK, ["analysis.event_limit=18446744073709551616"]).code == "out-of-range"
+
+
+def test_a_home_of_nobody_is_a_name():
+    assert as_given("~nouser/record") == "~nouser/record"
+
+
+@pytest.mark.parametrize(
+    ("text", "code"), [("*Node\n *INCLUDE, INPUT=/dev/zero\n", "mesh-include"), (None, "mesh-large")]
+)
+def test_meshes_that_lead_elsewhere_or_never_end(tmp_path, text, code):
+    pytest.importorskip("meshio")
+    path = tmp_path / "dam.inp" if text else Path("/dev/zero")
+    if text:
+        path.write_text(text)
+    with pytest.raises(InputError) as refused:
+        _read(path)
+    assert refused.value.code == code
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("a\x1b[31mred", "a\\x1b[31mred"),
+        ("dam\nVerdict  all is well", "dam Verdict all is well"),
+        ("a\u202eb\0c\u2028d", "ab\\x00c d"),
+        ("\udcff é 水", "\\udcff é 水"),
+        ("x" * 2000, "x" * 197 + "..."),
+    ],
+)
+def test_words_of_strangers(text, shown):
+    assert plain(text) == shown
+
+
+def test_titles_and_names_reach_the_terminal_harmless(tmp_path):
+    text = BLOCK.read_text(encoding="utf-8").replace("Block pushed once", "a\\u001b[31m\\u202e\\nVerdict  fine")
+    (tmp_path / "dam.toml").write_text(text, encoding="utf-8")
+    said = process("run", "dam.toml", cwd=tmp_path, columns=0)
+    assert said.returncode == 0, said.stderr
+    assert said.stdout.startswith("a\\x1b[31m Verdict fine  (rigid model)\n")
+    assert sum(line.startswith("Verdict") for line in said.stdout.splitlines()) == 1
