@@ -188,7 +188,7 @@ def test_examples_are_sound_and_survive_json(path):
 
 
 def test_examples_hold_the_dams_of_the_thesis():
-    cases = {path.stem: read_case(path) for path in EXAMPLES}
+    cases = {path.stem: read_case(path) for path in (*EXAMPLES, *sorted((DIRECTORY / "thesis").glob("*.toml")))}
     base, top = cases["typical-base"], cases["typical-height"]
     assert base.section == top.section
     assert (base.concrete.density, base.concrete.modulus, base.reservoir.depth) == (2650.0, 20e9, 100.0)

@@ -157,7 +157,7 @@ def test_flexible_says_what_its_result_rests_on(tmp_path):
         assert words in result.stdout, words
     data = json.loads((tmp_path / "result.json").read_text())
     assert data["model"] == "flexible"
-    assert data["damping"] == "thesis"
+    assert data["damping"] == "relative"
     assert len(data["periods_s"]) == 5
     assert data["evidence"]["other_time_step_s"] == pytest.approx(2.0 * data["time_step_s"], rel=1e-3)
     energy = data["energy"]

@@ -75,7 +75,9 @@ def test_the_way_of_a_rigid_run_is_straight():
         sys.setprofile(None)
     assert calls["heeltoe.geometry.section.cut"] == 1
     assert calls["heeltoe.mechanics.block.build_block"] == 1
-    # The door hands it on, and takes the result back.
-    entered = Counter(way) - Counter({"heeltoe.models.run": 2})
+    # What looks whether a case is one is no station. The door hands it on, and takes the result back; a block is made
+    # after its loads.
+    way = [each for each in way if each not in ("heeltoe.errors", "heeltoe.shown")]
+    entered = Counter(way) - Counter({"heeltoe.models.run": 2, "heeltoe.mechanics.block": 1})
     assert max(entered.values()) == 1, way
-    assert len(entered) <= 16, way
+    assert len(entered) <= 15, way

@@ -7,6 +7,7 @@ import pytest
 
 from heeltoe import InputError, overturning_map, read_case
 from heeltoe.study.overturning import ENDS
+from heeltoe.whole import LISTED
 from shared.command import command
 
 SLENDER = {
@@ -79,7 +80,12 @@ def test_on_the_command_line(tmp_path):
     result = command("overturning", case, "--count", "8", "--out", out, "--json", tmp_path / "map.json")
     assert result.returncode == 0, result.stderr
     assert "safe gap" in result.stdout
-    assert sorted(path.name for path in out.iterdir()) == ["overturning.csv", "overturning.png", "overturning.svg"]
+    assert sorted(path.name for path in out.iterdir()) == [
+        LISTED,
+        "overturning.csv",
+        "overturning.png",
+        "overturning.svg",
+    ]
     data = json.loads((tmp_path / "map.json").read_text())
     assert np.array(data["end"]).shape == (8, 8)
     assert len((out / "overturning.csv").read_text().splitlines()) == 65

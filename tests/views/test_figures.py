@@ -25,6 +25,7 @@ from heeltoe.views.figures.spectrum import spectrum_figure
 from heeltoe.views.figures.style import without_heading
 from heeltoe.views.figures.write import save_all
 from heeltoe.views.files.write import write_all
+from heeltoe.whole import LISTED
 from shared.dams import ALL_EXAMPLES, BASE, BLOCK, FAST, example
 from shared.drawn import check, texts
 
@@ -112,7 +113,7 @@ def test_a_run_that_never_started_has_its_section_alone(tmp_path):
     assert save_all(all_figures(None, response), tmp_path) == []
     assert set(all_figures(case, response)) == {"section"}
     write_all(response, tmp_path, case)
-    assert {path.name for path in tmp_path.iterdir()} == {"result.json", "section.png", "section.svg"}
+    assert {path.name for path in tmp_path.iterdir()} == {LISTED, "result.json", "section.png", "section.svg"}
 
 
 def test_a_run_without_any_motion_has_figures():

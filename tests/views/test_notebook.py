@@ -24,7 +24,7 @@ def test_notebooks_show_cases_motions_and_results(block, typical_both):
     for shown_object, words in (
         (case, ("2650 kg/m³", "reservoir.depth", "<svg")),
         (response.motion, ("peak acceleration", "1 g", "m/s", "<polyline")),
-        (response, ("residual slip", "mm", "The dam slides", "<polyline")),
+        (response, ("residual slip", "mm", "the dam slides", "<polyline")),
     ):
         found = shown_object._repr_html_()
         Reader(found)

@@ -242,7 +242,7 @@ def test_water_that_changes_nothing_changes_nothing():
 )
 def test_the_penalty_method_knows_contact_alone(change, words):
     with pytest.raises(InputError, match=words) as caught:
-        flexible(typical(0.0, change, 'flexible.contact="idce"'), SHAKEN)
+        flexible(typical(0.0, change, 'flexible.contact="idce"', 'flexible.damping="stiffness"'), SHAKEN)
     assert caught.value.code == "contradiction"
     assert 'flexible.contact = "idce"' in str(caught.value)
 
