@@ -211,7 +211,7 @@ def test_both_end_with_3_where_neither_has_a_result():
 def test_a_dam_that_is_lost_is_no_result(tmp_path):
     (tmp_path / "slide.toml").write_text(
         'section = { polygon = [["0 m", "0 m"], ["0.2 m", "0 m"], ["0.2 m", "0.2 m"], ["0 m", "0.2 m"]] }\n'
-        'concrete = { modulus = "20 GPa" }\ncrack = { friction = 0.01 }\nreservoir = { depth = "0.2 m" }\n'
+        'concrete = { modulus = "20 GPa" }\ncrack = { friction = 0.01 }\n'
         'flexible = { elements_across = 1, evidence = "none" }\n'
         'motion = { points = [["0 s", "-3 g"], ["3 s", "-3 g"]] }\n'
     )

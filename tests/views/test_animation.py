@@ -106,7 +106,7 @@ def test_parts_do_not_visibly_run_into_each_other(elastic):
     case, response = elastic
     scene = build_scene(case, response, response.crack.time, None)
     bottom, top = scene.views[-1][2:]
-    assert scene.exaggeration >= 5.0
+    assert scene.exaggeration >= 2.0
     for frame in range(len(scene.times)):
         upper, lower = (part.drawn(frame, scene.exaggeration)[part.crack] for part in scene.parts)
         over = (upper[:, 0] >= lower[0, 0]) & (upper[:, 0] <= lower[-1, 0])

@@ -128,12 +128,13 @@ def test_statuses_agree_with_gaps(response):
     history = response.crack
     names = history.status_names()
     status, gaps = history.node_status()[0], history.gaps()
+    way = response.summary["time_step_s"] * response.summary["largest_impact_velocity_m_s"]
     for name in ("stick", "slip downstream", "slip upstream"):
         closed = gaps[status == names.index(name)]
         assert closed.size
-        # Contact on velocity level leaves a node that was struck a little inside the other face. A node that sticks
-        # right at the end may be beyond it by a rounding error.
-        assert np.nanmax(np.abs(closed)) < 1e-4
+        # Contact on velocity level leaves a node within a step's way of where it struck. A node that sticks right at the
+        # end may be beyond it by a rounding error.
+        assert np.nanmax(np.abs(closed)) <= way < 1e-3
     assert (status[np.nan_to_num(gaps) > 1e-3] == names.index("open")).all()
 
 

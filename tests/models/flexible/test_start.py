@@ -92,3 +92,19 @@ def test_a_crack_that_holds_bonded_is_left_as_it_was():
     assert one.start.stands
     assert one.start.slip == pytest.approx(0.0, abs=1e-12)
     assert one.start.open_contacts == 0
+
+
+@pytest.mark.parametrize("friction", [0.01, 0.6])
+@pytest.mark.parametrize("across", [1, 4])
+def test_a_dam_without_water_is_at_rest(across, friction):
+    """Weight deforms no part that is free: what the bonded crack has been bent by says what is a small motion."""
+    corners = [["0 m", "0 m"], ["2 m", "0 m"], ["2 m", "3 m"], ["0 m", "3 m"]]
+    fields = {
+        "section": {"polygon": corners},
+        "concrete": {"modulus": "20 GPa"},
+        "crack": {"friction": friction},
+        "flexible": {"elements_across": across},
+    }
+    dam = build_flexible_dam(read_case(fields))
+    assert dam.start.stands
+    assert dam.start.slip == pytest.approx(0.0, abs=1e-9)

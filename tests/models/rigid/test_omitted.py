@@ -42,7 +42,8 @@ def test_a_crack_at_a_height_is_shaken_by_what_is_below():
     text = str(said(rigid(case)))
     assert "at the crack, 90 m above the base" in text
     about = float(text.split(" times the ground")[0].rsplit(maxsplit=1)[-1])
-    assert about == pytest.approx(peak, rel=0.2)
+    # Three modes of a beam, whose largest need not come together.
+    assert about == pytest.approx(peak, rel=0.25)
 
 
 def test_what_is_too_stiff_for_any_earthquake_needs_no_warning():

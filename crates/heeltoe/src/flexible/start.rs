@@ -21,7 +21,7 @@ use super::wide::Plain;
 /// What holds a free part, as a share of the smallest squared frequency.
 const HOLD: f64 = 1e-2;
 const STEPS: usize = 3000;
-/// Six steps in turn that move the crack by less than this share of its static displacement have done all they can: each
+/// Six steps in turn that move the crack by less than this share of its static deformation have done all they can: each
 /// leaves a hundredth of the one before at most, and rounding leaves some 1e-11.
 const NOTHING: f64 = 1e-8;
 
@@ -143,7 +143,10 @@ pub(super) fn find(dam: &Dam) -> Option<Still> {
     let mut sides = dam.bodies.map(|body| Side::new(body, HOLD * lowest));
     let mut crack = Crack::new(dam, 0);
     let bonded = slip(&sides);
-    let stretched = dam.bodies.iter().flat_map(stretch);
+    let stretched = dam
+        .bodies
+        .iter()
+        .flat_map(|body| [stretch(body), bent(body)].concat());
     let scale = stretched.fold(0.0_f64, |a, u| a.max(u.abs()));
     let mut settled = 0;
     for _ in 0..STEPS {
@@ -182,6 +185,14 @@ fn step(dam: &Dam, crack: &mut Crack, sides: &mut Sides<Side>) {
     crack.solver.solve::<Plain>(&mut crack.problem, &mut Known);
     let (upper, lower) = sides.both_mut(|side| &mut side.force);
     crack.impulses(upper, lower);
+}
+
+/// How far the crack of a part has moved by its deformation while it is bonded. Weight alone deforms no free part.
+fn bent(body: &ReducedBody) -> Vec<f64> {
+    let pairs = body.start.iter().zip(&body.omega_squared);
+    let amplitude =
+        |(q, w): (&Group, &Group)| -> Group { std::array::from_fn(|l| if w[l] > 0.0 { q[l] } else { 0.0 }) };
+    body.at_crack(&pairs.map(amplitude).collect::<Vec<_>>())
 }
 
 /// How far the static loads would move the crack of a part by its deformation.

@@ -35,7 +35,7 @@ _SHARES = {"section": 0.7, "spectrum": 0.7, "slip-by-mode": 0.8, "energy": 0.8, 
 # Histories are drawn lower than on a page of their own, so that two of them share one, or one and a table; letters stay
 # as large as they are.
 _LOWER = {"comparison": 0.8, "response": 0.75, "accelerations": 0.75, "forces": 0.9, "crack-level": 0.75}
-_LOWER |= {"crack": 0.9, "pressure": 0.75}
+_LOWER |= {"crack": 0.8, "pressure": 0.75}
 _LEAST_HEIGHT = 4.5
 # Flatter ones have panels side by side, with no room to spare.
 _FLAT = 0.47
