@@ -132,8 +132,8 @@ def test_statuses_agree_with_gaps(response):
     for name in ("stick", "slip downstream", "slip upstream"):
         closed = gaps[status == names.index(name)]
         assert closed.size
-        # Contact on velocity level leaves a node within a step's way of where it struck. A node that sticks right at the
-        # end may be beyond it by a rounding error.
+        # Contact on velocity level leaves a node within a step's way of where it struck. A node that sticks right at
+        # the end may be beyond it by a rounding error.
         assert np.nanmax(np.abs(closed)) <= way < 1e-3
     assert (status[np.nan_to_num(gaps) > 1e-3] == names.index("open")).all()
 
