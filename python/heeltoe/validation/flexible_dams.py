@@ -211,11 +211,17 @@ def halving() -> Iterator[Row]:
     motion, run = _taft(0.4), Runs()
     for friction in (1.0, 1.2):
         base = f"base crack, friction {friction}, water 100 m"
-        yield (
-            row := _half_step(f"{base}: 0.2 and 0.4 ms", run, _typical(friction, 100.0, evidence="step"), motion, 0.03)
-        )
+        yield _half_step(f"{base}: 0.2 and 0.4 ms", run, _typical(friction, 100.0, evidence="step"), motion, 0.03)
+        said = run(_typical(friction, 100.0, evidence="full"), motion).summary["evidence"]["residual_slip_m"]
         fine = run.slip_mm(_typical(friction, 100.0, elements_across=16), motion)
-        yield Row(f"{base}: 8 and 16 across", row.reference, fine, 0.03, kind="own run")
+        yield Row(
+            f"{base}: 8 and 16 across",
+            1e3 * said["run"],
+            fine,
+            said["uncertainty"] / said["run"],
+            remark="within what the evidence at 8 across says",
+            kind="own run",
+        )
     high = "crack at 90 m, friction 1, water 95 m"
     yield (row := _half_step(f"{high}: 0.1 and 0.2 ms", run, _cracked_high(1.0, 95.0, evidence="step"), motion, 0.10))
     fine = run.slip_mm(_cracked_high(1.0, 95.0, elements_across=16), motion)

@@ -18,7 +18,7 @@ from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.rigid.varying import varying
 from heeltoe.validation.row import Row
 
-#: Blocks of the validation. The slow tests run a hundred thousand.
+#: Blocks of the validation. The slow tests run forty thousand.
 COUNT = 1000
 _RULES = ("constant", "zero while open", "full while open", "follows opening")
 

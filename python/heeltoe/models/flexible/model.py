@@ -49,14 +49,15 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
     case, dam = shaken.case, shaken.dam
     block = build_block(case)
     outcome, advice = outcome_of(dam, block, run)
-    growth = self_excitation(shaken, run)
+    # One that slides by itself needs no vibration to go on.
+    growth = None if outcome == "unstable" else self_excitation(shaken, run)
     history = history_of(case, dam, run)
     return FlexibleResponse(
         model="flexible",
         title=case.title,
         outcome=outcome,
         advice=advice,
-        warnings=tuple(warnings_of(shaken, run, history, evidence, growth, block.sliding_safety_factor)),
+        warnings=tuple(warnings_of(shaken, run, history, evidence, growth, block.sliding_safety_factor, outcome)),
         summary=summary_of(shaken, run, evidence)
         | {
             "self_excitation": None if growth is None else growth.to_json(),

@@ -72,14 +72,17 @@ def warnings_of(
     evidence: Evidence | None,
     growth: Growth | None,
     safety: float | None,
+    outcome: str,
 ) -> list[Notice]:
-    """Return what a reader of a flexible run must know; `safety` is that against sliding under the static loads."""
+    """Return what a reader of a flexible run must know; `safety` is that against sliding under the static loads, and
+    `outcome` that of :func:`outcome_of`."""
     case, dam = shaken.case, shaken.dam
     return [
         *_about_the_slip(dam, evidence, safety),
         *_about_the_growth(growth, run.summary),
         *_about_the_concrete(case, dam),
-        *_about_the_end(case, run),
+        *(_about_the_end(run) if outcome == "ok" else ()),
+        *_about_the_anchors(case, run),
         *_about_the_contact(case, run, history),
     ]
 
@@ -133,14 +136,17 @@ def _about_the_concrete(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
         yield Notice("modes-few", error=dam.basis_error)
 
 
-def _about_the_end(case: Case, run: DamRun) -> Iterator[Notice]:
+def _about_the_end(run: DamRun) -> Iterator[Notice]:
     frames = run.frames
     last = last_change(frames["time"], frames["slip"], frames["opening_heel"], frames["opening_toe"])
-    if run.outcome == "ok" and last.change_m > JOINT_METER_M:
+    if last.change_m > JOINT_METER_M:
         span = "second" if last.seconds == 1.0 else f"{last.seconds:.2g} s"
         yield Notice(
             "dam-still-moves", time_s=run.summary["end_time"], span=span, what=last.what, change_m=last.change_m
         )
+
+
+def _about_the_anchors(case: Case, run: DamRun) -> Iterator[Notice]:
     for number, anchor in enumerate(anchors_of(case, run), start=1):
         tension, capacity = anchor["peak_tension_n"] or 0.0, anchor["capacity_n"]
         if capacity is not None and tension > capacity:
