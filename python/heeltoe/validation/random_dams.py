@@ -141,8 +141,8 @@ def random_dams() -> Iterator[Row]:
     )
     ordinary = (
         f"friction up to {FRICTION:g}, damping from {DAMPING:.1%}, steps up to {STEP:.0%} of the first period. Of 4000 "
-        "other draws none made more than 2.6e-5 (one with friction 2 made 1.1e-4), or left over more than 2.8e-6 (contactors of type 5, whose load is "
-        "shared)"
+        "other draws none made more than 2.6e-5 (one with friction 2 made 1.1e-4), or left over more than 2.8e-6 "
+        "(contactors of type 5, whose load is shared)"
     )
     beyond = (
         "friction can drive a dam where a step is long, damping and theta - 1/2 nothing or friction beyond 1.5: a "
