@@ -148,6 +148,11 @@ pub(super) fn find(dam: &Dam) -> Option<Still> {
         .iter()
         .flat_map(|body| [stretch(body), bent(body)].concat());
     let scale = stretched.fold(0.0_f64, |a, u| a.max(u.abs()));
+    // A part that begins off the plane below it, as one that leans, is let go as it is.
+    let across = &sides.upper.position[sides.upper.body.nodes..];
+    if sides.lower.is_none() && across.iter().any(|gap| gap.abs() > scale) {
+        return None;
+    }
     let mut settled = 0;
     for _ in 0..STEPS {
         step(dam, &mut crack, &mut sides);
