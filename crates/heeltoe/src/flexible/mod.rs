@@ -4,6 +4,7 @@
 //! so that nothing passes through the crack and friction is Coulomb's.
 
 mod acting;
+mod answering;
 mod body;
 mod contact;
 mod coulomb;

@@ -19,10 +19,8 @@
 //! that.
 
 use super::acting::Acting;
+use super::answering::FacesAnswer;
 use super::body::dot;
-use super::contact::Contacts;
-use super::coulomb::{Answering, Problem};
-use super::coupling::Blocks;
 use super::dam::{Dam, Shaking, Wanted};
 use super::dampers::Dampers;
 use super::ledger::Ledger;
@@ -352,52 +350,6 @@ impl<'a> Moreau<'a> {
         ledger.turnover += self.dampers.taken;
         ledger.stored = energy(&self.bodies) + ledger.springs;
         ledger
-    }
-}
-
-/// How the crack answers in a step, by what its faces do.
-struct FacesAnswer<'s, 'a> {
-    contacts: &'s Contacts,
-    blocks: &'s mut Blocks,
-    bodies: &'s mut Sides<Moving<'a>>,
-    dampers: &'s mut Dampers,
-    damping: usize,
-    softness: f64,
-}
-
-impl Answering for FacesAnswer<'_, '_> {
-    #[inline(always)]
-    fn fill(&mut self, problem: &mut Problem, wanted: impl Fn(usize) -> bool) {
-        let answers = self.bodies.map(|body| body.answers(self.damping));
-        let gain = &self.dampers.gain[self.damping];
-        self.blocks.fill(
-            &mut problem.g,
-            self.contacts,
-            answers,
-            gain,
-            self.softness,
-            wanted,
-        );
-    }
-
-    #[inline(always)]
-    fn velocities<W: Wide>(&mut self, _: &Problem, p: &[f64], u: &mut [f64]) {
-        let (upper, lower) = self.bodies.both_mut(|body| &mut body.impulse);
-        self.contacts.spread(p, upper, lower);
-        for body in self.bodies.iter_mut() {
-            body.find_answer::<W>(self.damping);
-        }
-        if !self.dampers.is_empty() {
-            self.dampers.follow::<W>(self.bodies, self.damping);
-        }
-        for body in self.bodies.iter_mut() {
-            body.finish_answer();
-        }
-        let faces = self.bodies.faces(|body| body.at_crack(&body.answer));
-        self.contacts.relative(faces, u);
-        if self.softness > 0.0 {
-            u.iter_mut().zip(p).for_each(|(u, p)| *u += self.softness * p);
-        }
     }
 }
 
