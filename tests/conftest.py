@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
@@ -79,6 +80,22 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
         if untested:
             print(f"\ndeclared in a catalogue, but raised by no test: {', '.join(untested)}")
             session.exitstatus = 1
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Show what came of all attacks."""
+    reports = [each for found in terminalreporter.stats.values() for each in found if hasattr(each, "user_properties")]
+    rows = [
+        value for each in reports if each.when == "call" for name, value in each.user_properties if name == "attack"
+    ]
+    if not rows:
+        return
+    ends = ("accepted", "refused", "no result", "defect")
+    terminalreporter.write_sep("-", "attacks")
+    terminalreporter.write_line(f"{'':32s}{'tried':>10s}" + "".join(f"{end:>10s}" for end in ends))
+    for what, found in [*sorted(rows), ("all", sum((Counter(found) for _, found in rows), Counter()))]:
+        counts = "".join(f"{found.get(end, 0):>10d}" for end in ends)
+        terminalreporter.write_line(f"{what:32s}{sum(found.values()):>10d}{counts}")
 
 
 @pytest.fixture(scope="session")

@@ -37,6 +37,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "not-a-response": ("a {kind} is no response", "give what heeltoe.run, rigid, decoupled or flexible returns"),
     "not-a-motion": ("a {kind} is no ground motion", "give what heeltoe.read_record returns"),
     "not-a-list": ("a {kind} is no list", "put it into one"),
+    "usage": ("{value}", "`{command} --help` says what can be given"),
     "override-form": ("{value} sets nothing", "write PATH=VALUE, for example crack.friction=1.0"),
     "unit-missing": ("{value} has no unit", "write for example {example}"),
     "unit-unknown": ("{value} has a unit that is not known, {unit}", "write for example {example}"),

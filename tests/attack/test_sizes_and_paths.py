@@ -10,8 +10,8 @@ from heeltoe import InputError, rigid
 from heeltoe.cli.common import as_given
 from heeltoe.models.flexible.mesh.file import _read
 from heeltoe.plain import plain
-from shared.cases import refusal
-from shared.command import process
+from shared.cases import dam, refusal
+from shared.command import command, process
 from shared.dams import BLOCK, example
 
 
@@ -67,3 +67,23 @@ def test_titles_and_names_reach_the_terminal_harmless(tmp_path):
     assert said.returncode == 0, said.stderr
     assert said.stdout.startswith("a\\x1b[31m Verdict fine  (rigid model)\n")
     assert sum(line.startswith("Verdict") for line in said.stdout.splitlines()) == 1
+
+
+def test_a_directory_named_like_an_address(tmp_path, empty_figures):
+    said = command("run", BLOCK, "--out", "memory:dam", cwd=tmp_path)
+    assert said.returncode == 0, said.stderr
+    assert (tmp_path / "memory:dam" / "histories.parquet").exists()
+
+
+@pytest.mark.parametrize(
+    "arguments", [("run",), ("run", "a", "b"), ("periods", BLOCK, "--count=x"), ("fly",), ("--fly",), ("run", "--set")]
+)
+def test_options_and_commands_that_there_are_not_are_refused_in_one_line(arguments):
+    said = command(*arguments)
+    assert (said.returncode, said.stdout, said.stderr.count("\n")) == (2, "", 1)
+    assert said.stderr.startswith("heeltoe: ")
+    assert "--help` says what can be given" in said.stderr
+
+
+def test_halves_of_letters_are_refused():
+    assert refusal(dam(reservoir={"depth": "\ud800"})).code == "wrong-quantity"

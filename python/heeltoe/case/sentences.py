@@ -17,6 +17,7 @@ from pydantic import BaseModel, ValidationError, WithJsonSchema
 from pydantic_core import ErrorDetails, PydanticCustomError
 
 from heeltoe.errors import InputError, shown
+from heeltoe.plain import harmless
 
 P = typing.ParamSpec("P")
 R = typing.TypeVar("R")
@@ -41,7 +42,8 @@ def collected(check: Callable[P, R]) -> Callable[P, R]:
         try:
             return check(*args, **kwargs)
         except InputError as error:
-            context = {"text": f"{error.problem}; {error.remedy}", "error": error}
+            # Pydantic can hand on no halves of letters.
+            context = {"text": harmless(f"{error.problem}; {error.remedy}"), "error": error}
             raise PydanticCustomError("input_error", "{text}", context) from None
 
     return inner

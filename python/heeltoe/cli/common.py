@@ -12,12 +12,43 @@ from typing import Annotated, Any
 
 import typer
 from rich.console import Console
+from typer.core import TyperGroup
 
 from heeltoe.cli.streams import console, print_data
+from heeltoe.errors import InputError
 from heeltoe.plain import plain
 from heeltoe.whole import check_file, write_text
 
+# Typer shows this class of its click by its heirs alone.
+_UsageError: Any = typer.BadParameter.__mro__[1]
+
+
+class Commands(TyperGroup):
+    """The commands; options and arguments that cannot be used are refused in one line as all other input is."""
+
+    def make_context(self, info_name: str | None, args: list[str], *more: Any, **extra: Any) -> Any:
+        with _refused():
+            return super().make_context(info_name, args, *more, **extra)
+
+    def invoke(self, ctx: Any) -> Any:
+        with _refused():
+            return super().invoke(ctx)
+
+
+@contextmanager
+def _refused() -> Iterator[None]:
+    try:
+        yield
+    except _UsageError as error:
+        if type(error).show is not _UsageError.show:  # no arguments at all: shows the help
+            raise
+        path = str(error.ctx.command_path) if error.ctx else "heeltoe"
+        where = path.partition(" ")[2] or "command line"
+        raise InputError("usage", where, error.format_message().rstrip("."), command=path) from None
+
+
 app = typer.Typer(
+    cls=Commands,
     name="heeltoe",
     help="What a cracked concrete gravity dam does in an earthquake.",
     no_args_is_help=True,

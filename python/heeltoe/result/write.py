@@ -22,10 +22,12 @@ _MEASURES = ("arias_intensity_m_s", "cav_m_s", "significant_duration_s", "mean_p
 
 def write_table(table: pa.Table, path: Path) -> None:
     """Write a table to `path`: CSV if it ends so, else Parquet."""
-    if path.suffix == ".csv":
-        pa.csv.write_csv(table, path)
-    else:
-        pa.parquet.write_table(table, path)
+    # Opened here: Arrow would take a directory with a colon in its name for an address.
+    with path.open("wb") as file:
+        if path.suffix == ".csv":
+            pa.csv.write_csv(table, file)
+        else:
+            pa.parquet.write_table(table, file)
 
 
 def json_text(data: Mapping[str, Any]) -> str:

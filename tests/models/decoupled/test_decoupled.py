@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import csv
 import json
 from dataclasses import replace
@@ -19,6 +20,7 @@ from heeltoe.views.files.write import write_all
 from heeltoe.whole import LISTED
 from shared.command import command, options
 from shared.dams import KOYNA, SHORT
+from shared.every_field import BASE, put
 
 COARSE = SHORT[:1]
 STIFF = [*SHORT, "concrete.modulus=1e15 Pa"]
@@ -276,3 +278,10 @@ def test_the_option_of_one_run_is_refused_in_process():
     with pytest.raises(InputError) as refused:
         run(str(KOYNA), vary=["crack.friction=1,2"], spread="3")
     assert refused.value.code == "vary-option"
+
+
+def test_pieces_of_any_length_are_divided_alike_for_all_modes_and_half_of_them():
+    fields = copy.deepcopy(BASE)
+    put(fields, "motion.processing", [{"step": "cut", "start": 1e-12}])
+    evidence = decoupled(read_case(fields)).crack_level["convergence"]
+    assert 0.0 < evidence["half_the_modes"] < 0.2

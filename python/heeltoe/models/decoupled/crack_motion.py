@@ -30,12 +30,15 @@ class CrackMotion:
         Total acceleration at the middle of the crack: downstream, upward [m/s2], counter-clockwise [rad/s2].
     step
         Longest step between samples [s].
+    asked
+        Longest step that was allowed [s]; the same one gives the same moments, the one that came of it may not.
     """
 
     horizontal: GroundMotion
     vertical: GroundMotion
     rotation: GroundMotion
     step: float
+    asked: float
 
     def felt(self, case: Case, ground: Earthquake) -> Earthquake:
         """Return what of it the block of a case feels.
@@ -81,13 +84,13 @@ def crack_motion(chain: Chain, ground: Earthquake) -> tuple[CrackMotion, float]:
         if straightness <= STRAIGHT:
             break
         coarse, rough = time, crack
-    return _named(chain, ground.motion, time, crack), straightness
+    return _named(chain, ground.motion, time, crack, step), straightness
 
 
 def crack_motion_at(chain: Chain, ground: Earthquake, step: float) -> CrackMotion:
     """Return the motion of the crack with samples no more than `step` [s] apart."""
     time, crack, _ = accelerations(chain, ground.shaking, step)
-    return _named(chain, ground.motion, time, crack)
+    return _named(chain, ground.motion, time, crack, step)
 
 
 def relative(found: Floats, exact: Floats, crack: Floats) -> float:
@@ -96,7 +99,7 @@ def relative(found: Floats, exact: Floats, crack: Floats) -> float:
     return float(np.abs(found - exact).max(initial=0.0)) / peak if peak else 0.0
 
 
-def _named(chain: Chain, motion: GroundMotion, time: Floats, crack: Floats) -> CrackMotion:
+def _named(chain: Chain, motion: GroundMotion, time: Floats, crack: Floats, asked: float) -> CrackMotion:
     horizontal, vertical, rotation = (
         GroundMotion(
             name=f"{motion.name}, {what}",
@@ -109,7 +112,7 @@ def _named(chain: Chain, motion: GroundMotion, time: Floats, crack: Floats) -> C
         for what, values in zip(("at the crack", "at the crack, upward", "rotation of the crack"), crack, strict=True)
     )
     # Without what the rounding of the moments adds.
-    return CrackMotion(horizontal, vertical, rotation, round(float(np.diff(time).max()), 9))
+    return CrackMotion(horizontal, vertical, rotation, round(float(np.diff(time).max()), 9), asked)
 
 
 def accelerations(chain: Chain, shaking: Shaking, step: float) -> tuple[Floats, Floats, Floats]:

@@ -140,7 +140,7 @@ def _crack_level(case: Case, part: Chain, found: CrackMotion, earthquake: Earthq
 
 def _of_half_the_modes(part: Chain, found: CrackMotion, earthquake: Earthquake) -> float:
     """Return what the slower half of the modes misses of the horizontal motion, over its peak."""
-    less = crack_motion_at(part.slower_half(), earthquake, found.step).horizontal.acceleration
+    less = crack_motion_at(part.slower_half(), earthquake, found.asked).horizontal.acceleration
     exact = found.horizontal.acceleration
     return relative(less, exact, exact[None])
 

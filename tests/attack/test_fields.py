@@ -1,0 +1,100 @@
+"""Every field of the schema with every hostile value: a clear refusal or a sound run, in time."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from pydantic import WithJsonSchema
+from pydantic.fields import FieldInfo
+
+from heeltoe import read_case
+from heeltoe.case.use import READ_BY
+from heeltoe.units.parse import DIMENSIONS
+from shared.attacked import Attack
+from shared.every_field import Fields, leaves, pair, put
+from shared.hostile import values
+
+ALL = dict(leaves())
+UNITS = {shown.example: shown.unit for shown in DIMENSIONS.values()}
+MODELS = ("rigid", "decoupled", "flexible", "statics")
+# A record for the fields that are about records: 0.01 s apart, in g.
+RECORD = "\n".join(f"{0.01 * k:.2f} {(-1) ** (k // 7) * 0.4}" for k in range(60))
+
+
+@pytest.fixture
+def place(tmp_path) -> Path:
+    (tmp_path / "record.txt").write_text(f"# units: time [s], acceleration [g]\n{RECORD}\n")
+    return tmp_path
+
+
+def help_of(place: Path) -> dict[str, tuple[Fields, Any]]:
+    """Return what must be in a case that has the fields of records."""
+    found: dict[str, tuple[Fields, Any]] = {}
+    for block in ("motion", "motion.vertical"):
+        file = {block: {"file": str(place / "record.txt")}}
+        for name in ("file", "channel", "unit", "time_step"):
+            found[f"{block}.{name}"] = (file, "1")
+        found |= {f"{block}.points": ({}, []), f"{block}.pga": ({}, "0.5 g")}
+    return found | {"motion.duration": ({}, "1 s"), "motion.allow_zero": ({}, True)}
+
+
+def unit_of(field: FieldInfo) -> str | None:
+    """Return the unit of a quantity by the example that the schema gives; none for what is no quantity."""
+    for part in field.metadata:
+        if isinstance(part, WithJsonSchema) and part.json_schema:
+            return next((UNITS[each] for each in part.json_schema.get("examples", ()) if each in UNITS), None)
+    return None
+
+
+def cases(place: Path) -> Iterator[tuple[str, Any, Fields]]:
+    """Walk all fields with all values: path, value and the fields of the case."""
+    help_ = help_of(place)
+    for path, field in ALL.items():
+        before, _, written = pair(path, field, help_)
+        for value in values(unit_of(field)):
+            fields = json.loads(json.dumps(before))
+            put(fields, written, value)
+            yield path, value, fields
+
+
+def readers(path: str) -> list[str]:
+    """Return the models that read a field."""
+    plain = path.replace("[0]", "")
+    while plain and plain not in READ_BY:
+        plain = plain.rpartition(".")[0]
+    return [model for model in MODELS if not plain or model in READ_BY[plain]]
+
+
+def attack(place: Path, model: str, every: int, record_property: Any) -> None:
+    found = Attack(f"fields, {model}")
+    run = set()
+    for number, (path, value, fields) in enumerate(cases(place)):
+        if number % every or model not in readers(path):
+            continue
+        try:
+            # What is the same case to us need not run again.
+            same = repr(read_case(fields).model_dump())
+        except Exception:  # the attack itself says what that is
+            same = None
+        if same in run:
+            continue
+        run.add(same) if same else None
+        (place / "case.json").write_text(json.dumps(fields), encoding="utf-8", errors="surrogatepass")
+        command = ("statics",) if model == "statics" else ("run", "--model", model)
+        found.strike(f"{path} = {value!r}", *command, "case.json", "--json", "-", cwd=place, data=True)
+    found.told(record_property)
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_some_values_of_every_field(model, place, record_property):
+    attack(place, model, 23, record_property)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("model", MODELS)
+def test_every_value_of_every_field(model, place, record_property):
+    attack(place, model, 1, record_property)

@@ -1,0 +1,87 @@
+"""Every option of every command with every hostile text."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+import typer
+
+from heeltoe.cli.main import app
+from shared.attacked import Attack
+from shared.dams import BASE, BLOCK, COARSE, SLENDER
+from shared.hostile import NUMBERS, TEXTS, WITH_UNITS
+
+COMMANDS: dict[str, Any] = typer.main.get_command(app).commands  # type: ignore[attr-defined]
+#: What a command is called with beside the option that is tried: what is quick.
+USUAL: dict[str, list[str | Path]] = {
+    "run": [BLOCK],
+    "statics": [BLOCK],
+    "periods": [BASE, *(part for change in COARSE for part in ("--set", change))],
+    "overturning": [SLENDER, "--count=2"],
+    "animate": [BLOCK, "--to=page.html"],
+    "motion": ["record.txt", "--no-figure"],
+    "validate": [],
+    "new": [],
+}
+RECORD = "# units: time [s], acceleration [g]\n" + "".join(f"{0.01 * k:.2f} {(-1) ** k * 0.2}\n" for k in range(50))
+WORDS = (
+    *(each for each in TEXTS if len(each) < 10_000),
+    *(str(each) for each in NUMBERS),
+    *(f"{number} {unit}" for number in WITH_UNITS for unit in ("s", "g", "m")),
+    *("synthetic:", "synthetic:M9e9,0km", "synthetic:M6.5,20km,seed=-1", "synthetic:M6.5,1e308km", "both", "full,step"),
+)
+SETTINGS = ("crack.friction=", "=1", "crack.friction", "..=1", "a.b.c=1", "crack=1", "section.polygon=[[", "title.x=1")
+
+
+def calls(name: str) -> Iterator[list[str | Path]]:
+    """Walk all calls of a command: each option and argument with every word."""
+    usual = USUAL[name]
+    for parameter in COMMANDS[name].params:
+        if parameter.name == "help" or getattr(parameter, "is_flag", False):
+            continue
+        if parameter.param_type_name == "argument":
+            # A name that is none is looked for; all of them, and what is one, takes minutes.
+            yield from ([word, *usual[1:]] for word in WORDS if name != "validate" or word)
+            continue
+        option = max(parameter.opts, key=len)
+        kept = [each for each in usual if not str(each).startswith(f"{option}=")]
+        words = WORDS
+        if option in ("--set", "--vary"):
+            words = (*WORDS, *SETTINGS, *(f"crack.friction={word}" for word in WORDS), *(f"{word}=1" for word in WORDS))
+        yield from ([*kept, f"{option}={word}"] for word in words)
+        yield [*kept, option]
+        yield [*kept, option, "--"]
+
+
+def attack(name: str, place: Path, every: int, record_property: Any) -> None:
+    found = Attack(f"options of {name}")
+    for number, arguments in enumerate(calls(name)):
+        if number % every:
+            continue
+        cwd = place / str(number)
+        cwd.mkdir()
+        (cwd / "record.txt").write_text(RECORD)
+        found.strike(f"{name} {arguments[-1] if len(arguments) > 1 else arguments!r}", name, *arguments, cwd=cwd)
+        shutil.rmtree(cwd)
+    found.told(record_property)
+
+
+def test_all_commands_are_attacked():
+    assert set(USUAL) == set(COMMANDS)
+
+
+@pytest.mark.usefixtures("empty_figures")
+@pytest.mark.parametrize("name", USUAL)
+def test_some_words_for_every_option(name, tmp_path, record_property):
+    attack(name, tmp_path, 19, record_property)
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("empty_figures")
+@pytest.mark.parametrize("name", USUAL)
+def test_every_word_for_every_option(name, tmp_path, record_property):
+    attack(name, tmp_path, 1, record_property)

@@ -1,0 +1,115 @@
+"""An attack on the command line: many calls in this process, each judged by how it ends, and what came of all."""
+
+from __future__ import annotations
+
+import json
+import resource
+import signal
+import traceback
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, NoReturn
+
+from shared.command import Said, command
+
+SECONDS, BYTES = 10.0, 3 * 10**9
+ENDS = {0: "accepted", 2: "refused", 3: "no result"}
+
+
+class TooLong(BaseException):
+    """Time is up; no error, so that nobody takes it for one of its own."""
+
+
+class Attack:
+    """How often what came of it, and what should not have."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.ends: Counter[str] = Counter()
+        self.defects: list[str] = []
+
+    def strike(self, what: str, *arguments: str | Path, cwd: Path, data: bool = False) -> str:
+        """Run a command; `data` where its standard output shall be JSON. A refusal leaves the directory as it was."""
+        before = _files(cwd)
+        try:
+            with limited():
+                said = command(*arguments, cwd=cwd)
+            wrong = faults(said, data=data)
+        except TooLong:
+            said, wrong = None, [f"runs longer than {SECONDS:g} s"]
+        except BaseException as error:
+            last = traceback.extract_tb(error.__traceback__)[-1]
+            said, wrong = None, [f"{type(error).__name__}: {error} ({last.filename}:{last.lineno})"]
+        after = _files(cwd)
+        if (said is None or said.returncode == 2) and after != before:
+            wrong.append(f"leaves {sorted(after.keys() ^ before.keys()) or 'a changed file'}")
+        wrong += [f"leaves {name}" for name in after if ".heeltoe-" in name and not name.endswith(".heeltoe-files")]
+        end = "defect" if wrong or said is None else ENDS[said.returncode]
+        self.ends[end] += 1
+        self.defects += [f"{what[:160]}: {each[:300]}" for each in wrong]
+        return end
+
+    def told(self, record_property: Any) -> None:
+        """Hand the counts to the table at the end of the test run, and fail where anything was found."""
+        record_property("attack", (self.name, dict(self.ends)))
+        assert not self.defects, f"{len(self.defects)} defects\n" + "\n".join(self.defects[:100])
+
+
+def faults(said: Said, *, data: bool) -> list[str]:
+    """Return what is wrong with the end of a command."""
+    if said.returncode not in ENDS:
+        return [f"ends with {said.returncode}: {said.stderr[-200:]}"]
+    wrong = []
+    if said.returncode == 2 and (said.stderr.count("\n") != 1 or not said.stderr.startswith("heeltoe: ")):
+        wrong.append(f"refuses in other than one line: {said.stderr[:200]!r}")
+    if said.returncode == 2 and said.stdout:
+        wrong.append(f"refuses and says {said.stdout[:100]!r}")
+    if said.returncode != 2 and data:
+        try:
+            json.loads(said.stdout, parse_constant=_no_constant)
+        except ValueError as error:
+            wrong.append(f"JSON: {error}")
+    for text in (said.stderr, "" if data else said.stdout):
+        strange = {letter for letter in text if not letter.isprintable() and letter != "\n"}
+        if strange:
+            wrong.append(f"says {strange!r} raw")
+    return wrong
+
+
+def _no_constant(name: str) -> NoReturn:
+    raise ValueError(f"{name} is no JSON")
+
+
+def _files(directory: Path) -> dict[str, tuple[int, int]]:
+    found = {}
+    for path in directory.rglob("*"):
+        status = path.lstat()
+        found[str(path.relative_to(directory))] = (0, 0) if path.is_dir() else (status.st_size, status.st_mtime_ns)
+    return found
+
+
+@contextmanager
+def limited(seconds: float = SECONDS, bytes_: int = BYTES) -> Iterator[None]:
+    """End what takes longer, and give no more memory than so much beyond what there is."""
+
+    def end(*_: object) -> NoReturn:
+        raise TooLong
+
+    soft, hard = resource.getrlimit(resource.RLIMIT_AS)
+    used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize() if _PROC else 0
+    before = signal.signal(signal.SIGALRM, end)
+    if used:
+        resource.setrlimit(resource.RLIMIT_AS, (used + bytes_, hard))
+    # Again and again: what is caught by somebody who takes it for an interruption does not go on for long.
+    signal.setitimer(signal.ITIMER_REAL, seconds, 1.0)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.signal(signal.SIGALRM, before)
+        resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
+
+
+_PROC = Path("/proc/self/statm").exists()
