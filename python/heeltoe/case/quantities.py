@@ -1,4 +1,5 @@
-"""Quantities as fields of a case: read from texts with units to SI numbers, and written back with their unit."""
+"""Quantities as fields of a case: read from texts with units to SI numbers, and written back with their unit. The JSON
+schema says which quantity a field holds."""
 
 from __future__ import annotations
 
@@ -15,8 +16,10 @@ def _validator(dimension: str) -> Callable[[object], float]:
     return collected(lambda value: parse(value, dimension, ""))
 
 
-def _schema(dimension: str, type_: object = "string") -> WithJsonSchema:
-    return WithJsonSchema({"type": type_, "examples": [DIMENSIONS[dimension].example]})
+def _schema(dimension: str, type_: object = "string", example: object = None) -> WithJsonSchema:
+    return WithJsonSchema(
+        {"type": type_, "quantity": dimension, "examples": [example or DIMENSIONS[dimension].example]}
+    )
 
 
 def _written(dimension: str) -> PlainSerializer:
@@ -47,7 +50,7 @@ Gravity = Annotated[
     float,
     BeforeValidator(_validator("acceleration")),
     _written("acceleration"),
-    WithJsonSchema({"type": "string", "examples": ["9.81 m/s^2"]}),
+    _schema("acceleration", example="9.81 m/s^2"),
 ]
 """The acceleration of gravity [m/s^2]."""
 DimensionlessNumber = Annotated[float, BeforeValidator(_validator("number")), _schema("number", ["number", "string"])]

@@ -47,7 +47,7 @@ def read_case(source: str | os.PathLike[str] | Mapping[str, Any], changes: Chang
         fields, directory = copy.deepcopy(dict(source)), Path()
     elif isinstance(source, str | os.PathLike):
         path = Path(source)
-        fields, directory = _parsed(path), path.parent
+        fields, directory = read_fields(path), path.parent
     else:
         raise InputError("case-source", "source", kind=type(source).__name__)
     apply(fields, changes)
@@ -59,7 +59,14 @@ def case_schema() -> dict[str, Any]:
     return Case.model_json_schema()
 
 
-def _parsed(path: Path) -> dict[str, Any]:
+def read_fields(path: Path, missing: str = "case-file-missing") -> dict[str, Any]:
+    """Return what stands in a file in TOML or JSON; `missing` is what a file that is not there is called.
+
+    Raises
+    ------
+    InputError
+        Where it cannot be read.
+    """
     name = str(path)
     try:
         with path.open("rb") as file:
@@ -68,7 +75,7 @@ def _parsed(path: Path) -> dict[str, Any]:
             raise InputError("case-file-large", name, f"{_LARGEST // 10**6} MB")
         text = content.decode("utf-8-sig")  # editors on Windows begin a file with a byte order mark
     except FileNotFoundError:
-        raise InputError("case-file-missing", name) from None
+        raise InputError(missing, name) from None
     except UnicodeDecodeError:
         raise InputError("case-file-encoding", name) from None
     except (OSError, ValueError) as error:

@@ -41,7 +41,7 @@ def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[Grou
     InputError
         Where a record cannot be found, read or trusted.
     """
-    horizontal = _read(shaking, gravity, base_directory, "motion")
+    horizontal = read_source(shaking, gravity, base_directory, "motion")
     vertical = None
     factor = 1.0
     if shaking.pga is not None and (horizontal.pga > 0.0 or not shaking.allow_zero):
@@ -49,7 +49,7 @@ def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[Grou
         factor = peak / horizontal.pga if horizontal.pga else 1.0
         horizontal = horizontal.scaled_to(peak, f"scaled by {factor:.6g} to a peak of {shaking.pga}")
     if shaking.vertical is not None:
-        vertical = _read(shaking.vertical, gravity, base_directory, "motion.vertical")
+        vertical = read_source(shaking.vertical, gravity, base_directory, "motion.vertical", upward=True)
         if shaking.vertical.pga is not None and vertical.pga > 0.0:
             vertical = vertical.scaled_to(
                 shaking.vertical.pga.si(gravity), f"scaled to a peak of {shaking.vertical.pga}"
@@ -69,15 +69,16 @@ def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[Grou
     return horizontal, vertical
 
 
-def _read(shaking: Source, gravity: float, base_directory: Path, field: str) -> GroundMotion:
+def read_source(
+    shaking: Source, gravity: float, base_directory: Path, field: str, *, upward: bool = False
+) -> GroundMotion:
     """Read, or make, the motion, look for damage that would be hidden later, and process it."""
-    motion = _source(shaking, gravity, base_directory, field)
-    upward = field == "motion.vertical"
+    motion = _source(shaking, gravity, base_directory, field, upward)
     motion = motion.with_warnings(*check_record(motion, gravity, field=field, upward=upward))
     return process(motion, shaking.processing, gravity, field=f"{field}.processing")
 
 
-def _source(shaking: Source, gravity: float, base_directory: Path, field: str) -> GroundMotion:
+def _source(shaking: Source, gravity: float, base_directory: Path, field: str, upward: bool) -> GroundMotion:
     if shaking.points is not None:
         time = [moment for moment, _ in shaking.points]
         values = [value.si(gravity) for _, value in shaking.points]
@@ -94,7 +95,7 @@ def _source(shaking: Source, gravity: float, base_directory: Path, field: str) -
         path, shaking.channel, unit=shaking.unit, time_step=shaking.time_step, gravity=gravity, field=field
     )
     component = motion.component.lower()
-    if field == "motion.vertical" and (component.startswith(("down", "dwn")) or "positive down" in component):
+    if upward and (component.startswith(("down", "dwn")) or "positive down" in component):
         motion = replace(
             motion.reversed(),
             processing=(*motion.processing, "the record counts down as positive: turned to up"),

@@ -5,8 +5,11 @@ Terminal, report, notebook, models side by side, spread and tables of runs all r
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
+
+from heeltoe.arrays import Floats
 
 
 @dataclass(frozen=True)
@@ -29,6 +32,10 @@ class Quantity:
         Whether it goes both ways, positive downstream.
     least
         What is less than this is next to nothing, in its unit.
+    column
+        What the kernels call it. A block has no openings, but rotations of a base that stays straight.
+    sense
+        -1 where the kernels count it the other way.
     """
 
     key: str
@@ -38,6 +45,8 @@ class Quantity:
     way: Literal[1, -1]
     signed: bool
     least: float
+    column: str
+    sense: Literal[1, -1] = 1
 
     @property
     def full(self) -> str:
@@ -58,12 +67,48 @@ LARGEST_ROTATION = 0.1
 TOO_FAR = "large rotation"
 
 HEADLINES = (
-    Quantity("residual_slip_m", "residual slip", "residual", "slip", 1, True, LEAST_M),
-    Quantity("peak_slip_downstream_m", "peak slip downstream", "peak\ndown", "slip", 1, False, LEAST_M),
-    Quantity("peak_slip_upstream_m", "peak slip upstream", "peak\nup", "slip", -1, False, LEAST_M),
-    Quantity("rocking_downstream_rad", "rotation downstream", "rotation\ndown", "rotation", 1, False, LEAST_RAD),
-    Quantity("rocking_upstream_rad", "rotation upstream", "rotation\nup", "rotation", 1, False, LEAST_RAD),
-    Quantity("opening_upstream_m", "opening, upstream face", "opening\nupstream", "opening", 1, False, LEAST_M),
-    Quantity("opening_downstream_m", "opening, downstream face", "opening\ndownstr.", "opening", 1, False, LEAST_M),
+    Quantity("residual_slip_m", "residual slip", "residual", "slip", 1, True, LEAST_M, "slip"),
+    Quantity("peak_slip_downstream_m", "peak slip downstream", "peak\ndown", "slip", 1, False, LEAST_M, "slip_max"),
+    Quantity("peak_slip_upstream_m", "peak slip upstream", "peak\nup", "slip", -1, False, LEAST_M, "slip_min"),
+    Quantity(
+        "rocking_downstream_rad",
+        "rotation downstream",
+        "rotation\ndown",
+        "rotation",
+        1,
+        False,
+        LEAST_RAD,
+        "rotation_min",
+        -1,
+    ),
+    Quantity(
+        "rocking_upstream_rad", "rotation upstream", "rotation\nup", "rotation", 1, False, LEAST_RAD, "rotation_max"
+    ),
+    Quantity(
+        "opening_upstream_m",
+        "opening, upstream face",
+        "opening\nupstream",
+        "opening",
+        1,
+        False,
+        LEAST_M,
+        "opening_heel",
+    ),
+    Quantity(
+        "opening_downstream_m",
+        "opening, downstream face",
+        "opening\ndownstr.",
+        "opening",
+        1,
+        False,
+        LEAST_M,
+        "opening_toe",
+    ),
 )
 """In the order in which they are shown."""
+
+
+def headlines(table: Mapping[str, Floats]) -> dict[str, Floats]:
+    """Return those headline numbers of many runs that a kernel's table has, (n,) by their names in the JSON."""
+    # Adding zero makes a negative zero a plain one.
+    return {each.key: each.sense * table[each.column] + 0.0 for each in HEADLINES if each.column in table}

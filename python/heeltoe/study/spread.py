@@ -20,11 +20,11 @@ from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.models.flexible.response import FlexibleResponse
-from heeltoe.models.rigid.tables import opening
+from heeltoe.models.rigid.tables import with_openings
 from heeltoe.models.rigid.varying import varies
 from heeltoe.models.rigid.walk import limits_of, walk
 from heeltoe.models.run import earthquake
-from heeltoe.result.contract import HEADLINES, JOINT_METER_M, LARGEST_ROTATION
+from heeltoe.result.contract import HEADLINES, JOINT_METER_M, LARGEST_ROTATION, headlines
 from heeltoe.result.response import Response
 from heeltoe.warnings import Notice
 
@@ -43,16 +43,6 @@ WEAKEST, STRONGEST = 0.99, 1.01
 _SAME = 0.01
 #: A standard deviation of the slip above this part of its mean is said as a warning.
 _LARGE = 0.10
-
-# What both kernels call the headline numbers, and the factor; the block has no openings, but rotations of a base that
-# stays straight.
-_COMMON = {
-    "residual_slip_m": ("slip", 1.0),
-    "peak_slip_downstream_m": ("slip_max", 1.0),
-    "peak_slip_upstream_m": ("slip_min", 1.0),
-    "rocking_downstream_rad": ("rotation_min", -1.0),
-    "rocking_upstream_rad": ("rotation_max", 1.0),
-}
 
 
 def check_runs(value: object, field: str) -> int:
@@ -143,10 +133,7 @@ def _rigid(case: Case, shaking: Shaking, scales: Floats, progress: Progress | No
         rows = run_blocks(many, [shaking], first, np.column_stack([scales, scales]), limits_of(case))
         if progress is not None:
             progress(scales.size, scales.size)
-    found = _named(rows)
-    for face, way in (("upstream", "downstream"), ("downstream", "upstream")):
-        rotations = found[f"rocking_{way}_rad"].tolist()
-        found[f"opening_{face}_m"] = np.array([opening(case, block, rotation) for rotation in rotations])
+    found = with_openings(headlines(rows), case, np.full(scales.size, block.width))
     good = np.isin(rows["outcome"], [OUTCOMES.index(name) for name in ("ok", "overturned")])
     return found, good if case.analysis.rotation == "finite" else good & _small(rows)
 
@@ -178,20 +165,12 @@ def _flexible(shaken: ShakenDam, scales: Floats, step: float, progress: Progress
             progress(start, scales.size)
             parts.append(shaken.run_scaled(step, scales[start : start + cores]))
         rows = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
-    found = _named(rows)
-    found["opening_upstream_m"] = rows["opening_heel"]
-    found["opening_downstream_m"] = rows["opening_toe"]
-    return found, (rows["outcome"] == DAM_OUTCOMES.index("ok")) & _small(rows)
+    return headlines(rows), (rows["outcome"] == DAM_OUTCOMES.index("ok")) & _small(rows)
 
 
 def _small(rows: Mapping[str, Floats]) -> NDArray[np.bool_]:
     """Return where rotations are small, as what takes them for that needs it."""
     return np.maximum(rows["rotation_max"], -rows["rotation_min"]) <= LARGEST_ROTATION
-
-
-def _named(rows: Mapping[str, Floats]) -> dict[str, Floats]:
-    # Adding zero makes a negative zero a plain one.
-    return {name: factor * rows[column] + 0.0 for name, (column, factor) in _COMMON.items()}
 
 
 def _step(response: FlexibleResponse) -> float:

@@ -15,19 +15,10 @@ from heeltoe.case.model import Case
 from heeltoe.kernel.dam import DAM_OUTCOMES, DamRun
 from heeltoe.models.flexible.reduced import build_flexible_dam
 from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.result.contract import HEADLINES, headlines
 
 #: Factors on the shaking: as it is, and up to 1 % either way.
 SCALES = (1.0, 0.99, 0.995, 1.005, 1.01)
-#: What the kernel calls the headline numbers, and the factor; either rotation counts without its sign.
-_COLUMNS = {
-    "residual_slip_m": ("slip", 1.0),
-    "peak_slip_downstream_m": ("slip_max", 1.0),
-    "peak_slip_upstream_m": ("slip_min", 1.0),
-    "rocking_downstream_rad": ("rotation_min", -1.0),
-    "rocking_upstream_rad": ("rotation_max", 1.0),
-    "opening_upstream_m": ("opening_heel", 1.0),
-    "opening_downstream_m": ("opening_toe", 1.0),
-}
 _OK = DAM_OUTCOMES.index("ok")
 # Twice as many elements along the crack cost about so many times as much; half the step twice.
 _WORK_OF_MESH = 4.0
@@ -124,9 +115,7 @@ class Trials:
             for place, scale in enumerate(missing):
                 self._numbers[level, scale] = {name: float(column[place]) for name, column in table.items()}
         rows = [self._numbers[level, scale] for scale in scales]
-        return {
-            name: np.array([factor * row[column] + 0.0 for row in rows]) for name, (column, factor) in _COLUMNS.items()
-        }
+        return headlines({each.column: np.array([row[each.column] for row in rows]) for each in HEADLINES})
 
     def failed(self, level: Level, scales: Sequence[float]) -> int:
         """Return how many of these runs, all made before, end without a result."""

@@ -13,14 +13,24 @@ from heeltoe.kernel.block import EVENT_KINDS, MODES, BlockRun
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block
 from heeltoe.references import cited
+from heeltoe.result.contract import headlines
 from heeltoe.result.response import Energy
 
 
-def opening(case: Case, block: Block, rotation: float) -> float:
-    """Return how far a rotation [rad] about one corner opens the crack at the other [m]."""
+def opening(case: Case, width: Floats, rotation: Floats) -> Floats:
+    """Return how far rotations [rad] about one corner open cracks of these widths at the other [m]."""
     if case.analysis.rotation == "finite":
-        return block.width * math.sin(min(rotation, math.pi / 2.0))
-    return block.width * rotation
+        return np.asarray(width * np.sin(np.minimum(rotation, math.pi / 2.0)), dtype=np.float64)
+    return width * rotation
+
+
+def with_openings(found: dict[str, Floats], case: Case, width: Floats) -> dict[str, Floats]:
+    """Return the headline numbers of blocks, (n,) by name, with the openings that their rotations make."""
+    # Rocking downstream, about the toe, opens the crack at the upstream face.
+    return found | {
+        "opening_upstream_m": opening(case, width, found["rocking_downstream_rad"]),
+        "opening_downstream_m": opening(case, width, found["rocking_upstream_rad"]),
+    }
 
 
 def tensions(case: Case, run: BlockRun) -> list[float]:
@@ -45,17 +55,12 @@ def references_of(case: Case, block: Block, run: BlockRun) -> tuple[str, ...]:
 def summary_of(case: Case, block: Block, run: BlockRun) -> dict[str, Any]:
     """Return the numbers of the contract."""
     raw = run.summary
-    downstream, upstream = -raw["rotation_min"], raw["rotation_max"]
-    about = "toe" if downstream > upstream else "heel"
-    return {
-        "residual_slip_m": raw["slip"],
-        "peak_slip_downstream_m": raw["slip_max"],
-        "peak_slip_upstream_m": raw["slip_min"],
-        "rocking_downstream_rad": abs(downstream),
-        "rocking_upstream_rad": abs(upstream),
-        # Rocking downstream, about the toe, opens the crack at the upstream face.
-        "opening_upstream_m": opening(case, block, abs(downstream)),
-        "opening_downstream_m": opening(case, block, abs(upstream)),
+    table = {name: np.array([value]) for name, value in raw.items()}
+    first = {
+        name: float(value[0]) for name, value in with_openings(headlines(table), case, np.array([block.width])).items()
+    }
+    about = "toe" if first["rocking_downstream_rad"] > first["rocking_upstream_rad"] else "heel"
+    return first | {
         "largest_gap_heel_m": raw["largest_gap_heel"],
         "largest_gap_toe_m": raw["largest_gap_toe"],
         "slip_by_mode_m": {

