@@ -5,7 +5,9 @@
 //!
 //! `(X + b (cos theta - 1), Z + b sin theta)`, with small rotations `(X, Z + b theta)`;
 //!
-//! the gaps are the Z of both corners, and the slip is the X of the corner c.
+//! the gaps are the Z of both corners. The slip is the X of the corner that is lower: of the one that the block stands on,
+//! and of a block in the air, of the one that would land first. Both corners are at the same X where theta = 0, so that it
+//! nowhere jumps; rocking leaves it where it is, and a block that is back on its base has slipped as far as it has moved.
 
 use super::super::block::Vector;
 use super::super::mode::Corner;
@@ -218,6 +220,15 @@ impl TurningBlock {
         other[3] -= ahead * sine * state[5];
         other[4] += ahead * cosine * state[5];
         other
+    }
+
+    /// The corner whose way along the crack is the slip of a block in the air that counts from `corner`.
+    pub(super) fn lower(&self, corner: Corner, theta: f64) -> Corner {
+        match self.rotation {
+            Rotation::Finite if theta > 0.0 => Corner::Heel,
+            Rotation::Finite if theta < 0.0 => Corner::Toe,
+            _ => corner,
+        }
     }
 
     /// How far the upper end of an anchor has moved along and across the crack.

@@ -1,8 +1,8 @@
 //! What is kept of a step: the new state, the books, extremes, tension of anchors, histories.
 
-use super::super::block::HEEL;
+use super::super::block::{Vector, HEEL};
 use super::super::event;
-use super::super::mode::Mode;
+use super::super::mode::{Corner, Mode};
 use super::super::result::Moment;
 use super::advance::Trial;
 use super::shaking::Piece;
@@ -32,18 +32,39 @@ impl Varying<'_> {
             self.state[1] = 0.0;
             self.state[4] = 0.0;
         }
-        self.walk.summary.slip_by_mode[kind] += self.state[0] - trial.start[0];
+        self.walk.summary.slip_by_mode[kind] += self.slipping(end).1[0] - self.slipping(&trial.start).1[0];
         self.see();
         let at = self.walk.summary.position;
         self.walk.summary.widen(&at, self.state[2]);
         self.strain();
     }
 
+    /// A state as seen from the corner whose way along the crack is the slip; where one is in contact, it is that one.
+    pub(super) fn slipping(&self, state: &State) -> (Corner, State) {
+        let corner = match self.walk.mode {
+            Mode::Drift => self.turning.lower(self.corner, state[2]),
+            _ => self.corner,
+        };
+        if corner == self.corner {
+            (corner, *state)
+        } else {
+            (corner, self.turning.other_corner(self.corner, state))
+        }
+    }
+
+    /// Slip and gaps at a state, and their velocities.
+    fn contact(&self, state: &State) -> [Vector; 2] {
+        let (corner, state) = self.slipping(state);
+        let [heel, toe] = self.turning.gaps(corner, &state);
+        [
+            [state[0], heel.max(0.0), toe.max(0.0)],
+            self.turning.contact_velocity(corner, &state),
+        ]
+    }
+
     /// Write the state as slip, gaps and velocities into the summary.
     pub(super) fn see(&mut self) {
-        let [heel, toe] = self.turning.gaps(self.corner, &self.state);
-        self.walk.summary.position = [self.state[0], heel.max(0.0), toe.max(0.0)];
-        self.walk.summary.velocity = self.turning.contact_velocity(self.corner, &self.state);
+        [self.walk.summary.position, self.walk.summary.velocity] = self.contact(&self.state);
     }
 
     /// Note the tensions of the anchors.
@@ -60,14 +81,15 @@ impl Varying<'_> {
             start, rate, piece, ..
         } = trial;
         let velocities = |y: &State| {
-            let [slip, heel, toe] = self.turning.contact_velocity(self.corner, y);
+            let [_, [slip, heel, toe]] = self.contact(y);
             [slip, heel, toe, y[5]]
         };
         let (speeds, last) = (velocities(start), velocities(end));
         if (0..4).all(|i| speeds[i] * last[i] >= 0.0) {
             return;
         }
-        let instant = self.turning.at(self.corner, start, &piece.ground);
+        let (corner, seen) = self.slipping(start);
+        let instant = self.turning.at(corner, &seen, &piece.ground);
         let [slip, heel, toe] = instant.contact_acceleration(&self.reactions(&instant));
         for (i, a0) in [slip, heel, toe, rate[5]].into_iter().enumerate() {
             let (v0, v1) = (speeds[i], last[i]);
@@ -77,8 +99,8 @@ impl Varying<'_> {
             let bend = (v1 - v0 - a0 * taken) / (taken * taken);
             for t in event::sign_changes(v0, a0, bend, taken).into_iter().flatten() {
                 let at = self.moved(start, rate, piece, t);
-                let [heel, toe] = self.turning.gaps(self.corner, &at);
-                self.walk.summary.widen(&[at[0], heel, toe], at[2]);
+                let [position, _] = self.contact(&at);
+                self.walk.summary.widen(&position, at[2]);
             }
         }
     }
@@ -96,7 +118,8 @@ impl Varying<'_> {
                 0.0
             };
             let state = self.moved(start, &rate, piece, t);
-            let instant = self.turning.at(self.corner, &state, &piece.after(t));
+            let (corner, seen) = self.slipping(&state);
+            let instant = self.turning.at(corner, &seen, &piece.after(t));
             let reaction = self.reactions(&instant);
             let mut acceleration = instant.contact_acceleration(&reaction);
             let contacts = self.walk.mode.contacts();
@@ -106,11 +129,11 @@ impl Varying<'_> {
                     *acceleration = 0.0;
                 }
             }
-            let [heel, toe] = self.turning.gaps(self.corner, &state);
+            let [position, velocity] = self.contact(&state);
             self.walk.keep(Moment {
                 mode: self.walk.mode,
-                position: [state[0], heel.max(0.0), toe.max(0.0)],
-                velocity: self.turning.contact_velocity(self.corner, &state),
+                position,
+                velocity,
                 acceleration,
                 reaction,
             });

@@ -84,10 +84,13 @@ pub fn simulate(
         reserve: None,
     };
     varying.place(&position, &velocity);
+    let theta = varying.state[2];
+    varying.walk.summary.rotation_range = [theta.min(0.0), theta.max(0.0)];
+    varying.walk.summary.ledger.start = varying.kinetic_energy();
     varying.strain();
     varying.run(shaking, start.is_none());
     varying.see();
-    let energy = varying.instant(&[0.0; 3]).kinetic_energy(&varying.state);
+    let energy = varying.kinetic_energy();
     varying.walk.end(energy, varying.tensions)
 }
 
@@ -118,6 +121,10 @@ impl Varying<'_> {
 
     pub(super) fn instant(&self, ground: &Ground) -> Instant {
         self.turning.at(self.corner, &self.state, ground)
+    }
+
+    fn kinetic_energy(&self) -> f64 {
+        self.instant(&[0.0; 3]).kinetic_energy(&self.state)
     }
 
     fn run(&mut self, shaking: &TurningShaking, stands: bool) {
@@ -239,11 +246,8 @@ impl Varying<'_> {
 
     /// Go over to the other corner, which is in contact: its gap is exactly zero.
     fn turn_to(&mut self, corner: Corner) {
-        let slip = self.state[0];
         self.state = self.turning.other_corner(self.corner, &self.state);
         self.corner = corner;
-        // The corners of a block that stands on neither are not at the same slip: to have turned is part of drifting.
-        self.walk.summary.slip_by_mode[Mode::Drift.kind()] += self.state[0] - slip;
         if self.state[1].abs() <= self.walk.near() {
             self.state[1] = 0.0;
         }
@@ -258,7 +262,8 @@ impl<'a> Carried<'a> for Varying<'a> {
     }
 
     fn velocity(&self) -> Vector {
-        self.turning.contact_velocity(self.corner, &self.state)
+        let (corner, state) = self.slipping(&self.state);
+        self.turning.contact_velocity(corner, &state)
     }
 
     fn closed(&self) -> [bool; 2] {
