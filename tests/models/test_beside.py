@@ -94,6 +94,7 @@ def test_what_the_difference_means(both, block, dam, words):
     [
         ({"opening_upstream_m": 0.01}, "differ in the opening, upstream face (10.0 mm of the flexible dam, 0"),
         ({"rocking_downstream_rad": 1e-3}, "differ in the rotation downstream (1 mrad of the flexible dam, 0"),
+        ({"peak_slip_upstream_m": -0.01}, "differ in the peak slip upstream (10.0 mm of the flexible dam, 0.00 mm"),
         ({"peak_slip_downstream_m": 0.05}, "They end alike, but differ in the peak slip downstream"),
         ({"opening_upstream_m": 0.9e-4}, "They agree in slips, rotations and openings"),
     ],

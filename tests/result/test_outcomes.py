@@ -43,6 +43,14 @@ def test_what_does_not_stand_is_no_dam_that_is_shaken(changes, words):
         assert not any(check.met for check in response.limits)
 
 
+def test_a_slip_that_is_no_result_is_not_made_certain():
+    """It would cost dozens of runs, and say that a slip that goes on has not converged."""
+    response = flexible(read_case(TIPPING, [*COARSE, "flexible.evidence=full"]))
+    assert response.outcome == "unstable"
+    assert response.evidence is None
+    assert not any(notice.field == "flexible.evidence" for notice in response.warnings)
+
+
 def test_an_overturned_dam_keeps_no_limit():
     response = rigid(example("slender", "limits.residual_slip=10 m"))
     assert response.outcome == "overturned"

@@ -83,7 +83,8 @@ def _agreement(block: Response) -> str:
 
 def _told(of: Quantity, dam: Response, block: Response, units: str) -> str:
     """Return a number of both: what the elastic dam does against what the block does."""
-    values = [of.way * float(each.summary[of.key]) for each in (dam, block)]
+    # Adding zero makes a negative zero a plain one.
+    values = [of.way * float(each.summary[of.key]) + 0.0 for each in (dam, block)]
     one, other = (angle(value) if of.kind == "rotation" else length(value, units) for value in values)
     return f"{of.label} ({one} of the flexible dam, {other} of the {_BLOCKS[block.model]})"
 

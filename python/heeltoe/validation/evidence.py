@@ -145,7 +145,7 @@ def judge(seed: int) -> Judged | None:
     file = "" if case.motion is None else str(case.motion.file)
     if file in _RECORDS:
         record_named(file)
-    found = answer(ShakenDam(case, dam, earthquake(case).shaking), _FRAMES)
+    found = answer(ShakenDam(case, dam, earthquake(case).shaking), _FRAMES, "full")
     evidence = found.evidence
     assert evidence is not None
     by_mesh, by_step = _moved(found.shaken, evidence) if evidence.converged else (None, None)

@@ -36,8 +36,8 @@ class Answer:
     evidence: Evidence | None
 
 
-def answer(shaken: ShakenDam, frame_step: float) -> Answer:
-    """Run a dam with the evidence that its case asks for.
+def answer(shaken: ShakenDam, frame_step: float, asked: str) -> Answer:
+    """Run a dam with some evidence.
 
     Parameters
     ----------
@@ -45,13 +45,15 @@ def answer(shaken: ShakenDam, frame_step: float) -> Answer:
         The dam with its earthquake.
     frame_step
         Spacing of the frames [s].
+    asked
+        ``"full"``, ``"step"`` or ``"none"``.
     """
     options = shaken.case.flexible
     trials = Trials(shaken, shaken.first_step(), frame_step)
     level = Level(0, 0)
-    if options.evidence == "none":
+    if asked == "none":
         return Answer(shaken, trials.whole(level), None)
-    full = options.evidence == "full"
+    full = asked == "full"
     while True:
         stand = _Stand(trials, level, full=full)
         found = stand.evidence()

@@ -32,18 +32,22 @@ _REMEDIES = {
 }
 
 
+def stands(dam: FlexibleDam, block: Block) -> bool:
+    """Whether a dam stands before the earthquake, or anchors with stiffness may hold it."""
+    return bool(dam.anchors) or (instability(block) is None and dam.start.stands)
+
+
 def outcome_of(dam: FlexibleDam, block: Block, run: DamRun) -> tuple[str, Sentence | None]:
     """Return how a run ended, and what to do about it; none where there is a result to trust.
 
     A dam that slides, overturns or floats under its static loads is none that an earthquake moves; anchors with
     stiffness hold what friction and weight do not. Rotations that are not small are none of this model.
     """
-    raw, why = run.summary, instability(block)
-    if run.outcome in ("ok", "lost") and not dam.anchors:
-        if why is not None:
-            return "unstable", Sentence.of("{why}: {remedy}", why=why, remedy=_STAND)
-        if not dam.start.stands:
-            return "unstable", _stopped("unstable", raw)
+    raw = run.summary
+    if run.outcome in ("ok", "lost") and not stands(dam, block):
+        why = instability(block)
+        remedied = None if why is None else Sentence.of("{why}: {remedy}", why=why, remedy=_STAND)
+        return "unstable", remedied or _stopped("unstable", raw)
     largest = max(-raw["rotation_min"], raw["rotation_max"])
     if run.outcome == "ok" and largest > LARGEST_ROTATION:
         text = (
@@ -78,7 +82,9 @@ def warnings_of(
     `outcome` that of :func:`outcome_of`."""
     case, dam = shaken.case, shaken.dam
     return [
-        *_about_the_slip(dam, evidence, safety),
+        # What does not stand has no result that evidence could be of.
+        *(_about_the_evidence(evidence) if outcome != "unstable" else ()),
+        *_about_the_start(dam, safety),
         *_about_the_growth(growth, run.summary),
         *_about_the_concrete(case, dam),
         *(_about_the_end(run) if outcome == "ok" else ()),
@@ -87,18 +93,17 @@ def warnings_of(
     ]
 
 
-def _about_the_slip(dam: FlexibleDam, evidence: Evidence | None, safety: float | None) -> Iterator[Notice]:
-    if evidence is None:
-        yield Notice("evidence-none")
-    else:
-        yield from _about_the_evidence(evidence)
+def _about_the_start(dam: FlexibleDam, safety: float | None) -> Iterator[Notice]:
     if safety is not None and safety < 1.0:
         yield Notice("anchors-hold" if dam.anchors else "slides-by-itself", factor=safety)
     elif not (dam.start.stands or dam.anchors):
         yield Notice("no-rest")
 
 
-def _about_the_evidence(evidence: Evidence) -> Iterator[Notice]:
+def _about_the_evidence(evidence: Evidence | None) -> Iterator[Notice]:
+    if evidence is None:
+        yield Notice("evidence-none")
+        return
     slip = evidence.slip
     if evidence.failed:
         yield Notice("evidence-failures", failed=evidence.failed, runs=len(evidence.slips))

@@ -134,7 +134,8 @@ def _drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]
         return {}
     response = filled_in(response)
     found: dict[str, Callable[[], Figure]] = {"response": lambda: response_figure(response, units)}
-    if any(abs(slip) > NO_SLIP for slip in response.slip_by_mode_m.values()):
+    # Of a single mode the slip of the response says it all.
+    if sum(abs(slip) > NO_SLIP for slip in response.slip_by_mode_m.values()) > 1:
         found["slip-by-mode"] = lambda: slip_by_mode_figure(response, units)
     if is_elastic(response):
         found["forces"] = lambda: force_figure(response, units)

@@ -145,7 +145,11 @@ def _convergence(subject: Subject, run: Run) -> list[Block]:
             shown.append((label, cell))
     blocks: list[Block] = []
     found = run.response.summary["evidence"]
-    if found is None:
+    if run.response.outcome == "unstable":
+        blocks.append(
+            paragraph("A dam that does not stand has no slip to be certain of: it was run once, at one step.")
+        )
+    elif found is None:
         blocks.append(
             paragraph("Whether time step and mesh are fine enough was not asked (", Code("flexible.evidence"), ").")
         )

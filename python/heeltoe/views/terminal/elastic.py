@@ -48,7 +48,8 @@ def elastic_lines(response: FlexibleResponse, units: str) -> list[tuple[str, str
     lines.append(
         ("time step", written("{step_s:.3g ms}, {steps:d} steps", units, step_s=s["time_step_s"], steps=s["steps"]))
     )
-    lines.append(("evidence", evidence_line(s["evidence"], units)))
+    if response.outcome != "unstable":
+        lines.append(("evidence", evidence_line(s["evidence"], units)))
     if response.energy is not None:
         lines.append(("energy", _energy_line(response.energy, units)))
     return lines
