@@ -84,7 +84,10 @@ def pytest_sessionfinish(session: pytest.Session) -> None:
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     """Show what came of all attacks."""
-    reports = [each for found in terminalreporter.stats.values() for each in found if hasattr(each, "user_properties")]
+    # Tests that were not chosen stand there, too, and are none.
+    reports = [
+        each for found in terminalreporter.stats.values() for each in found if isinstance(each, pytest.TestReport)
+    ]
     rows = [
         value for each in reports if each.when == "call" for name, value in each.user_properties if name == "attack"
     ]

@@ -9,7 +9,7 @@ import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from rich.console import Console
 
-from heeltoe import flexible, read_case, rigid
+from heeltoe import flexible, read_case, rigid, write_report
 from heeltoe.models.run import run
 from heeltoe.study.grid import parse_variations, run_grid
 from heeltoe.views.figures.all import all_figures
@@ -99,6 +99,15 @@ def test_terminal_says_what_the_vertical_motion_does_to_the_limits(lifted):
     assert found.varied
     assert f"{found.varied} downstream" in printed(lifted)
     assert float(found.varied.split()[0]) == pytest.approx(found.value - 0.3 * found.per_vertical, abs=1e-4)
+
+
+def test_the_report_says_it_too(lifted, tmp_path):
+    for response, there in ((lifted, True), (rigid(read_case(BASE, [PUSHED])), False)):
+        write_report(read_case(BASE, [PUSHED]), response, tmp_path, kinds=("html",))
+        text = (tmp_path / "report.html").read_text(encoding="utf-8")
+        for start in starts(lifted).values():
+            assert (start.varied in text) == there
+        assert ("with the vertical motion" in text) == there
 
 
 def test_the_axis_of_time_ends_when_nothing_happens_any_more(lifted):

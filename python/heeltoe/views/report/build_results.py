@@ -5,6 +5,7 @@ from __future__ import annotations
 from heeltoe.views.report.content import Block, Inline, Section, Table, paragraph
 from heeltoe.views.report.subject import Subject
 from heeltoe.views.words.numbers import Value
+from heeltoe.views.words.starts import starts
 
 _ROWS: tuple[tuple[str, str, str | None], ...] = (
     ("Slip while sliding", "slip_by_mode_m.sliding", "displacement"),
@@ -31,11 +32,13 @@ _STATIC: tuple[tuple[str, str, str | None], ...] = (
     ("Resultant from the heel", "static.resultant_from_heel_m", "length"),
     ("Mass of the concrete above the crack", "static.concrete_mass_kg", None),
     ("Virtual mass of the water", "static.virtual_mass_kg", None),
-    ("Sliding downstream starts at", "critical_acceleration_g.sliding_downstream", "g"),
-    ("Sliding upstream starts at", "critical_acceleration_g.sliding_upstream", "g"),
-    ("Rocking downstream, about the toe, starts at", "critical_acceleration_g.rocking_downstream", "g"),
-    ("Rocking upstream, about the heel, starts at", "critical_acceleration_g.rocking_upstream", "g"),
 )
+_STARTS = {
+    ("sliding", "downstream"): "Sliding downstream starts at",
+    ("sliding", "upstream"): "Sliding upstream starts at",
+    ("rocking", "downstream"): "Rocking downstream, about the toe, starts at",
+    ("rocking", "upstream"): "Rocking upstream, about the heel, starts at",
+}
 _CRACK_LEVEL: tuple[tuple[str, str, str | None], ...] = (
     ("Peak of the ground", "ground_peak_g", "g"),
     ("Peak at the crack, horizontal", "peak_horizontal_g", "g"),
@@ -65,11 +68,15 @@ _FIGURES = (
 def results(subject: Subject) -> Section:
     """Return the section with all numbers and figures of what happens."""
     n, prefix = subject.numbers, subject.first.prefix
-    static = tuple((label, n(prefix + key, quantity)) for label, key, quantity in _STATIC)
+    static: list[tuple[Inline, ...]] = [(label, n(prefix + key, quantity)) for label, key, quantity in _STATIC]
+    for (kind, way), start in starts(subject.first.response).items():
+        static.append((_STARTS[kind, way], n(f"{prefix}critical_acceleration_g.{kind}_{way}", "g")))
+        if start.varied:
+            static.append(("with the vertical motion", start.varied))
     blocks: list[Block] = [
         Table(
             ("", "value"),
-            static,
+            tuple(static),
             f"Before the earthquake, {subject.per_width}; accelerations at which a rigid part above the crack starts "
             "to move.",
             "lr",
