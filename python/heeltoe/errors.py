@@ -334,8 +334,8 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "no-directory": ("is not there", "make it first, or give another path"),
     "no-file": ("{value} names no file", "give the path of a file"),
     "not-ours": (
-        "{value} is there, and no earlier run wrote it",
-        "give another directory, or move it away",
+        "{value} is there, and no earlier run listed it as its own",
+        "give another directory, or empty this one (an older heeltoe listed nothing)",
     ),
     "not-a-directory": ("{value} is a file", "give a directory"),
     "cannot-write": ("{value} cannot be written ({reason})", "give a place where you may write"),

@@ -280,7 +280,7 @@ def test_what_an_earlier_run_left_is_removed_and_told_and_nothing_else(tmp_path)
     assert removed == ["events.parquet", "histories.parquet"]
     refused = command("run", BLOCK, "--csv", "--out", ".", cwd=tmp_path)
     assert refused.returncode == 2
-    assert refused.stderr.startswith("heeltoe: --out: events.csv is there, and no earlier run wrote it; ")
+    assert refused.stderr.startswith("heeltoe: --out: events.csv is there, and no earlier run listed it as its own; ")
     assert (tmp_path / "events.csv").read_text() == "mine"
 
 

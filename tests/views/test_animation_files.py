@@ -12,10 +12,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 from PIL import Image
 
 import heeltoe
 from heeltoe import InputError, animate
+from heeltoe.views.animation import look
+from heeltoe.views.animation.charts import Charts
 from heeltoe.views.animation.frames import build_scene
 from heeltoe.views.animation.picture import arrow_outlines
 from heeltoe.views.animation.video import gif_delay
@@ -263,3 +266,11 @@ def test_what_shakes_the_block_of_a_decoupled_chain_is_shown(koyna, tmp_path):
     assert (traces["ground"]["label"], traces["crack"]["label"]) == ("ground", "crack")
     shaken = koyna.histories["crack_acceleration_m_s2"] / koyna.gravity
     assert np.abs(unpacked(traces["crack"]["values"])).max() == pytest.approx(np.abs(shaken).max(), rel=0.02)
+
+
+def test_what_reaches_far_hides_nothing(koyna):
+    scene = build_scene(example("koyna", *SHORT), koyna, koyna.histories["time_s"][::100], None)
+    figure = Figure()
+    Charts(figure, scene)
+    curves = [line for line in figure.axes[0].lines if len(line.get_xdata()) > 2]
+    assert [line.get_color() for line in curves] == [look.TRACES["crack"], look.TRACES["ground"]]

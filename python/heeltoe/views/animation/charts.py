@@ -58,7 +58,8 @@ class Charts:
                     transform=axes.transAxes,
                 )
                 right -= 0.05 + 0.022 * len(trace.label)
-        for trace in traces:
+        # What reaches far would hide what does not.
+        for trace in sorted(traces, key=lambda each: -float(np.abs(each.values).max())):
             colour = look.TRACES[trace.role]
             axes.plot(scene.history_times, trace.values, color=colour, linewidth=0.9)
             point = animated(axes.plot([], [], "o", color=colour, markersize=5)[0])

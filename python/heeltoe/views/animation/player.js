@@ -246,7 +246,9 @@
       context.fillText(trace.label, right, from - 7);
       right -= context.measureText(trace.label).width + 10;
     }
-    traces.forEach((trace) => {
+    // What reaches far would hide what does not.
+    const reach = (trace) => trace.values.reduce((most, value) => Math.max(most, Math.abs(value)), 0);
+    [...traces].sort((one, other) => reach(other) - reach(one)).forEach((trace) => {
       context.strokeStyle = colour(`trace-${trace.role}`);
       context.lineWidth = 1.1;
       context.beginPath();
