@@ -114,12 +114,17 @@ class Crack(Fields):
     @property
     def mu_static(self) -> float:
         """Coefficient of friction at rest."""
-        return self.static_friction if self.static_friction is not None else self.friction or 0.0
+        return self._coefficient(self.static_friction)
 
     @property
     def mu_kinetic(self) -> float:
         """Coefficient of friction while sliding."""
-        return self.kinetic_friction if self.kinetic_friction is not None else self.friction or 0.0
+        return self._coefficient(self.kinetic_friction)
+
+    def _coefficient(self, own: float | None) -> float:
+        """Return the one of its own, or the one for both; zero where the case says neither."""
+        given = self.friction if own is None else own
+        return 0.0 if given is None else given
 
 
 class Water(Fields):

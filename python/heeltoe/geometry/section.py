@@ -5,17 +5,31 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 import shapely
 
-from heeltoe.arrays import Floats
+from heeltoe.arrays import Floats, ratio
 from heeltoe.errors import InputError, shown
 
 ON_LINE = 1e-9
 """What is so close to a line, as a part of the section's size, is on it: far above rounding, far below any drawing."""
 # A section outside these [m] has a wrong unit; far outside, areas and inertias overflow.
 _SMALLEST, _LARGEST = 1e-3, 1e4
+
+
+class Edge(NamedTuple):
+    """A piece of a face, on the way up: from (x0, z0) to (x1, z1), both counted from the heel [m], and how far it goes
+    downstream for each metre of its rise; zero of a level one."""
+
+    x0: float
+    z0: float
+    x1: float
+    z1: float
+    slope: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +54,8 @@ class CutSection:
         From the toe up to the crest, shape (k, 2) [m].
     base_elevation, crest_elevation
         z of the lowest and of the highest point of the whole section [m].
+    inclination
+        Angle of the crack to the horizontal, positive where it rises downstream [rad].
     """
 
     polygon: Floats
@@ -52,8 +68,9 @@ class CutSection:
     downstream_face: Floats
     base_elevation: float
     crest_elevation: float
+    inclination: float
 
-    @property
+    @cached_property
     def crack_width(self) -> float:
         """Distance from heel to toe [m]."""
         return math.hypot(self.toe[0] - self.heel[0], self.toe[1] - self.heel[1])
@@ -63,14 +80,23 @@ class CutSection:
         """z of the heel [m]; the case counts it from the lowest point instead."""
         return self.heel[1]
 
-    @property
-    def inclination(self) -> float:
-        """Angle of the crack to the horizontal, positive where it rises downstream [rad]."""
-        return math.atan2(self.toe[1] - self.heel[1], self.toe[0] - self.heel[0])
+    @cached_property
+    def upstream_edges(self) -> tuple[Edge, ...]:
+        """The pieces of the upstream face."""
+        return self._edges(self.upstream_face)
+
+    @cached_property
+    def downstream_edges(self) -> tuple[Edge, ...]:
+        """The pieces of the downstream face."""
+        return self._edges(self.downstream_face)
+
+    def _edges(self, face: Floats) -> tuple[Edge, ...]:
+        corners = [(x - self.heel[0], z - self.heel[1]) for x, z in face.tolist()]
+        return tuple(Edge(x0, z0, x1, z1, ratio(x1 - x0, z1 - z0)) for (x0, z0), (x1, z1) in pairwise(corners))
 
     def in_crack_frame(self, x: float, z: float) -> tuple[float, float]:
         """Return the components of a vector (x, z) along the crack, downstream, and across it, upwards."""
-        if self.toe[1] == self.heel[1]:
+        if self.inclination == 0.0:
             return x, z
         along, up = math.cos(self.inclination), math.sin(self.inclination)
         return along * x + up * z, along * z - up * x
@@ -82,7 +108,7 @@ class CutSection:
 
     def from_crack_frame(self, along: float, across: float) -> tuple[float, float]:
         """Return (x, z) of a vector with components along and across the crack."""
-        if self.toe[1] == self.heel[1]:
+        if self.inclination == 0.0:
             return along, across
         down, up = math.cos(self.inclination), math.sin(self.inclination)
         return down * along - up * across, up * along + down * across
@@ -242,4 +268,5 @@ def _measured(corners: Floats, base: float, crest: float) -> CutSection:
         downstream_face=downstream,
         base_elevation=base,
         crest_elevation=crest,
+        inclination=math.atan2(corners[1, 1] - corners[0, 1], corners[1, 0] - corners[0, 0]),
     )

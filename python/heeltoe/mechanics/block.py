@@ -180,7 +180,11 @@ class Block:
 
     def parameters(self) -> Floats:
         """Return the numbers the kernel takes, shape (21,), in the order of :data:`heeltoe.kernel.BLOCK`."""
-        values = [
+        return np.array(self.numbers())
+
+    def numbers(self) -> tuple[float, ...]:
+        """Return the same one by one."""
+        values = (
             self.mass_horizontal,
             self.mass_vertical,
             self.inertia,
@@ -196,9 +200,9 @@ class Block:
             self.friction_kinetic,
             self.restitution,
             *self.coupling,
-        ]
+        )
         assert len(values) == len(BLOCK)
-        return np.array(values)
+        return values
 
 
 def build_block(case: Case) -> Block:

@@ -1,14 +1,15 @@
-"""Static forces on the part of a dam above the crack; per metre of dam."""
+"""Static forces on the part of a dam above the crack; per metre of dam. The numbers of a case may be columns."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.arrays import Floats, larger, smaller, where
 from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
@@ -49,10 +50,10 @@ def total(name: str, forces: Iterable[Resultant]) -> Resultant:
     forces = tuple(forces)
     return Resultant(
         name,
-        math.fsum(force.horizontal for force in forces),
-        math.fsum(force.vertical for force in forces),
-        math.fsum(force.moment for force in forces),
-        math.fsum(force.virial for force in forces),
+        sum((force.horizontal for force in forces), 0.0),
+        sum((force.vertical for force in forces), 0.0),
+        sum((force.moment for force in forces), 0.0),
+        sum((force.virial for force in forces), 0.0),
     )
 
 
@@ -100,8 +101,9 @@ def ice(case: Case) -> Resultant:
         return Resultant("ice", 0.0, 0.0, 0.0)
     section = case.cut
     height = section.base_elevation + case.reservoir.depth - case.ice.depth - section.crack_elevation
-    push = case.ice.force if height >= 0.0 else 0.0
-    return Resultant("ice", push, 0.0, -push * max(height, 0.0), push * face_at(section, max(height, 0.0)))
+    push = where(height >= 0.0, case.ice.force, 0.0)
+    height = larger(height, 0.0)
+    return Resultant("ice", push, 0.0, -push * height, push * face_at(section, height))
 
 
 def silt(case: Case) -> Resultant:
@@ -139,34 +141,38 @@ def uplift_profile(case: Case) -> Floats:
         Distance from the heel [m], ascending, and pressure times the intensity [Pa]; twice the same distance
         is a jump.
     """
-    pattern = case.uplift
+    return np.array(_uplift_points(case))
+
+
+def _uplift_points(case: Case) -> list[tuple[float, float]]:
+    """Return the points of :func:`uplift_profile`."""
+    given = case.uplift
     heel, toe = _pressure(case, case.reservoir), _pressure(case, case.tailwater, toe=True)
-    drains = toe + (1.0 - (pattern.drain_efficiency or 0.0)) * (heel - toe)
+    extent, position, efficiency = (
+        0.0 if option is None else option for option in (given.extent, given.drain_position, given.drain_efficiency)
+    )
+    drains = toe + (1.0 - efficiency) * (heel - toe)
     own = case.gravity * (case.reservoir.density if case.reservoir else 1000.0)
     points: dict[str, list[tuple[float, float]]] = {
         "none": [(0.0, 0.0), (1.0, 0.0)],
         "uniform": [(0.0, heel), (1.0, heel)],
         "triangular": [(0.0, heel), (1.0, toe)],
-        "cut-off": [(0.0, heel), (pattern.extent or 1.0, toe), (1.0, toe)],
-        "drained": [(0.0, heel), (pattern.drain_position or 0.0, drains), (1.0, toe)],
-        "profile": [(fraction, own * head) for fraction, head in pattern.points or ()],
+        "cut-off": [(0.0, heel), (extent, toe), (1.0, toe)],
+        "drained": [(0.0, heel), (position, drains), (1.0, toe)],
+        "profile": [(fraction, own * head) for fraction, head in given.points or ()],
     }
-    return np.array(points[pattern.pattern]) * [case.cut.crack_width, pattern.intensity]
+    width = case.cut.crack_width
+    return [(fraction * width, pressure * given.intensity) for fraction, pressure in points[given.pattern]]
 
 
 def uplift(case: Case) -> Resultant:
     """Return the force of the water in the crack, which is normal to it."""
-    profile = uplift_profile(case)
-    x, pressure = profile.T
-    length = np.diff(x)
-    force = float(np.sum(length * (pressure[:-1] + pressure[1:]))) / 2.0
+    force = moment = 0.0
+    for (x0, p0), (x1, p1) in pairwise(_uplift_points(case)):
+        force += (x1 - x0) * (p0 + p1) / 2.0
+        moment += (x1 - x0) * _mean_product(x0, x1, p0, p1)
     horizontal, vertical = case.cut.from_crack_frame(0.0, force)
-    return Resultant(
-        "uplift",
-        horizontal,
-        vertical,
-        float(np.sum(length * _mean_product(x[:-1], x[1:], pressure[:-1], pressure[1:]))),
-    )
+    return Resultant("uplift", horizontal, vertical, moment)
 
 
 def water_above_crack(case: Case, water: Water | None, *, toe: bool = False) -> float:
@@ -174,7 +180,7 @@ def water_above_crack(case: Case, water: Water | None, *, toe: bool = False) -> 
     if water is None:
         return 0.0
     section = case.cut
-    return max(0.0, section.base_elevation + water.depth - (section.toe if toe else section.heel)[1])
+    return larger(0.0, section.base_elevation + water.depth - (section.toe if toe else section.heel)[1])
 
 
 def _pressure(case: Case, water: Water | None, *, toe: bool = False) -> float:
@@ -193,35 +199,35 @@ def _face_fluid(name: str, case: Case, depth: float, densities: tuple[float, flo
     """Integrate edge by edge the pressure of a fluid that has one density sideways and one in its weight."""
     section = case.cut
     # Going up the upstream face, the concrete is on the right hand.
-    face, side = (section.upstream_face, 1.0) if upstream else (section.downstream_face, -1.0)
+    edges, side = (section.upstream_edges, 1.0) if upstream else (section.downstream_edges, -1.0)
     # Counted from the heel, also where the toe is lower.
     surface = section.base_elevation + depth - section.crack_elevation
-    start, end = face[:-1] - section.heel, face[1:] - section.heel
-    # The wet part of each edge, from fraction a to b of its length; along it the pressure is linear.
-    with np.errstate(divide="ignore", invalid="ignore"):
-        crossing = np.clip((surface - start[:, 1]) / (end[:, 1] - start[:, 1]), 0.0, 1.0)
-    wet_start, wet_end = start[:, 1] < surface, end[:, 1] < surface
-    a = np.where(wet_start, 0.0, np.where(wet_end, crossing, 1.0))
-    b = np.where(wet_end, 1.0, np.where(wet_start, crossing, 1.0))
-    lower, upper = start + a[:, None] * (end - start), start + b[:, None] * (end - start)
-    h0, h1 = surface - lower[:, 1], surface - upper[:, 1]
-    along = upper - lower
-    # The normal into the concrete, as long as the edge, times the weight of a unit of the fluid.
-    normal = case.gravity * side * np.column_stack([densities[0] * along[:, 1], -densities[1] * along[:, 0]])
-    lever = _mean_product(lower[:, 0], upper[:, 0], h0, h1) * normal[:, 1]
-    lever -= _mean_product(lower[:, 1], upper[:, 1], h0, h1) * normal[:, 0]
-    virial = _mean_product(lower[:, 0], upper[:, 0], h0, h1) * normal[:, 0]
-    virial += _mean_product(lower[:, 1], upper[:, 1], h0, h1) * normal[:, 1]
-    horizontal, vertical = (h0 + h1) / 2.0 @ normal
-    return Resultant(name, float(horizontal), float(vertical), float(np.sum(lever)), float(np.sum(virial)))
+    horizontal = vertical = moment = virial = 0.0
+    for edge in edges:
+        # The wet part; along it the pressure is linear.
+        z0, z1 = smaller(edge.z0, surface), smaller(edge.z1, surface)
+        x0, x1 = edge.x0 + edge.slope * (z0 - edge.z0), edge.x1 + edge.slope * (z1 - edge.z1)
+        h0, h1 = surface - z0, surface - z1
+        # The normal into the concrete, as long as the edge, times the densities.
+        across, down = densities[0] * (z1 - z0), densities[1] * (x1 - x0)
+        mean, mean_x, mean_z = (h0 + h1) / 2.0, _mean_product(x0, x1, h0, h1), _mean_product(z0, z1, h0, h1)
+        horizontal += mean * across
+        vertical -= mean * down
+        moment -= mean_x * down + mean_z * across
+        virial += mean_x * across - mean_z * down
+    weight = case.gravity * side
+    return Resultant(name, weight * horizontal, weight * vertical, weight * moment, weight * virial)
 
 
 def face_at(section: CutSection, height: float) -> float:
     """Return where the upstream face is at a height above the heel, downstream of the heel [m]."""
-    face = section.upstream_face - section.heel
-    return float(np.interp(height, face[:, 1], face[:, 0]))
+    place = 0.0
+    for edge in section.upstream_edges:
+        rises = edge.slope * (larger(smaller(height, edge.z1), edge.z0) - edge.z0)
+        place += where(height >= edge.z1, edge.x1 - edge.x0, rises)
+    return place
 
 
-def _mean_product(f0: Floats, f1: Floats, g0: Floats, g1: Floats) -> Floats:
-    """Return the mean of the product of two linear functions over pieces, from the values at their ends."""
-    return (2.0 * f0 * g0 + f0 * g1 + f1 * g0 + 2.0 * f1 * g1) / 6.0
+def _mean_product(f0: float, f1: float, g0: float, g1: float) -> float:
+    """Return the mean of the product of two linear functions over a piece, from the values at its ends."""
+    return (f0 * (2.0 * g0 + g1) + f1 * (g0 + 2.0 * g1)) / 6.0

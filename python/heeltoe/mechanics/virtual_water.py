@@ -14,14 +14,15 @@ face. (The print was not at hand; potential flow against a face of constant slop
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.arrays import arctan, larger, ratio, where
 from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
-from heeltoe.geometry.section import CutSection
+from heeltoe.geometry.section import CutSection, Edge
 
 
 @dataclass(frozen=True)
@@ -42,7 +43,7 @@ def slope_factor(batter: float) -> float:
     batter
         Tangent of the angle by which the face leans back from the water; negative where it hangs over.
     """
-    return 1.0 - math.atan(batter) / (math.pi / 2.0)
+    return 1.0 - arctan(batter) / (math.pi / 2.0)
 
 
 def virtual_mass(case: Case) -> VirtualMass:
@@ -51,35 +52,34 @@ def virtual_mass(case: Case) -> VirtualMass:
     With h of water above the crack before a vertical face it is ``7/12 rho sqrt(D) h^(3/2)``, its centre 0.4 h above
     the crack.
     """
-    found = [
-        _before(case.cut, case.reservoir, case.cut.upstream_face, 1.0),
-        _before(case.cut, case.tailwater, case.cut.downstream_face, -1.0),
-    ]
-    there = [water for water in found if water.mass > 0.0]
-    if len(there) < 2:
-        return there[0] if there else VirtualMass(0.0, 0.0)
-    mass = math.fsum(water.mass for water in there)
-    height = math.fsum(water.mass * water.height for water in there) / mass
-    return VirtualMass(mass, height, any(water.sloped for water in there))
+    section = case.cut
+    up = _before(section, case.reservoir, section.upstream_edges, 1.0)
+    down = _before(section, case.tailwater, section.downstream_edges, -1.0)
+    if up is None or down is None:
+        return up or down or VirtualMass(0.0, 0.0)
+    mass = up.mass + down.mass
+    height = ratio(up.mass * up.height + down.mass * down.height, mass)
+    return VirtualMass(mass, height, up.sloped or down.sloped)
 
 
-def _before(section: CutSection, water: Water | None, face: Floats, side: float) -> VirtualMass:
-    """Return the water before one face; `side` is 1 with the concrete on the right of the way up, -1 on the left."""
-    if water is None or section.base_elevation + water.depth <= face[0, 1]:
-        return VirtualMass(0.0, 0.0)
-    along = np.diff(face, axis=0)
-    surface = section.base_elevation + water.depth
-    wet = np.maximum(surface - face[:, 1], 0.0)
-    upright = np.abs(along[:, 0]) <= 1e-9 * np.abs(along[:, 1])
-    sloped = not upright[wet[:-1] != wet[1:]].all()
+def _before(section: CutSection, water: Water | None, edges: Sequence[Edge], side: float) -> VirtualMass | None:
+    """Return the water before one face, None without any above its foot; `side` is 1 with the concrete on the right of
+    the way up, -1 on the left."""
+    if water is None:
+        return None
+    surface = section.base_elevation + water.depth - section.crack_elevation
+    wet = [(edge, larger(surface - edge.z0, 0.0), larger(surface - edge.z1, 0.0)) for edge in edges]
+    wet = [each for each in wet if np.any(each[1] != each[2])]
+    if not wet:
+        return None
+    sloped = any(np.any((abs(edge.slope) > 1e-9) & (lower != upper)) for edge, lower, upper in wet)
     if side > 0.0 and not sloped:
-        depth = float(wet[0])
-        return VirtualMass(7.0 / 12.0 * water.density * math.sqrt(water.depth) * depth**1.5, 0.4 * depth)
+        depth = wet[0][1]
+        return VirtualMass(7.0 / 12.0 * water.density * water.depth**0.5 * depth**1.5, 0.4 * depth)
     mass = moment = 0.0
-    for (dx, dz), lower, upper in zip(along.tolist(), wet[:-1].tolist(), wet[1:].tolist(), strict=True):
-        if lower != upper:
-            # Of sqrt(d) over the depths d of the edge, and of d sqrt(d).
-            factor = 7.0 / 8.0 * water.density * math.sqrt(water.depth) * slope_factor(side * dx / dz)
-            mass += factor * (lower**1.5 - upper**1.5) * 2.0 / 3.0
-            moment += factor * (lower**2.5 - upper**2.5) * 2.0 / 5.0
-    return VirtualMass(mass, surface - section.heel[1] - moment / mass, sloped)
+    for edge, lower, upper in wet:
+        # Of sqrt(d) over the depths d of the edge, and of d sqrt(d).
+        factor = 7.0 / 8.0 * water.density * water.depth**0.5 * slope_factor(side * edge.slope)
+        mass += factor * (lower**1.5 - upper**1.5) * 2.0 / 3.0
+        moment += factor * (lower**2.5 - upper**2.5) * 2.0 / 5.0
+    return VirtualMass(mass, where(mass > 0.0, surface - ratio(moment, mass), 0.0), sloped)
