@@ -15,6 +15,12 @@ Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
 
+def number(given: object) -> float:
+    """Return a sum over an array as the number that it is, or as the column."""
+    found: float = given if np.ndim(given) else float(given)  # type: ignore[arg-type, assignment]
+    return found
+
+
 def larger(one: float, other: float) -> float:
     """Return the larger of two numbers, row by row of columns."""
     if isinstance(one, float) and isinstance(other, float):

@@ -307,6 +307,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "block-number": ("{value} is no number of a block", "give {bounds}"),
     "blocks-shape": ("{value} is no table of blocks", "give blocks, cases, or numbers of shape (n, {columns})"),
     "blocks-many": ("{value} for {count} blocks", "give one for each of them"),
+    "column-unknown": ("can be no column", "give single cases; columns are {columns}"),
     "blocks-scale": ("{value} is no factor", "give finite numbers"),
     "blocks-motion": ("{value} is none of the motions", "give {bounds}"),
     "blocks-limit": ("{value} ends nothing", "give {bounds}"),

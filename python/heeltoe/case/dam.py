@@ -194,12 +194,15 @@ UPLIFT_OPTIONS = {
 }
 
 
+def pattern_of(name: object) -> object:
+    """Return what a pattern of uplift is called here; anything else as it is."""
+    return "cut-off" if name == "cut-off triangular" else name
+
+
 class Uplift(Fields):
     """Water pressure in the crack. Without water above the crack only a `profile` gives any."""
 
-    pattern: Annotated[
-        UpliftPattern, BeforeValidator(lambda name: "cut-off" if name == "cut-off triangular" else name)
-    ] = "triangular"
+    pattern: Annotated[UpliftPattern, BeforeValidator(pattern_of)] = "triangular"
     """`uniform`: the heel's head over the whole width; `triangular`: to the tailwater's at the toe;
     `cut-off`: to it at `extent`; `drained`: heel, drain, toe; `profile`: your own."""
     intensity: Annotated[DimensionlessNumber, Field(ge=0.0, le=10.0)] = 1.0

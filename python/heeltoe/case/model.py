@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from functools import cached_property
+from collections.abc import Callable, Iterator, Mapping
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Annotated, Any, Self
 
@@ -105,7 +105,9 @@ class Case(Shown, Fields):
             case = cls.model_validate(fields)
         except ValidationError as found:
             raise first_error(found, cls) from None
-        _check_loads(case)
+        for wrong, error in misfits(case):
+            if wrong:
+                raise error()
         return case
 
     def with_(self, *changes: str | Mapping[str, Any]) -> Case:
@@ -172,23 +174,31 @@ class Case(Shown, Fields):
         return copy
 
 
-def _check_loads(case: Case) -> None:
-    """Refuse water and silt above the crest, as flow over a dam is another problem, and anchors beyond the toe."""
-    section = case.cut
+def misfits(case: Case) -> Iterator[tuple[bool, Callable[[], InputError]]]:
+    """Walk what the section rules out, whether it is so, row by row where the numbers of the case are columns, and what
+    is to be said then: water and silt above the crest, as flow over a dam is another problem, and anchors beyond the
+    toe."""
+    section, choice = case.cut, case.statics
     height = section.crest_elevation - section.base_elevation
-    highest = height * (1.0 + ON_LINE)
     surfaces = {
         "reservoir.depth": case.reservoir.depth if case.reservoir else None,
         "tailwater.depth": case.tailwater.depth if case.tailwater else None,
-        "statics.flood_depth": case.statics.flood_depth,
-        "statics.flood_tailwater": case.statics.flood_tailwater,
+        "statics.flood_depth": choice.flood_depth,
+        "statics.flood_tailwater": choice.flood_tailwater,
+        "silt.depth": case.silt.depth if case.silt else None,
     }
     for field, depth in surfaces.items():
-        if depth is not None and depth > highest:
-            raise InputError("water-above-crest", field, f"{depth:g} m", height=f"{height:g} m")
-    if case.silt is not None and case.silt.depth > highest:
-        raise InputError("silt-above-crest", "silt.depth", f"{case.silt.depth:g} m", height=f"{height:g} m")
+        if depth is not None:
+            yield depth > height * (1.0 + ON_LINE), partial(_above_crest, field, depth, height)
     for place, anchor in enumerate(case.anchors):
-        if anchor.distance > section.crack_width * (1.0 + ON_LINE):
-            field, width = f"anchors[{place}].distance", f"{section.crack_width:g} m"
-            raise InputError("anchor-outside", field, f"{anchor.distance:g} m", width=width)
+        far = partial(_beyond_toe, f"anchors[{place}].distance", anchor.distance, section.crack_width)
+        yield anchor.distance > section.crack_width * (1.0 + ON_LINE), far
+
+
+def _above_crest(field: str, depth: float, height: float) -> InputError:
+    code = "silt-above-crest" if field == "silt.depth" else "water-above-crest"
+    return InputError(code, field, f"{depth:g} m", height=f"{height:g} m")
+
+
+def _beyond_toe(field: str, distance: float, width: float) -> InputError:
+    return InputError("anchor-outside", field, f"{distance:g} m", width=f"{width:g} m")

@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import cache
-from typing import Any
+from typing import Any, get_args
+
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
 
 from heeltoe.case.model import Case
+from heeltoe.case.sentences import block_of
 
 
 @cache
@@ -20,12 +24,32 @@ def quantity_of(path: str) -> str | None:
     return next((str(each["quantity"]) for each in _alternatives(place) if "quantity" in each), None)
 
 
+@cache
+def bounds_of(path: str) -> tuple[tuple[str, float], ...]:
+    """Return what a field keeps within, in SI units, by the names of comparisons: ``(("ge", 0.0), ("le", 10.0))``."""
+    *blocks, name = path.split(".")
+    model: type[BaseModel] = Case
+    for block in blocks:
+        model = block_of(model.model_fields[block].annotation) or model
+    given = list(_constraints(model.model_fields[name]))
+    kinds = ("ge", "gt", "le", "lt")
+    return tuple((kind, float(getattr(each, kind))) for each in given for kind in kinds if hasattr(each, kind))
+
+
 def value_of(case: Case, path: str) -> Any:
     """Return what stands in a field of a case, quantities in SI units; None where its block is not there."""
     place: Any = case
     for name in path.split("."):
         place = getattr(place, name, None)
     return place
+
+
+def _constraints(given: object) -> Iterator[object]:
+    """Walk all that is said of a field, also of one that may be left out."""
+    inner = (given.annotation, *given.metadata) if isinstance(given, FieldInfo) else get_args(given)
+    for each in inner:
+        yield each
+        yield from _constraints(each)
 
 
 @cache

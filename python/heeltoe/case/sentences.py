@@ -124,12 +124,12 @@ def _path(location: Sequence[int | str]) -> str:
     return text
 
 
-def _block(annotation: object) -> type[BaseModel] | None:
+def block_of(annotation: object) -> type[BaseModel] | None:
     """Return the model that a field holds, also behind ``| None``; None where it holds a plain value."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return annotation
     if isinstance(annotation, types.UnionType) or typing.get_origin(annotation) is typing.Union:
-        return next(filter(None, map(_block, typing.get_args(annotation))), None)
+        return next(filter(None, map(block_of, typing.get_args(annotation))), None)
     return None
 
 
@@ -150,7 +150,7 @@ def _owner(location: Sequence[int | str], model: type[BaseModel]) -> type[BaseMo
             model = next((kind for kind in kinds if name in _tags(kind)), model)
         elif field:
             kinds = list(_kinds(field.annotation))
-            model = _block(field.annotation) or model
+            model = block_of(field.annotation) or model
     return model
 
 
@@ -173,7 +173,7 @@ def _places(model: type[BaseModel], above: str = "") -> Iterator[tuple[str, str]
     """Walk all fields of a model: their name and their full path."""
     for name, field in model.model_fields.items():
         yield name, above + name
-        block = _block(field.annotation)
+        block = block_of(field.annotation)
         if block:
             yield from _places(block, f"{above}{name}.")
 
@@ -191,7 +191,7 @@ def _suggestion(location: Sequence[int | str], model: type[BaseModel]) -> str:
 def _example(location: Sequence[int | str], model: type[BaseModel]) -> str:
     name = str(location[-1])
     field = _owner(location, model).model_fields[name]
-    if _block(field.annotation):
+    if block_of(field.annotation):
         return f"[{_path(location)}]"
     schemas = (part.json_schema for part in field.metadata if isinstance(part, WithJsonSchema))
     schema: Mapping[str, typing.Any] = next((found for found in schemas if found), {})

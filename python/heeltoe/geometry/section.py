@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from heeltoe.arrays import Floats, ratio
+from heeltoe.arrays import Floats, number, ratio
 from heeltoe.errors import InputError, shown
 
 ON_LINE = 1e-9
@@ -73,7 +73,7 @@ class CutSection:
     @cached_property
     def crack_width(self) -> float:
         """Distance from heel to toe [m]."""
-        return math.hypot(self.toe[0] - self.heel[0], self.toe[1] - self.heel[1])
+        return number(np.hypot(self.toe[0] - self.heel[0], self.toe[1] - self.heel[1]))
 
     @property
     def crack_elevation(self) -> float:
@@ -91,7 +91,8 @@ class CutSection:
         return self._edges(self.downstream_face)
 
     def _edges(self, face: Floats) -> tuple[Edge, ...]:
-        corners = [(x - self.heel[0], z - self.heel[1]) for x, z in face.tolist()]
+        points = face.tolist() if face.ndim == 2 else face
+        corners = [(x - self.heel[0], z - self.heel[1]) for x, z in points]
         return tuple(Edge(x0, z0, x1, z1, ratio(x1 - x0, z1 - z0)) for (x0, z0), (x1, z1) in pairwise(corners))
 
     def in_crack_frame(self, x: float, z: float) -> tuple[float, float]:
@@ -158,11 +159,10 @@ def cut(whole: shapely.Polygon, elevation: float, inclination: float = 0.0) -> C
     InputError
         Where the crack does not cut the section in two along one line.
     """
-    left, base, right, crest = whole.bounds
-    size = max(right - left, crest - base)
-    slack = ON_LINE * size
+    _, base, _, crest = whole.bounds
+    slack = _slack(whole)
     elevation = elevation if elevation > slack else 0.0
-    if elevation >= crest - base - slack:
+    if outside(whole, elevation):
         raise InputError("crack-outside", "crack.elevation", f"{elevation:g} m", height=f"{crest - base:g} m")
     level = base + elevation
     if inclination:
@@ -170,6 +170,20 @@ def cut(whole: shapely.Polygon, elevation: float, inclination: float = 0.0) -> C
     else:
         corners = _cut_level(whole, level, slack, elevation)
     return _measured(corners, base, crest)
+
+
+def outside(whole: shapely.Polygon, elevation: float) -> bool:
+    """Whether an elevation above the lowest point of a section [m] has nothing of it above; row by row of columns."""
+    _, base, _, crest = whole.bounds
+    none: bool = elevation >= crest - base - _slack(whole)
+    return none
+
+
+def _slack(whole: shapely.Polygon) -> float:
+    """Return how close to a line of a section something is on it [m]."""
+    left, base, right, crest = whole.bounds
+    slack: float = ON_LINE * max(right - left, crest - base)
+    return slack
 
 
 def _cut_inclined(whole: shapely.Polygon, level: float, inclination: float, slack: float) -> Floats:
@@ -245,28 +259,54 @@ def _ring(upper: shapely.Polygon, start: float, end: float, level: float, slack:
 
 def _measured(corners: Floats, base: float, crest: float) -> CutSection:
     """Measure the upper part; its corners start with heel and toe."""
-    outline = shapely.Polygon(corners)
-    centroid = outline.centroid
-    x, z = (corners - [centroid.x, centroid.y]).T
-    x1, z1 = np.roll(x, -1), np.roll(z, -1)
-    cross = x * z1 - x1 * z
-    # Green's theorem, edge by edge, about the centroid, where nothing cancels.
-    inertia = float(np.sum(cross * (x * x + x * x1 + x1 * x1 + z * z + z * z1 + z1 * z1))) / 12.0
     top = np.flatnonzero(corners[:, 1] == crest)
     upstream = np.vstack([corners[:1], corners[: top[-1] - 1 : -1]])
     downstream = corners[1 : top[0] + 1]
-    for array in (corners, upstream, downstream):
+    inclination = math.atan2(corners[1, 1] - corners[0, 1], corners[1, 0] - corners[0, 0])
+    return measured(corners, (upstream, downstream), (base, crest), inclination)
+
+
+def measured(
+    corners: Floats, faces: tuple[Floats, Floats], ends: tuple[float, float], inclination: float
+) -> CutSection:
+    """Measure the part above a crack, or above many.
+
+    Parameters
+    ----------
+    corners
+        From the heel and the toe round, (m, 2), or (m, 2, n) of n cracks [m].
+    faces
+        The upstream and the downstream one, from the crack up.
+    ends
+        z of the lowest and of the highest point of the whole section [m].
+    inclination
+        Of the crack [rad].
+    """
+    # Green's theorem, edge by edge; the inertia about the centroid, where nothing cancels.
+    x, z, cross = _around(corners, corners[0])
+    area = cross.sum(axis=0) / 2.0
+    centroid = np.array([(cross * sums).sum(axis=0) for sums in (x[0] + x[1], z[0] + z[1])]) / (6.0 * area) + corners[0]
+    x, z, cross = _around(corners, centroid)
+    squares = x[0] * x[0] + x[0] * x[1] + x[1] * x[1] + z[0] * z[0] + z[0] * z[1] + z[1] * z[1]
+    for array in (corners, *faces):
         array.flags.writeable = False
     return CutSection(
         polygon=corners,
-        area=outline.area,
-        centroid=(centroid.x, centroid.y),
-        polar_inertia=inertia,
-        heel=(float(corners[0, 0]), float(corners[0, 1])),
-        toe=(float(corners[1, 0]), float(corners[1, 1])),
-        upstream_face=upstream,
-        downstream_face=downstream,
-        base_elevation=base,
-        crest_elevation=crest,
-        inclination=math.atan2(corners[1, 1] - corners[0, 1], corners[1, 0] - corners[0, 0]),
+        area=number(area),
+        centroid=(number(centroid[0]), number(centroid[1])),
+        polar_inertia=number((cross * squares).sum(axis=0) / 12.0),
+        heel=(number(corners[0, 0]), number(corners[0, 1])),
+        toe=(number(corners[1, 0]), number(corners[1, 1])),
+        upstream_face=faces[0],
+        downstream_face=faces[1],
+        base_elevation=ends[0],
+        crest_elevation=ends[1],
+        inclination=inclination,
     )
+
+
+def _around(corners: Floats, centre: Floats) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats], Floats]:
+    """Return x and z of both ends of all edges from a point, and twice the areas of the triangles there."""
+    x, z = (corners - centre).swapaxes(0, 1)
+    following = np.roll(x, -1, axis=0), np.roll(z, -1, axis=0)
+    return (x, following[0]), (z, following[1]), x * following[1] - following[0] * z

@@ -1,0 +1,51 @@
+"""The blocks of many dams in one step, from columns of numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from heeltoe.arrays import Floats
+from heeltoe.case.columns import Columns, by_columns
+from heeltoe.case.model import Case
+from heeltoe.kernel.block import BLOCK
+from heeltoe.mechanics.block import build_block
+
+
+def block_columns(case: Case, columns: Columns) -> Floats:
+    """Return the numbers of the blocks of many dams, as the kernels take them.
+
+    A row equals ``build_block(case.with_(...)).parameters()`` to rounding. It is all there is of a block unless
+    something changes as it moves (:func:`heeltoe.models.rigid.varying.varies`, which no column changes); that needs
+    single cases. About 10 bytes a row and column are taken for a while: make a million rows in pieces of some ten
+    thousand.
+
+    Parameters
+    ----------
+    case
+        What all rows have in common.
+    columns
+        Of the fields :data:`heeltoe.case.columns.COLUMNS`, (n,) each: SI numbers, or words in ``uplift.pattern``.
+
+    Returns
+    -------
+    ndarray
+        (n, 21) in the order of :data:`heeltoe.kernel.block.BLOCK`; one row where there are no columns.
+
+    Raises
+    ------
+    InputError
+        As of a single case, for the first row that is none; where a field can be no column, or columns differ in
+        length.
+    """
+    count, parts = by_columns(case, columns)
+    found = np.empty((count, len(BLOCK)))
+    for rows, many in parts:
+        for place, value in enumerate(build_block(many).numbers()):
+            found[rows, place] = value
+    return found
+
+
+def crack_widths(blocks: Floats) -> Floats:
+    """Return the widths (n,) of the cracks [m] of blocks (n, 21)."""
+    widths: Floats = blocks[:, BLOCK.index("heel_distance")] + blocks[:, BLOCK.index("toe_distance")]
+    return widths
