@@ -16,12 +16,13 @@ from matplotlib.figure import Figure
 from PIL import Image
 
 import heeltoe
-from heeltoe import InputError, animate
+from heeltoe import InputError, animate, read_case, rigid
 from heeltoe.views.animation import look
 from heeltoe.views.animation.charts import Charts
 from heeltoe.views.animation.frames import build_scene
 from heeltoe.views.animation.picture import arrow_outlines
 from heeltoe.views.animation.video import gif_delay
+from heeltoe.views.figures.dense import filled_in
 from shared.command import command
 from shared.dams import BLOCK, SHORT, example
 from shared.scenes import page_scene, unpacked
@@ -79,6 +80,8 @@ def test_the_page_holds_what_the_response_says(pair, tmp_path):
     case, response = pair
     path = animate(case, response, tmp_path / "dam.html", window=(0.0, 0.9))
     scene = page_scene(path)
+    # A block with few samples is shown as it moves between them.
+    response = filled_in(response)
     times = unpacked(scene["times"])
     assert times[0] == 0.0
     assert times[-1] == pytest.approx(0.9)
@@ -274,3 +277,15 @@ def test_what_reaches_far_hides_nothing(koyna):
     Charts(figure, scene)
     curves = [line for line in figure.axes[0].lines if len(line.get_xdata()) > 2]
     assert [line.get_color() for line in curves] == [look.TRACES["crack"], look.TRACES["ground"]]
+
+
+def test_a_block_with_few_samples_moves_as_it_does(tmp_path):
+    """Pushed by 0.8 g for 0.1 s, it slides by -0.3 g t^2 at first."""
+    case = read_case(BLOCK)
+    scene = page_scene(animate(case, rigid(case), tmp_path / "block.html"))
+    traces = {trace["role"]: unpacked(trace["values"]) for trace in scene["traces"]}
+    time = unpacked(scene["historyTimes"])
+    pushed = time < 0.0999
+    assert pushed.sum() > 50
+    assert traces["slip"][pushed] == pytest.approx(-0.3e3 * 9.80665 * time[pushed] ** 2, abs=1e-3)
+    assert traces["ground"][pushed] == pytest.approx(0.8)

@@ -38,7 +38,7 @@ class Charts:
         axes = figure.add_axes((_LEFT, _BOTTOM, _WIDTH, _RIBBON))
         self._ribbon(axes)
         self.time = animated(figure.text(_LEFT, 0.852, "", fontsize=17, fontweight="bold", va="center"))
-        self.mode = animated(figure.text(_LEFT + 0.105, 0.852, "", fontsize=10.5, va="center", parse_math=False))
+        self.mode = animated(figure.text(_LEFT + 0.105, 0.852, "", fontsize=9.5, va="center", parse_math=False))
         swatch = Rectangle((_LEFT + 0.085, 0.839), 0.0146, 0.026, transform=figure.transFigure)
         swatch.set(edgecolor="#888888", linewidth=0.6)
         self.swatch = animated(figure.add_artist(swatch))

@@ -10,6 +10,7 @@ import numpy as np
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError, expect
 from heeltoe.result.response import Response
+from heeltoe.views.figures.dense import filled_in
 from heeltoe.whole import written
 
 #: What an animation can be written as.
@@ -73,7 +74,7 @@ def animate(
         raise InputError("animation-nothing", "response", response.outcome)
     shown = _window(response, *window)
     with written(place, "animation") as fresh:
-        _write(case, response, fresh, exaggerate, frames_per_second, speed, shown)
+        _write(case, filled_in(response), fresh, exaggerate, frames_per_second, speed, shown)
     return place
 
 

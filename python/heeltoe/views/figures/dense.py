@@ -17,7 +17,8 @@ def filled_in(response: Response) -> Response:
     """Return the response with more moments in its histories, where there are few.
 
     Between two moments, events among them, the slip of a rigid block is the cubic with its values and velocities at
-    both ends, exactly so on a straight piece of the motion. All else is joined by straight lines.
+    both ends, exactly so on a straight piece of the motion. The ground moves as its motion says; all else is joined by
+    straight lines.
     """
     h, log = response.histories, response.event_log
     if not 2 <= len(h["time_s"]) < _ENOUGH or "time_s" not in log:
@@ -34,6 +35,11 @@ def filled_in(response: Response) -> Response:
         jumps = name.endswith(("_n", "_acceleration_m_s2")) and not name.startswith("ground")
         histories[name] = np.where(broken, values[place], straight) if jumps else straight
     histories |= {"time_s": time, "slip_m": _slip(response, time)}
+    # The ground may jump between two moments; after a record it stands still.
+    for name, motion in (("", response.motion), ("vertical_", response.vertical)):
+        if motion is not None:
+            ground = np.interp(time, motion.time, motion.acceleration, right=0.0)
+            histories[f"{name}ground_acceleration_m_s2"] = ground
     modes = np.array(["rest", *log["mode_after"]])
     mode = modes[np.searchsorted(log["time_s"], time, side="right")]
     return replace(response, histories=histories, mode=tuple(mode.tolist()))
