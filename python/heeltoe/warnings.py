@@ -52,9 +52,9 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
     ),
     "block-still-moves": (
         "caution",
-        "motion.duration",
-        "the block still moves when the run ends (slip velocity {slip_velocity_m_s:.3g m/s}): the residual slip is "
-        "that of this moment; a longer motion.duration lets it come to rest",
+        "analysis.silence",
+        "the block still moves {when} (slip velocity {slip_velocity_m_s:.3g m/s}): the residual slip is that of this "
+        "moment; a longer {field} may let it come to rest",
     ),
     "restitution-lowered": (
         "note",
@@ -159,9 +159,9 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
     ),
     "dam-still-moves": (
         "caution",
-        "motion.duration",
-        "the dam still moves when the run ends: in the last {span} its {what} changes by {change_m:.3g mm}; the "
-        "residual slip is that of this moment, and a longer motion.duration lets it come to rest",
+        "analysis.silence",
+        "the dam still moves {when}: in the last {span} its {what} changes by {change_m:.3g mm}; the residual slip is "
+        "that of this moment, and a longer {field} may let it come to rest",
     ),
     "anchor-yields": (
         "grave",

@@ -11,7 +11,7 @@ import pytest
 from heeltoe import Response, flexible, read_case, rigid, verdict
 from heeltoe.mechanics.block import build_block
 from heeltoe.models.flexible.warnings import outcome_of
-from heeltoe.result.verdict import comes_to_rest
+from heeltoe.result.rest import comes_to_rest
 from shared.dams import COARSE, FAST, PULSE, example, polygon
 
 # A triangle of 100 m on a base of 45 m, which a full reservoir tips over about the toe of a crack at 20 m.

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from heeltoe import Response, flexible, read_case, verdict
-from heeltoe.result.verdict import comes_to_rest
+from heeltoe.result.rest import comes_to_rest
 from heeltoe.units.write import angle, length
 from shared.dams import BASE, FAST
 

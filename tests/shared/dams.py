@@ -36,9 +36,11 @@ PULSE = {"points": [["0 s", "0.8 g"], ["0.1 s", "0.8 g"], ["0.1 s", "0 g"], ["0.
 
 # An elastic dam of few elements, without the second run that shows convergence; and of a short earthquake.
 COARSE = ["flexible.elements_across=2", "flexible.evidence=none"]
-FAST = [*COARSE, "motion.duration=3s"]
+# Runs that end with the motion, whether all is at rest then or not.
+ENDS = "analysis.silence=0s"
+FAST = [*COARSE, "motion.duration=3s", ENDS]
 # Koyna by the decoupled chain.
-SHORT = ["flexible.elements_across=3", "motion.duration=4s"]
+SHORT = ["flexible.elements_across=3", "motion.duration=4s", ENDS]
 
 
 def example(name: str, *changes: str) -> Case:

@@ -21,7 +21,7 @@ from heeltoe.views.figures.spectrum import spectrum_figure
 from heeltoe.views.figures.time_axis import shown_until
 from heeltoe.views.terminal.response import print_summary
 from heeltoe.views.words.starts import starts
-from shared.dams import BASE, FAST, KOYNA, SLENDER, example
+from shared.dams import BASE, ENDS, FAST, KOYNA, SLENDER, example
 from shared.drawn import check, texts
 
 G = 9.80665
@@ -116,9 +116,18 @@ def test_the_axis_of_time_ends_when_nothing_happens_any_more(lifted):
     assert last < end == shown_until(lifted) < 1.2 * max(last, 1.0)
     assert axes.get_xlabel() == "time [s]; from here to the end at 9 s the dam is at rest"
     # One that still moves is shown to its end.
-    on = rigid(read_case(BASE, [PUSHED, "motion.duration=0.6s"]))
+    on = rigid(read_case(BASE, [PUSHED, "motion.duration=0.6s", ENDS]))
     assert shown_until(on) == 0.6
     assert response_figure(on).axes[-1].get_xlabel() == "time [s]"
+
+
+def test_the_end_of_the_ground_motion_is_marked_where_silence_follows():
+    response = rigid(read_case(BASE, [PUSHED, "motion.duration=0.6s"]))
+    figure = response_figure(response)
+    words = "time [s]; ground motion until 0.6 s (dotted); from here to the end at 3.1 s the dam is at rest"
+    assert figure.axes[-1].get_xlabel() == words
+    for axes in figure.axes:
+        assert [0.6, 0.6] in [list(line.get_xdata()) for line in axes.lines]
 
 
 def test_labels_of_a_block_that_overturns_cover_no_curve():

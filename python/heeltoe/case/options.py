@@ -7,12 +7,15 @@ from typing import Annotated, Literal, Self, get_args
 from pydantic import Field, model_validator
 
 from heeltoe.case.fields import Count, Fields, Fraction, FrictionCoefficient, Head, TimeSpan, Truth
-from heeltoe.case.quantities import DimensionlessNumber, Length, Pressure
+from heeltoe.case.quantities import DimensionlessNumber, Duration, Length, Pressure
 from heeltoe.case.sentences import collected
 from heeltoe.errors import InputError, shown
 
 Evidence = Literal["full", "step", "none"]
 EVIDENCE = get_args(Evidence)
+
+#: What has not come to rest by then never does [s].
+LONGEST_SILENCE = 600.0
 
 
 class Flexible(Fields):
@@ -85,8 +88,11 @@ class Flexible(Fields):
 
 
 class Analysis(Fields):
-    """What to do in rare situations."""
+    """When a run ends, and what to do in rare situations."""
 
+    silence: Annotated[Duration, Field(ge=0.0, le=LONGEST_SILENCE)] = Field(default="10 s", validate_default=True)
+    """Where the dam still moves when the ground motion ends, the run goes on while the ground stands still, until the
+    dam is at rest, for so long at most; "0 s" ends the run with the motion."""
     paradox: Literal["stop", "tangential impact"] = "stop"
     """Where no motion of a rigid block agrees with Coulomb's law (Painlevé's paradox): stop and say so, or
     let an impulse of friction end the slip."""

@@ -100,6 +100,7 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # newmark_beta = 0.36
 
 # [analysis]
+# silence = "10 s"                 # at most so long does a run go on after the motion, until the dam is at rest
 # paradox = "stop"                 # where no motion agrees with Coulomb's law; or "tangential impact"
 # event_limit = 1_000_000
 # rotation = "small"               # or "p-delta", "finite": with these a rigid block can overturn

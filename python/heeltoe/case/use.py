@@ -54,6 +54,7 @@ READ_BY: dict[str, frozenset[str]] = {
     "statics": frozenset({"statics"}),
     "limits": _SHAKEN,
     "analysis": _BLOCKS,
+    "analysis.silence": _SHAKEN,
 }
 
 # What a reader would expect to matter to the flexible model has a sentence of its own.

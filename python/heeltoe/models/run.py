@@ -13,6 +13,7 @@ from heeltoe.case.use import unused_fields
 from heeltoe.case.warnings import case_warnings
 from heeltoe.errors import InputError, expect
 from heeltoe.models.rigid.omitted import omitted
+from heeltoe.models.silence import about_the_end, reach_of_block, until_rest
 from heeltoe.models.statics.standing import standing_warnings
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
@@ -74,7 +75,7 @@ def run(
     check_model(model, "model")
     shaking = earthquake(case, motion, vertical)
     names, why = models_of(case, model)
-    *block, better = (_timed(name, case, shaking, output_step) for name in names)
+    *block, better = _until_the_same_end(names, case, shaking, output_step)
     if not block:
         return _alone(better, case, Chosen(model, why))
     found = replace(_completed(better, case, names), chosen=Chosen(model, why))
@@ -106,6 +107,22 @@ def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
         return ("rigid",), "the case gives no concrete.modulus, without which the dam can only be a rigid block"
     block = "decoupled" if case.crack.elevation > 0.0 else "rigid"
     return (block, "flexible"), "the case gives concrete.modulus, so that the dam can vibrate as it does"
+
+
+def _until_the_same_end(
+    names: Sequence[str], case: Case, shaking: Earthquake, output_step: float | None
+) -> list[Response]:
+    """Run models until all of them are at rest, one as long as the other."""
+    found = []
+    for name in names:
+        found.append(_timed(name, case, shaking, output_step))
+        shaking = shaking.silent(found[-1].silence_s)
+
+    def as_long(each: Response) -> Response:
+        again = _timed(each.model, case, shaking, output_step)
+        return replace(again, seconds=each.seconds + again.seconds)
+
+    return [each if each.silence_s == shaking.silence else as_long(each) for each in found]
 
 
 def _timed(model: str, case: Case, shaking: Earthquake, output_step: float | None) -> Response:
@@ -207,7 +224,8 @@ def _completed(response: R, case: Case, models: Sequence[str]) -> R:
     run that never started says why by itself."""
     unused = unused_fields(case, models)
     vertical = () if response.vertical is None else response.vertical.warnings
-    warnings = (*case_warnings(case), *response.motion.warnings, *vertical, *response.warnings, *unused)
+    end = about_the_end(response, asked="silence" in case.analysis.model_fields_set)
+    warnings = (*case_warnings(case), *response.motion.warnings, *vertical, *response.warnings, *end, *unused)
     if not response.summary:
         return replace(response, warnings=warnings)
     return replace(
@@ -220,13 +238,19 @@ def _completed(response: R, case: Case, models: Sequence[str]) -> R:
 def _rigid(case: Case, earthquake: Earthquake, output_step: float | None) -> Response:
     from heeltoe.models.rigid.model import run_rigid
 
-    return run_rigid(case, earthquake, output_step)
+    def run(through: Earthquake) -> Response:
+        return run_rigid(case, through, output_step)
+
+    return until_rest(run, reach_of_block, earthquake, case.analysis.silence)
 
 
 def _decoupled(case: Case, earthquake: Earthquake, output_step: float | None) -> DecoupledResponse:
     from heeltoe.models.decoupled.model import run_decoupled
 
-    return run_decoupled(case, earthquake, output_step)
+    def run(through: Earthquake) -> DecoupledResponse:
+        return run_decoupled(case, through, output_step)
+
+    return until_rest(run, reach_of_block, earthquake, case.analysis.silence)
 
 
 def _flexible(case: Case, earthquake: Earthquake, output_step: float | None) -> FlexibleResponse:

@@ -1,10 +1,13 @@
-"""What shakes a dam in one run: its ground motions, and up to when."""
+"""What shakes a dam in one run: its ground motions, up to when, and how long the ground stands still after them."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
+import numpy as np
+
+from heeltoe.arrays import Floats
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.moments import on_same_moments
@@ -21,22 +24,47 @@ class Earthquake:
     vertical
         Upward [m/s2]; None where there is none.
     end
-        Of the run [s]; where a record has ended the ground stands still.
+        Of the shaking [s]; where a record has ended before, the ground stands still, and where it goes on, it is cut.
     rotation
         About the middle of the crack, counter-clockwise [rad/s2]; None where there is none. Only blocks feel one.
+    silence
+        How long the run goes on after that, the ground standing still [s].
     """
 
     motion: GroundMotion
     vertical: GroundMotion | None
     end: float
     rotation: GroundMotion | None = None
+    silence: float = 0.0
+
+    @property
+    def run_end(self) -> float:
+        """Of the run [s]."""
+        return self.end + self.silence
+
+    def silent(self, seconds: float) -> Earthquake:
+        """Return the same with so much silence after it [s]."""
+        return replace(self, silence=seconds)
 
     @cached_property
     def shaking(self) -> Shaking:
-        """The same on common moments, from zero to the end, as the kernels take it."""
+        """The same on common moments, from zero to the end of the run, as the kernels take it."""
         given = [each for each in (self.vertical, self.rotation) if each is not None]
         if not given and self.motion.duration == self.end:
-            return Shaking(self.motion.time, self.motion.acceleration)
-        time, horizontal, *others = on_same_moments([self.motion, *given], self.end)
+            time, horizontal, others = self.motion.time, self.motion.acceleration, []
+        else:
+            time, horizontal, *others = on_same_moments([self.motion, *given], self.end)
+        if self.silence:
+            time, (horizontal, *others) = _and_silence(time, [horizontal, *others], self.run_end)
         up = None if self.vertical is None else others.pop(0)
         return Shaking(time, horizontal, up, others[0] if others else None)
+
+
+def _and_silence(time: Floats, series: list[Floats], end: float) -> tuple[Floats, list[Floats]]:
+    """Return moments and accelerations with zeros up to `end` after them; where a motion ends with another value, it
+    jumps."""
+    if time.size > 1 and time[-1] == time[-2]:
+        # It jumps there already, to what is cut off.
+        time, series = time[:-1], [each[:-1] for each in series]
+    after = [end] if all(each[-1] == 0.0 for each in series) else [time[-1], end]
+    return np.append(time, after), [np.append(each, np.zeros(len(after))) for each in series]

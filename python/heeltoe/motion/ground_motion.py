@@ -15,6 +15,8 @@ from heeltoe.errors import InputError
 from heeltoe.shown import Shown
 from heeltoe.warnings import Notice
 
+# How the step of processing that ends a motion early begins.
+_CUT = "cut to "
 # Of a refined motion: days of shaking at a thousandth of a second, and still within memory.
 _MOST_SAMPLES = 5e7
 
@@ -201,12 +203,17 @@ class GroundMotion(Shown):
             self,
             time=np.append(self.time[keep], duration),
             acceleration=np.append(self.acceleration[keep], last),
-            processing=(*self.processing, f"cut to {duration:g} s"),
+            processing=(*self.processing, f"{_CUT}{duration:g} s"),
         )
         if result.pga < 0.999 * self.pga:
             lost = Notice("motion-cut", duration_s=duration, time_s=self.peak[0])
             result = replace(result, warnings=(*result.warnings, lost))
         return result
+
+    @property
+    def is_cut(self) -> bool:
+        """Whether the record goes on where the motion ends."""
+        return bool(self.processing) and self.processing[-1].startswith(_CUT)
 
     def resampled(self, step: float) -> GroundMotion:
         """Return the motion at a finer step [s].

@@ -148,6 +148,8 @@ class Response(Shown):
         What a simpler model makes of the same case and motion, where that was run, too.
     seconds
         How long it took to compute [s]; building the elastic parts is part of it.
+    silence_s
+        How long the run goes on after the ground motion has ended, until the dam is at rest [s].
     """
 
     model: str
@@ -170,6 +172,7 @@ class Response(Shown):
     chosen: Chosen | None = None
     beside: Response | None = None
     seconds: float = 0.0
+    silence_s: float = 0.0
 
     def __post_init__(self) -> None:
         for name in ("summary", "histories", "event_log", "static"):
@@ -256,6 +259,7 @@ class Response(Shown):
             "verdict": verdict(self),
             "warnings": [each.to_json() for each in self.warnings],
             **self.summary,
+            "silence_s": self.silence_s,
             "critical_acceleration_g": dict(self.static["critical_acceleration_g"]),
             "static": {k: v for k, v in self.static.items() if k != "critical_acceleration_g"},
             "energy": energy,

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-import numpy as np
-
-from heeltoe.arrays import Floats
 from heeltoe.result.contract import JOINT_METER_M, LEAST_M, LEAST_RAD
+from heeltoe.result.rest import comes_to_rest, last_of, motion_end, rests_from
 from heeltoe.units.write import angle, length, speed
 
 # Not at run time: a response says its verdict in its JSON.
@@ -20,8 +18,6 @@ _IN_THE_AIR_S = 0.05
 _ROCKS_S = 0.02
 # What a model takes the dam for.
 _AS = {"rigid": "As a rigid block", "decoupled": "As a rigid block on an elastic part below it"}
-# Whether a dam that vibrates is still on its way is seen over this time [s].
-_LAST_S = 1.0
 
 
 def verdict(response: Response, units: str = "si") -> str:
@@ -65,42 +61,6 @@ def _limits(response: Response, units: str) -> str:
     if response.model == "decoupled":
         return "As a rigid block it keeps within its limits; as a dam whose top vibrates, too, it may not."
     return "It keeps within its limits."
-
-
-class LastChange(NamedTuple):
-    """What moves most in the last second of a run, by how much [m], and how long that second is [s]."""
-
-    seconds: float
-    what: str
-    change_m: float
-
-
-def last_change(time: Floats, slip: Floats, gap_heel: Floats, gap_toe: Floats) -> LastChange:
-    """Return what of slip and openings at either face varies most in the last second of a run, half of a shorter one.
-
-    A part that turns opens and closes one of its faces, so that no motion of it is missed.
-    """
-    since = max(time[-1] - _LAST_S, time[-1] / 2.0)
-    moved = {"slip": slip, "opening at the upstream face": gap_heel, "opening at the downstream face": gap_toe}
-    changes = {name: float(np.ptp(values[time >= since])) for name, values in moved.items()}
-    what = max(changes, key=lambda name: changes[name])
-    return LastChange(float(time[-1] - since), what, changes[what])
-
-
-def _last(response: Response) -> LastChange:
-    h = response.histories
-    return last_change(h["time_s"], h["slip_m"], h["gap_heel_m"], h["gap_toe_m"])
-
-
-def comes_to_rest(response: Response) -> bool:
-    """Whether the dam has stopped sliding and rocking when the run ends.
-
-    A rigid block says so itself. An elastic dam is never quite still, and where its crack stays open in part it is not
-    in the state of rest: it has stopped where its slip and its openings change by nothing measurable any more.
-    """
-    if response.elastic:
-        return _last(response).change_m < JOINT_METER_M
-    return bool(response.final_mode == "rest")
 
 
 def _spread(response: Response, units: str) -> str:
@@ -190,15 +150,15 @@ def _openings(response: Response, units: str) -> str:
 
 def _elastic_end(response: Response, units: str) -> str:
     if comes_to_rest(response):
-        return "It has come to rest in the end."
+        return _rest_in_silence(response) or "It has come to rest in the end."
     factor = response.static["sliding_safety_factor"]
     if factor is not None and factor < 1.0:
         return "It slides away: its static loads alone move it, and nothing stops it."
-    last = _last(response)
+    last = last_of(response)
     moved = length(last.change_m, units)
     return (
-        f"It has not come to rest when the run ends: in the last {last.seconds:.2g} s its {last.what} changes by "
-        f"{moved}."
+        f"It has not come to rest {_when_it_ends(response)}: in the last {last.seconds:.2g} s its {last.what} changes "
+        f"by {moved}."
     )
 
 
@@ -227,6 +187,24 @@ def _rocking(response: Response, units: str) -> str:
 
 
 def _end(response: Response) -> str:
-    if response.final_mode == "rest":
-        return "It is at rest in the end."
-    return f"It still moves when the run ends ({response.final_mode})."
+    if comes_to_rest(response):
+        return _rest_in_silence(response) or "It is at rest in the end."
+    return f"It still moves {_when_it_ends(response)} ({response.final_mode})."
+
+
+def _rest_in_silence(response: Response) -> str:
+    """Say when the dam comes to rest where the run had to go on after the ground motion to see it."""
+    if not response.silence_s:
+        return ""
+    ended, rest = motion_end(response), rests_from(response)
+    ends = "is cut" if response.motion.is_cut or response.motion.duration > ended else "ends"
+    if rest <= ended:
+        return f"It comes to rest as the ground motion {ends} at {ended:.4g} s."
+    return f"The ground motion {ends} at {ended:.4g} s; the dam comes to rest {rest - ended:.2g} s later, in silence."
+
+
+def _when_it_ends(response: Response) -> str:
+    if not response.silence_s:
+        return "when the run ends"
+    ended = motion_end(response)
+    return f"when the run ends, {response.end_time_s - ended:.3g} s after the ground motion"

@@ -90,7 +90,7 @@ def with_spread(response: R, case: Case, runs: int = RUNS, *, progress: Progress
     expect(response, Response, "not-a-response", "response")
     runs = check_runs(runs, "runs")
     scales = np.linspace(WEAKEST, STRONGEST, runs)
-    ground = earthquake(case, response.motion, response.vertical)
+    ground = earthquake(case, response.motion, response.vertical).silent(response.silence_s)
     step = None
     if isinstance(response, FlexibleResponse):
         # Here, so that the block need not wait for the elastic parts.

@@ -25,6 +25,7 @@ from heeltoe.models.flexible.shaken import ShakenDam
 from heeltoe.models.flexible.trials import SCALES, Level, Trials
 from heeltoe.models.run import earthquake
 from heeltoe.validation.row import Row
+from heeltoe.validation.sources import ENDS_WITH_MOTION
 from heeltoe.validation.thesis_dams import record_named
 
 #: So many of those that are called converged must stay where they are.
@@ -125,6 +126,8 @@ def draw(seed: int) -> Case:
             "pga": f"{rng.uniform(0.3, 0.9):.3f} g",
             "duration": f"{rng.uniform(3.0, 5.0):.1f} s",
         },
+        # What becomes of them in some seconds is on record; waiting until each is at rest would say the same.
+        **ENDS_WITH_MOTION,
     }
     return read_case(fields)
 

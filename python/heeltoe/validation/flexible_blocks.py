@@ -24,6 +24,7 @@ from heeltoe.result.response import Response
 from heeltoe.validation.flexible_runs import Runs
 from heeltoe.validation.plain import rectangle, run, sampled
 from heeltoe.validation.row import Row
+from heeltoe.validation.sources import ENDS_WITH_MOTION
 
 Corners = list[tuple[float, float]]
 
@@ -226,6 +227,7 @@ def _case(
             "section": {"polygon": [[f"{x} m", f"{z} m"] for x, z in corners]},
             "concrete": {"modulus": f"{modulus} GPa", **(concrete or {})},
             "crack": {"friction": friction, "elevation": f"{elevation} m"},
+            **ENDS_WITH_MOTION,
             "flexible": {
                 "elements_across": 8,
                 "time_step": f"{step} s",

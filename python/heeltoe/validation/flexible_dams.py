@@ -301,4 +301,4 @@ def _case(
             **flexible,
         },
     }
-    return read_case(fields | ({"reservoir": {"depth": f"{depth} m"}} if depth else {}))
+    return read_case(fields | sources.ENDS_WITH_MOTION | ({"reservoir": {"depth": f"{depth} m"}} if depth else {}))

@@ -9,6 +9,7 @@ from heeltoe.case.read import read_case
 from heeltoe.models.run import flexible
 from heeltoe.result.response import Response
 from heeltoe.validation.row import Row
+from heeltoe.validation.sources import ENDS_WITH_MOTION
 from heeltoe.validation.thesis_dams import record_named
 
 _G = 9.81
@@ -76,6 +77,7 @@ def _case(elevation: float, depth: float, step: float, options: dict[str, str | 
             "concrete": {"density": "2650 kg/m^3", "modulus": "20 GPa", "poisson": 0.143},
             "crack": {"elevation": f"{elevation} m", "friction": 1.2 if elevation == 0.0 else 1.0},
             "reservoir": {"depth": f"{depth} m"},
+            **ENDS_WITH_MOTION,
             "flexible": {
                 "damping": "thesis",
                 "virtual_mass": "thesis",

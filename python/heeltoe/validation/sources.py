@@ -3,8 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 from heeltoe.validation.row import Kind, Row
+
+#: What the case of a reference says where the reference ends with its ground motion, whether all is at rest or not.
+ENDS_WITH_MOTION: dict[str, Any] = {"analysis": {"silence": "0 s"}}
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from heeltoe.models.run import rigid
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.validation.plain import rectangle, run, sampled
 from heeltoe.validation.row import Row
+from heeltoe.validation.sources import ENDS_WITH_MOTION
 
 _PRINTED = "printed as parabolas, exact"
 _TWO = "two prototypes, good for the digits in which they agree"
@@ -25,6 +26,7 @@ def impulse() -> Iterator[Row]:
             "motion": {
                 "points": [["0 s", "0.8 g"], ["0.1 s", "0.8 g"], ["0.1 s", "0 g"], ["0.4 s", "0 g"]],
             },
+            **ENDS_WITH_MOTION,
         }
     )
     response = rigid(case, output_step=0.001)
@@ -65,6 +67,7 @@ def drifting() -> Iterator[Row]:
             "concrete": {"density": "2650 kg/m^3"},
             "crack": {"friction": 1.2, "restitution": 0.5},
             "reservoir": {"depth": "5 m"},
+            **ENDS_WITH_MOTION,
         }
     )
     ground = sampled(lambda t: np.where(t < 0.4, -1.5 * 9.81 * np.sin(np.pi * t / 0.4), 0.0), 0.005, 3.0)

@@ -15,6 +15,7 @@ from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.records import read_record
 from heeltoe.motion.records.catalog import find
 from heeltoe.validation.row import Row, Skipped
+from heeltoe.validation.sources import ENDS_WITH_MOTION
 
 _G = 9.81
 _DEPTHS = (90.0, 95.0, 100.0)
@@ -128,6 +129,7 @@ def _typical(depth: float, friction: float) -> Case:
             "concrete": {"density": "2650 kg/m^3"},
             "crack": {"friction": friction},
             "reservoir": {"depth": f"{depth} m"},
+            **ENDS_WITH_MOTION,
         }
     )
 
@@ -140,5 +142,6 @@ def _triangle(friction: float, extent: float) -> Case:
         "crack": {"friction": friction, "restitution": 0.5},
         "reservoir": {"depth": "121.92 m"},
         "uplift": {"pattern": "cut-off", "extent": extent},
+        **ENDS_WITH_MOTION,
     }
     return read_case(fields)

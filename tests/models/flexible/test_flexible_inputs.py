@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from heeltoe import GroundMotion, InputError, flexible, read_case, verdict
-from heeltoe.result.verdict import comes_to_rest
+from heeltoe.result.rest import comes_to_rest
 
 FIELDS = {
     "section": {"height": "30 m", "crest_width": "4 m", "base_width": "24 m"},
@@ -87,7 +87,7 @@ def test_every_number_is_an_attribute_of_the_response():
 
 def test_the_warning_of_a_dam_on_its_way_is_that_of_the_verdict():
     # It slides until 0.4 s. Of a run of 1.3 s both look at the second half, not at the last second.
-    case = changed(crack={"friction": 0.7}, reservoir={"depth": "5 m"})
+    case = changed(crack={"friction": 0.7}, reservoir={"depth": "5 m"}, analysis={"silence": "0 s"})
     motion = GroundMotion.from_points([0.0, 0.05, 0.2, 0.25, 1.3], [0.0, -10.0, -10.0, 0.0, 0.0])
     stopped = flexible(case, motion)
     assert stopped.residual_slip_m > 0.1

@@ -19,6 +19,7 @@ def block(modulus, friction, *, damping=0.05, across=2):
             "concrete": {"modulus": f"{modulus} GPa", "damping": damping},
             "crack": {"friction": friction, "restitution": 0.0},
             "flexible": {"elements_across": across, "evidence": "none", "damping": "deformation"},
+            "analysis": {"silence": "0 s"},
         }
     )
 
@@ -100,6 +101,8 @@ def test_what_a_dam_does_goes_with_its_size():
                     "evidence": "none",
                     "time_step": f"{0.1 * math.sqrt(size)} ms",
                 },
+                # The silence does not go with the size.
+                "analysis": {"silence": "0 s"},
             }
         )
         time = np.linspace(0.0, 2.0, 401)

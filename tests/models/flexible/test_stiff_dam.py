@@ -20,6 +20,7 @@ def stiff(modulus=2000.0, friction=0.5, depth=24.0, damping=0.05, across=3, corn
             "crack": {"friction": friction},
             "reservoir": {"depth": f"{depth} m"},
             "flexible": {"elements_across": across, "evidence": "none", **options},
+            "analysis": {"silence": "0 s"},
         }
     )
 

@@ -12,11 +12,11 @@ from heeltoe.models.statics.after import statics_after
 from heeltoe.views.report.html import html
 from heeltoe.views.report.write import build_report
 from shared.command import command, options
-from shared.dams import COARSE, ROOT
+from shared.dams import COARSE, ENDS, ROOT
 from shared.report_reader import Reader
 
 EXAMPLES = ROOT / "examples"
-SLIDES_ON = ["crack.friction=0.8", "motion.duration=4s"]
+SLIDES_ON = ["crack.friction=0.8", "motion.duration=4s", ENDS]
 PUSHED = 'motion.points=[["0 s", "-0.4 g"], ["0.3 s", "-0.4 g"], ["0.3 s", "0 g"], ["3 s", "0 g"]]'
 
 

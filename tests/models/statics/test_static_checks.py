@@ -10,7 +10,7 @@ import heeltoe
 from heeltoe import read_case
 from heeltoe.models.statics.criteria import CRITERIA, criteria
 from shared.command import command
-from shared.dams import ALL_EXAMPLES, BASE, BLOCK, ROOT, SLENDER
+from shared.dams import ALL_EXAMPLES, BASE, BLOCK, ENDS, ROOT, SLENDER
 from shared.statics import CLOSE, check, dam, only
 
 # What fails, and by how much
@@ -312,7 +312,7 @@ def test_an_overturned_block_does_not_stand_after_the_earthquake():
 
 
 def test_a_slip_that_has_not_ended_is_said_to_go_on():
-    shown = command("statics", BLOCK, "--set", "motion.duration=0.15s", "--json", "-")
+    shown = command("statics", BLOCK, "--set", "motion.duration=0.15s", "--set", ENDS, "--json", "-")
     assert json.loads(shown.stdout)["slip_source"].endswith(", still moving when the run ends")
 
 

@@ -41,7 +41,7 @@ class CrackMotion:
     asked: float
 
     def felt(self, case: Case, ground: Earthquake) -> Earthquake:
-        """Return what of it the block of a case feels.
+        """Return what of it the block of a case feels; the crack swings on while the ground is silent.
 
         A vertical ground motion that is given must not be lost on the way; what the crack adds to it belongs to it.
         """
@@ -49,7 +49,7 @@ class CrackMotion:
         return Earthquake(
             self.horizontal,
             self.vertical if upward else None,
-            ground.end,
+            ground.run_end,
             self.rotation if case.decoupled.rotation else None,
         )
 

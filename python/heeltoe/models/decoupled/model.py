@@ -61,7 +61,7 @@ def run_decoupled(case: Case, earthquake: Earthquake, output_step: float | None 
     at_crack, straightness = crack_motion(part, earthquake)
     if output_step is None:
         spacing = motion.dt if motion.is_uniform else _OUTPUT_STEP
-        output_step = min(earthquake.end, spacing / math.ceil(spacing / _OUTPUT_STEP * (1.0 - 1e-9)))
+        output_step = min(earthquake.run_end, spacing / math.ceil(spacing / _OUTPUT_STEP * (1.0 - 1e-9)))
     block = build_block(case)
     found = run_rigid(case, at_crack.felt(case, earthquake), output_step, block)
     if not found.summary:
@@ -89,6 +89,7 @@ def _of_the_chain(block: Response, earthquake: Earthquake, **changes: Any) -> De
     """Return what the block has done as what the chain has done."""
     found = {each.name: getattr(block, each.name) for each in fields(block)}
     found |= {"model": "decoupled", "motion": earthquake.motion, "vertical": earthquake.vertical}
+    found |= {"silence_s": earthquake.silence}
     return DecoupledResponse(**(found | changes))
 
 

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+import math
+
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
-from heeltoe.kernel.dam import DAM_STATES
-from heeltoe.mechanics.block import build_block, static_state
+from heeltoe.kernel.dam import DAM_STATES, DamRun
+from heeltoe.mechanics.block import Block, build_block, static_state
 from heeltoe.models.flexible.excitation import self_excitation
 from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
-from heeltoe.models.flexible.refinement import answer
+from heeltoe.models.flexible.refinement import Answer, answer
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.models.flexible.shaken import ShakenDam
 from heeltoe.models.flexible.tables import energy_of, histories_of, history_of, summary_of
 from heeltoe.models.flexible.warnings import outcome_of, stands, warnings_of
+from heeltoe.models.silence import until_rest
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.references import cited
+from heeltoe.result.rest import LAST_S, last_change, still_since
 
 #: Frames kept: enough for an animation, few enough for memory.
 _FRAME_STEP = 0.01
@@ -22,7 +26,7 @@ _SHORTEST_FRAME_STEP = 1e-3
 
 
 def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None = None) -> FlexibleResponse:
-    """Run the flexible model on a case.
+    """Run the flexible model on a case, on through silence until the dam is at rest.
 
     Parameters
     ----------
@@ -43,14 +47,11 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
         raise InputError(
             "frame-step", "output_step", f"{output_step:g} s", shortest=f"{_SHORTEST_FRAME_STEP:g} s", end=f"{end:g} s"
         )
-    shaken = ShakenDam(case, build_flexible_dam(case), earthquake.shaking)
-    # A dam that does not stand has no slip to be certain of; one run shows how it goes.
-    asked = case.flexible.evidence if stands(shaken.dam, build_block(case)) else "none"
-    found = answer(shaken, output_step or min(_FRAME_STEP, end), asked)
+    block = build_block(case)
+    found, earthquake = _answer(case, block, earthquake, output_step or min(_FRAME_STEP, end))
     shaken, run, evidence = found.shaken, found.run, found.evidence
     # Its mesh may be finer by now.
     case, dam = shaken.case, shaken.dam
-    block = build_block(case)
     outcome, advice = outcome_of(dam, block, run)
     # One that slides by itself needs no vibration to go on.
     growth = None if outcome == "unstable" else self_excitation(shaken, run)
@@ -75,8 +76,39 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
         event_log={},
         static=static_state(block),
         references=_references(case, dam),
+        silence_s=earthquake.silence,
         crack=history,
     )
+
+
+def _answer(case: Case, block: Block, earthquake: Earthquake, frame_step: float) -> tuple[Answer, Earthquake]:
+    """Run a dam until it is at rest, and gather evidence up to there; return the earthquake with its silence, too."""
+    dam = build_flexible_dam(case)
+
+    def run(through: Earthquake) -> tuple[Earthquake, ShakenDam, DamRun]:
+        shaken = ShakenDam(case, dam, through.shaking)
+        return through, shaken, shaken.run(shaken.first_step(), frame_step)
+
+    def reach(first: tuple[Earthquake, ShakenDam, DamRun]) -> float:
+        return _reach(dam, block, first[-1])
+
+    earthquake, shaken, first = until_rest(run, reach, earthquake, case.analysis.silence)
+    # A dam that does not stand has no slip to be certain of; one run shows how it goes.
+    asked = case.flexible.evidence if stands(dam, block) else "none"
+    found = answer(shaken, frame_step, asked, first)
+    if _reach(dam, block, found.run) < math.inf or earthquake.silence >= case.analysis.silence:
+        return found, earthquake
+    # Its mesh or step is finer now, and it takes longer.
+    earthquake, shaken, first = run(earthquake.silent(case.analysis.silence))
+    return answer(shaken, frame_step, asked, first), earthquake
+
+
+def _reach(dam: FlexibleDam, block: Block, run: DamRun) -> float:
+    """Return what :func:`until_rest` asks of a run."""
+    if outcome_of(dam, block, run)[0] != "ok":
+        return -math.inf
+    moved = tuple(run.frames[name] for name in ("time", "slip", "opening_heel", "opening_toe"))
+    return still_since(*moved) + LAST_S if last_change(*moved).rest else math.inf
 
 
 def _references(case: Case, dam: FlexibleDam) -> tuple[str, ...]:

@@ -36,7 +36,7 @@ class Answer:
     evidence: Evidence | None
 
 
-def answer(shaken: ShakenDam, frame_step: float, asked: str) -> Answer:
+def answer(shaken: ShakenDam, frame_step: float, asked: str, first: DamRun | None = None) -> Answer:
     """Run a dam with some evidence.
 
     Parameters
@@ -47,9 +47,11 @@ def answer(shaken: ShakenDam, frame_step: float, asked: str) -> Answer:
         Spacing of the frames [s].
     asked
         ``"full"``, ``"step"`` or ``"none"``.
+    first
+        A run at the first step with such frames, where it has been made before.
     """
     options = shaken.case.flexible
-    trials = Trials(shaken, shaken.first_step(), frame_step)
+    trials = Trials(shaken, shaken.first_step(), frame_step, first)
     level = Level(0, 0)
     if asked == "none":
         return Answer(shaken, trials.whole(level), None)

@@ -48,14 +48,18 @@ class Trials:
         The first one [s], level 0 of the steps.
     frame_step
         Spacing of the frames of whole runs [s].
+    first
+        The run at level 0, where it has been made before.
     """
 
-    def __init__(self, shaken: ShakenDam, step: float, frame_step: float) -> None:
+    def __init__(self, shaken: ShakenDam, step: float, frame_step: float, first: DamRun | None = None) -> None:
         self.step = step
         self._frame_step = frame_step
         self._shaken = {0: shaken}
         self._numbers: dict[tuple[Level, float], dict[str, float]] = {}
         self._whole: dict[Level, DamRun] = {}
+        if first is not None:
+            self._keep(Level(0, 0), first)
 
     @property
     def runs(self) -> int:
@@ -91,10 +95,12 @@ class Trials:
     def whole(self, level: Level) -> DamRun:
         """Return a run with its frames, the shaking as it is."""
         if level not in self._whole:
-            found = self.dam_of(level.mesh).run(self.step_of(level), self._frame_step)
-            self._whole[level] = found
-            self._numbers[level, 1.0] = {**found.summary, "outcome": float(DAM_OUTCOMES.index(found.outcome))}
+            self._keep(level, self.dam_of(level.mesh).run(self.step_of(level), self._frame_step))
         return self._whole[level]
+
+    def _keep(self, level: Level, run: DamRun) -> None:
+        self._whole[level] = run
+        self._numbers[level, 1.0] = {**run.summary, "outcome": float(DAM_OUTCOMES.index(run.outcome))}
 
     def prepare(self, whole: Level, wanted: Iterable[tuple[Level, Sequence[float]]]) -> None:
         """Make one run with frames and others side by side: the kernel lets go of the interpreter."""

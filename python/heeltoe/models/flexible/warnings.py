@@ -16,8 +16,7 @@ from heeltoe.models.flexible.modes import ENOUGH
 from heeltoe.models.flexible.reduced import FlexibleDam
 from heeltoe.models.flexible.shaken import ShakenDam
 from heeltoe.models.flexible.tables import anchors_of
-from heeltoe.result.contract import JOINT_METER_M, LARGEST_ROTATION, TOO_FAR
-from heeltoe.result.verdict import last_change
+from heeltoe.result.contract import LARGEST_ROTATION, TOO_FAR
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings import Notice
 
@@ -87,7 +86,6 @@ def warnings_of(
         *_about_the_start(dam, safety),
         *_about_the_growth(growth, run.summary),
         *_about_the_concrete(case, dam),
-        *(_about_the_end(run) if outcome == "ok" else ()),
         *_about_the_anchors(case, run),
         *_about_the_contact(case, run, history),
     ]
@@ -139,16 +137,6 @@ def _about_the_concrete(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
     yield from concrete_warnings(case)
     if dam.basis_error > ENOUGH:
         yield Notice("modes-few", error=dam.basis_error)
-
-
-def _about_the_end(run: DamRun) -> Iterator[Notice]:
-    frames = run.frames
-    last = last_change(frames["time"], frames["slip"], frames["opening_heel"], frames["opening_toe"])
-    if last.change_m > JOINT_METER_M:
-        span = "second" if last.seconds == 1.0 else f"{last.seconds:.2g} s"
-        yield Notice(
-            "dam-still-moves", time_s=run.summary["end_time"], span=span, what=last.what, change_m=last.change_m
-        )
 
 
 def _about_the_anchors(case: Case, run: DamRun) -> Iterator[Notice]:

@@ -40,7 +40,7 @@ def run_rigid(
     """
     block = block or build_block(case)
     shaking = earthquake.shaking
-    moments = _moments(shaking.time, output_step)
+    moments = _moments(earthquake, output_step)
     run = walk(case, block, shaking, moments)
     moments = moments[: run.mode.size]
     outcome = outcome_of(case, run)
@@ -61,16 +61,22 @@ def run_rigid(
         event_log=events_of(run),
         static=static_state(block),
         references=references_of(case, block, run),
+        silence_s=earthquake.silence,
     )
 
 
 #: Moments that a history may have: each takes some 200 bytes, here and in the file.
 MOST_MOMENTS = 2_000_000
+# In the silence after it there are samples as far apart as those of the record, within these bounds [s].
+_SHORTEST_STEP, _LONGEST_STEP = 0.005, 0.02
 
 
-def _moments(time: Floats, step: float | None) -> Floats:
+def _moments(earthquake: Earthquake, step: float | None) -> Floats:
+    time = earthquake.shaking.time
     if step is None:
-        return np.unique(time)
+        spacing = float(np.clip(earthquake.motion.dt, _SHORTEST_STEP, _LONGEST_STEP))
+        after = np.arange(earthquake.end, earthquake.run_end, spacing)
+        return np.unique(np.concatenate([time, after]))
     if not 0.0 < step <= time[-1]:
         raise InputError("output-step", "output_step", f"{step:g} s", duration=f"{time[-1]:g} s")
     if time[-1] / step > MOST_MOMENTS:

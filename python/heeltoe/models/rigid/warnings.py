@@ -69,8 +69,6 @@ def advice_of(block: Block, run: BlockRun, outcome: str) -> Sentence | None:
 def warnings_of(case: Case, block: Block, run: BlockRun) -> list[Notice]:
     """Return what a reader of a rigid run must know."""
     raw, said = run.summary, []
-    if run.outcome == "ok" and run.final_mode != "rest":
-        said.append(Notice("block-still-moves", time_s=raw["end_time"], slip_velocity_m_s=raw["slip_velocity"]))
     if raw["energy_limited_impacts"]:
         said.append(Notice("restitution-lowered", impacts=int(raw["energy_limited_impacts"])))
     if raw["jams"]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from heeltoe.case.model import Case
 from heeltoe.models.statics.model import Statics, statics
 from heeltoe.result.response import Response
-from heeltoe.result.verdict import comes_to_rest
+from heeltoe.result.rest import comes_to_rest
 
 
 def statics_after(case: Case, *runs: Response) -> Statics:

@@ -1,4 +1,4 @@
-"""The axis of time, as long as something happens."""
+"""The axis of time, as long as something happens; where silence follows, with the end of the ground motion."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from matplotlib.axes import Axes
 
 from heeltoe.motion.measures import husid_time
 from heeltoe.result.response import Response
+from heeltoe.result.rest import motion_end
 from heeltoe.views.figures.panels import pieces
 
 # Up to where the ground shakes strongly: this share of its Arias intensity has come in (as in D5-75).
@@ -27,12 +28,22 @@ def time_axis(axes: Axes, *responses: Response) -> None:
     # The last frame of 30 s may stand at 29.99 s.
     round_end = float(f"{end:.2g}")
     end = round_end if end < round_end < end * _NEARLY else end
-    if shown >= _SHORTER * end:
-        axes.set_xlabel("time [s]")
-        axes.set_xlim(0.0, end)
-        return
-    axes.set_xlabel(f"time [s]; from here to the end at {end:.4g} s the dam is at rest")
-    axes.set_xlim(0.0, shown)
+    label = "time [s]"
+    cut = shown < _SHORTER * end
+    axes.set_xlim(0.0, shown if cut else end)
+    silent = [motion_end(each) for each in responses if each.histories and each.silence_s]
+    if silent and max(silent) < axes.get_xlim()[1]:
+        _mark(axes, max(silent))
+        label += f"; ground motion until {max(silent):.4g} s (dotted)"
+    if cut:
+        label += f"; from here to the end at {end:.4g} s the dam is at rest"
+    axes.set_xlabel(label)
+
+
+def _mark(axes: Axes, end: float) -> None:
+    """Draw a line where the ground motion ends, in all panels over the same time."""
+    for panel in axes.get_shared_x_axes().get_siblings(axes):
+        panel.axvline(end, color="#777777", linestyle=":", linewidth=1.0, zorder=0.5)
 
 
 def shown_until(response: Response) -> float:

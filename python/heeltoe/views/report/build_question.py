@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 
 from heeltoe.result.contract import HEADLINES
-from heeltoe.result.verdict import advice, comes_to_rest, verdict
+from heeltoe.result.rest import comes_to_rest
+from heeltoe.result.verdict import advice, verdict
 from heeltoe.units.write import NOTHING, digits, length
 from heeltoe.views.report.content import (
     Block,

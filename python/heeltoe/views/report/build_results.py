@@ -22,6 +22,7 @@ _ROWS: tuple[tuple[str, str, str | None], ...] = (
     ("Largest normal force on the crack", "peak_normal_force_n", None),
     ("Slip velocity at the end", "final_slip_velocity_m_s", None),
     ("End of the run", "end_time_s", None),
+    ("Of it silence, after the ground motion", "silence_s", "time"),
     ("Width of the crack", "crack_width_m", "length"),
 )
 _ALWAYS = ("impacts", "final_slip_velocity_m_s", "end_time_s")

@@ -14,7 +14,8 @@ from rich.table import Table
 from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
-from heeltoe.result.verdict import advice, comes_to_rest
+from heeltoe.result.rest import comes_to_rest
+from heeltoe.result.verdict import advice
 from heeltoe.study.grid import Grid
 from heeltoe.units.systems import INCH
 from heeltoe.views.terminal.common import print_title

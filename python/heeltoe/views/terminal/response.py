@@ -12,7 +12,8 @@ from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.plain import plain
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
-from heeltoe.result.verdict import comes_to_rest, verdict
+from heeltoe.result.rest import comes_to_rest
+from heeltoe.result.verdict import verdict
 from heeltoe.units.sentences import written
 from heeltoe.units.write import length
 from heeltoe.views.terminal.common import (

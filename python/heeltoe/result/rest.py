@@ -1,0 +1,86 @@
+"""Whether a dam has stopped sliding and rocking when its run ends, and since when."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from heeltoe.arrays import Floats
+from heeltoe.result.contract import JOINT_METER_M
+
+# Not at run time: a response says its verdict in its JSON.
+if TYPE_CHECKING:
+    from heeltoe.result.response import Response
+
+# Whether a dam that vibrates is still on its way is seen over this time [s].
+LAST_S = 1.0
+
+
+class LastChange(NamedTuple):
+    """What moves most in the last second of a run, by how much [m], and how long that second is [s]."""
+
+    seconds: float
+    what: str
+    change_m: float
+
+    @property
+    def rest(self) -> bool:
+        """Whether nobody could measure it."""
+        return self.change_m < JOINT_METER_M
+
+
+def last_change(time: Floats, slip: Floats, gap_heel: Floats, gap_toe: Floats) -> LastChange:
+    """Return what of slip and openings at either face varies most in the last second of a run, half of a shorter one.
+
+    A part that turns opens and closes one of its faces, so that no motion of it is missed.
+    """
+    since = max(time[-1] - LAST_S, time[-1] / 2.0)
+    moved = {"slip": slip, "opening at the upstream face": gap_heel, "opening at the downstream face": gap_toe}
+    changes = {name: float(np.ptp(values[time >= since])) for name, values in moved.items()}
+    what = max(changes, key=lambda name: changes[name])
+    return LastChange(float(time[-1] - since), what, changes[what])
+
+
+def still_since(time: Floats, *moved: Floats) -> float:
+    """Return from when on to the end [s] each of these lengths changes by nothing that a joint meter shows."""
+    late = [
+        np.maximum.accumulate(values[::-1]) - np.minimum.accumulate(values[::-1]) < JOINT_METER_M for values in moved
+    ]
+    # Backwards from the end, where there is one moment of rest at least.
+    return float(time[-int(np.logical_and.reduce(late).sum())])
+
+
+def last_of(response: Response) -> LastChange:
+    """Return what of an elastic dam moves most in the last second of its run."""
+    return last_change(*_moved(response))
+
+
+def comes_to_rest(response: Response) -> bool:
+    """Whether the dam has stopped sliding and rocking when the run ends.
+
+    A rigid block says so itself. An elastic dam is never quite still, and where its crack stays open in part it is not
+    in the state of rest: it has stopped where its slip and its openings change by nothing measurable any more.
+    """
+    return last_of(response).rest if response.elastic else bool(response.final_mode == "rest")
+
+
+def rests_from(response: Response) -> float:
+    """Return from when on the dam is at rest [s]; infinite where it still moves when the run ends."""
+    if not comes_to_rest(response):
+        return math.inf
+    if response.elastic:
+        return still_since(*_moved(response))
+    return float(max(response.event_log["time_s"], default=0.0))
+
+
+def motion_end(response: Response) -> float:
+    """Return when the ground motion of a run ends [s]; what goes on after its run has no part in it."""
+    motions = [each for each in (response.motion, response.vertical) if each is not None]
+    return min(response.end_time_s - response.silence_s, max(each.duration for each in motions))
+
+
+def _moved(response: Response) -> tuple[Floats, Floats, Floats, Floats]:
+    h = response.histories
+    return h["time_s"], h["slip_m"], h["gap_heel_m"], h["gap_toe_m"]
