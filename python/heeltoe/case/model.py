@@ -7,6 +7,7 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import Annotated, Any, Self
 
+import numpy as np
 import shapely
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
@@ -18,6 +19,7 @@ from heeltoe.case.options import Analysis, Decoupled, Flexible, Limits, StaticsC
 from heeltoe.case.quantities import Gravity
 from heeltoe.case.sentences import collected, first_error
 from heeltoe.errors import InputError
+from heeltoe.geometry.levels import cut_levels
 from heeltoe.geometry.section import ON_LINE, CutSection, cut, outline
 from heeltoe.shown import Shown
 
@@ -157,7 +159,10 @@ class Case(Shown, Fields):
         InputError
             Where the crack does not cut the section in two along one line.
         """
-        return cut(self.outline, self.crack.elevation, self.crack.inclination)
+        elevation, inclination = self.crack.elevation, self.crack.inclination
+        if np.ndim(elevation):
+            return cut_levels(self.outline, np.asarray(elevation), inclination)
+        return cut(self.outline, elevation, inclination)
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
         """Return a copy with other fields; a cut made before holds for the same section and crack only."""

@@ -12,12 +12,12 @@ from heeltoe.geometry.section import CutSection
 
 def along_and_across(vectors: Floats, section: CutSection) -> Floats:
     """Return the components along and across the crack of vectors (..., 2) in x and z."""
-    return vectors if section.inclination == 0.0 else vectors @ _axes(section).T
+    return vectors if section.level else vectors @ _axes(section).T
 
 
 def in_x_and_z(vectors: Floats, section: CutSection) -> Floats:
     """Return x and z of vectors (..., 2) along and across the crack."""
-    return vectors if section.inclination == 0.0 else vectors @ _axes(section)
+    return vectors if section.level else vectors @ _axes(section)
 
 
 def places(points: Floats, section: CutSection) -> Floats:

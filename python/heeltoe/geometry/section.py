@@ -95,12 +95,22 @@ class CutSection:
         corners = [(x - self.heel[0], z - self.heel[1]) for x, z in points]
         return tuple(Edge(x0, z0, x1, z1, ratio(x1 - x0, z1 - z0)) for (x0, z0), (x1, z1) in pairwise(corners))
 
+    @cached_property
+    def level(self) -> bool:
+        """Whether the crack is."""
+        return not np.any(self.inclination)
+
+    @cached_property
+    def _along(self) -> tuple[float, float]:
+        """x and z of the unit vector along the crack."""
+        return number(np.cos(self.inclination)), number(np.sin(self.inclination))
+
     def in_crack_frame(self, x: float, z: float) -> tuple[float, float]:
         """Return the components of a vector (x, z) along the crack, downstream, and across it, upwards."""
-        if self.inclination == 0.0:
+        if self.level:
             return x, z
-        along, up = math.cos(self.inclination), math.sin(self.inclination)
-        return along * x + up * z, along * z - up * x
+        down, up = self._along
+        return down * x + up * z, down * z - up * x
 
     @property
     def height(self) -> float:
@@ -109,9 +119,9 @@ class CutSection:
 
     def from_crack_frame(self, along: float, across: float) -> tuple[float, float]:
         """Return (x, z) of a vector with components along and across the crack."""
-        if self.inclination == 0.0:
+        if self.level:
             return along, across
-        down, up = math.cos(self.inclination), math.sin(self.inclination)
+        down, up = self._along
         return down * along - up * across, up * along + down * across
 
 
@@ -160,7 +170,7 @@ def cut(whole: shapely.Polygon, elevation: float, inclination: float = 0.0) -> C
         Where the crack does not cut the section in two along one line.
     """
     _, base, _, crest = whole.bounds
-    slack = _slack(whole)
+    slack = on_line(whole)
     elevation = elevation if elevation > slack else 0.0
     if outside(whole, elevation):
         raise InputError("crack-outside", "crack.elevation", f"{elevation:g} m", height=f"{crest - base:g} m")
@@ -175,11 +185,11 @@ def cut(whole: shapely.Polygon, elevation: float, inclination: float = 0.0) -> C
 def outside(whole: shapely.Polygon, elevation: float) -> bool:
     """Whether an elevation above the lowest point of a section [m] has nothing of it above; row by row of columns."""
     _, base, _, crest = whole.bounds
-    none: bool = elevation >= crest - base - _slack(whole)
+    none: bool = elevation >= crest - base - on_line(whole)
     return none
 
 
-def _slack(whole: shapely.Polygon) -> float:
+def on_line(whole: shapely.Polygon) -> float:
     """Return how close to a line of a section something is on it [m]."""
     left, base, right, crest = whole.bounds
     slack: float = ON_LINE * max(right - left, crest - base)
@@ -262,13 +272,10 @@ def _measured(corners: Floats, base: float, crest: float) -> CutSection:
     top = np.flatnonzero(corners[:, 1] == crest)
     upstream = np.vstack([corners[:1], corners[: top[-1] - 1 : -1]])
     downstream = corners[1 : top[0] + 1]
-    inclination = math.atan2(corners[1, 1] - corners[0, 1], corners[1, 0] - corners[0, 0])
-    return measured(corners, (upstream, downstream), (base, crest), inclination)
+    return measured(corners, (upstream, downstream), (base, crest))
 
 
-def measured(
-    corners: Floats, faces: tuple[Floats, Floats], ends: tuple[float, float], inclination: float
-) -> CutSection:
+def measured(corners: Floats, faces: tuple[Floats, Floats], ends: tuple[float, float]) -> CutSection:
     """Measure the part above a crack, or above many.
 
     Parameters
@@ -279,13 +286,12 @@ def measured(
         The upstream and the downstream one, from the crack up.
     ends
         z of the lowest and of the highest point of the whole section [m].
-    inclination
-        Of the crack [rad].
     """
-    # Green's theorem, edge by edge; the inertia about the centroid, where nothing cancels.
+    # Green's theorem, edge by edge and in that order, so that no row depends on the others; the inertia about the
+    # centroid, where nothing cancels.
     x, z, cross = _around(corners, corners[0])
-    area = cross.sum(axis=0) / 2.0
-    centroid = np.array([(cross * sums).sum(axis=0) for sums in (x[0] + x[1], z[0] + z[1])]) / (6.0 * area) + corners[0]
+    area = sum(cross) / 2.0
+    centroid = np.array([sum(cross * sums) for sums in (x[0] + x[1], z[0] + z[1])]) / (6.0 * area) + corners[0]
     x, z, cross = _around(corners, centroid)
     squares = x[0] * x[0] + x[0] * x[1] + x[1] * x[1] + z[0] * z[0] + z[0] * z[1] + z[1] * z[1]
     for array in (corners, *faces):
@@ -294,14 +300,14 @@ def measured(
         polygon=corners,
         area=number(area),
         centroid=(number(centroid[0]), number(centroid[1])),
-        polar_inertia=number((cross * squares).sum(axis=0) / 12.0),
+        polar_inertia=number(sum(cross * squares) / 12.0),
         heel=(number(corners[0, 0]), number(corners[0, 1])),
         toe=(number(corners[1, 0]), number(corners[1, 1])),
         upstream_face=faces[0],
         downstream_face=faces[1],
         base_elevation=ends[0],
         crest_elevation=ends[1],
-        inclination=inclination,
+        inclination=number(np.arctan2(*(corners[1] - corners[0])[::-1])),
     )
 
 

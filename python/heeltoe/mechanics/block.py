@@ -229,7 +229,7 @@ def build_block(case: Case) -> Block:
     hanging = [name for name, side in sides.items() if side is not None and side.follows_vertical_motion]
     following = tuple(force for force in forces if force.name in hanging)
     pressed = across_crack(total("following", following), section)
-    if section.inclination == 0.0:
+    if section.level:
         mass = concrete + water.mass
         height = (concrete * offset[1] + water.mass * water.height) / mass
         inertia += concrete * (offset[1] - height) ** 2 + water.mass * (water.height - height) ** 2

@@ -58,8 +58,9 @@ def virtual_mass(case: Case) -> VirtualMass:
     if up is None or down is None:
         return up or down or VirtualMass(0.0, 0.0)
     mass = up.mass + down.mass
-    height = ratio(up.mass * up.height + down.mass * down.height, mass)
-    return VirtualMass(mass, height, up.sloped or down.sloped)
+    both = ratio(up.mass * up.height + down.mass * down.height, mass)
+    height = where(down.mass > 0.0, where(up.mass > 0.0, both, down.height), up.height)
+    return VirtualMass(mass, height, up.sloped | down.sloped)
 
 
 def _before(section: CutSection, water: Water | None, edges: Sequence[Edge], side: float) -> VirtualMass | None:
@@ -72,14 +73,20 @@ def _before(section: CutSection, water: Water | None, edges: Sequence[Edge], sid
     wet = [each for each in wet if np.any(each[1] != each[2])]
     if not wet:
         return None
-    sloped = any(np.any((abs(edge.slope) > 1e-9) & (lower != upper)) for edge, lower, upper in wet)
-    if side > 0.0 and not sloped:
-        depth = wet[0][1]
-        return VirtualMass(7.0 / 12.0 * water.density * water.depth**0.5 * depth**1.5, 0.4 * depth)
+    sloped = False
+    for edge, lower, upper in wet:
+        sloped = sloped | ((abs(edge.slope) > 1e-9) & (lower != upper))
+    depth, root = larger(surface, 0.0), water.density * water.depth**0.5
+    # Before a vertical upstream face, whose foot is the heel.
+    upright = VirtualMass(7.0 / 12.0 * root * depth**1.5, 0.4 * depth)
+    if side > 0.0 and not np.any(sloped):
+        return upright
     mass = moment = 0.0
     for edge, lower, upper in wet:
         # Of sqrt(d) over the depths d of the edge, and of d sqrt(d).
-        factor = 7.0 / 8.0 * water.density * water.depth**0.5 * slope_factor(side * edge.slope)
+        factor = 7.0 / 8.0 * root * slope_factor(side * edge.slope)
         mass += factor * (lower**1.5 - upper**1.5) * 2.0 / 3.0
         moment += factor * (lower**2.5 - upper**2.5) * 2.0 / 5.0
-    return VirtualMass(mass, where(mass > 0.0, surface - ratio(moment, mass), 0.0), sloped)
+    height = surface - ratio(moment, mass)
+    summed = sloped | (side < 0.0)
+    return VirtualMass(where(summed, mass, upright.mass), where(summed, height, upright.height), sloped)
