@@ -44,6 +44,18 @@ fn block(numbers: &Numbers) -> PyResult<Block> {
     Ok(Block::new(&BlockNumbers::from_row(&row(numbers, "a block")?)))
 }
 
+/// One run with its events, and with what is seen of it at some moments (s).
+fn walked(py: Python<'_>, times: &Numbers, walk: impl FnOnce(Wanted) -> Run + Send) -> PyResult<Run> {
+    let times = times.as_slice()?;
+    watched(py, reached, |stop| {
+        walk(Wanted {
+            times,
+            events: true,
+            stop,
+        })
+    })
+}
+
 /// Run one block; see `_kernel.pyi`.
 #[pyfunction]
 #[pyo3(signature = (block, time, horizontal, vertical, output_times, start, settle, event_limit, jam))]
@@ -67,13 +79,7 @@ pub fn run_rigid<'py>(
         event_limit,
         jam,
     };
-    let times = output_times.as_slice()?;
-    let run = watched(py, reached, |stop| {
-        let wanted = Wanted {
-            times,
-            events: true,
-            stop,
-        };
+    let run = walked(py, &output_times, |wanted| {
         exact::simulate(&block, &shaking, start, options, wanted)
     })?;
     Ok(arrays(py, &run))
@@ -118,13 +124,7 @@ pub fn run_rigid_varying<'py>(
         event_limit,
         jam,
     };
-    let times = output_times.as_slice()?;
-    let run = watched(py, reached, |stop| {
-        let wanted = Wanted {
-            times,
-            events: true,
-            stop,
-        };
+    let run = walked(py, &output_times, |wanted| {
         varying::simulate(&block, &body, &shaking, start, options, wanted)
     })?;
     let (summary, histories, modes, events) = arrays(py, &run);

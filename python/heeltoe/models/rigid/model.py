@@ -43,6 +43,11 @@ def run_rigid(
     moments = _moments(earthquake, output_step)
     run = walk(case, block, shaking, moments)
     moments = moments[: run.mode.size]
+    end = run.summary["end_time"]
+    if run.outcome == "overturned" and moments[-1] < end:
+        # Where it lies is between two moments: the last one is that just before, which a walk still passes.
+        run = walk(case, block, shaking, np.append(moments, np.nextafter(end, 0.0)))
+        moments = np.append(moments, end)
     outcome = outcome_of(case, run)
     started = outcome != "unstable"
     return Response(
