@@ -314,6 +314,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "spread-runs": ("{value} is no number of runs", "give {fewest} to {most}, or none for {usual}"),
     "period-count": ("{value} periods are not to be had", "give 1 to {most}"),
     "report-package": ("needs the package {value}, which is not installed", "pip install heeltoe[report]"),
+    "report-package-broken": (
+        "needs the package {value}, which does not work here ({reason})",
+        "give the program more memory, or install the package anew",
+    ),
     "report-kind": ("{value} is no kind of report", "use pdf or html"),
     "vtk-without-out": ("has no place to go", "add --out DIR"),
     "vtk-rigid": ("shows elastic parts, and a rigid block has none", "use --model flexible or both"),
@@ -339,6 +343,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "give another directory, or empty this one (an older heeltoe listed nothing)",
     ),
     "not-a-directory": ("{value} is a file", "give a directory"),
+    "no-room": (
+        "nothing can be put into the directory for temporary files ({reason})",
+        "set TMPDIR to a place with room",
+    ),
     "cannot-write": ("{value} cannot be written ({reason})", "give a place where you may write"),
 }
 

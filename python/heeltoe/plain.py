@@ -31,4 +31,6 @@ def _letter(letter: str) -> str:
     kind = unicodedata.category(letter)
     if kind in ("Cc", "Cs"):
         return letter.encode("unicode_escape").decode("ascii")
+    if kind in ("Zl", "Zp"):
+        return " "
     return "" if kind == "Cf" and letter not in _JOINERS else letter

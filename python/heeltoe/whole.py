@@ -111,6 +111,22 @@ def written(path: str | Path, field: str = "file") -> Iterator[Path]:
             fresh.replace(target)
 
 
+@contextmanager
+def temporary() -> Iterator[Path]:
+    """Yield a directory for what nobody shall see, which is not there afterwards.
+
+    Raises
+    ------
+    InputError
+        Where there is no room for it; elsewhere there may be.
+    """
+    try:
+        with TemporaryDirectory() as name:
+            yield Path(name)
+    except OSError as error:
+        raise InputError("no-room", "TMPDIR", reason=error.strerror or error) from None
+
+
 def write_text(path: str | Path, text: str, field: str = "file") -> Path:
     """Write a file of text, as :func:`written`, and return its path."""
     with written(path, field) as fresh:

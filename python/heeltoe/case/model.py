@@ -21,6 +21,7 @@ from heeltoe.case.sentences import collected, first_error
 from heeltoe.errors import InputError
 from heeltoe.geometry.levels import cut_levels
 from heeltoe.geometry.section import ON_LINE, CutSection, cut, outline
+from heeltoe.plain import plain
 from heeltoe.shown import Shown
 
 
@@ -69,7 +70,7 @@ class Case(Shown, Fields):
             f"dam of {max(levels) - min(levels):.4g} m",
             f"crack at {self.crack.elevation:.4g} m, friction {self.crack.mu_kinetic:g}",
             f"water of {self.reservoir.depth:.4g} m" if self.reservoir else "no water",
-            self.motion.told() if self.motion else "no motion",
+            plain(self.motion.told()) if self.motion else "no motion",
         ]
         return f"<Case {self.title or 'untitled'!r}: {'; '.join(parts)}>"
 

@@ -13,7 +13,7 @@ import typer
 from heeltoe.cli import dam as dam_commands
 from heeltoe.cli import motion as motion_command
 from heeltoe.cli import run as run_command
-from heeltoe.cli.common import BAD_INPUT, INTERRUPTED, app
+from heeltoe.cli.common import BAD_INPUT, INTERRUPTED, NO_RESULT, app
 from heeltoe.cli.streams import console, streams
 from heeltoe.errors import InputError
 from heeltoe.whole import write_text
@@ -34,6 +34,9 @@ def main() -> None:
     except InputError as error:
         print(f"heeltoe: {error}", file=sys.stderr)
         sys.exit(BAD_INPUT)
+    except MemoryError:
+        print("heeltoe: there is not enough memory for this; give the program more, or ask for less", file=sys.stderr)
+        sys.exit(NO_RESULT)
     except SystemExit as ended:
         if ended.code == INTERRUPTED:
             print("; ".join(["heeltoe: interrupted", *_known(ended)]), file=sys.stderr)

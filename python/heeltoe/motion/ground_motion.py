@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from heeltoe.arrays import Floats
 from heeltoe.dataframe import dataframe
 from heeltoe.errors import InputError
+from heeltoe.plain import plain
 from heeltoe.shown import Shown
 from heeltoe.warnings import Notice
 
@@ -90,9 +91,9 @@ class GroundMotion(Shown):
             object.__setattr__(self, "processing", (*self.processing, f"time counted from {t[0]:g} s"))
 
     def __repr__(self) -> str:
-        ways = "".join(f", {each}" for each in (self.event, self.component) if each)
+        ways = "".join(f", {plain(each)}" for each in (self.event, self.component) if each)
         return (
-            f"<GroundMotion {self.name}{ways}: peak {self.pga:.4g} m/s2, "
+            f"<GroundMotion {plain(self.name)}{ways}: peak {self.pga:.4g} m/s2, "
             f"{self.duration:.4g} s in {self.time.size} samples>"
         )
 

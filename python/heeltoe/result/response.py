@@ -13,6 +13,7 @@ import pyarrow as pa
 from heeltoe.arrays import Floats
 from heeltoe.dataframe import dataframe
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.plain import plain
 from heeltoe.result.beside import meaning, ratio
 from heeltoe.result.contract import TOO_FAR
 from heeltoe.result.limits import LimitCheck
@@ -207,7 +208,7 @@ class Response(Shown):
     def __repr__(self) -> str:
         beside = "" if self.beside is None else f" with the {self.beside.model} one beside it"
         title = self.title or "untitled case"
-        shaken = f"{self.motion.name}, peak {self.motion.pga / self.gravity:.4g} g"
+        shaken = f"{plain(self.motion.name)}, peak {self.motion.pga / self.gravity:.4g} g"
         count = sum(len(each.warnings) for each in self.responses)
         warned = f"\n  {count} warning{'s' if count > 1 else ''} in .warnings" if count else ""
         return f"<{type(self).__name__}: {self.model} model{beside}, {title!r}, {shaken}\n  {verdict(self)}{warned}>"

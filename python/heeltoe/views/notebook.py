@@ -11,6 +11,7 @@ from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.models.statics.model import Statics
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.plain import plain
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.verdict import verdict
@@ -23,6 +24,8 @@ from heeltoe.views.words.warnings import listed
 _WIDTH, _HEIGHT = 420, 90
 # A column of pixels shows no more than the least and the most in it.
 _COLUMNS = 420
+# Of what stands in one cell, a verdict for example.
+_LONGEST = 5000
 _TABLE = '<table style="border-collapse:collapse;text-align:left">'
 _CELL = '<td style="text-align:left;vertical-align:top;padding:1px 14px 1px 0{}">{}</td>'
 
@@ -144,6 +147,6 @@ def _section(case: Case) -> str:
 def _page(title: str, rows: list[tuple[str, str]], drawing: str) -> str:
     cells = "".join(
         f"<tr>{_CELL.format(';white-space:nowrap', escape(name))}{_CELL.format('', escape(value))}</tr>"
-        for name, value in rows
+        for name, value in ((name, plain(value, _LONGEST)) for name, value in rows)
     )
-    return f"<div><strong>{escape(title)}</strong>{drawing}{_TABLE}{cells}</table></div>"
+    return f"<div><strong>{escape(plain(title))}</strong>{drawing}{_TABLE}{cells}</table></div>"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from heeltoe.case.model import Case
 from heeltoe.models.statics.model import Statics, statics
+from heeltoe.plain import plain
 from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest
 
@@ -29,7 +30,7 @@ def statics_after(case: Case, *runs: Response) -> Statics:
     if trusted is None:
         source = f"the {runs[0].model} model ends {runs[0].outcome!r}, zero is taken"
         return statics(case, 0.0, slip_source=source, beside=beside)
-    source = f"{trusted.model} model, {trusted.motion.name}, PGA {trusted.motion.pga / trusted.gravity:.4g} g"
+    source = f"{trusted.model} model, {plain(trusted.motion.name)}, PGA {trusted.motion.pga / trusted.gravity:.4g} g"
     if not comes_to_rest(trusted):
         source += ", still moving when the run ends"
     return statics(case, trusted.residual_slip_m, slip_source=source, beside=beside)

@@ -14,6 +14,7 @@ from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.response import FlexibleResponse
+from heeltoe.plain import plain
 from heeltoe.result.response import Response
 from heeltoe.views.animation.bodies import Moments, Part, elastic_parts, rigid_parts
 
@@ -135,7 +136,7 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
     mode = np.array([number[name] for name in response.mode])
     within = (histories["time_s"] >= times[0]) & (histories["time_s"] <= times[-1])
     return Scene(
-        title=response.title or "Untitled case",
+        title=plain(response.title) or "Untitled case",
         subtitle=_subtitle(response),
         times=times,
         exaggeration=exaggeration,
@@ -229,7 +230,7 @@ def _subtitle(response: Response) -> str:
     peak = response.motion.pga / response.gravity
     ending = "" if response.outcome == "ok" else f"; {response.outcome}"
     shaken = ", in which the motion of the crack shakes the part above" if response.model == "decoupled" else ""
-    return f"{response.motion.name}, peak {peak:.3g} g; {response.model} model{shaken}{ending}"
+    return f"{plain(response.motion.name)}, peak {peak:.3g} g; {response.model} model{shaken}{ending}"
 
 
 def _traces(response: Response, within: NDArray[np.bool_]) -> tuple[Trace, ...]:

@@ -28,7 +28,7 @@ def write_page(scene: Scene, speed: float, path: Path) -> None:
 
     # In one pass over the template, so that nothing that is put in is taken for a place.
     content = {
-        "TITLE": escape(" ".join(scene.title.split())),
+        "TITLE": escape(scene.title),
         "SUBTITLE": escape(scene.subtitle),
         "STYLE": text("page.css"),
         "SCENE": _script_text(page_data(scene, speed)),

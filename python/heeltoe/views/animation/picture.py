@@ -18,10 +18,12 @@ from heeltoe.views.animation import look
 from heeltoe.views.animation.bodies import Part
 from heeltoe.views.animation.charts import Charts, animated
 from heeltoe.views.animation.frames import ARROW, CUT, Scene
-from heeltoe.views.figures.fonts import readable
+from heeltoe.views.figures.fonts import readable, wrapped
 
 #: Of the picture [inches]; with 100 pixels to the inch 1280 x 720.
 SIZE = (12.8, 7.2)
+# Room for the lines above, in sizes of their letters.
+_TITLE_EMS, _SUBTITLE_EMS = 56.0, 60.0
 # Places of the views as parts of the picture: left, bottom, width, height.
 _ONE = (0.016, 0.115, 0.66, 0.765)
 _WHOLE, _NEAR = (0.016, 0.28, 0.24, 0.6), (0.266, 0.115, 0.41, 0.765)
@@ -70,11 +72,9 @@ class Picture:
 
 
 def _heading(figure: Figure, scene: Scene) -> None:
-    title = " ".join(scene.title.split())
-    title = title if len(title) <= 90 else title[:87] + "..."
     lines: tuple[tuple[str, float, dict[str, Any]], ...] = (
-        (title, 0.955, {"fontsize": 15, "fontweight": "bold"}),
-        (scene.subtitle, 0.908, {"fontsize": 10, "color": "#444444"}),
+        (wrapped(scene.title, _TITLE_EMS, 1), 0.955, {"fontsize": 15, "fontweight": "bold"}),
+        (wrapped(scene.subtitle, _SUBTITLE_EMS, 1), 0.908, {"fontsize": 10, "color": "#444444"}),
     )
     for line, height, style in lines:
         shown, families = readable(line)

@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from fractions import Fraction
 from pathlib import Path
+from subprocess import PIPE, Popen
 from types import ModuleType
 
 import numpy as np
@@ -44,26 +50,47 @@ def ffmpeg() -> ModuleType:
 
 
 def write_mp4(scene: Scene, frames_per_second: float, path: Path) -> None:
-    """Write a scene, whose frames follow each other at this rate, as H.264 that every player reads."""
+    """Write a scene, whose frames follow each other at this rate, as H.264 that every player reads.
+
+    Raises
+    ------
+    OSError
+        Where ffmpeg cannot write all of it.
+    """
     picture = Picture(scene, _MP4_PIXELS)
-    writer = ffmpeg().write_frames(
-        str(path),
-        picture.size,
-        pix_fmt_in="rgba",
-        pix_fmt_out="yuv420p",
-        fps=frames_per_second,
-        codec="libx264",
-        quality=None,
-        macro_block_size=2,
-        ffmpeg_log_level="error",
-        output_params=["-crf", "20", "-preset", "veryfast", "-movflags", "+faststart"],
-    )
-    writer.send(None)
+    width, height = picture.size
+    rate = Fraction(frames_per_second).limit_denominator()
+    given = ["-f", "rawvideo", "-pix_fmt", "rgba", "-s", f"{width}x{height}", "-r", f"{rate}", "-i", "-"]
+    wanted = ["-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "20", "-preset", "veryfast", "-movflags", "+faststart"]
+    # The whole path: one that begins with a word and a colon is an address to ffmpeg.
+    command = [ffmpeg().get_ffmpeg_exe(), "-v", "error", "-y", *given, *wanted, str(path.absolute())]
+    with _broken_pipes_are_errors(), Popen(command, stdin=PIPE, stderr=PIPE) as process:
+        assert process.stdin is not None
+        try:
+            for frame in range(len(scene.times)):
+                process.stdin.write(picture.draw(frame))
+        except BrokenPipeError:
+            pass  # it says itself why it has ended
+        except BaseException:
+            process.kill()
+            raise
+        _, said = process.communicate()
+    if process.returncode:
+        told = said.decode(errors="replace").strip().splitlines() or [f"ffmpeg ended with {process.returncode}"]
+        raise OSError(told[-1].rpartition(": ")[2])
+
+
+@contextmanager
+def _broken_pipes_are_errors() -> Iterator[None]:
+    """Do not end where a process that is written to ends, as the command line does for the one that reads it."""
+    if not hasattr(signal, "SIGPIPE") or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGPIPE, signal.SIG_IGN)
     try:
-        for frame in range(len(scene.times)):
-            writer.send(picture.draw(frame))
+        yield
     finally:
-        writer.close()
+        signal.signal(signal.SIGPIPE, before)
 
 
 def write_gif(scene: Scene, delay: int, path: Path) -> None:

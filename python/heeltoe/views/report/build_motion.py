@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.plain import plain
 from heeltoe.units.sentences import written
 from heeltoe.units.write import NOTHING
 from heeltoe.views.report.content import Block, Code, Inline, Notes, Section, Table, paragraph, without_gaps
 from heeltoe.views.report.subject import Subject
 
+# Of all steps of processing together.
+_LONGEST = 2000
 _WORDS = (
     ("Event", "event"),
     ("Station", "station"),
@@ -39,12 +42,14 @@ def ground_motion(subject: Subject) -> Section:
         motions["vertical, + up"] = (response.vertical, "vertical_motion")
     n, prefix = subject.numbers, subject.first.prefix
 
-    rows: list[tuple[Inline, ...]] = [("Name", *(Code(motion.name) for motion, _ in motions.values()))]
+    rows: list[tuple[Inline, ...]] = [("Name", *(Code(plain(motion.name)) for motion, _ in motions.values()))]
     for label, name in _WORDS:
         words = [getattr(motion, name) for motion, _ in motions.values()]
         if any(words):
-            rows.append((label, *(word or NOTHING for word in words)))
-    rows.append(("Processing", *("; ".join(motion.processing) or "none" for motion, _ in motions.values())))
+            rows.append((label, *(plain(word or NOTHING) for word in words)))
+    rows.append(
+        ("Processing", *(plain("; ".join(motion.processing) or "none", _LONGEST) for motion, _ in motions.values()))
+    )
     for label, name in _NUMBERS:
         cells = [n(f"{prefix}{key}.{name}") for _, key in motions.values()]
         if any(cell != NOTHING for cell in cells):

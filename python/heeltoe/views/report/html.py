@@ -6,6 +6,7 @@ import base64
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
+from heeltoe.plain import harmless
 from heeltoe.views.report.content import Code, Document, FigureBlock, Inline, Section, Strong, Symbol
 from heeltoe.views.words.numbers import Value
 
@@ -28,7 +29,7 @@ def html(document: Document) -> str:
 
 
 def inline(parts: tuple[Inline, ...] | Inline) -> Markup:
-    """Return running text as markup in which people's words are escaped."""
+    """Return running text as markup in which people's words are harmless."""
     from markupsafe import Markup
 
     return Markup("").join(map(_part, parts if isinstance(parts, tuple) else (parts,)))
@@ -41,13 +42,13 @@ def _part(part: Inline) -> Markup:
         form = Markup('<data class="number" data-key="{}" value="{}">{}</data>')
         return form.format(part.key, repr(part.number), part.text)
     if isinstance(part, Code):
-        return Markup("<code>{}</code>").format(part.text)
+        return Markup("<code>{}</code>").format(harmless(part.text))
     if isinstance(part, Strong):
-        return Markup("<strong>{}</strong>").format(part.text)
+        return Markup("<strong>{}</strong>").format(harmless(part.text))
     if isinstance(part, Symbol):
         index = Markup("<sub>{}</sub>").format(part.index) if part.index else ""
         return Markup("<i>{}{}</i>").format(part.letter, index)
-    return escape(part)
+    return escape(harmless(part))
 
 
 def data(figure: FigureBlock) -> str:

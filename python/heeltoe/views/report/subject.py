@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from heeltoe.case.model import Case
+from heeltoe.plain import plain
 from heeltoe.result.response import Response
 from heeltoe.views.report.content import FigureBlock, Inline
 from heeltoe.views.words.numbers import Numbers
@@ -95,7 +96,7 @@ class Subject:
     @property
     def title(self) -> str:
         """What the case is called."""
-        return self.case.title.strip() or "Untitled case"
+        return plain(self.case.title) or "Untitled case"
 
     def ran(self, model: str) -> bool:
         """Whether a model is part of the report."""

@@ -6,9 +6,9 @@ import re
 from collections.abc import Iterator
 from importlib.resources import files
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any, Literal
 
+from heeltoe.errors import InputError
 from heeltoe.views.report.content import (
     Block,
     Code,
@@ -26,6 +26,7 @@ from heeltoe.views.report.content import (
     Table,
 )
 from heeltoe.views.words.numbers import Value
+from heeltoe.whole import temporary
 
 # The first comes with typst, the second with matplotlib; of the others whatever the machine has.
 _FONTS = (
@@ -70,20 +71,26 @@ def compiled(document: Document, kind: Literal["pdf", "png"], ppi: float | None 
     import typst
     from matplotlib import get_data_path
 
-    with TemporaryDirectory() as name:
-        directory = Path(name)
+    with temporary() as directory:
         for number, figure in enumerate(_figures(document.blocks)):
             (directory / f"{number}.svg").write_bytes(figure.svg)
         (directory / "report.typ").write_text(source(document), encoding="utf-8")
         # Its types know one page only.
-        made: Any = typst.compile(
-            str(directory / "report.typ"),
-            root=name,
-            format=kind,
-            ppi=ppi,
-            timestamp=0,
-            font_paths=[str(Path(get_data_path()) / "fonts" / "ttf")],
-        )
+        made: Any
+        try:
+            made = typst.compile(
+                str(directory / "report.typ"),
+                root=str(directory),
+                format=kind,
+                ppi=ppi,
+                timestamp=0,
+                font_paths=[str(Path(get_data_path()) / "fonts" / "ttf")],
+            )
+        except BaseException as error:
+            # What its Rust gives up with, as where it gets no threads, is no Exception, and has no class to name.
+            if type(error).__name__ != "PanicException":
+                raise
+            raise InputError("report-package-broken", "report", "typst", reason=error) from None
     return [made] if isinstance(made, bytes) else list(made)
 
 

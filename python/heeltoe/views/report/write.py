@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -35,6 +36,10 @@ def check_packages(kinds: Sequence[str] = ("pdf", "html"), field: str = "--repor
             raise InputError("report-kind", field, repr(kind))
         if find_spec(KINDS[kind]) is None:
             raise InputError("report-package", field, KINDS[kind])
+        try:
+            import_module(KINDS[kind])
+        except ImportError as error:
+            raise InputError("report-package-broken", field, KINDS[kind], reason=error) from None
 
 
 def build_report(

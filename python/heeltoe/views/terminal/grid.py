@@ -12,6 +12,7 @@ from rich.measure import Measurement
 from rich.table import Table
 
 from heeltoe.models.decoupled.response import DecoupledResponse
+from heeltoe.plain import plain
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest
@@ -61,7 +62,7 @@ def print_grid(grid: Grid, console: Console, units: str = "si") -> None:
     first = grid.responses[0]
     peak = first.motion.pga / first.gravity
     print_title(grid.title, f"{grid.model} model", console)
-    runs = f"{first.motion.name}, peak {peak:.3g} g; {len(grid.cells)} runs"
+    runs = f"{plain(first.motion.name)}, peak {peak:.3g} g; {len(grid.cells)} runs"
     console.print(escape(runs), style="dim", soft_wrap=True)
     _print_crack_level(grid, console)
     # One table where there is room for it, else one of the slips and one of the rocking, in parts if need be.

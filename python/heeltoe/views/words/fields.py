@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel
 
+from heeltoe.plain import plain
 from heeltoe.units.sentences import UNITS, scale
 
 # SI units as people write them, and larger ones for what would have many zeros.
@@ -36,7 +37,7 @@ def fields(
             blocks += [(item, written[name][k], f"{prefix}{name}[{k}].") for k, item in enumerate(value)]
         else:
             meaning = " ".join((info.description or "").split())
-            text = written[name] if name in OWN_WORDS and written[name] else shown(written[name], units)
+            text = plain(written[name]) if name in OWN_WORDS and written[name] else shown(written[name], units)
             yield prefix + name, text, name in model.model_fields_set, meaning
     for block in blocks:
         yield from fields(*block, units=units)
@@ -58,10 +59,10 @@ def shown(value: Any, units: str = "si") -> str:
     if isinstance(value, dict):
         return ", ".join(f"{name} {shown(each, units)}" for name, each in value.items() if each is not None)
     if isinstance(value, float):
-        return _plain(value)
+        return _number(value)
     text = str(value)
     match = _QUANTITY.fullmatch(text)
-    return text if match is None else _quantity(float(match[1]), match[2], units)
+    return plain(text) if match is None else _quantity(float(match[1]), match[2], units)
 
 
 def shown_list(values: list[Any], units: str) -> str:
@@ -75,14 +76,14 @@ def _quantity(number: float, unit: str, units: str) -> str:
         to = scale(quantity, number * factor)
         return f"{number * factor * to.factor:.6g} {to.unit}"
     if unit == "m" and 0.0 < abs(number) < _LEAST_METRES:
-        return f"{_plain(1e3 * number)} mm"
+        return f"{_number(1e3 * number)} mm"
     for least, larger in _LARGER.get(unit, ()):
         if abs(number) >= least:
-            return f"{_plain(number / least)} {larger}"
+            return f"{_number(number / least)} {larger}"
     if unit == "rad":
-        return f"{_plain(np.degrees(number).item())}°"
-    return f"{_plain(number)} {_UNITS.get(unit, unit)}"
+        return f"{_number(np.degrees(number).item())}°"
+    return f"{_number(number)} {_UNITS.get(unit, unit)}"
 
 
-def _plain(number: float) -> str:
+def _number(number: float) -> str:
     return f"{number:.7g}"
