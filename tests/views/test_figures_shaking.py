@@ -124,10 +124,13 @@ def test_the_axis_of_time_ends_when_nothing_happens_any_more(lifted):
 def test_the_end_of_the_ground_motion_is_marked_where_silence_follows():
     response = rigid(read_case(BASE, [PUSHED, "motion.duration=0.6s"]))
     figure = response_figure(response)
-    words = "time [s]; ground motion until 0.6 s (dotted); from here to the end at 3.1 s the dam is at rest"
+    words = "time [s]; ground motion until 0.6 s (dotted);\nfrom here to the end at 3.1 s the dam is at rest"
     assert figure.axes[-1].get_xlabel() == words
     for axes in figure.axes:
         assert [0.6, 0.6] in [list(line.get_xdata()) for line in axes.lines]
+    # The words have room in the narrow panels, too.
+    for name, drawn in all_figures(None, response).items():
+        check(drawn, name)
 
 
 def test_labels_of_a_block_that_overturns_cover_no_curve():

@@ -36,7 +36,9 @@ def time_axis(axes: Axes, *responses: Response) -> None:
         _mark(axes, max(silent))
         label += f"; ground motion until {max(silent):.4g} s (dotted)"
     if cut:
-        label += f"; from here to the end at {end:.4g} s the dam is at rest"
+        # In a narrow panel a line has no room for both.
+        label += ";\n" if ";" in label else "; "
+        label += f"from here to the end at {end:.4g} s the dam is at rest"
     axes.set_xlabel(label)
 
 
