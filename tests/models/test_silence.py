@@ -136,7 +136,7 @@ def test_without_silence_a_run_ends_with_the_motion_and_says_so():
     assert (response.silence_s, response.end_time_s) == (0.0, 2.1)
     said = next(each for each in response.warnings if each.code == "block-still-moves")
     assert said.field == "analysis.silence"
-    assert "still moves when the ground motion ends (slip velocity" in str(said)
+    assert "still moves when the ground motion ends (slide downstream, slip velocity" in str(said)
     assert "a longer analysis.silence may let it come to rest" in str(said)
     assert "It still moves when the run ends (slide downstream)" in verdict(response)
 

@@ -67,7 +67,13 @@ def about_the_end(response: Response, *, asked: bool) -> Iterator[Notice]:
         when = Sentence.of("{silence_s:g s} after the ground motion has ended", silence_s=response.silence_s)
     end = response.end_time_s
     if not response.elastic:
-        yield Notice("block-still-moves", time_s=end, when=when, slip_velocity_m_s=response.final_slip_velocity_m_s)
+        yield Notice(
+            "block-still-moves",
+            time_s=end,
+            when=when,
+            mode=response.final_mode,
+            slip_velocity_m_s=response.final_slip_velocity_m_s,
+        )
         return
     last = last_of(response)
     span = "second" if last.seconds == 1.0 else f"{last.seconds:.2g} s"
