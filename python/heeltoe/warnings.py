@@ -53,8 +53,8 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
     "block-still-moves": (
         "caution",
         "analysis.silence",
-        "the block still moves {when} ({mode}, slip velocity {slip_velocity_m_s:.3g m/s}): the residual slip is that of "
-        "this moment; a longer {field} may let it come to rest",
+        "the block still moves {when} ({mode}, slip velocity {slip_velocity_m_s:.3g m/s}): the residual slip is that "
+        "of this moment; a longer {field} may let it come to rest",
     ),
     "restitution-lowered": (
         "note",
