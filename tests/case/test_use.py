@@ -83,6 +83,15 @@ def test_what_a_reader_expects_to_matter_is_told_by_itself():
         ),
         ({"uplift": {"pattern": "none", "intensity": 0.5}}, ["rigid"], "uplift.intensity", '"none"'),
         (
+            {
+                "tailwater": {"depth": "20 m", "virtual_mass_rotates": False},
+                "crack": {"friction": 1.0, "elevation": "20 m"},
+            },
+            ["rigid"],
+            "tailwater.virtual_mass_rotates",
+            "the tailwater does not stand above the crack",
+        ),
+        (
             {"motion": PULSE | {"vertical": PULSE}, "decoupled": {"vertical": True}},
             ["decoupled"],
             "decoupled.vertical",
@@ -126,6 +135,7 @@ def test_fields_put_out_of_use_by_others_are_told_with_the_reason(changes, model
         ),
         ({"uplift": {"intensity": 0.5}, "reservoir": None, "tailwater": {"depth": "9 m"}}, ["rigid"]),
         ({"section": TYPICAL_SECTION, "flexible": {"virtual_mass": "thesis"}}, ["flexible"]),
+        ({"reservoir": {"depth": "95 m", "virtual_mass_rotates": False}}, ["decoupled"]),
     ],
 )
 def test_what_has_an_effect_is_not_told(changes, models):

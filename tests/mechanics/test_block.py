@@ -31,6 +31,8 @@ def test_typical_dam_by_hand():
     ]
     inertia = 2650.0 * sum(a * (own + (px - x) ** 2 + (pz - z) ** 2) for a, own, px, pz in parts)
     inertia += mass * (z - height) ** 2 + water * (40.0 - height) ** 2
+    # Zhu (2004) has the water in one point; its profile turns, too.
+    turning = 12.0 / 175.0 * water * 100.0**2
     push = 1000.0 * 9.81 * 100.0**2 / 2.0
     uplift = 1000.0 * 9.81 * 100.0 * 80.0 / 2.0
     moment = push * (height - 100.0 / 3.0) + uplift * (80.0 / 3.0 - x)
@@ -38,7 +40,11 @@ def test_typical_dam_by_hand():
     assert block.mass_vertical == pytest.approx(mass, rel=1e-12)
     assert block.mass_horizontal == pytest.approx(mass + water, rel=1e-12)
     assert block.height == pytest.approx(height, rel=1e-12)
-    assert block.inertia == pytest.approx(inertia, rel=1e-12)
+    assert block.inertia == pytest.approx(inertia + turning, rel=1e-12)
+    assert block.inertia / inertia == pytest.approx(1.39, abs=0.005)
+    point = build_block(read_case(TYPICAL | {"reservoir": {"depth": "100 m", "virtual_mass_rotates": False}}))
+    assert point.inertia == pytest.approx(inertia, rel=1e-12)
+    assert point.height == block.height
     assert block.heel_distance == pytest.approx(x, rel=1e-12)
     assert block.toe_distance == pytest.approx(80.0 - x, rel=1e-12)
     assert block.static.horizontal == pytest.approx(push, rel=1e-12)

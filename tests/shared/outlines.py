@@ -12,7 +12,7 @@ from shared.dams import polygon
 def make(corners, elevation=0.0, **more):
     """Return a case that has been through no check of the geometry yet."""
     crack = {"elevation": f"{elevation!r} m", "friction": 1.0}
-    return Case.model_validate({"section": polygon(corners), "crack": crack, **more})
+    return Case.model_validate({"section": polygon(corners), "crack": crack} | more)
 
 
 def by_strips(corners, level):

@@ -137,6 +137,9 @@ class Water(Fields):
     follows_vertical_motion: Truth = False
     """Its pressure on the faces grows and falls with the vertical motion, by the factor 1 + a_v / g, as under a
     column of water that moves with the ground."""
+    virtual_mass_rotates: Truth = True
+    """The virtual water of a rigid block resists its rotation as Westergaard's profile does along the face; or, as in
+    Zhu (2004), as one mass at the height of its centre."""
 
 
 class Ice(Fields):

@@ -43,6 +43,7 @@ restitution = 0.5                  # of a rocking block's impacts: 0 stays down,
 depth = "95 m"                     # above the lowest point of the section
 # density = "1000 kg/m^3"
 # follows_vertical_motion = false  # pressure on the faces times 1 + a_v / g; needs motion.vertical
+# virtual_mass_rotates = true      # of a rigid block, spread over the face; false: in one point, as in Zhu (2004)
 
 # [tailwater]
 # depth = "5 m"

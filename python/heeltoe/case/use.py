@@ -33,6 +33,8 @@ READ_BY: dict[str, frozenset[str]] = {
     "concrete.poisson": _ELASTIC,
     "concrete.damping": _ELASTIC,
     "crack.restitution": _BLOCKS,
+    "reservoir.virtual_mass_rotates": _BLOCKS,
+    "tailwater.virtual_mass_rotates": _BLOCKS,
     "anchors.axial_stiffness": _SHAKEN,
     "anchors.shear_stiffness": _SHAKEN,
     "anchors.capacity": _SHAKEN,
@@ -131,10 +133,14 @@ def _idle(case: Case, models: Sequence[str]) -> dict[str, tuple[str, ...]]:
 
 def _idle_water(case: Case, models: Sequence[str]) -> Iterator[Rule]:
     uplift, section = case.uplift, case.cut
-    dry = not any(
-        water and section.base_elevation + water.depth > end[1]
-        for water, end in ((case.reservoir, section.heel), (case.tailwater, section.toe))
-    )
+    above = {
+        side: water is not None and section.base_elevation + water.depth > end[1]
+        for side, water, end in (
+            ("reservoir", case.reservoir, section.heel),
+            ("tailwater", case.tailwater, section.toe),
+        )
+    }
+    dry = not any(above.values())
     # The static checks fill the reservoir until the dam moves.
     still = "statics" not in models
     yield (
@@ -142,6 +148,8 @@ def _idle_water(case: Case, models: Sequence[str]) -> Iterator[Rule]:
         "no water stands above the crack",
         tuple(f"uplift.{name}" for name in type(uplift).model_fields),
     )
+    for side, there in above.items():
+        yield not there, f"the {side} does not stand above the crack", (f"{side}.virtual_mass_rotates",)
     yield (
         uplift.pattern == "none" and uplift.during_shaking == "constant" and not dry,
         'uplift.pattern = "none"',

@@ -232,18 +232,18 @@ def build_block(case: Case) -> Block:
     if section.level:
         mass = concrete + water.mass
         height = (concrete * offset[1] + water.mass * water.height) / mass
-        inertia += concrete * (offset[1] - height) ** 2 + water.mass * (water.height - height) ** 2
+        inertia += concrete * (offset[1] - height) ** 2 + water.mass * (water.height - height) ** 2 + water.inertia
         masses = (mass, concrete, inertia)
         coupling = (0.0, 0.0, 0.0)
         horizontal, vertical = (-mass, 0.0, 0.0), (0.0, -concrete, 0.0)
     else:
-        # The reference point is the centroid of the concrete; the water moves with one point of the face, sideways.
+        # The reference point is the centroid of the concrete; the water moves sideways, by its height alone.
         height = offset[1]
         e, n = section.in_crack_frame(1.0, 0.0)
         x, z = section.in_crack_frame(face_at(section, water.height), water.height)
         arm = n * (x - offset[0]) - e * (z - height)
         moved = water.mass
-        masses = (concrete + moved * e * e, concrete + moved * n * n, inertia + moved * arm * arm)
+        masses = (concrete + moved * e * e, concrete + moved * n * n, inertia + moved * arm * arm + water.inertia)
         coupling = (moved * e * n, moved * e * arm, moved * n * arm)
         horizontal = (-(concrete + moved) * e, -(concrete + moved) * n, -moved * arm)
         up = section.in_crack_frame(0.0, 1.0)

@@ -9,6 +9,14 @@ vertical, what a horizontal acceleration presses with is less, by Zangar (1952) 
 the straight line between the ends of his curve, whose coefficient falls from 0.73 at a vertical to 0 at a horizontal
 face. (The print was not at hand; potential flow against a face of constant slope has 0.89, 0.79, 0.69, 0.54, 0.39 and
 0.21 at 10, 20, 30, 45, 60 and 75 degrees, and 1.12 at an overhang of 10.) Each piece of a face counts by its own slope.
+
+Seen from its own centre the profile has a second moment, which a turning dam feels beside the mass at the centre.
+Before a vertical face with h of water above the crack, and d the depth below the surface,
+
+    m_w = 7/12 rho sqrt(D) h^(3/2),    0.6 h below the surface,    12/175 m_w h^2 = 0.0686 m_w h^2,
+
+the integrals of ``sqrt(d)`` times 1, d and ``(d - 0.6 h)^2`` from 0 to h. They are the same for a crack at a height,
+whose h is less than D. Zhu (2004) has the mass in one point.
 """
 
 from __future__ import annotations
@@ -27,11 +35,23 @@ from heeltoe.geometry.section import CutSection, Edge
 
 @dataclass(frozen=True)
 class VirtualMass:
-    """Water that moves horizontally with the dam: mass [kg/m], height of its centre above the heel [m], and whether
-    some of it stands before a slope."""
+    """Water that moves horizontally with the dam.
+
+    Attributes
+    ----------
+    mass
+        [kg/m].
+    height
+        Of its centre above the heel [m].
+    inertia
+        Rotational inertia about its centre [kg m2/m].
+    sloped
+        Whether some of it stands before a slope.
+    """
 
     mass: float
     height: float
+    inertia: float = 0.0
     sloped: bool = False
 
 
@@ -49,8 +69,7 @@ def slope_factor(batter: float) -> float:
 def virtual_mass(case: Case) -> VirtualMass:
     """Return the water of reservoir and tailwater that moves horizontally with the part above the crack.
 
-    With h of water above the crack before a vertical face it is ``7/12 rho sqrt(D) h^(3/2)``, its centre 0.4 h above
-    the crack.
+    Of a side with `virtual_mass_rotates` it has the inertia of its profile, of one without that of a point.
     """
     section = case.cut
     up = _before(section, case.reservoir, section.upstream_edges, 1.0)
@@ -60,7 +79,8 @@ def virtual_mass(case: Case) -> VirtualMass:
     mass = up.mass + down.mass
     both = ratio(up.mass * up.height + down.mass * down.height, mass)
     height = where(down.mass > 0.0, where(up.mass > 0.0, both, down.height), up.height)
-    return VirtualMass(mass, height, up.sloped | down.sloped)
+    apart = up.mass * (up.height - height) ** 2 + down.mass * (down.height - height) ** 2
+    return VirtualMass(mass, height, up.inertia + down.inertia + apart, up.sloped | down.sloped)
 
 
 def _before(section: CutSection, water: Water | None, edges: Sequence[Edge], side: float) -> VirtualMass | None:
@@ -76,17 +96,25 @@ def _before(section: CutSection, water: Water | None, edges: Sequence[Edge], sid
     sloped = False
     for edge, lower, upper in wet:
         sloped = sloped | ((abs(edge.slope) > 1e-9) & (lower != upper))
-    depth, root = larger(surface, 0.0), water.density * water.depth**0.5
+    depth, root, turning = larger(surface, 0.0), water.density * water.depth**0.5, float(water.virtual_mass_rotates)
     # Before a vertical upstream face, whose foot is the heel.
-    upright = VirtualMass(7.0 / 12.0 * root * depth**1.5, 0.4 * depth)
+    mass = 7.0 / 12.0 * root * depth**1.5
+    upright = VirtualMass(mass, 0.4 * depth, turning * 12.0 / 175.0 * mass * depth**2)
     if side > 0.0 and not np.any(sloped):
         return upright
-    mass = moment = 0.0
+    mass = moment = second = 0.0
     for edge, lower, upper in wet:
-        # Of sqrt(d) over the depths d of the edge, and of d sqrt(d).
+        # Of sqrt(d) over the depths d of the edge, of d sqrt(d), and of d^2 sqrt(d).
         factor = 7.0 / 8.0 * root * slope_factor(side * edge.slope)
         mass += factor * (lower**1.5 - upper**1.5) * 2.0 / 3.0
         moment += factor * (lower**2.5 - upper**2.5) * 2.0 / 5.0
-    height = surface - ratio(moment, mass)
+        second += factor * (lower**3.5 - upper**3.5) * 2.0 / 7.0
+    centre = ratio(moment, mass)
+    height, inertia = surface - centre, turning * (second - moment * centre)
     summed = sloped | (side < 0.0)
-    return VirtualMass(where(summed, mass, upright.mass), where(summed, height, upright.height), sloped)
+    return VirtualMass(
+        where(summed, mass, upright.mass),
+        where(summed, height, upright.height),
+        where(summed, inertia, upright.inertia),
+        sloped,
+    )

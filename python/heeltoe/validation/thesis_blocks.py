@@ -66,7 +66,7 @@ def drifting() -> Iterator[Row]:
             "section": {"polygon": [["0 m", "0 m"], ["8 m", "0 m"], ["8 m", "10 m"], ["0 m", "10 m"]]},
             "concrete": {"density": "2650 kg/m^3"},
             "crack": {"friction": 1.2, "restitution": 0.5},
-            "reservoir": {"depth": "5 m"},
+            "reservoir": {"depth": "5 m", "virtual_mass_rotates": False},
             **ENDS_WITH_MOTION,
         }
     )

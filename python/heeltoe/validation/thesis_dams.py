@@ -128,7 +128,7 @@ def _typical(depth: float, friction: float) -> Case:
             },
             "concrete": {"density": "2650 kg/m^3"},
             "crack": {"friction": friction},
-            "reservoir": {"depth": f"{depth} m"},
+            "reservoir": {"depth": f"{depth} m", "virtual_mass_rotates": False},
             **ENDS_WITH_MOTION,
         }
     )
@@ -140,7 +140,7 @@ def _triangle(friction: float, extent: float) -> Case:
         "section": {"polygon": [["0 m", "0 m"], ["97.536 m", "0 m"], ["0 m", "121.92 m"]]},
         "concrete": {"density": "2430 kg/m^3"},
         "crack": {"friction": friction, "restitution": 0.5},
-        "reservoir": {"depth": "121.92 m"},
+        "reservoir": {"depth": "121.92 m", "virtual_mass_rotates": False},
         "uplift": {"pattern": "cut-off", "extent": extent},
         **ENDS_WITH_MOTION,
     }

@@ -76,6 +76,24 @@ def test_where_sliding_flutters_a_stiff_dam_slides_farther():
     assert abs(too_far(stiff(2e5))) < 0.005
 
 
+@pytest.mark.parametrize(("sign", "elevation"), [(-1.0, 0.0), (1.0, 0.0), (-1.0, 12.0)])
+def test_a_stiff_dam_turns_as_a_block_does_whose_water_turns_with_it(sign, elevation):
+    # One push that rocks it, until before it comes down.
+    time = np.linspace(0.0, 0.2, 101)
+    ground = np.append(sign * 1.5 * G * np.sin(np.pi * time / 0.2), 0.0)
+    motion = GroundMotion.from_points(np.append(time, 0.25), ground, name="push")
+    case = stiff(2e5, 5.0, 29.0).with_({"crack.elevation": f"{elevation} m"})
+    name = "rocking_downstream_rad" if sign < 0.0 else "rocking_upstream_rad"
+    turned = getattr(flexible(case, motion), name)
+    spread, point = (
+        getattr(rigid(case.with_({"reservoir.virtual_mass_rotates": turns}), motion), name) for turns in (True, False)
+    )
+    assert turned > 1e-3
+    assert turned == pytest.approx(spread, rel=2e-3)
+    # With the water in one point it would turn by several per cent more.
+    assert point > 1.03 * turned
+
+
 def test_the_own_step_is_short_enough_to_solve_the_contact():
     case = stiff(1e6, 1.2, 100.0, across=8, corners=TYPICAL)
     response = flexible(case, three_sines(0.8))

@@ -98,7 +98,7 @@ _KEPT: Kept[Chain] = Kept(8)
 
 def _kept(case: Case, build: Callable[[Case], Chain]) -> Chain:
     """Build a chain, or find it by all that it depends on."""
-    fields: Any = dict.fromkeys(("section", "concrete", "reservoir", "flexible", "gravity"), True)
+    fields: Any = dict.fromkeys(("section", "concrete", "reservoir", "tailwater", "flexible", "gravity"), True)
     fields["crack"] = {"elevation", "inclination"}
     # Files may change under their name.
     key = (build.__name__, case.model_dump_json(include=fields), *fingerprints(case))
@@ -170,13 +170,13 @@ def plane_fit(mesh: BodyMesh) -> Sparse:
 
 def attached_mass(case: Case, block: Block) -> Floats:
     """Return the mass matrix of the part above the crack about the middle of the crack, (3, 3): downstream, upward,
-    counter-clockwise [kg, kg m, kg m2 per m]. Its virtual water moves horizontally alone, at the height of its
-    centre, as that of the block does."""
+    counter-clockwise [kg, kg m, kg m2 per m]. Its virtual water moves horizontally alone, as that of the block does."""
     section = block.section
     middle = (np.array(section.heel) + section.toe) / 2.0
     concrete = case.concrete.density * section.area
     x, z = np.array(section.centroid) - middle
     water, height = block.water.mass, section.heel[1] + block.water.height - middle[1]
     inertia = case.concrete.density * section.polar_inertia + concrete * (x * x + z * z) + water * height**2
+    inertia += block.water.inertia
     tilt = -(concrete * z + water * height)
     return np.array([[concrete + water, 0.0, tilt], [0.0, concrete, concrete * x], [tilt, concrete * x, inertia]])

@@ -37,7 +37,9 @@ def varying(case: Case, block: Block) -> Varying:
         full = case.reservoir.density * g * water_above_crack(case, case.reservoir)
     numbers = {
         "mass": case.concrete.density * section.area,
-        "inertia": case.concrete.density * section.polar_inertia,
+        # What the water adds falls with the square of the cosine of a rotation; water that runs up a tilted face is not
+        # Westergaard's either.
+        "inertia": case.concrete.density * section.polar_inertia + block.water.inertia,
         "centroid_along": centroid[0],
         "centroid_across": centroid[1],
         "water_mass": block.water.mass,

@@ -132,21 +132,33 @@ def _loads(writer: _Writer, subject: Subject) -> None:
         writer.show("anchors")
     if subject.numbers.raw(subject.first.prefix + "static.virtual_mass_kg"):
         if not all(run.response.elastic for run in subject.runs):
-            if build_block(subject.case).water.sloped:
-                writer.say(
-                    "Water moves with both faces as Westergaard’s virtual mass times $r$, horizontally, with $η$ from "
-                    "the bottom of water of depth $D$ before a face that leans back from it by $ψ$ (after Zangar 1952):"
-                )
-                writer.show("virtual mass along face")
-                writer.show("sloped water")
-            else:
-                writer.say(
-                    "Water moves with the upstream face as Westergaard’s virtual mass, horizontally; $D$ is the "
-                    "depth of the reservoir, $h$ that above the crack:"
-                )
-                writer.show("virtual mass")
+            _virtual_mass_of_block(writer, subject)
         if subject.ran("flexible"):
             _virtual_mass_along_face(writer, subject)
+
+
+def _virtual_mass_of_block(writer: _Writer, subject: Subject) -> None:
+    water = build_block(subject.case).water
+    if water.sloped:
+        writer.say(
+            "Water moves with both faces as Westergaard’s virtual mass times $r$, horizontally, with $η$ from "
+            "the bottom of water of depth $D$ before a face that leans back from it by $ψ$ (after Zangar 1952):"
+        )
+        writer.show("virtual mass along face")
+        writer.show("sloped water")
+    else:
+        writer.say(
+            "Water moves with the upstream face as Westergaard’s virtual mass, horizontally; $D$ is the "
+            "depth of the reservoir, $h$ that above the crack:"
+        )
+        writer.show("virtual mass")
+    if any(side and not side.virtual_mass_rotates for side in (subject.case.reservoir, subject.case.tailwater)):
+        writer.say("Where the case says so, it has no rotational inertia about its own centre, as in Zhu (2004).")
+    elif water.sloped:
+        writer.say("It turns with the block as it is spread over the face.")
+    else:
+        writer.say("It turns with the block as it is spread over the face, with $J_w$ about its own centre:")
+        writer.show("turning water")
 
 
 def _virtual_mass_along_face(writer: _Writer, subject: Subject) -> None:

@@ -66,6 +66,10 @@ EQUATIONS: dict[str, tuple[str, str]] = {
         "<i>m<sub>w</sub></i> = (7/12) <i>ρ<sub>w</sub></i> √<i>D</i> <i>h</i><sup>3/2</sup>, &emsp;acting 0.4 "
         "<i>h</i> above the crack",
     ),
+    "turning water": (
+        r"J_w = 12 / 175 m_w h^2",
+        "<i>J<sub>w</sub></i> = (12/175) <i>m<sub>w</sub> h</i><sup>2</sup>",
+    ),
     "virtual mass along face": (
         r"m(eta) = 7 / 8 rho_w sqrt(D (D - eta))",
         "<i>m</i>(<i>η</i>) = (7/8) <i>ρ<sub>w</sub></i> √(<i>D</i> (<i>D</i> − <i>η</i>))",
