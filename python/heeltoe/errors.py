@@ -18,10 +18,7 @@ _LONGEST = 5000
 # Code -> (what is wrong, what to do). The braces are filled from the context of the raiser, and {value}.
 CATALOGUE: dict[str, tuple[str, str]] = {
     # case
-    "case-file-missing": (
-        "there is no such file",
-        "give the path of a case file; `heeltoe new NAME` writes one",
-    ),
+    "case-file-missing": ("there is no such file", "give the path of a case file; `heeltoe new NAME` writes one"),
     "case-file-unreadable": ("cannot be read ({reason})", "give the path of a case file in TOML or JSON"),
     "case-file-large": ("has more than {value}", "give a case file"),
     "case-file-encoding": ("is not UTF-8 text", "save it as UTF-8"),
@@ -59,10 +56,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "contradiction": ("{value} contradicts {other}", "keep one of them"),
     "ice-depth": ("{value} is not within the {depth} of water", "give a depth below the surface, up to there"),
     "silt-above-crest": ("{value} is above the crest at {height}", "give a depth between 0 m and {height}"),
-    "anchor-outside": (
-        "{value} is beyond the toe: the crack is {width} wide",
-        "give a distance from 0 m to {width}",
-    ),
+    "anchor-outside": ("{value} is beyond the toe: the crack is {width} wide", "give a distance from 0 m to {width}"),
     "section-incomplete": ("is required and not there", "give {fields}, or a polygon"),
     "neck-above-crest": ("{value} is above the crest at {height}", "give a height up to {height}"),
     "section-size": ("{value} is no size of a dam", "give a section of 1 mm to 10 km"),
@@ -89,14 +83,8 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "give an elevation with one piece of concrete",
     ),
     "crack-no-width": ("the section has no width at {value}", "give an elevation where it has one"),
-    "friction-missing": (
-        "is required and not there",
-        "give friction, or both static_friction and kinetic_friction",
-    ),
-    "friction-order": (
-        "{value} is below kinetic_friction, {kinetic}",
-        "give a static_friction of at least {kinetic}",
-    ),
+    "friction-missing": ("is required and not there", "give friction, or both static_friction and kinetic_friction"),
+    "friction-order": ("{value} is below kinetic_friction, {kinetic}", "give a static_friction of at least {kinetic}"),
     "water-above-crest": ("{value} is above the crest at {height}", "give a depth between 0 m and {height}"),
     "uplift-option-foreign": (
         'does not belong to the pattern "{pattern}"',
@@ -108,10 +96,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "give them in order, the heel at 0 and the toe at 1",
     ),
     "motion-source": ("has no source", "give file or points"),
-    "motion-points": (
-        "the times {value} do not ascend",
-        "give at least two points in order of time",
-    ),
+    "motion-points": ("the times {value} do not ascend", "give at least two points in order of time"),
     "acceleration-range": ("{value} is out of range", "give up to 10 g either way"),
     "motion-file-option": ("belongs to a motion from a file", "remove it, or give file instead of points"),
     "vertical-of-another": (
@@ -123,14 +108,8 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "motion-short": ("has {value} samples", "give a record with at least two moments"),
     "motion-not-finite": ("value {number} is {value}", "give a record of finite numbers"),
     "motion-order": ("its time goes back from {before} to {value}", "give the samples in order of time"),
-    "motion-zero": (
-        "the ground motion is zero throughout",
-        "give another record, or set motion.allow_zero = true",
-    ),
-    "motion-peak": (
-        "{name} peaks at {value}, beyond any earthquake",
-        "check its unit (motion.unit) and its values",
-    ),
+    "motion-zero": ("the ground motion is zero throughout", "give another record, or set motion.allow_zero = true"),
+    "motion-peak": ("{name} peaks at {value}, beyond any earthquake", "check its unit (motion.unit) and its values"),
     "motion-spike": (
         "{name} jumps to {value} at {moment} and back, {ratio} times as far as it reaches anywhere else",
         "correct this value of the file; a pulse that is meant can be drawn by motion.points",
@@ -168,10 +147,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "record-number": ("line {line}: {value} is not a number", "correct the file"),
     "record-ragged": ("line {line} has {value} where others have {width}", "correct the file"),
     "record-not-acceleration": ("is a {value} record", "give the acceleration record"),
-    "record-unit-missing": (
-        "does not state its unit; it peaks at {value}",
-        "say so in {unit_field}: {guess}",
-    ),
+    "record-unit-missing": ("does not state its unit; it peaks at {value}", "say so in {unit_field}: {guess}"),
     "record-unit-conflict": ("{value} is not what {name} states, {stated}", "remove one of them"),
     "record-step-missing": ("does not state its time step", 'say so in {step_field}, for example "0.01 s"'),
     "record-step-conflict": ("{value} is not what the file states, {stated} s", "remove one of them"),
