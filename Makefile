@@ -12,13 +12,15 @@ export PYO3_PYTHON := $(abspath $(BIN)/python)
 WASM := wasm32-unknown-unknown
 ELAPSED = echo "$@: done in $$(( $$(date +%s) - $$(cat $(VENV)/.started) )) s"
 
-.PHONY: demo test test-slow lint format validate bench clean help check
+.PHONY: demo test test-slow test-pythons audit lint format validate bench clean help check
 .DEFAULT_GOAL := help
 
 help:
 	@echo "make demo       run the typical dam through El Centro 1940; report, figures and results in out/demo"
 	@echo "make test       all tests but the long ones"
 	@echo "make test-slow  the long ones"
+	@echo "make test-pythons  the tests under every Python of 3.11 to 3.13 that is installed"
+	@echo "make audit      known weaknesses of all that is installed or built from; needs a network"
 	@echo "make lint       formatting, lints, types and directions of imports"
 	@echo "make validate   the reference cases as tables"
 	@echo "make bench      ours against named peers; writes benchmarks/results.md (PART=crack_dam for one part)"
@@ -56,6 +58,13 @@ test: check $(VENV)/.built
 test-slow: check $(VENV)/.built
 	$(BIN)/pytest -q -m slow -n 2
 	@$(ELAPSED)
+
+test-pythons: check $(VENV)/.built
+	.ci/pythons
+	@$(ELAPSED)
+
+audit: check
+	PYTHON=$(PYTHON) .ci/audit
 
 lint: check $(VENV)/.built
 	cargo fmt --check
