@@ -14,7 +14,7 @@ import numpy as np
 import pyslammer
 from exact import slip_one_way
 from measure import repeat, require, seconds, table, timed
-from problems import DURATION, STEP, Floats, G, rectangle, taft
+from problems import DURATION, LIMITS, STEP, Floats, G, rectangle, taft
 
 from heeltoe import GroundMotion, rigid_many
 from heeltoe.kernel.block import BlockRun, run_block
@@ -48,7 +48,7 @@ def _ours(motion: GroundMotion, yield_g: float, exact: Floats) -> tuple[list[lis
     require(end["slip_stops"] > 0 and end["slip_min"] == 0.0 and end["slip_sliding"] == end["slip"], "no one-way slip")
     wrong = float(np.abs(run.histories["slip"] - exact).max())
     alone = repeat(solve)
-    many = repeat(lambda: rigid_many(blocks, reverse, threads=1))
+    many = repeat(lambda: rigid_many(blocks, reverse, limits=LIMITS, threads=1))
     start = [f"{yield_g:g}", f"{1e3 * exact[-1]:.2f} mm", "heeltoe", f"{STEP:g} s", f"{1e3 * wrong:.1g} mm"]
     share = f"{wrong / exact[-1]:.0e}"
     together = f"{seconds(many.median / COUNT)} ({many.spread:.0%})"

@@ -10,7 +10,7 @@ from measure import require
 from numpy.typing import NDArray
 
 from heeltoe import Case, GroundMotion, InputError, build_block, read_case, read_record, rigid_many
-from heeltoe.kernel.block import BLOCK, block
+from heeltoe.kernel.block import BLOCK, Limits, block
 from heeltoe.motion.records.catalog import find
 
 Floats = NDArray[np.float64]
@@ -20,6 +20,8 @@ Motions = GroundMotion | tuple[GroundMotion, GroundMotion]
 G = 9.80665
 #: Step and length of the records that are run [s].
 STEP, DURATION = 0.01, 30.0
+#: Runs end with the record, as those of the peers do.
+LIMITS = Limits(silence=0.0)
 
 _AT = {name: k for k, name in enumerate(BLOCK)}
 
@@ -59,7 +61,7 @@ class Ensemble:
 
     def run(self, threads: int, part: slice | NDArray[np.intp] = slice(None)) -> dict[str, Floats]:
         """Run all cases, or some."""
-        return rigid_many(self.blocks[part], [self.motion], scales=self.scales[part], threads=threads)
+        return rigid_many(self.blocks[part], [self.motion], scales=self.scales[part], limits=LIMITS, threads=threads)
 
 
 def typical_dams(name: str, count: int, motion: Motions, seed: int = 1) -> Ensemble:

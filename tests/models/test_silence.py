@@ -19,6 +19,7 @@ from heeltoe import (
     verdict,
     with_spread,
 )
+from heeltoe.kernel.block import Limits
 from heeltoe.models.flexible.shaken import ShakenDam
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.rest import rests_from
@@ -192,12 +193,12 @@ def test_many_runs_end_where_each_of_them_does():
     assert found["slip"].tolist() == [each.residual_slip_m for each in alone]
     assert found["end_time"].tolist() == [each.end_time_s for each in alone]
     assert len({each.silence_s for each in alone}) == 3
-    quiet = rigid_many(cases, [alone[0].motion], silence=0.0)
+    quiet = rigid_many(cases, [alone[0].motion], limits=Limits(silence=0.0))
     assert (quiet["end_time"] == 2.1).all()
     numbers = np.array([case.cut and rigid_many([case], [alone[0].motion])["slip"][0] for case in cases[:2]])
     assert found["slip"][:2].tolist() == numbers.tolist()
-    with pytest.raises(InputError, match=r"^silence: nan ends nothing; give 0 to 600 s$"):
-        rigid_many(cases, [alone[0].motion], silence=math.nan)
+    with pytest.raises(InputError, match=r"^limits\.silence: nan ends nothing; give 0 to 600 s$"):
+        rigid_many(cases, [alone[0].motion], limits=Limits(silence=math.nan))
 
 
 def test_a_block_may_overturn_in_silence():

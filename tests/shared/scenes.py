@@ -8,9 +8,9 @@ import re
 
 import numpy as np
 
-from shared.dams import COARSE
+from shared.dams import COARSE, ENDS
 
-SMALL = [*COARSE, "motion.duration=1s"]
+SMALL = [*COARSE, "motion.duration=1s", ENDS]
 
 
 def page_scene(path):

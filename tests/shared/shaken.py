@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from heeltoe import GroundMotion, flexible, read_case
-from shared.dams import BASE, COARSE, HEIGHT
+from shared.dams import BASE, COARSE, ENDS, HEIGHT
 
-SMALL = [*COARSE, "motion.duration=2s"]
+SMALL = [*COARSE, "motion.duration=2s", ENDS]
 EXAMPLES = {"base": BASE, "height": HEIGHT}
 
 

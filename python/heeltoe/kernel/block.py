@@ -64,11 +64,15 @@ class Limits:
         Resolve a Painlevé paradox by a tangential impact instead of stopping there.
     settle
         See :data:`SETTLE`.
+    silence
+        How long :func:`heeltoe.rigid_many` goes on after the motion until a block is at rest [s]; a kernel's run ends
+        with its motion.
     """
 
     event_limit: int = 1_000_000
     jam: bool = False
     settle: float = SETTLE
+    silence: float = 10.0
 
 
 USUAL = Limits()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from heeltoe.result.contract import HEADLINES, JOINT_METER_M, Quantity
+from heeltoe.result.contract import HEADLINES, Quantity
 from heeltoe.units.sentences import Sentence
 from heeltoe.units.write import angle, length
 
@@ -14,6 +14,10 @@ if TYPE_CHECKING:
 
 # From which ratio on the models differ by more than the flexible one is known to differ from its references.
 _CLOSE = 1.25
+# Less between two models is no difference. Half a millimetre of slip or opening is what the widths of cracks are told
+# apart by when a dam is inspected. A rotation of a milliradian is 1 cm at the crest of a top of 10 m; what less of it
+# opens along a wide crack is an opening, and compared as such.
+_SAME_M, _SAME_RAD = 5e-4, 1e-3
 # A slip of less is none that matters to a dam [m].
 _LITTLE = 1e-3
 _LITTLE_IN_WORDS = {"si": "a millimetre", "us": "0.04 in"}
@@ -36,8 +40,7 @@ def differing(dam: Response, block: Response) -> tuple[Quantity, ...]:
     """Return the headline numbers in which two models do not agree.
 
     They agree in a number where the larger is at most 1.25 times the smaller, with the same sign, or where they are
-    less than 0.1 mm apart, which no joint meter shows: rotations by what they open over the width of the crack. Those
-    that matter most come first.
+    less than 0.5 mm or 1 mrad apart. Those that matter most come first.
     """
     return tuple(each for each in HEADLINES if not _agree(each, dam, block))
 
@@ -67,8 +70,7 @@ def meaning(dam: Response, block: Response, units: str = "si") -> str:
 
 def _agree(of: Quantity, dam: Response, block: Response) -> bool:
     one, other = (float(each.summary[of.key]) for each in (dam, block))
-    least = JOINT_METER_M / dam.crack_width_m if of.kind == "rotation" else JOINT_METER_M
-    if abs(one - other) < least:
+    if abs(one - other) < (_SAME_RAD if of.kind == "rotation" else _SAME_M):
         return True
     low, high = sorted((abs(one), abs(other)))
     return one * other > 0.0 and high <= _CLOSE * low

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -35,12 +35,15 @@ class LimitCheck:
         Magnitude of the result, and how much it may be [m].
     failed
         Whether the dam has overturned, or does not even stand without an earthquake: then it keeps no limit.
+    uncertainty_m
+        How far the result may be off by its evidence [m]; zero where there is none.
     """
 
     name: str
     value_m: float
     allowed_m: float
     failed: bool
+    uncertainty_m: float = 0.0
 
     @property
     def label(self) -> str:
@@ -52,20 +55,34 @@ class LimitCheck:
         """Whether the dam holds, and the result is within the limit."""
         return not self.failed and self.value_m <= self.allowed_m
 
+    @property
+    def certain(self) -> bool:
+        """Whether the limit is met, or not, wherever within its uncertainty the result lies."""
+        return self.failed or abs(self.value_m - self.allowed_m) > self.uncertainty_m or not self.uncertainty_m
+
+    def to_json(self) -> dict[str, Any]:
+        """Return the contract."""
+        return {**asdict(self), "met": self.met, "certain": self.certain}
+
 
 def check_limits(limits: Limits, summary: Mapping[str, Any], outcome: str) -> tuple[LimitCheck, ...]:
     """Compare the numbers of a summary with the limits that the user has set.
 
-    Without a result to trust nothing is compared.
+    They are the numbers to trust: where the runs of an elastic dam scatter, the means. Without a result to trust
+    nothing is compared.
     """
     if outcome not in ("ok", *_FAILURES):
         return ()
-    values = {
-        "residual_slip": abs(summary["residual_slip_m"]),
-        "peak_slip": max(summary["peak_slip_downstream_m"], -summary["peak_slip_upstream_m"]),
-        "opening_upstream": summary["opening_upstream_m"],
-        "opening_downstream": summary["opening_downstream_m"],
+    peak = max(("peak_slip_downstream_m", "peak_slip_upstream_m"), key=lambda key: abs(summary[key]))
+    keys = {
+        "residual_slip": "residual_slip_m",
+        "peak_slip": peak,
+        "opening_upstream": "opening_upstream_m",
+        "opening_downstream": "opening_downstream_m",
     }
-    allowed = {name: getattr(limits, name) for name in values}
-    failed = outcome in _FAILURES
-    return tuple(LimitCheck(name, values[name], limit, failed) for name, limit in allowed.items() if limit is not None)
+    evidence, failed = summary.get("evidence") or {}, outcome in _FAILURES
+    return tuple(
+        LimitCheck(name, abs(summary[key]), limit, failed, evidence[key]["uncertainty"] if evidence else 0.0)
+        for name, key in keys.items()
+        if (limit := getattr(limits, name)) is not None
+    )

@@ -18,7 +18,7 @@ from heeltoe.result.beside import meaning, ratio
 from heeltoe.result.contract import TOO_FAR
 from heeltoe.result.limits import LimitCheck
 from heeltoe.result.verdict import verdict
-from heeltoe.result.write import build_info, motion_json, write_table
+from heeltoe.result.write import build_info, motion_json, static_json, write_table
 from heeltoe.shown import Shown
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings import Notice
@@ -261,11 +261,10 @@ class Response(Shown):
             "warnings": [each.to_json() for each in self.warnings],
             **self.summary,
             "silence_s": self.silence_s,
-            "critical_acceleration_g": dict(self.static["critical_acceleration_g"]),
-            "static": {k: v for k, v in self.static.items() if k != "critical_acceleration_g"},
+            **static_json(self.static),
             "energy": energy,
             **({} if self.spread is None else {"spread": dict(self.spread)}),
-            "limits": [{**asdict(check), "met": check.met} for check in self.limits],
+            "limits": [check.to_json() for check in self.limits],
             "motion": motion_json(self.motion, self.gravity),
             "vertical_motion": motion_json(self.vertical, self.gravity) if self.vertical else None,
             "references": list(self.references),

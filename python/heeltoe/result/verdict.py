@@ -10,6 +10,7 @@ from heeltoe.units.write import angle, length, speed
 
 # Not at run time: a response says its verdict in its JSON.
 if TYPE_CHECKING:
+    from heeltoe.result.limits import LimitCheck
     from heeltoe.result.response import Response
 
 # Less time in the air in all [s] is a few bounces, which the strikes tell of.
@@ -50,17 +51,31 @@ def _limits(response: Response, units: str) -> str:
     if response.outcome == "overturned":
         return "It keeps none of its limits: a dam that has overturned has failed."
     broken = [
-        f"{check.label} of {length(check.value_m, units)} is more than the {length(check.allowed_m, units)} allowed"
+        f"{check.label} of {_judged(check, units)} is more than the {length(check.allowed_m, units)} allowed"
         for check in response.limits
         if not check.met
     ]
     if broken:
-        return f"It does not keep within its limits: its {' and its '.join(broken)}."
+        doubt = "" if all(check.certain for check in response.limits if not check.met) else ", though not for certain"
+        return f"It does not keep within its limits{doubt}: its {' and its '.join(broken)}."
+    doubted = [
+        f"{check.label} of {_judged(check, units)} may be more than the {length(check.allowed_m, units)} allowed"
+        for check in response.limits
+        if not check.certain
+    ]
+    if doubted:
+        return f"It keeps within its limits, but not for certain: its {' and its '.join(doubted)}."
     if response.model == "rigid":
         return "As a rigid block it keeps within its limits; as a dam that vibrates it may not."
     if response.model == "decoupled":
         return "As a rigid block it keeps within its limits; as a dam whose top vibrates, too, it may not."
     return "It keeps within its limits."
+
+
+def _judged(check: LimitCheck, units: str) -> str:
+    """Return a result, and how uncertain it is where that decides."""
+    value = length(check.value_m, units)
+    return value if check.certain else f"{value}, give or take {length(check.uncertainty_m, units)},"
 
 
 def _spread(response: Response, units: str) -> str:

@@ -43,6 +43,29 @@ def _finite(value: Any) -> Any:
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
+# Why a number of the static state is not there.
+_NO_ACCELERATION = "no horizontal acceleration of the ground does that"
+_LEFT_OUT = {
+    "sliding_safety_factor": "no force acts along the crack",
+    "resultant_from_heel_m": "no force presses on the crack",
+}
+
+
+def critical_json(critical: Mapping[str, float]) -> tuple[dict[str, float], dict[str, str]]:
+    """Return the accelerations at which something starts, and by their path why the others are no number."""
+    found = {name: value for name, value in critical.items() if math.isfinite(value)}
+    return found, {f"critical_acceleration_g.{name}": _NO_ACCELERATION for name in critical if name not in found}
+
+
+def static_json(static: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what the contract says about the static state: what is no number is left out, and why stands beside it."""
+    critical, left_out = critical_json(static["critical_acceleration_g"])
+    others = {name: value for name, value in static.items() if name != "critical_acceleration_g"}
+    left_out |= {f"static.{name}": _LEFT_OUT[name] for name, value in others.items() if value is None}
+    there = {name: value for name, value in others.items() if value is not None}
+    return {"critical_acceleration_g": critical, "static": there, "left_out": left_out}
+
+
 def motion_json(motion: GroundMotion, gravity: float) -> dict[str, Any]:
     """Return what the contract says about a ground motion; `gravity` is one g [m/s2]."""
     found = measures(motion, gravity)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from time import monotonic
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +13,6 @@ from rich.progress import Progress
 
 from heeltoe.arrays import Floats, Integers
 from heeltoe.case.model import Case
-from heeltoe.case.options import LONGEST_SILENCE, Analysis
-from heeltoe.errors import InputError
 from heeltoe.kernel.block import MODES, OUTCOMES, SUMMARY, USUAL, Limits, run_block, run_blocks
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block
@@ -26,6 +23,8 @@ from heeltoe.models.silence import STEP
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
 
+# What ends blocks that run together, and whether they are walked exactly.
+_Kind = tuple[Limits, bool]
 _OK, _REST = OUTCOMES.index("ok"), MODES.index("rest")
 # Large enough to keep all cores busy, small enough for a progress bar to move.
 _CHUNK = 4096
@@ -38,7 +37,6 @@ def rigid_many(
     motion_of: Sequence[int] | Integers | None = None,
     scales: Sequence[float] | Floats | None = None,
     limits: Limits | None = None,
-    silence: float | None = None,
     threads: int = 0,
     progress: bool = False,
 ) -> dict[str, Floats]:
@@ -58,10 +56,7 @@ def rigid_many(
         (n,) factor on both directions of the motion, or (n, 2) one each; 1 where it is not given.
     limits
         What ends bouncing and runs, see :class:`heeltoe.kernel.block.Limits`; what the cases say, or the usual, where
-        it is not given.
-    silence
-        How long the ground may stand still after its motion until a block is at rest [s], where it still moves then;
-        what the cases say (``analysis.silence``), or the usual, where it is not given.
+        it is not given. Blocks that still move when their motion ends go on in silence.
     threads
         0 for all cores. The results are the same bits for any number.
     progress
@@ -86,7 +81,7 @@ def rigid_many(
     table = {name: np.zeros(len(rows.numbers)) for name in SUMMARY}
     with Progress(console=Console(stderr=True), transient=True, disable=not progress) as bar:
         task, began = bar.add_task("rigid runs", total=len(rows.numbers), visible=False), monotonic()
-        for part, kind in _parts(rows, limits, silence, _CHUNK if progress else len(rows.numbers)):
+        for part, kind in _parts(rows, limits, _CHUNK if progress else len(rows.numbers)):
             for some, found in _until_rest(rows, part, earthquakes, kind, threads):
                 for name, values in found.items():
                     table[name][some] = values
@@ -94,29 +89,16 @@ def rigid_many(
     return table
 
 
-class _Kind(NamedTuple):
-    """What blocks that run together have in common: what ends them, and whether they are walked exactly."""
-
-    limits: Limits
-    silence: float
-    exact: bool
-
-
-def _parts(rows: Rows, limits: Limits | None, silence: float | None, most: int) -> Iterator[tuple[Integers, _Kind]]:
+def _parts(rows: Rows, limits: Limits | None, most: int) -> Iterator[tuple[Integers, _Kind]]:
     """Yield rows that go together, up to so many."""
-    if silence is not None and not 0.0 <= silence <= LONGEST_SILENCE:
-        raise InputError("blocks-limit", "silence", f"{silence:g}", bounds=f"0 to {LONGEST_SILENCE:g} s")
     kinds: dict[_Kind, list[int]] = {}
     for row, block in enumerate(rows.blocks):
-        case = block.case
-        still = case.analysis.silence if silence is None else silence
-        kinds.setdefault(_Kind(limits or limits_of(case), still, not varies(case)), []).append(row)
+        kinds.setdefault((limits or limits_of(block.case), not varies(block.case)), []).append(row)
     together = {kind: np.array(alike) for kind, alike in kinds.items()}
     if not rows.blocks:
-        still = Analysis().silence if silence is None else silence
-        together[_Kind(limits or USUAL, still, True)] = np.arange(len(rows.numbers))
+        together[limits or USUAL, True] = np.arange(len(rows.numbers))
     for kind, alike in together.items():
-        check_limits(kind.limits)
+        check_limits(kind[0])
         for start in range(0, alike.size, max(most, 1)):
             yield alike[start : start + most], kind
 
@@ -126,25 +108,26 @@ def _until_rest(
 ) -> Iterator[tuple[Integers, dict[str, Floats]]]:
     """Run some rows, and those that still move again, as :func:`heeltoe.models.silence.until_rest` does; what
     comes later takes the place of what came before."""
+    limits, exact = kind
 
     def run(some: Integers, silence: float) -> dict[str, Floats]:
         shakings = [each.silent(silence).shaking for each in earthquakes]
-        if kind.exact:
+        if exact:
             which, scale = rows.which[some], rows.scales[some]
-            return run_blocks(rows.numbers[some], shakings, which, scale, kind.limits, threads)
-        return _integrated(rows, some, shakings, kind.limits, threads)
+            return run_blocks(rows.numbers[some], shakings, which, scale, limits, threads)
+        return _integrated(rows, some, shakings, limits, threads)
 
     found = run(part, 0.0)
     yield part, found
     left = part[_move(found)]
-    if not left.size or not kind.silence:
+    if not left.size or not limits.silence:
         return
-    found = run(left, kind.silence)
+    found = run(left, limits.silence)
     yield left, found
     # What ends in another way, or never, has nothing to wait for.
     left = left[~_move(found) & (found["outcome"] == _OK)]
     silence = STEP
-    while left.size and silence < kind.silence:
+    while left.size and silence < limits.silence:
         found = run(left, silence)
         moves = _move(found)
         yield left[~moves], {name: values[~moves] for name, values in found.items()}

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from heeltoe.arrays import Floats, Integers
 from heeltoe.case.model import Case
+from heeltoe.case.options import LONGEST_SILENCE
 from heeltoe.errors import InputError, expect
 from heeltoe.kernel.block import BLOCK, Limits
 from heeltoe.mechanics.block import Block, build_block
@@ -79,6 +80,9 @@ def check_limits(limits: Limits) -> None:
     """Refuse limits that end nothing."""
     if not (np.isfinite(limits.settle) and limits.settle >= 0.0):
         raise InputError("blocks-limit", "limits.settle", limits.settle, bounds="a finite number, 0 or more")
+    if not 0.0 <= limits.silence <= LONGEST_SILENCE:
+        bounds = f"0 to {LONGEST_SILENCE:g} s"
+        raise InputError("blocks-limit", "limits.silence", f"{limits.silence:g}", bounds=bounds)
     if limits.event_limit < 1:
         raise InputError("blocks-limit", "limits.event_limit", limits.event_limit, bounds="1 or more")
 

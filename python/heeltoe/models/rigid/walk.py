@@ -14,7 +14,8 @@ from heeltoe.models.rigid.varying import varies, varying
 
 def limits_of(case: Case) -> Limits:
     """Return when the runs of a case stop."""
-    return Limits(case.analysis.event_limit, case.analysis.paradox == "tangential impact")
+    analysis = case.analysis
+    return Limits(analysis.event_limit, analysis.paradox == "tangential impact", silence=analysis.silence)
 
 
 def walk(case: Case, block: Block, shaking: Shaking, moments: Floats | None = None) -> BlockRun:

@@ -20,7 +20,7 @@ from heeltoe.models.statics.criteria import unread
 from heeltoe.models.statics.levels import critical_water_levels
 from heeltoe.models.statics.load_case import LoadCase
 from heeltoe.references import REFERENCES
-from heeltoe.result.write import build_info
+from heeltoe.result.write import build_info, critical_json
 from heeltoe.shown import Shown
 from heeltoe.warnings import Notice
 
@@ -91,6 +91,7 @@ class Statics(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return a dictionary of plain numbers, strings and lists."""
+        critical, left_out = critical_json(self.critical_acceleration_g)
         return {
             "model": "statics",
             "title": self.title,
@@ -100,7 +101,8 @@ class Statics(Shown):
             "ok": self.ok,
             "cases": [each.to_json() for each in self.cases],
             "checks": [check.to_json() for check in self.checks],
-            "critical_acceleration_g": dict(self.critical_acceleration_g),
+            "critical_acceleration_g": critical,
+            "left_out": left_out,
             "critical_water_level_m": dict(self.critical_water_level_m),
             "slip_m": self.slip_m,
             "slip_source": self.slip_source,

@@ -21,7 +21,7 @@ def limits(subject: Subject) -> Section:
                     label if len(subject.runs) == 1 else f"{label}, {run.name}",
                     n(key + "value_m"),
                     n(key + "allowed_m"),
-                    "yes" if check.met else "NO",
+                    ("yes" if check.met else "NO") + ("" if check.certain else ", within its uncertainty"),
                 )
             )
     blocks: list[Block] = []

@@ -5,6 +5,7 @@ All accelerations are magnitudes in g, named by the way the block goes; the grou
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -46,12 +47,12 @@ class Start:
         return -limit if self.way == "downstream" else limit
 
     def __str__(self) -> str:
-        return f"{self.value:.4f} g"
+        return f"{self.value:.4f} g" if math.isfinite(self.value) else "no acceleration"
 
     @property
     def varied(self) -> str:
         """What it varies between with the vertical motion; empty without one."""
-        if self.vertical is None:
+        if self.vertical is None or not math.isfinite(self.value):
             return ""
         low, high = sorted(self.value + self.per_vertical * up for up in self.vertical)
         return f"{low:.4f} to {high:.4f} g"

@@ -1,0 +1,94 @@
+"""Results beside what the user allows: the number to trust is judged, and how certain that is."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from heeltoe import GroundMotion, flexible, read_case, verdict
+from heeltoe.case.options import Limits
+from heeltoe.result.limits import check_limits
+from heeltoe.result.response import Response
+from shared.dams import BASE, FAST
+
+NUMBERS = {
+    "residual_slip_m": -0.060,
+    "peak_slip_downstream_m": 0.02,
+    "peak_slip_upstream_m": -0.070,
+    "opening_upstream_m": 0.010,
+    "opening_downstream_m": 0.0,
+}
+# Its slip hangs on the last per cent of the shaking.
+SCATTERS = {
+    "section": {"height": "30 m", "crest_width": "4 m", "base_width": "24 m"},
+    "concrete": {"modulus": "20 GPa"},
+    "crack": {"friction": 0.7},
+    "reservoir": {"depth": "24 m"},
+    "flexible": {"elements_across": 6},
+    "limits": {"residual_slip": "1 m"},
+}
+WORTH = {name: {"value": value, "uncertainty": 0.011} for name, value in NUMBERS.items()}
+
+
+def judged(limit: str, *, evidence: bool = True):
+    summary = {**NUMBERS, "evidence": WORTH if evidence else None}
+    return check_limits(Limits(residual_slip=limit, peak_slip="100 mm"), summary, "ok")
+
+
+@pytest.fixture(scope="module")
+def response() -> Response:
+    return flexible(read_case(BASE, FAST))
+
+
+@pytest.mark.parametrize(
+    ("limit", "met", "certain", "words"),
+    [
+        ("100 mm", True, True, "It keeps within its limits."),
+        (
+            "65 mm",
+            True,
+            False,
+            "It keeps within its limits, but not for certain: its residual slip of 60.0 mm, give or take 11.0 mm, may "
+            "be more than the 65.0 mm allowed.",
+        ),
+        (
+            "55 mm",
+            False,
+            False,
+            "It does not keep within its limits, though not for certain: its residual slip of 60.0 mm, give or take "
+            "11.0 mm, is more than the 55.0 mm allowed.",
+        ),
+        (
+            "40 mm",
+            False,
+            True,
+            "It does not keep within its limits: its residual slip of 60.0 mm is more than the 40.0 mm allowed.",
+        ),
+    ],
+)
+def test_a_limit_within_the_uncertainty_is_not_met_or_missed_for_certain(response, limit, met, certain, words):
+    slip, peak = judged(limit)
+    assert (slip.met, slip.certain) == (met, certain)
+    assert (peak.value_m, peak.met, peak.certain) == (0.070, True, True)
+    found = replace(response, limits=(slip, peak))
+    assert verdict(found).endswith(words)
+    (said, _) = found.to_json()["limits"]
+    assert (said["met"], said["certain"], said["uncertainty_m"]) == (met, certain, 0.011)
+
+
+def test_without_evidence_nothing_is_said_of_certainty():
+    slip, _ = judged("60.001 mm", evidence=False)
+    assert (slip.met, slip.certain, slip.uncertainty_m) == (True, True, 0.0)
+
+
+def test_where_single_runs_scatter_the_mean_is_judged():
+    time = np.linspace(0.0, 2.0, 201)
+    motion = GroundMotion.from_points(time, 5.0 * np.sin(2.0 * np.pi * 2.0 * time))
+    found = flexible(read_case(SCATTERS), motion)
+    worth = found.evidence["residual_slip_m"]
+    assert found.evidence["value_is"] == "mean"
+    (check,) = found.limits
+    assert check.value_m == abs(worth["value"]) != abs(worth["run"])
+    assert check.uncertainty_m == worth["uncertainty"] > 0.0
