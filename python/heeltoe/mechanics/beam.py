@@ -44,14 +44,15 @@ def beam(case: Case) -> Beam:
     base, crest = corners[:, 1].min(), corners[:, 1].max()
     levels = np.linspace(base, crest, _PIECES + 1)
     length = float(levels[1] - levels[0])
-    wide = np.array([_width(corners, z) for z in (levels[1:] + levels[:-1]) / 2.0])
+    wide = _widths(corners, (levels[1:] + levels[:-1]) / 2.0)
     size = 2 * (_PIECES + 1)
     stiffness, mass = np.zeros((size, size)), np.zeros(size)
-    for piece, width in enumerate(wide):
-        place = slice(2 * piece, 2 * piece + 4)
-        stiffness[place, place] += _stiffness(width, length, case.concrete.poisson)
-        half = case.concrete.density * length / 2.0
-        mass[place] += half * np.array([width, width**3 / 12.0] * 2)
+    half = case.concrete.density * length / 2.0 * np.column_stack([wide, wide**3 / 12.0])
+    for piece, (stiff, heavy) in enumerate(zip(_stiffness(wide, length, case.concrete.poisson), half, strict=True)):
+        place = 2 * piece
+        stiffness[place : place + 4, place : place + 4] += stiff
+        mass[place : place + 2] += heavy
+        mass[place + 2 : place + 4] += heavy
     if case.reservoir is not None:
         deep = case.reservoir.depth
         below = np.clip(deep - (levels - base), 0.0, None)
@@ -65,21 +66,23 @@ def beam(case: Case) -> Beam:
     return Beam(2.0 * np.pi / np.sqrt(squares[:_MODES]), levels - base, swing)
 
 
-def _width(corners: Floats, level: float) -> float:
-    """Return how wide the section is at a level [m]."""
-    x, z = corners.T
-    following = np.roll(corners, -1, axis=0).T
-    crosses = (z > level) != (following[1] > level)
-    share = (level - z[crosses]) / (following[1][crosses] - z[crosses])
-    places = np.sort(x[crosses] + share * (following[0][crosses] - x[crosses]))
-    return float(np.sum(places[1::2] - places[::2]))
+def _widths(corners: Floats, levels: Floats) -> Floats:
+    """Return how wide the section is at some levels [m]."""
+    (x0, z0), (x1, z1) = corners.T, np.roll(corners, -1, axis=0).T
+    level = levels[:, None]
+    # Where the outline goes up there is concrete on one side of it, where it goes down on the other.
+    way = np.where(z1 > level, 1.0, 0.0) - np.where(z0 > level, 1.0, 0.0)
+    share = (level - z0) / np.where(z1 == z0, 1.0, z1 - z0)
+    width: Floats = np.abs(np.sum(way * (x0 + share * (x1 - x0)), axis=1))
+    return width
 
 
-def _stiffness(width: float, length: float, poisson: float) -> Floats:
-    """Return the stiffness (4, 4) of a piece of a modulus of 1 Pa against displacement and rotation of both ends."""
+def _stiffness(width: Floats, length: float, poisson: float) -> Floats:
+    """Return the stiffness (n, 4, 4) of pieces of a modulus of 1 Pa against displacement and rotation of both ends."""
     bending = width**3 / 12.0
     soft = 12.0 * bending * 2.0 * (1.0 + poisson) / (_SHEAR * width * length**2)
-    a, b, c = 6.0 * length, (4.0 + soft) * length**2, (2.0 - soft) * length**2
-    rows = [[12.0, a, -12.0, a], [a, b, -a, c], [-12.0, -a, 12.0, -a], [a, c, -a, b]]
-    result: Floats = bending / (length**3 * (1.0 + soft)) * np.array(rows)
+    twelve, a = np.full_like(width, 12.0), np.full_like(width, 6.0 * length)
+    b, c = (4.0 + soft) * length**2, (2.0 - soft) * length**2
+    rows = [[twelve, a, -twelve, a], [a, b, -a, c], [-twelve, -a, twelve, -a], [a, c, -a, b]]
+    result: Floats = np.moveaxis(bending / (length**3 * (1.0 + soft)) * np.array(rows), -1, 0)
     return result

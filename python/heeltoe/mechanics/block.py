@@ -9,7 +9,7 @@ point is the centroid of the concrete.
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -304,7 +304,7 @@ def across_crack(force: Resultant, section: CutSection) -> Resultant:
 
 def static_state(block: Block) -> dict[str, Any]:
     """Return the state under the static loads, by the names of the contract."""
-    critical, lifted = (asdict(block.critical_accelerations(up)) for up in (0.0, block.gravity))
+    critical, lifted = (vars(block.critical_accelerations(up)) for up in (0.0, block.gravity))
     limits = {name: value / block.gravity for name, value in critical.items()}
     return {
         "critical_acceleration_g": {

@@ -62,7 +62,7 @@ def run_rigid(
         vertical=earthquake.vertical,
         gravity=case.gravity,
         histories=histories_of(case, block, shaking, moments, run) if started else {},
-        mode=tuple(MODES[m] for m in run.mode) if started else (),
+        mode=tuple(_MODES[run.mode]) if started else (),
         event_log=events_of(run),
         static=static_state(block),
         references=references_of(case, block, run),
@@ -70,6 +70,7 @@ def run_rigid(
     )
 
 
+_MODES = np.array(MODES, dtype=object)
 #: Moments that a history may have: each takes some 200 bytes, here and in the file.
 MOST_MOMENTS = 2_000_000
 # In the silence after it there are samples as far apart as those of the record, within these bounds [s].

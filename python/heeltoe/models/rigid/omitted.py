@@ -6,7 +6,8 @@ import numpy as np
 
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
-from heeltoe.mechanics.beam import beam
+from heeltoe.kept import Kept
+from heeltoe.mechanics.beam import Beam, beam
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.units.sentences import Sentence
@@ -20,6 +21,9 @@ _NOTICED = 1.1
 _STIFF_S = 0.02
 _SAME = 1.05
 
+_Swung = tuple[Beam, Floats, Floats | None]
+_KEPT: Kept[_Swung] = Kept(8)
+
 
 def omitted(case: Case, motion: GroundMotion) -> tuple[Notice, ...]:
     """Return what the dam's own vibration would do in a motion, for its modulus or for usual ones; nothing where the
@@ -28,12 +32,9 @@ def omitted(case: Case, motion: GroundMotion) -> tuple[Notice, ...]:
         return ()
     modulus = case.concrete.modulus
     moduli = USUAL_MODULI if modulus is None else (modulus,)
-    found = beam(case)
-    periods = found.periods / np.sqrt(np.array(moduli))[:, None]
-    if periods[:, 0].max() < _STIFF_S:
+    found, periods, felt = _swung(case, motion, moduli)
+    if felt is None:
         return ()
-    spectrum = response_spectrum(motion, periods.ravel(), case.concrete.damping)
-    felt = spectrum.pseudo_acceleration.reshape(periods.shape)
     first = felt[:, 0]
     # At the level of the crack, the modes by the root of the sum of their squares, and the ground itself.
     reached = [np.interp(case.crack.elevation, found.levels, mode) for mode in found.reached.T]
@@ -61,6 +62,24 @@ def omitted(case: Case, motion: GroundMotion) -> tuple[Notice, ...]:
             remedy=remedy,
         ),
     )
+
+
+def _swung(case: Case, motion: GroundMotion, moduli: tuple[float, ...]) -> _Swung:
+    """Return the dam as a beam, and for each modulus the periods of its modes and the pseudo-accelerations of the
+    motion there; None instead of these where the dam is too stiff to ask. Kept for cases that differ elsewhere."""
+    water = case.reservoir and (case.reservoir.depth, case.reservoir.density)
+    concrete = case.concrete
+
+    def build() -> _Swung:
+        found = beam(case)
+        periods = found.periods / np.sqrt(np.array(moduli))[:, None]
+        if periods[:, 0].max() < _STIFF_S:
+            return found, periods, None
+        spectrum = response_spectrum(motion, periods.ravel(), concrete.damping)
+        return found, periods, spectrum.pseudo_acceleration.reshape(periods.shape)
+
+    key = (case.section, concrete.density, concrete.poisson, concrete.damping, water, motion, moduli)
+    return _KEPT.get(key, build)
 
 
 def _ends(values: Floats) -> tuple[float, ...]:
