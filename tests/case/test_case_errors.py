@@ -25,6 +25,14 @@ REFUSED = [
         'motion.vertical.revers: no such field; did you mean "reverse"?',
     ),
     (
+        dam(anchors=[{"prestress": "1 MN/m"}]),
+        'anchors[0].distance: is required and not there; add for example distance = "100 m"',
+    ),
+    (
+        dam(anchors=[{"distance": "5 m", "prestres": "1 MN/m"}]),
+        'anchors[0].prestres: no such field; did you mean "prestress"?',
+    ),
+    (
         dam(anchors=[{"distance": "5 m"}]),
         "anchors[0].distance: has no meaning without prestress, axial_stiffness or shear_stiffness; give that, or "
         "remove this",

@@ -11,7 +11,6 @@ import functools
 import types
 import typing
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from itertools import pairwise
 
 from pydantic import BaseModel, ValidationError, WithJsonSchema
 from pydantic_core import ErrorDetails, PydanticCustomError
@@ -77,7 +76,7 @@ def first_error(found: ValidationError, model: type[BaseModel]) -> InputError:
 def _translated(detail: ErrorDetails, model: type[BaseModel]) -> InputError:
     kind, location, value = detail["type"], detail["loc"], detail["input"]
     context = detail.get("ctx", {})
-    path = _path(location)
+    path = _path(location, model)
     if kind == "input_error":
         error: InputError = context["error"]
         error.field = ".".join(part for part in (path, error.field) if part)
@@ -87,7 +86,7 @@ def _translated(detail: ErrorDetails, model: type[BaseModel]) -> InputError:
     if (kind == "missing" and isinstance(location[-1], int)) or kind == "too_long":
         # All lists of fixed length in a case are pairs. What is missing has the place inside the list.
         place = location[:-1] if kind == "missing" else location
-        return InputError("wrong-length", _path(place), shown(value), length=2)
+        return InputError("wrong-length", _path(place, model), shown(value), length=2)
     if kind == "missing":
         return InputError("missing-field", path, example=_example(location, model))
     if kind == "literal_error":
@@ -113,14 +112,14 @@ def _quoted(choices: str) -> str:
     return choices.replace("'", '"')
 
 
-def _path(location: Sequence[int | str]) -> str:
+def _path(location: Sequence[int | str], model: type[BaseModel]) -> str:
     """Return ``("section", "polygon", 2, 0)`` as ``section.polygon[2][0]``."""
     text = ""
-    for above, part in pairwise((None, *location)):
+    for part, _, tells in _steps(location, model):
         if isinstance(part, int):
             text += f"[{part}]"
-        elif not isinstance(above, int):  # a name right after a place tells which kind of block stands there
-            text += f".{part}" if text else str(part)
+        elif not tells:
+            text += f".{part}" if text else part
     return text
 
 
@@ -141,17 +140,25 @@ def _kinds(annotation: object) -> Iterator[type[BaseModel]]:
         yield from _kinds(inner)
 
 
-def _owner(location: Sequence[int | str], model: type[BaseModel]) -> type[BaseModel]:
-    """Return the model of the block in which the last name of `location` stands."""
+def _steps(location: Sequence[int | str], model: type[BaseModel]) -> Iterator[tuple[int | str, type[BaseModel], bool]]:
+    """Walk a location: each part, the block that it stands in, and whether it only tells the kind of a block."""
     kinds: list[type[BaseModel]] = []
-    for above, name in pairwise((None, *location[:-1])):
-        field = model.model_fields.get(str(name))
-        if isinstance(above, int) and isinstance(name, str):
-            model = next((kind for kind in kinds if name in _tags(kind)), model)
+    for place, part in enumerate(location):
+        tells = isinstance(part, str) and place > 0 and isinstance(location[place - 1], int) and len(kinds) > 1
+        yield part, model, tells
+        field = model.model_fields.get(str(part))
+        if isinstance(part, int) and len(kinds) == 1:
+            model = kinds[0]
+        elif tells:
+            model = next((kind for kind in kinds if part in _tags(kind)), model)
         elif field:
             kinds = list(_kinds(field.annotation))
             model = block_of(field.annotation) or model
-    return model
+
+
+def _owner(location: Sequence[int | str], model: type[BaseModel]) -> type[BaseModel]:
+    """Return the model of the block in which the last name of `location` stands."""
+    return [block for _, block, _ in _steps(location, model)][-1]
 
 
 def _tags(model: type[BaseModel]) -> tuple[object, ...]:
@@ -192,7 +199,7 @@ def _example(location: Sequence[int | str], model: type[BaseModel]) -> str:
     name = str(location[-1])
     field = _owner(location, model).model_fields[name]
     if block_of(field.annotation):
-        return f"[{_path(location)}]"
+        return f"[{_path(location, model)}]"
     schemas = (part.json_schema for part in field.metadata if isinstance(part, WithJsonSchema))
     schema: Mapping[str, typing.Any] = next((found for found in schemas if found), {})
     return f"{name} = {shown(next(iter(schema.get('examples', [''])), ''))}"
