@@ -126,7 +126,7 @@ def draw(seed: int) -> Case:
             "pga": f"{rng.uniform(0.3, 0.9):.3f} g",
             "duration": f"{rng.uniform(3.0, 5.0):.1f} s",
         },
-        # What becomes of them in some seconds is on record; waiting until each is at rest would say the same.
+        # The numbers on record (docs/flexible.md) are those at the end of the motion.
         **ENDS_WITH_MOTION,
     }
     return read_case(fields)
