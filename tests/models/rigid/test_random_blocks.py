@@ -5,13 +5,15 @@ import pytest
 from heeltoe.validation.random_blocks import draw
 
 # Blocks that cycled while the next mode was chosen by looking ahead for a tenth of a millisecond whatever the block, or
-# while rounding was judged by what the water leaves of the weight; and by what they are.
+# while rounding was judged by what the water leaves of the weight or by what is left of accelerations that balance; by
+# what they are.
 BENDS = {
     "a stiff anchor, uplift that vanishes, any rotation": 7781,
     "a corner that lands before the look ahead ends": 10419,
     "two stiff anchors": 27378,
     "water that has no room to follow": 7053,
     "water that follows, small rotations": 29135,
+    "lifts its toe where friction all but jams, any rotation": 229935,
 }
 FLOATS = {
     "a hundred millionth of the weight is left, any rotation": 371,

@@ -136,6 +136,8 @@ pub struct Block {
     pub(super) compliance: [Vector; 3],
     /// `b = G M^-1 f`.
     pub(super) free_acceleration: [Affine; 3],
+    /// Size of the terms of `b` at least, where it is known as their sum alone, in which they may cancel.
+    pub(super) free_terms: Vector,
     /// `G^-T f`: the forces that do work on the contact coordinates.
     pub(super) generalised_force: [Affine; 3],
     pub(super) friction_static: f64,
@@ -184,6 +186,7 @@ impl Block {
             inverse_width: 1.0 / width,
             compliance,
             free_acceleration: Affine::of(free),
+            free_terms: [0.0; 3],
             generalised_force: Affine::of(generalised),
             friction_static: p.friction_static,
             friction_kinetic: p.friction_kinetic,
@@ -206,6 +209,7 @@ impl Block {
         Block {
             compliance,
             free_acceleration,
+            free_terms: [0, 1, 2].map(|i| compliance[i][i] * self.force_scale),
             ..self.clone()
         }
     }

@@ -99,13 +99,21 @@ impl Reaction {
     fn new(block: &Block, mode: Mode) -> Self {
         let free = &block.free_acceleration;
         let (forces, accelerations) = (block.force_scale, block.acceleration_scale());
-        let size = |q: &Affine| q.constant.abs() + accelerations * (q.horizontal.abs() + q.vertical.abs());
+        let size = |i: usize| {
+            let Affine {
+                constant,
+                horizontal,
+                vertical,
+            } = free[i];
+            let terms = constant.abs() + accelerations * (horizontal.abs() + vertical.abs());
+            terms.max(block.free_terms[i])
+        };
         let mut reaction = Reaction {
             regular: true,
             force: [Affine::default(); 3],
             force_size: [0.0; 3],
             acceleration: *free,
-            acceleration_size: free.map(|q| size(&q)),
+            acceleration_size: [SLIP, HEEL, TOE].map(size),
             cone: [Affine::default(); 2],
             cone_size: 0.0,
         };
@@ -121,7 +129,7 @@ impl Reaction {
                     to.constant += k * load.constant;
                     to.horizontal += k * load.horizontal;
                     to.vertical += k * load.vertical;
-                    *terms += k.abs() * size(load);
+                    *terms += k.abs() * size(column);
                 };
                 from(unit[i], &mut reaction.force[i], &mut reaction.force_size[i]);
                 let coupling: f64 = (0..3).map(|k| block.compliance[i][k] * unit[k]).sum();
