@@ -166,6 +166,23 @@ def test_a_dowel_stops_the_slip_where_the_closed_form_says():
     assert one.final_mode == "rest"
 
 
+def test_a_slip_that_just_reaches_an_anchor_is_stopped_by_it():
+    # m s'' = -mu m g before it is taut, at s = 0; then -k sin (sin + mu cos) s more. Without the anchor it would turn
+    # 1 mm beyond, after a step of the whole way: one that meets the anchor between its stages only.
+    mass, mu, stiffness, angle = 2400.0 * 4.0, 0.3, 1e8, math.radians(20.0)
+    anchor = {"distance": "2 m", "axial_stiffness": f"{stiffness} N/m^2", "inclination": "20 deg"}
+    case = read_case(rectangle(4, 1, mu, anchors=[anchor]))
+    before, beyond = 1.0, 1e-3
+    start = [[-before, 0.0, 0.0], [math.sqrt(2.0 * mu * G * (before + beyond)), 0.0, 0.0]]
+    one = integrated(case, [0.0, 5.0], [0.0, 0.0], start=start).summary
+    # Of the speed v with which it reaches the anchor: v^2 / 2 = mu g s + k' s^2 / 2.
+    held = stiffness * math.sin(angle) * (math.sin(angle) + mu * math.cos(angle)) / mass
+    peak = (math.sqrt((mu * G) ** 2 + 2.0 * held * mu * G * beyond) - mu * G) / held
+    assert peak < 0.8 * beyond
+    assert one["slip_max"] == pytest.approx(peak, rel=1e-7)
+    assert one["energy_residual"] < 1e-10
+
+
 def test_an_anchor_pulls_with_its_prestress_and_its_elongation():
     # A slender block rocks about its toe and stretches a bar at its heel: its largest tension is P + k B theta.
     anchor = {"distance": "0 m", "prestress": "2 kN/m", "axial_stiffness": "100 kN/m/m", "capacity": "2.5 kN/m"}

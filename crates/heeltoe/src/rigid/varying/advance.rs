@@ -56,6 +56,25 @@ impl Earliest {
     }
 }
 
+/// An event on the integrated motion: when, why, the state there and the error of the step to it.
+struct Found {
+    at: f64,
+    why: Cause,
+    state: State,
+    error: f64,
+}
+
+impl Found {
+    fn of(why: Cause, (at, state, error): (f64, State, f64)) -> Option<Self> {
+        Some(Found {
+            at,
+            why,
+            state,
+            error,
+        })
+    }
+}
+
 impl Varying<'_> {
     /// Move to the next event, or by one step; returns the time that took and what ended it.
     pub(super) fn advance(&mut self, piece: &Piece, time: f64) -> (f64, Option<Cause>) {
@@ -72,13 +91,24 @@ impl Varying<'_> {
             if !self.integrate(&mut trial) {
                 continue;
             }
-            let Some((at, why, state)) = self.first_event(&trial, fresh) else {
+            let Some(Found {
+                at,
+                why,
+                state,
+                error,
+            }) = self.first_event(&trial, fresh)
+            else {
                 self.move_on(&trial, &trial.end, trial.length, time);
                 return (trial.length, None);
             };
             if at.is_nan() {
                 // The polynomials saw an event that the motion does not have: they are better on a shorter step.
                 trial.length *= 0.5;
+                continue;
+            }
+            if error > 1.0 && at < trial.length && at > SHORTEST * self.time_scale {
+                // The step to the event meets what the longer one passed over between its stages.
+                trial.length = at;
                 continue;
             }
             self.move_on(&trial, &state, at, time);
@@ -110,8 +140,8 @@ impl Varying<'_> {
         true
     }
 
-    /// The first event of a step with its time and state; a time that is not a number asks for a shorter step.
-    fn first_event(&self, trial: &Trial, fresh: Option<Vector>) -> Option<(f64, Cause, State)> {
+    /// The first event of a step; a time that is not a number asks for a shorter step.
+    fn first_event(&self, trial: &Trial, fresh: Option<Vector>) -> Option<Found> {
         let Trial {
             start, end, length, ..
         } = trial;
@@ -125,13 +155,13 @@ impl Varying<'_> {
         if self.turning.rotation != Rotation::Small && end[2].abs() > over && first.0.is_none() {
             let value = |y: &State, _: f64| over - y[2].abs();
             let near = length * (over - start[2].abs()) / (end[2].abs() - start[2].abs());
-            let (t, state) = self.located(trial, near, value)?;
-            return Some((t, Cause::Normal, state)).filter(|_| t.is_finite());
+            return Found::of(Cause::Normal, self.located(trial, near, value)?)
+                .filter(|found| found.at.is_finite());
         }
         let (near, why, which) = first.0?;
         if near <= 0.0 && fresh.is_some() && *length > SHORT * self.time_scale {
             // What has just been chosen ends at once: on a shorter step one sees whether it does.
-            return Some((f64::NAN, why, *start));
+            return Found::of(why, (f64::NAN, *start, 0.0));
         }
         let found = match why {
             Cause::Normal | Cause::Cone => {
@@ -145,7 +175,7 @@ impl Varying<'_> {
                 self.located(trial, near, |y, _| self.turning.gaps(self.corner, y)[gap - HEEL])
             }
         };
-        Some(found.map_or((f64::NAN, why, *start), |(t, state)| (t, why, state)))
+        Found::of(why, found.unwrap_or((f64::NAN, *start, 0.0)))
     }
 
     /// See which normal force or side of the friction cone falls through zero.

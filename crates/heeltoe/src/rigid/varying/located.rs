@@ -9,24 +9,24 @@ use super::walk::Varying;
 const ROUNDS: usize = 40;
 
 impl Varying<'_> {
-    /// Root of a function on the integrated motion, near a first guess: secants, kept within the step. None where the
-    /// function has none there.
+    /// Root of a function on the integrated motion, near a first guess: secants, kept within the step; the state there and
+    /// the error of the step to it. None where the function has none there.
     pub(super) fn located(
         &self,
         trial: &Trial,
         guess: f64,
         value: impl Fn(&State, f64) -> f64,
-    ) -> Option<(f64, State)> {
+    ) -> Option<(f64, State, f64)> {
         let length = trial.length;
         if guess <= 0.0 {
-            return Some((0.0, trial.start));
+            return Some((0.0, trial.start, 0.0));
         }
         let at = |t: f64| {
-            let state = self.moved(&trial.start, &trial.rate, trial.piece, t);
-            (value(&state, t), state)
+            let (state, error) = self.stepped(&trial.start, &trial.rate, trial.piece, t);
+            (value(&state, t), state, error)
         };
         let mut t = guess.min(length);
-        let (mut v, mut state) = at(t);
+        let (mut v, mut state, mut error) = at(t);
         let mut before = if t < length {
             (t + 1e-3 * (length - t)).min(length)
         } else {
@@ -43,7 +43,7 @@ impl Varying<'_> {
                 break;
             }
             t = next;
-            (v, state) = at(t);
+            (v, state, error) = at(t);
         }
         // Its slope tells a fall through zero from a value that only comes near.
         let slope = ((v - v_before) / (t - before)).abs();
@@ -51,6 +51,6 @@ impl Varying<'_> {
         let settled = v == 0.0 || (v - v_before).abs() == 0.0 || v.abs() <= reach;
         // A gap that has just begun to open is zero at the start of the step, too.
         let back = t < 1e-6 * guess;
-        (settled && !back && v.is_finite()).then_some((t, state))
+        (settled && !back && v.is_finite()).then_some((t, state, error))
     }
 }

@@ -52,11 +52,17 @@ impl Varying<'_> {
 
     /// The state after `since` from `start`, by one step.
     pub(super) fn moved(&self, start: &State, rate: &State, piece: &Piece, since: f64) -> State {
+        self.stepped(start, rate, piece, since).0
+    }
+
+    /// The same with the error of that step, as [`step`] has it.
+    pub(super) fn stepped(&self, start: &State, rate: &State, piece: &Piece, since: f64) -> (State, f64) {
         if since == 0.0 || self.walk.mode == Mode::Rest {
-            return *start;
+            return (*start, 0.0);
         }
         let mut rates = |t: f64, y: &State| self.rates(y, &piece.after(t));
-        step(start, rate, since, &self.scale, &mut rates).end
+        let taken = step(start, rate, since, &self.scale, &mut rates);
+        (taken.end, taken.error)
     }
 
     /// Normal forces and what is left of the friction cone, both ways, at a state; sizes to judge them by.
