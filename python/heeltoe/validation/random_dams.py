@@ -128,7 +128,8 @@ def random_dams() -> Iterator[Row]:
         left[name] = max(left[name], -(found["energy_friction"] + found["energy_impact"]) / found["energy_turnover"])
     ledger = (
         "1e-12 of the turnover, 1e-15 of it times the square of step times highest frequency, and rounding of the "
-        "weight times the height, times the root of the number of steps"
+        "weight times the height, times the root of the number of steps. Of 1000 other draws one leaves 1.8 times "
+        "that: 2.6e-12 of its turnover, slender and rocking"
     )
     yield Row(
         "unexplained, over what rounding may leave",
@@ -140,8 +141,8 @@ def random_dams() -> Iterator[Row]:
         kind="condition",
     )
     ordinary = (
-        f"friction up to {FRICTION:g}, damping from {DAMPING:.1%}, steps up to {STEP:.0%} of the first period. Of 4000 "
-        "other draws none made more than 2.6e-5 (one with friction 2 made 1.1e-4), or left over more than 2.8e-6 "
+        f"friction up to {FRICTION:g}, damping from {DAMPING:.1%}, steps up to {STEP:.0%} of the first period. Of 5000 "
+        "other draws none made more than 3.7e-5 (one with friction 2 made 1.1e-4), or left over more than 2.8e-6 "
         "(contactors of type 5, whose load is shared)"
     )
     beyond = (
