@@ -10,7 +10,7 @@ from heeltoe.case.columns import COLUMNS
 from heeltoe.case.dam import UPLIFT_OPTIONS
 from heeltoe.case.paths import quantity_of
 from heeltoe.kernel.block import BLOCK
-from heeltoe.mechanics.many import block_columns, crack_widths
+from heeltoe.mechanics.many import block_columns, crack_widths, sound_blocks
 from heeltoe.units.parse import DIMENSIONS
 from shared.dams import ALL_EXAMPLES, EXAMPLES, TYPICAL, TYPICAL_SECTION, example, polygon
 from shared.outlines import dams
@@ -211,6 +211,45 @@ def test_anchors_beyond_the_toe_of_a_crack_at_a_height():
 def test_a_ledge_that_leaves_no_crack():
     case = read_case({"section": polygon(LEDGES), "crack": {"friction": 1.0}})
     refused(case, {"crack.elevation": [10.0, 70.0]}, 1)
+
+
+def test_rows_that_are_no_cases_are_left_out_where_that_is_asked_for():
+    rng = np.random.default_rng(3)
+    columns = {
+        "crack.static_friction": rng.uniform(0.7, 1.2, 60),
+        "crack.kinetic_friction": rng.uniform(0.5, 1.0, 60),
+        "reservoir.depth": rng.uniform(-2.0, 110.0, 60),
+        "crack.elevation": rng.uniform(0.0, 105.0, 60),
+        "uplift.pattern": rng.choice(["none", "uniform", "triangular", "drained"], 60),
+        "uplift.drain_position": np.where(rng.random(60) < 0.5, 0.1, np.nan),
+        "uplift.drain_efficiency": np.full(60, np.nan),
+    }
+    columns["uplift.drain_efficiency"][columns["uplift.pattern"] == "drained"] = 0.5
+    case = read_case({"section": polygon(TYPICAL), "crack": {"friction": 1.0}})
+    alone = [stands(case, row_of(columns, row)) for row in range(60)]
+    assert 5 < sum(alone) < 30
+    numbers, sound = sound_blocks(case, columns)
+    assert sound.tolist() == alone
+    assert np.isnan(numbers[~sound]).all()
+    assert np.array_equal(numbers[sound], block_columns(case, {path: each[sound] for path, each in columns.items()}))
+
+
+@pytest.mark.parametrize("columns", [{"silt.depth": [1.0, 2.0]}, {"crack.static_friction": [1.0, 2.0]}])
+def test_of_what_stands_in_no_row_there_is_no_block(columns):
+    numbers, sound = sound_blocks(read_case({"section": TYPICAL_SECTION, "crack": {"friction": 1.0}}), columns)
+    assert (sound.any(), numbers.shape) == (False, (2, len(BLOCK)))
+
+
+def test_a_ledge_that_leaves_no_crack_at_some_height():
+    # A spur of the upstream face that ends in the air.
+    spur = [(0.0, 0.0), (60.0, 0.0), (10.0, 70.0), (0.0, 70.0), (0.0, 40.0), (-5.0, 30.0), (-5.0, 50.0), (-8.0, 50.0)]
+    spur += [(-8.0, 25.0), (0.0, 25.0)]
+    case = read_case({"section": polygon(spur), "crack": {"friction": 1.0}})
+    elevations = np.array([10.0, 35.0, 60.0, 45.0])
+    alone = [stands(case, {"crack.elevation": f"{each} m"}) for each in elevations]
+    assert alone == [True, False, True, False]
+    assert sound_blocks(case, {"crack.elevation": elevations})[1].tolist() == alone
+    refused(case, {"crack.elevation": elevations}, 1)
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import operator
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -40,41 +41,94 @@ Columns = Mapping[str, Sequence[float] | Sequence[str] | NDArray[Any]]
 _Given = dict[str, NDArray[Any]]
 
 
-def by_columns(case: Case, columns: Columns) -> tuple[int, list[tuple[Integers, Case]]]:
-    """Return how many rows there are, and cases whose numbers are columns, each with the rows that it stands for.
+@dataclass(frozen=True, eq=False)
+class Rows:
+    """Rows of columns.
+
+    Attributes
+    ----------
+    sound
+        (n,) which of them are cases.
+    parts
+        Cases whose numbers are columns, each with the sound rows that it stands for.
+    """
+
+    sound: NDArray[np.bool_]
+    parts: tuple[tuple[Integers, Case], ...]
+
+
+def by_columns(case: Case, columns: Columns, *, every: bool = False) -> Rows:
+    """Return cases whose numbers are columns.
 
     Parameters
     ----------
     case
         What all rows have in common.
     columns
-        Of :data:`COLUMNS`, (n,) each: numbers in SI units, words in the pattern of the uplift. They change the case as
-        :meth:`heeltoe.Case.with_` does. An option of one pattern is NaN in rows of another.
+        Of :data:`COLUMNS`, (n,) each: numbers in SI units, words in the pattern of the uplift; one row where there are
+        none. They change the case as :meth:`heeltoe.Case.with_` does. An option of one pattern is NaN in rows of
+        another.
+    every
+        Look at every row, and leave out those that are no cases.
 
     Raises
     ------
     InputError
-        As of a single case, for the first row that is none.
+        Where a field can be no column, or columns differ in length; without `every` as of a single case, for the first
+        row that is none.
     """
     expect(case, Case, "not-a-case", "case")
     given, count = _checked(columns)
-    found: list[tuple[Integers, Case]] = []
-    refused: list[tuple[int, InputError]] = []
+    sound, parts = np.ones(count, dtype=np.bool_), []
     for rows in _alike(given, count):
-        here, place = {path: values[rows] for path, values in given.items()}, 0
+        here = _taken(given, rows)
+        wrong, many = _part(case, here, every=every)
+        sound[rows[wrong]] = False
+        if many is not None:
+            parts.append((rows[~wrong], many))
+    if not every and not sound.all():
+        first = int(sound.argmin())
+        _row(case, given, first)
+        raise AssertionError(f"row {first} is refused among many and taken alone")
+    return Rows(sound, tuple(parts))
+
+
+def _part(case: Case, here: _Given, *, every: bool) -> tuple[NDArray[np.bool_], Case | None]:
+    """Return which rows of one pattern are no cases, of which only the first is certain without `every`, and the others
+    as a case; None where there is no other, or need not be."""
+    wrong = _out_of_bounds(case, here)
+    one: Case | None = None
+    for place in np.flatnonzero(~wrong).tolist():
         try:
-            many = _filled(_row(case, here, 0), here)
-            wrong = _wrong(many, here)
-            place = int(wrong.argmax())
-            if wrong[place]:
-                _row(case, here, place)
-                raise AssertionError(f"row {rows[place]} is refused among many and taken alone")
-            found.append((rows, many))
-        except InputError as error:
-            refused.append((int(rows[place]), error))
-    if refused:
-        raise min(refused, key=lambda each: each[0])[1]
-    return count, found
+            one = _row(case, here, place)
+            break
+        except InputError:
+            wrong[place] = True
+            if not every:
+                break
+    if one is None or (wrong.any() and not every):
+        return wrong, None
+    kept = np.flatnonzero(~wrong)
+    many = _filled(one, _taken(here, kept))
+    misfit = _misfit(many, kept.size)
+    if misfit is None:
+        misfit = np.array([not _stands(case, here, place) for place in kept.tolist()])
+    if not misfit.any():
+        return wrong, many
+    wrong[kept[misfit]] = True
+    return wrong, None if misfit.all() else _filled(one, _taken(here, kept[~misfit]))
+
+
+def _taken(given: _Given, rows: Integers) -> _Given:
+    return {path: values[rows] for path, values in given.items()}
+
+
+def _stands(case: Case, here: _Given, row: int) -> bool:
+    try:
+        _row(case, here, row)
+    except InputError:
+        return False
+    return True
 
 
 def _checked(columns: Columns) -> tuple[_Given, int]:
@@ -128,24 +182,34 @@ def _filled(case: Case, here: _Given) -> Case:
     return case.model_copy(update=changes)
 
 
-def _wrong(many: Case, here: _Given) -> NDArray[np.bool_]:
-    """Return which rows are no cases."""
+def _out_of_bounds(case: Case, here: _Given) -> NDArray[np.bool_]:
+    """Return which rows have a number that its field does not take."""
     wrong = np.zeros(next(iter(here.values())).size if here else 1, dtype=np.bool_)
+    pattern = pattern_of(here[PATTERN][0]) if PATTERN in here else case.uplift.pattern
     for path, values in here.items():
         if path == PATTERN:
             continue
-        if _OPTIONS.get(path, many.uplift.pattern) != many.uplift.pattern:
+        if _OPTIONS.get(path, pattern) != pattern:
             wrong |= ~np.isnan(values)
             continue
         wrong |= ~np.isfinite(values)
         for kind, bound in bounds_of(path):
             wrong |= ~getattr(operator, kind)(values, bound)
+    elevation: Any = here.get("crack.elevation")
+    if elevation is not None:
+        wrong |= outside(case.outline, elevation)
+    return wrong
+
+
+def _misfit(many: Case, count: int) -> NDArray[np.bool_] | None:
+    """Return which rows have numbers that do not go together; None where the section cannot be cut at some row."""
+    wrong = np.zeros(count, dtype=np.bool_)
     wrong |= many.crack.mu_static < many.crack.mu_kinetic
-    wrong |= outside(many.outline, many.crack.elevation)
     if many.ice is not None and many.reservoir is not None:
         wrong |= many.ice.depth >= many.reservoir.depth
-    # Without a crack there is nothing above it to measure against.
-    if not wrong.any():
+    try:
         for misfit, _ in misfits(many):
             wrong |= misfit
+    except InputError:
+        return None
     return wrong

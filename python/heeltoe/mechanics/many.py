@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from heeltoe.arrays import Floats
-from heeltoe.case.columns import Columns, by_columns
+from heeltoe.case.columns import Columns, Rows, by_columns
 from heeltoe.case.model import Case
 from heeltoe.kernel.block import BLOCK
 from heeltoe.mechanics.block import build_block
@@ -37,11 +38,20 @@ def block_columns(case: Case, columns: Columns) -> Floats:
         As of a single case, for the first row that is none; where a field can be no column, or columns differ in
         length.
     """
-    count, parts = by_columns(case, columns)
-    found = np.empty((count, len(BLOCK)))
-    for rows, many in parts:
+    return _numbers(by_columns(case, columns))
+
+
+def sound_blocks(case: Case, columns: Columns) -> tuple[Floats, NDArray[np.bool_]]:
+    """Return what :func:`block_columns` does, with NaN in the rows that are no cases, and which rows are (n,)."""
+    rows = by_columns(case, columns, every=True)
+    return _numbers(rows), rows.sound
+
+
+def _numbers(rows: Rows) -> Floats:
+    found = np.full((rows.sound.size, len(BLOCK)), np.nan)
+    for here, many in rows.parts:
         for place, value in enumerate(build_block(many).numbers()):
-            found[rows, place] = value
+            found[here, place] = value
     return found
 
 
