@@ -8,9 +8,10 @@ import numpy as np
 from measure import forget_peak, heading, memory, repeat, require, table, timed
 from problems import DURATION, STEP, Ensemble, Floats, G, dam, el_centro, slender_blocks, taft, typical_dams
 
-from heeltoe import rigid
+from heeltoe import build_block, rigid
 from heeltoe.kernel.block import OUTCOMES
 from heeltoe.kernel.build import PROFILE
+from heeltoe.mechanics.many import block_columns
 
 MODES = ("rest", "sliding", "rocking", "slide_rocking", "drifting")
 REPETITIONS = 3
@@ -124,6 +125,33 @@ def single() -> str:
     )
 
 
+def blocks(count: int = 1_000_000, piece: int = 25_000) -> str:
+    """Time making blocks from columns of numbers, piece by piece, on one core."""
+    rng = np.random.default_rng(3)
+    drains = {"uplift.pattern": "drained", "uplift.drain_position": 0.1, "uplift.drain_efficiency": 0.0}
+    case = dam(100.0).with_(drains)
+    ends = {
+        "crack.friction": (0.7, 1.4),
+        "crack.restitution": (0.0, 0.9),
+        "reservoir.depth": (85.0, 100.0),
+        "uplift.drain_efficiency": (0.0, 1.0),
+    }
+    columns = {path: rng.uniform(*each, count) for path, each in ends.items()}
+
+    def make(columns: dict[str, Floats]) -> None:
+        for start in range(0, count, piece):
+            block_columns(case, {path: column[start : start + piece] for path, column in columns.items()})
+
+    timing = repeat(lambda: make(columns), REPETITIONS)
+    cracked = repeat(lambda: make(columns | {"crack.elevation": rng.uniform(0.0, 80.0, count)}), REPETITIONS)
+    one = repeat(lambda: build_block(case))
+    return (
+        f"The numbers of {count:,} blocks from columns of friction, restitution, water depth and efficiency of drains, "
+        f"in pieces of {piece:,}: {timed(timing)}; with an elevation of the crack for each: {timed(cracked)}. A block "
+        f"by itself: {timed(one)}."
+    )
+
+
 def report(count: int = 100_000) -> str:
     """Measure and return Markdown."""
     require(PROFILE == "release", "the kernel is a debug build")
@@ -179,6 +207,7 @@ def report(count: int = 100_000) -> str:
             f"Resident memory of the process around {ROUNDS} runs of the whole ensemble; the peak contains the result.",
             table(["ensemble", "runs", "before", "after", "peak", "result"], memories),
             single(),
+            blocks(),
         ]
     )
 
