@@ -19,6 +19,16 @@ OUTCOMES: Final[list[str]]
 
 Floats = NDArray[np.float64]
 
+class InternalError(RuntimeError):
+    """A bug of the kernels: it says what and where."""
+
+class Ending:
+    """Ends runs that wait on other threads than the main one, which alone hears of signals."""
+
+    def __init__(self) -> None: ...
+    def ask(self) -> None:
+        """Let all runs that have been given this one raise KeyboardInterrupt, with a note on how far they have come."""
+
 def run_rigid(
     block: Floats,
     time: Floats,
@@ -231,6 +241,7 @@ class CrackedDam:
         keep_modes: bool,
         scale: tuple[float, float],
         penalty: tuple[float, float, float] | None = None,
+        ending: Ending | None = None,
     ) -> tuple[Floats, Floats, Floats, Floats, Floats, NDArray[np.uint8], Floats, Floats]:
         """Shake it, with exact contact or with springs at the contacts.
 
@@ -251,6 +262,8 @@ class CrackedDam:
         penalty
             Stiffness of the springs [N/m] and Newmark's gamma and beta, for the penalty method; `ground` then has the
             accelerations at both ends of all steps, (n + 1, 2), and theta plays no part.
+        ending
+            What may end it.
 
         Returns
         -------
@@ -269,5 +282,6 @@ class CrackedDam:
         scales: Sequence[tuple[float, float]],
         threads: int,
         penalty: tuple[float, float, float] | None = None,
+        ending: Ending | None = None,
     ) -> Floats:
         """Shake it once for each pair of factors, on `threads` cores (0 for all); rows of summaries."""

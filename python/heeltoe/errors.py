@@ -118,6 +118,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "a step of {value} does not divide the record's {step}",
         "refine by a whole number; coarser steps would change the motion",
     ),
+    "motion-brief": ("lasts {value}", "give it {least} or more, in its file and in motion.duration"),
     "motion-samples": ("a step of {value} makes {count:.3g} samples", "give a step that makes up to {limit:.3g}"),
     "record-unreadable": ("cannot be read ({reason})", "give the path of a record"),
     "record-large": ("has {value}, more than any record", "give a file with one record"),
@@ -158,7 +159,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "{hint} install heeltoe[records], or set HEELTOE_RECORDS to a directory of records",
     ),
     "spectrum-damping": ("a damping ratio of {value} is out of range", "give one from 0 to below 1"),
-    "spectrum-period": ("are no finite, non-negative numbers", "give periods in seconds"),
+    "spectrum-period": (
+        "are no finite numbers of seconds, or shorter than any record tells",
+        "give 0 s or periods from {least} up",
+    ),
     # motions to order
     "order-zero": ("{value} is zero throughout", "give a motion that moves"),
     "order-uniform": (
@@ -170,6 +174,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "order-corner": (
         "{value} is not between 0 Hz and the Nyquist frequency of the record, {nyquist}",
         "give a corner frequency inside",
+    ),
+    "order-corner-slow": (
+        "{value} asks for more zeros beside the record than there is room for",
+        "give {least} or more",
     ),
     "order-corners": ("{value} is not below high, {high}", "give them in order"),
     "order-filter": ("a filter of order {value} is not to be had", "give one from 1 to 10"),
@@ -258,6 +266,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         'add for example modulus = "20 GPa" under [concrete]',
     ),
     "modulus-range": ("{value} is no modulus of a solid", "give 1 MPa to 1e7 GPa"),
+    "too-costly": ("takes about {value}, more than is allowed", "ask for less, or allow it by {allow}"),
     # decoupled chain, tables
     "crack-at-base": (
         "{value} is at the base: there is nothing below the crack to shake the part above it",

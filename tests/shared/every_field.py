@@ -106,6 +106,8 @@ HELPED: dict[str, tuple[Fields, Any]] = {
     "flexible.newmark_beta": ({}, 0.4),
     "analysis.event_limit": ({}, 3),
     "analysis.silence": ({}, "0 s"),
+    "analysis.time_limit": ({}, "1 ms"),
+    "analysis.memory_limit": ({}, "1 kB"),
     "decoupled.vertical": ({"motion.vertical": GONE}, None),
     "statics.tensile_strength": ({"statics.bonded": 1.0, "statics.tensile_strength": "0.01 MPa"}, "0.05 MPa"),
 }

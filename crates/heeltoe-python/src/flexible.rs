@@ -9,7 +9,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use crate::tables::{named, pool, rows, shaped, wrong, Numbers};
-use crate::watch::watched;
+use crate::watch::{watched, Ending};
 
 /// A body in its modes as Python gives it, by the names of `Modes`.
 #[derive(FromPyObject)]
@@ -150,6 +150,7 @@ impl CrackedDam {
     #[pyo3(signature = (upper, lower, friction, contactors, water=None, anchors=Vec::new(), give=(0.0, 0.0)))]
     #[allow(clippy::too_many_arguments)]
     fn new(
+        py: Python<'_>,
         upper: ReducedBody,
         lower: Option<ReducedBody>,
         friction: [f64; 2],
@@ -176,7 +177,8 @@ impl CrackedDam {
             still: None,
         };
         dam.check().map_err(wrong)?;
-        Ok(CrackedDam { dam: dam.rested() })
+        let dam = watched(py, None, |_| None, |stop| dam.rested(stop))?;
+        Ok(CrackedDam { dam })
     }
 
     /// See `_kernel.pyi`.
@@ -193,7 +195,7 @@ impl CrackedDam {
     }
 
     /// See `_kernel.pyi`.
-    #[pyo3(signature = (ground, dt, theta, stride, keep_modes, scale, penalty=None))]
+    #[pyo3(signature = (ground, dt, theta, stride, keep_modes, scale, penalty=None, ending=None))]
     #[allow(clippy::too_many_arguments)]
     fn run<'py>(
         &self,
@@ -205,12 +207,13 @@ impl CrackedDam {
         keep_modes: bool,
         scale: [f64; 2],
         penalty: Option<[f64; 3]>,
+        ending: Option<Bound<'py, Ending>>,
     ) -> PyResult<Run<'py>> {
         let scheme = self.scheme(theta, penalty)?;
         let ground = rows(ground.as_slice()?, "ground")?;
         let shaking = Shaking { ground, dt, scale };
-        let reached = |run: &heeltoe::flexible::Run| Some(run.summary.end_time);
-        let run = watched(py, reached, |stop| {
+        let reached = |run: &heeltoe::flexible::Run| Some([run.summary.end_time, run.summary.slip]);
+        let run = watched(py, ending.as_ref().map(Bound::get), reached, |stop| {
             let wanted = Wanted {
                 stride,
                 modes: keep_modes,
@@ -233,7 +236,7 @@ impl CrackedDam {
     }
 
     /// See `_kernel.pyi`.
-    #[pyo3(signature = (ground, dt, theta, scales, threads, penalty=None))]
+    #[pyo3(signature = (ground, dt, theta, scales, threads, penalty=None, ending=None))]
     #[allow(clippy::too_many_arguments)]
     fn run_many<'py>(
         &self,
@@ -244,6 +247,7 @@ impl CrackedDam {
         scales: Vec<[f64; 2]>,
         threads: usize,
         penalty: Option<[f64; 3]>,
+        ending: Option<Bound<'py, Ending>>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let scheme = self.scheme(theta, penalty)?;
         let shaking = Shaking {
@@ -254,6 +258,7 @@ impl CrackedDam {
         let pool = pool(threads)?;
         let runs = watched(
             py,
+            ending.as_ref().map(Bound::get),
             |_| None,
             |stop| pool.install(|| many::run(&self.dam, &shaking, &scheme, &scales, stop)),
         )?;

@@ -12,7 +12,7 @@ use numpy::PyArray2;
 use pyo3::prelude::*;
 
 use tables::{table, wrong, Numbers};
-use watch::watched;
+use watch::{quiet, watched, InternalError};
 
 /// The compiled half of heeltoe.
 #[pymodule]
@@ -23,6 +23,8 @@ mod _kernel {
     use crate::flexible::CrackedDam;
     #[pymodule_export]
     use crate::rigid::{run_rigid, run_rigid_many, run_rigid_varying};
+    #[pymodule_export]
+    use crate::watch::Ending;
 
     /// Response spectrum; see `_kernel.pyi`.
     #[pyfunction]
@@ -40,6 +42,7 @@ mod _kernel {
         }
         let peaks = watched(
             py,
+            None,
             |_| None,
             |stop| heeltoe::spectrum::spectrum(time, ground, periods, damping, stop),
         )?;
@@ -51,6 +54,8 @@ mod _kernel {
 
     #[pymodule_init]
     fn init(m: &Bound<'_, PyModule>) -> PyResult<()> {
+        quiet();
+        m.add("InternalError", m.py().get_type::<InternalError>())?;
         m.add("BLOCK_FIELDS", BlockNumbers::FIELDS.to_vec())?;
         m.add("VARYING_FIELDS", VaryingNumbers::FIELDS.to_vec())?;
         m.add("SUMMARY_FIELDS", Summary::FIELDS.to_vec())?;

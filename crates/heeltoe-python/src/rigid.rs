@@ -25,8 +25,9 @@ type VaryingResult<'py> = (
 );
 
 /// How far a run has come (s).
-fn reached(run: &Run) -> Option<f64> {
-    Some(run.summary.end_time)
+fn reached(run: &Run) -> Option<[f64; 2]> {
+    let [slip, ..] = run.summary.position;
+    Some([run.summary.end_time, slip])
 }
 
 /// Summary, histories, modes and events.
@@ -47,7 +48,7 @@ fn block(numbers: &Numbers) -> PyResult<Block> {
 /// One run with its events, and with what is seen of it at some moments (s).
 fn walked(py: Python<'_>, times: &Numbers, walk: impl FnOnce(Wanted) -> Run + Send) -> PyResult<Run> {
     let times = times.as_slice()?;
-    watched(py, reached, |stop| {
+    watched(py, None, reached, |stop| {
         walk(Wanted {
             times,
             events: true,
@@ -184,6 +185,7 @@ pub fn run_rigid_many<'py>(
     let pool = pool(threads)?;
     let summaries = watched(
         py,
+        None,
         |_| None,
         |stop| pool.install(|| many::run(count, options, stop, case)),
     )?;

@@ -3,12 +3,36 @@
 use std::any::Any;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{channel, RecvTimeoutError};
+use std::sync::Mutex;
 use std::thread;
 use std::time::Duration;
 
 use heeltoe::stop::Stop;
-use pyo3::exceptions::PyRuntimeError;
+use pyo3::create_exception;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
+
+create_exception!(heeltoe._kernel, InternalError, PyRuntimeError);
+
+/// What ends runs on other threads than the one that hears of signals; see `_kernel.pyi`.
+#[pyclass(frozen)]
+#[derive(Default)]
+pub struct Ending {
+    flag: AtomicBool,
+}
+
+#[pymethods]
+impl Ending {
+    #[new]
+    fn new() -> Self {
+        Self::default()
+    }
+
+    /// See `_kernel.pyi`.
+    fn ask(&self) {
+        self.flag.store(true, Ordering::Relaxed);
+    }
+}
 
 /// How long an interruption (Ctrl-C) may wait until it is seen.
 const OFTEN: Duration = Duration::from_millis(50);
@@ -16,18 +40,19 @@ const OFTEN: Duration = Duration::from_millis(50);
 /// Let `work` run on a thread of its own while this one, which alone hears of signals, listens for them.
 ///
 /// # Errors
-/// What a signal raises, once the work has stopped; a note says how far it had come, where `reached` knows that. A panic
-/// is an internal error.
+/// What a signal raises, or an interruption where `ending` asks for one, once the work has stopped; a note says time (s)
+/// and slip (m) it had come to, where `reached` knows them. A panic is an internal error.
 pub fn watched<T: Send>(
     py: Python<'_>,
-    reached: fn(&T) -> Option<f64>,
+    ending: Option<&Ending>,
+    reached: fn(&T) -> Option<[f64; 2]>,
     work: impl FnOnce(Stop) -> T + Send,
 ) -> PyResult<T> {
-    let flag = AtomicBool::new(false);
+    let own = AtomicBool::new(false);
+    let flag = ending.map_or(&own, |ending| &ending.flag);
     let mut raised = None;
     let done = thread::scope(|scope| {
         let (send, receive) = channel();
-        let flag = &flag;
         let worker = scope.spawn(move || {
             // Nobody listens any more only where listening itself has failed.
             let done = work(Stop::once(flag));
@@ -49,22 +74,34 @@ pub fn watched<T: Send>(
         worker.join()
     })
     .map_err(internal)?;
-    let Some(error) = raised else {
+    if !flag.load(Ordering::Relaxed) {
         return Ok(done);
-    };
-    if let Some(time) = reached(&done) {
-        let note = format!("the run had come to {time:.2} s of the earthquake");
+    }
+    let error = raised.unwrap_or_else(|| PyKeyboardInterrupt::new_err(()));
+    if let Some([time, slip]) = reached(&done) {
+        let slip = 1e3 * slip + 0.0;
+        let note = format!("the run had come to {time:.2} s of the earthquake and {slip:.1} mm of slip");
         error.value(py).call_method1("add_note", (note,))?;
     }
     Err(error)
+}
+
+/// Where the last panic was.
+static PLACE: Mutex<String> = Mutex::new(String::new());
+
+/// Let panics be told by their errors alone.
+pub fn quiet() {
+    std::panic::set_hook(Box::new(|panic| {
+        if let (Some(place), Ok(mut last)) = (panic.location(), PLACE.lock()) {
+            *last = place.to_string();
+        }
+    }));
 }
 
 /// A panic as an error for Python.
 fn internal(panic: Box<dyn Any + Send>) -> PyErr {
     let text = panic.downcast_ref::<String>().map(String::as_str);
     let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
-    PyRuntimeError::new_err(format!(
-        "internal error of the kernel, please report it: {}",
-        text.unwrap_or("no reason given")
-    ))
+    let place = PLACE.lock().map(|place| place.clone()).unwrap_or_default();
+    InternalError::new_err(format!("{} ({place})", text.unwrap_or("no reason given")))
 }

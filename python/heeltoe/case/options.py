@@ -7,7 +7,7 @@ from typing import Annotated, Literal, Self, get_args
 from pydantic import Field, model_validator
 
 from heeltoe.case.fields import Count, Fields, Fraction, FrictionCoefficient, Head, TimeSpan, Truth
-from heeltoe.case.quantities import DimensionlessNumber, Duration, Length, Pressure
+from heeltoe.case.quantities import DimensionlessNumber, Duration, Length, MemorySize, Pressure
 from heeltoe.case.sentences import collected
 from heeltoe.errors import InputError, shown
 
@@ -98,6 +98,11 @@ class Analysis(Fields):
     let an impulse of friction end the slip."""
     event_limit: Count = 1_000_000
     """Stop after so many events."""
+    time_limit: TimeSpan = 600.0
+    """Refuse a model with elastic parts that would take longer on one core, by an estimate before it begins, and refine
+    none beyond."""
+    memory_limit: Annotated[MemorySize, Field(gt=0.0)] = 4e9
+    """The same of memory."""
     rotation: Literal["small", "p-delta", "finite"] = "small"
     """Of the rigid block: small; small with the weight's moment that changes with it (P-Delta); or of any size.
     Only with the last two can the block overturn."""

@@ -42,6 +42,8 @@ Frequency = Annotated[float, BeforeValidator(_validator("frequency")), _written(
 """A frequency [Hz]."""
 Angle = Annotated[float, BeforeValidator(_validator("angle")), _written("angle"), _schema("angle")]
 """An angle [rad]."""
+MemorySize = Annotated[float, BeforeValidator(_validator("memory")), _written("memory"), _schema("memory")]
+"""A size of memory [B]."""
 LineForce = Annotated[float, BeforeValidator(_validator("line force")), _written("line force"), _schema("line force")]
 """A force per metre of dam [N/m]."""
 Stiffness = Annotated[float, BeforeValidator(_validator("stiffness")), _written("stiffness"), _schema("stiffness")]

@@ -104,6 +104,8 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # silence = "10 s"                 # at most so long does a run go on after the motion, until the dam is at rest
 # paradox = "stop"                 # where no motion agrees with Coulomb's law; or "tangential impact"
 # event_limit = 1_000_000
+# time_limit = "10 min"            # what elastic parts may take, by an estimate before they are run
+# memory_limit = "4 GB"
 # rotation = "small"               # or "p-delta", "finite": with these a rigid block can overturn
 
 # [decoupled]                      # of --model decoupled: the part below the crack shakes the block above it

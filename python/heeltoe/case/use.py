@@ -57,6 +57,8 @@ READ_BY: dict[str, frozenset[str]] = {
     "limits": _SHAKEN,
     "analysis": _BLOCKS,
     "analysis.silence": _SHAKEN,
+    "analysis.time_limit": _ELASTIC,
+    "analysis.memory_limit": _ELASTIC,
 }
 
 # What a reader would expect to matter to the flexible model has a sentence of its own.

@@ -57,6 +57,7 @@ app = typer.Typer(
     rich_markup_mode=None,
 )
 
+BUG = 1
 BAD_INPUT = 2
 NO_RESULT = 3
 INTERRUPTED = 130

@@ -13,12 +13,15 @@ import typer
 from heeltoe.cli import dam as dam_commands
 from heeltoe.cli import motion as motion_command
 from heeltoe.cli import run as run_command
-from heeltoe.cli.common import BAD_INPUT, INTERRUPTED, NO_RESULT, app
+from heeltoe.cli.common import BAD_INPUT, BUG, INTERRUPTED, NO_RESULT, app
 from heeltoe.cli.streams import console, streams
 from heeltoe.errors import InputError
+from heeltoe.plain import plain
 from heeltoe.whole import write_text
 
 _OBJECTS_BEFORE_COLLECTING = 200_000
+# What a panic of the kernel is raised as; named, so that nothing is loaded for it.
+_PANICS = ("InternalError", "PanicException")
 
 
 def main() -> None:
@@ -41,6 +44,12 @@ def main() -> None:
         if ended.code == INTERRUPTED:
             print("; ".join(["heeltoe: interrupted", *_known(ended)]), file=sys.stderr)
         raise
+    except BaseException as error:
+        if type(error).__name__ not in _PANICS:
+            raise
+        asked = "please report it with the command and its files"
+        print(f"heeltoe: this is a bug of its kernel: {plain(error)}; {asked}", file=sys.stderr)
+        sys.exit(BUG)
 
 
 def _known(ended: BaseException) -> list[str]:

@@ -29,6 +29,7 @@ from heeltoe.whole import check_directory, files
 
 if TYPE_CHECKING:
     from heeltoe.case.model import Case
+    from heeltoe.models.flexible.cost import Cost
     from heeltoe.result.response import Response
     from heeltoe.study.grid import Grid
 
@@ -213,16 +214,20 @@ def _run(path: str, changes: list[str], reverse: bool, output_step: str | None, 
 
 def _table(path: str, changes: list[str], asked: _Asked, step: float | None, say: Callable[[str], None]) -> Grid:
     """Run a table of runs."""
+    from heeltoe.models.run import cost_of
     from heeltoe.models.run import run as run_model
     from heeltoe.study.grid import parse_variations, run_grid
 
     def run_one(each: Case) -> Response:
         return run_model(each, asked.model, output_step=step)
 
+    def cost(each: Case) -> Cost | None:
+        return cost_of(each, asked.model, step)
+
     def progress(done: int, of: int) -> None:
         say(f"running the {asked.model} model, {done} of {of} runs done")
 
-    return run_grid(path, changes, parse_variations(asked.vary or []), run_one, progress=progress)
+    return run_grid(path, changes, parse_variations(asked.vary or []), run_one, cost=cost, progress=progress)
 
 
 def _write(result: Response | Grid, case: Case, asked: _Asked, place: Path, say: Callable[[str], None]) -> list[Path]:

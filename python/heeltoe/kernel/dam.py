@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 DAM_STATES = tuple(_kernel.CRACK_STATES)
 DAM_OUTCOMES = tuple(_kernel.CRACK_OUTCOMES)
 CONTACT_STATUSES = tuple(_kernel.CONTACT_STATUSES)
+#: What ends runs on other threads than the main one.
+Ending = _kernel.Ending
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,6 +136,7 @@ class CrackedDam:
         stride: int = 0,
         scale: tuple[float, float] = (1.0, 1.0),
         penalty: tuple[float, float, float] | None = None,
+        ending: Ending | None = None,
     ) -> DamRun:
         """Shake it, with exact contact or with springs at the contacts.
 
@@ -152,9 +155,11 @@ class CrackedDam:
             Factors on the horizontal and the vertical ground.
         penalty
             Stiffness of the springs [N/m] and Newmark's gamma and beta.
+        ending
+            What may end the run from another thread.
         """
         row, frames, upper, lower, force, status, above, below = self._dam.run(
-            ground, step, theta, stride, stride > 0, scale, penalty
+            ground, step, theta, stride, stride > 0, scale, penalty, ending
         )
         names, numbers = _kernel.CRACK_SUMMARY_FIELDS, row.tolist()
         return DamRun(
@@ -177,8 +182,9 @@ class CrackedDam:
         *,
         threads: int = 0,
         penalty: tuple[float, float, float] | None = None,
+        ending: Ending | None = None,
     ) -> dict[str, Floats]:
         """Shake it once for each pair of factors, (n, 2), on `threads` cores (0 for all); the numbers, (n,) by name."""
         pairs = [(across, up) for across, up in scales.tolist()]
-        rows = self._dam.run_many(ground, step, theta, pairs, threads, penalty)
+        rows = self._dam.run_many(ground, step, theta, pairs, threads, penalty, ending)
         return columns(_kernel.CRACK_SUMMARY_FIELDS, rows[:, : len(_kernel.CRACK_SUMMARY_FIELDS)])

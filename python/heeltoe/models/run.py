@@ -25,6 +25,7 @@ from heeltoe.warnings import Notice
 # Not at run time: what another model needs is not loaded.
 if TYPE_CHECKING:
     from heeltoe.models.decoupled.response import DecoupledResponse
+    from heeltoe.models.flexible.cost import Cost
     from heeltoe.models.flexible.response import FlexibleResponse
 
 R = TypeVar("R", bound=Response)
@@ -75,6 +76,7 @@ def run(
     check_model(model, "model")
     shaking = earthquake(case, motion, vertical)
     names, why = models_of(case, model)
+    _check_costs(case, names, shaking, output_step)
     *block, better = _until_the_same_end(names, case, shaking, output_step)
     if not block:
         return _alone(better, case, Chosen(model, why))
@@ -107,6 +109,26 @@ def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
         return ("rigid",), "the case gives no concrete.modulus, without which the dam can only be a rigid block"
     block = "decoupled" if case.crack.elevation > 0.0 else "rigid"
     return (block, "flexible"), "the case gives concrete.modulus, so that the dam can vibrate as it does"
+
+
+def cost_of(case: Case, model: str = AUTO, output_step: float | None = None) -> Cost | None:
+    """Return what a run is estimated to take where it makes elastic parts; blocks take next to nothing."""
+    if "flexible" not in models_of(case, model)[0]:
+        return None
+    from heeltoe.models.flexible.expected import analysing, frame_step_of
+
+    end = earthquake(case).run_end
+    return analysing(case, end, frame_step_of(end, output_step))
+
+
+def _check_costs(case: Case, names: Sequence[str], shaking: Earthquake, output_step: float | None) -> None:
+    """Refuse what takes too much before the first of two models runs."""
+    if len(names) > 1 and "flexible" in names:
+        from heeltoe.models.flexible.cost import check_cost
+        from heeltoe.models.flexible.expected import analysing, frame_step_of
+
+        end = shaking.run_end
+        check_cost(case, analysing(case, end, frame_step_of(end, output_step)))
 
 
 def _until_the_same_end(

@@ -19,6 +19,8 @@ _DRAWN = 20
 _LONE, _DOUBTED = 3.0, 2.0
 # A record that starts or ends at more than this part of its peak jumps there from rest, or to it.
 _JUMP = 0.1
+# Shorter than this [s] is no earthquake.
+_SHORTEST = 1e-3
 # Longest step [s] with which a record tells what a dam feels.
 _COARSE = 0.1
 _UP = re.compile(r"\b(?:up|ud|u-d|vert(?:ical)?|ver|down|dwn|dn|[behl][hnl]z)\b|^\s*[vz]\s*$", re.IGNORECASE)
@@ -132,8 +134,10 @@ def check(
     Raises
     ------
     InputError
-        Where it is zero, or peaks beyond anything an earthquake does.
+        Where it is zero or has hardly begun, or peaks beyond anything an earthquake does.
     """
+    if motion.duration < _SHORTEST:
+        raise InputError("motion-brief", field, f"{motion.duration:g} s", least=f"{_SHORTEST:g} s")
     peak = motion.pga / gravity
     if peak == 0.0:
         if allow_zero:

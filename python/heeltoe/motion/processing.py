@@ -5,6 +5,7 @@ Errors name the parameter that cannot be; :func:`process` puts before it where t
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Literal, Protocol
@@ -105,6 +106,10 @@ def baseline(motion: GroundMotion, order: int = 2, *, displacement: bool = False
     )
 
 
+# Zeros on either side of a record that is filtered: a corner that asks for more is far slower than any record is long.
+_MOST_ZEROS = 5_000_000
+
+
 def band_pass(
     motion: GroundMotion, low: float | None = None, high: float | None = None, order: int = 4
 ) -> GroundMotion:
@@ -126,7 +131,8 @@ def band_pass(
     Raises
     ------
     InputError
-        Where there is no corner, one is at or beyond the Nyquist frequency, or they are in the wrong order.
+        Where there is no corner, one is at or beyond the Nyquist frequency or so slow that there is no end of zeros, or
+        they are in the wrong order.
     """
     # scipy.signal takes longer to load than a rigid run does, so it waits for the first filter.
     from scipy import signal
@@ -143,11 +149,14 @@ def band_pass(
     if not 1 <= order <= 10:
         raise InputError("order-filter", "order", order)
     corners = [corner for corner in (low, high) if corner is not None]
+    zeros = math.ceil(1.5 * order / corners[0] / motion.dt)
+    if zeros > _MOST_ZEROS:
+        least = f"{1.5 * order / _MOST_ZEROS / motion.dt:.2g} Hz"
+        raise InputError("order-corner-slow", "high" if low is None else "low", f"{corners[0]:g} Hz", least=least)
     kind = "bandpass" if len(corners) == 2 else "highpass" if high is None else "lowpass"
     sections = signal.butter(
         order, corners if len(corners) == 2 else corners[0], kind, fs=1.0 / motion.dt, output="sos"
     )
-    zeros = int(np.ceil(1.5 * order / corners[0] / motion.dt))
     padded = np.pad(motion.acceleration, zeros)
     filtered = signal.sosfiltfilt(sections, padded, padlen=0)[zeros : zeros + motion.time.size]
     band = " to ".join(f"{corner:g}" for corner in corners)

@@ -13,6 +13,8 @@ from heeltoe.kernel.shaking import peak_responses
 from heeltoe.motion.ground_motion import GroundMotion
 
 #: 200 periods from 0.02 s to 10 s, evenly spread on a logarithmic axis.
+# A shorter period [s] but zero has nothing in a record to answer to, and takes for ever to follow.
+_SHORTEST = 1e-4
 PERIODS: Floats = np.geomspace(0.02, 10.0, 200)
 
 
@@ -73,7 +75,7 @@ def response_spectrum(motion: GroundMotion, periods: ArrayLike | None = None, da
     period = np.ascontiguousarray(PERIODS if periods is None else periods, dtype=np.float64)
     if not 0.0 <= damping < 1.0:
         raise InputError("spectrum-damping", "damping", f"{damping:g}")
-    if period.ndim != 1 or not np.isfinite(period).all() or (period < 0.0).any():
-        raise InputError("spectrum-period", "periods")
+    if period.ndim != 1 or not np.isfinite(period).all() or ((period < _SHORTEST) & (period != 0.0)).any():
+        raise InputError("spectrum-period", "periods", least=f"{_SHORTEST:g} s")
     displacement, total = peak_responses(motion.time, motion.acceleration, period, damping)
     return Spectrum(motion.name, period, damping, displacement, total)

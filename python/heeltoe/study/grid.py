@@ -14,6 +14,7 @@ from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
 from heeltoe.dataframe import dataframe
 from heeltoe.errors import InputError, shown
+from heeltoe.models.flexible.cost import Cost, check_cost
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.write import build_info
@@ -136,6 +137,7 @@ def run_grid(
     variations: Sequence[Variation],
     run: Run,
     *,
+    cost: Callable[[Case], Cost | None] = lambda case: None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Grid:
     """Run every combination of the values.
@@ -148,13 +150,16 @@ def run_grid(
         From :func:`parse_variations`.
     run
         Makes a response of a case.
+    cost
+        Says what that takes, where it takes much.
     progress
         Called with how many runs are done, and of how many.
 
     Raises
     ------
     InputError
-        Where a value cannot be used; all cases are read before the first one runs.
+        Where a value cannot be used, or all runs together take more than the first case allows; all cases are read
+        before the first one runs.
     """
     cells = tuple(product(*(each.values for each in variations)))
     paths = [each.path for each in variations]
@@ -162,12 +167,20 @@ def run_grid(
         read_case(source, [*changes, *(f"{path}={value}" for path, value in zip(paths, cell, strict=True))])
         for cell in cells
     ]
+    _check_together(cases, cost)
     responses = []
     for done, case in enumerate(cases):
         if progress is not None:
             progress(done, len(cases))
         responses.append(run(case))
     return Grid(tuple(variations), cells, tuple(responses))
+
+
+def _check_together(cases: Sequence[Case], cost: Callable[[Case], Cost | None]) -> None:
+    """Refuse a table that takes too much as a whole."""
+    costs = [each for each in map(cost, cases) if each is not None]
+    if costs:
+        check_cost(cases[0], Cost(sum(each.seconds for each in costs), max(each.memory for each in costs)), "--vary")
 
 
 def _beside(block: Response) -> float | None:

@@ -22,6 +22,7 @@ STANDARD_GRAVITY = 9.80665
 _QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?)\s*([^\d\s.,+-].{0,39})?", re.DOTALL)
 _PARTS = {"": 1.0, "%": 0.01, "percent": 0.01}
 _FREQUENCY = re.compile(r"[mkM]?Hz|hertz|1/s|s\^-1")
+_MEMORY = re.compile(r"[kMGT]i?B|B")
 _ANGLE = re.compile(r"deg|degrees?|°|rad|radians?|mrad")
 # 907 kg to pint, 1000 kg to most of the world: a difference of a tenth that nobody would see.
 _TON = re.compile(
@@ -50,6 +51,7 @@ DIMENSIONS = {
     "angle": Dimension("an angle", "rad", "5 deg"),
     "line force": Dimension("a force per metre of dam", "N/m", "150 kN/m"),
     "stiffness": Dimension("a stiffness per metre of dam", "N/m^2", "50 MN/m/m"),
+    "memory": Dimension("a size of memory", "B", "8 GB"),
     "number": Dimension("a number", "", 1.0),
 }
 
@@ -165,6 +167,9 @@ def _factor(unit: str, value: object, dimension: str, field: str) -> float:
             factor = _PARTS.get(unit)
         elif dimension == "frequency" and not _FREQUENCY.fullmatch(unit):
             # To pint a radian is 1, so that 1 rad/s would be 1 Hz.
+            factor = None
+        elif dimension == "memory" and not _MEMORY.fullmatch(unit):
+            # To pint bytes are numbers.
             factor = None
         elif dimension == "angle":
             # To pint a per cent is an angle.

@@ -31,9 +31,9 @@ pub struct Dam {
 const SOFTNESS: f64 = 1e-9;
 
 impl Dam {
-    /// Find the state before the earthquake.
-    pub fn rested(mut self) -> Self {
-        self.still = start::find(&self);
+    /// Find the state before the earthquake; a search that is stopped has found none.
+    pub fn rested(mut self, stop: Stop) -> Self {
+        self.still = start::find(&self, stop);
         self
     }
 

@@ -17,6 +17,7 @@ use super::observe::mean_along;
 use super::sides::Sides;
 use super::status::Status;
 use super::wide::Plain;
+use crate::stop::Stop;
 
 /// What holds a free part, as a share of the smallest squared frequency.
 const HOLD: f64 = 1e-2;
@@ -129,7 +130,7 @@ impl<'a> Side<'a> {
 }
 
 /// Find the dam at rest; none where friction does not hold it.
-pub(super) fn find(dam: &Dam) -> Option<Still> {
+pub(super) fn find(dam: &Dam, stop: Stop) -> Option<Still> {
     let squares = dam
         .bodies
         .iter()
@@ -155,6 +156,9 @@ pub(super) fn find(dam: &Dam) -> Option<Still> {
     }
     let mut settled = 0;
     for _ in 0..STEPS {
+        if stop.asked() {
+            return None;
+        }
         step(dam, &mut crack, &mut sides);
         let mut moved = 0.0_f64;
         for side in sides.iter_mut() {

@@ -18,6 +18,7 @@ from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.kept import Kept
 from heeltoe.mechanics.block import Block, build_block
+from heeltoe.models.flexible.cost import Part, building, check_cost, parts_of
 from heeltoe.models.flexible.elastic import Sparse, dam, dofs, side_by_side
 from heeltoe.models.flexible.mesh.dam import BodyMesh, dam_mesh
 from heeltoe.models.flexible.modes import lowest
@@ -108,6 +109,8 @@ def _kept(case: Case, build: Callable[[Case], Chain]) -> Chain:
 def _chain(case: Case) -> Chain:
     block = build_block(case)
     section = block.section
+    # Its few modes cost less than those of parts that a crack divides.
+    check_cost(case, building([Part(part.freedoms, 0, MOST_MODES) for part in parts_of(case)]))
     if section.crack_elevation == section.base_elevation:
         raise InputError("crack-at-base", "crack.elevation", f"{case.crack.elevation:g} m")
     body = dam(case, dam_mesh(case)).lower

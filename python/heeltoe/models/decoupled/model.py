@@ -13,8 +13,9 @@ from heeltoe.case.model import Case
 from heeltoe.case.warnings import concrete_warnings
 from heeltoe.mechanics.block import build_block
 from heeltoe.models.decoupled.chain import Chain, bonded_chain, chain
-from heeltoe.models.decoupled.crack_motion import CrackMotion, crack_motion, crack_motion_at, relative
+from heeltoe.models.decoupled.crack_motion import FIRST_STEP, CrackMotion, crack_motion, crack_motion_at, relative
 from heeltoe.models.decoupled.response import DecoupledResponse
+from heeltoe.models.flexible.cost import Cost, check_cost
 from heeltoe.models.rigid.model import run_rigid
 from heeltoe.models.rigid.walk import walk
 from heeltoe.motion.earthquake import Earthquake
@@ -33,6 +34,8 @@ _SHOWN = 5
 _OUTPUT_STEP = 0.005
 # From which difference on a step of the crack's motion twice as long matters.
 _CHANGE = 0.02
+# Of the motion at the crack, for each first step of it.
+_BYTES = 400.0
 
 
 def run_decoupled(case: Case, earthquake: Earthquake, output_step: float | None = None) -> DecoupledResponse:
@@ -57,6 +60,7 @@ def run_decoupled(case: Case, earthquake: Earthquake, output_step: float | None 
         Where the crack is at the base, or the case has no modulus.
     """
     motion = earthquake.motion
+    check_cost(case, Cost(0.0, _BYTES * earthquake.end / FIRST_STEP), "motion.duration")
     part = chain(case)
     at_crack, straightness = crack_motion(part, earthquake)
     if output_step is None:

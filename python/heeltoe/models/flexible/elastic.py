@@ -111,8 +111,7 @@ def dam(case: Case, mesh: DamMesh) -> Dam:
     InputError
         Where the case has no Young's modulus, or one that is no solid's.
     """
-    meshes = (mesh.upper,) if mesh.lower is None else (mesh.upper, mesh.lower)
-    return Dam(tuple(_body(case, each, above=each is mesh.upper) for each in meshes), _tie(mesh))
+    return Dam(tuple(_body(case, each, above=each is mesh.upper) for each in mesh.parts), _tie(mesh))
 
 
 def bonded_state(dam: Dam) -> tuple[Floats, Floats, Floats]:

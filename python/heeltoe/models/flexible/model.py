@@ -8,7 +8,9 @@ from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.kernel.dam import DAM_STATES, DamRun
 from heeltoe.mechanics.block import Block, build_block, static_state
+from heeltoe.models.flexible.cost import check_cost
 from heeltoe.models.flexible.excitation import self_excitation
+from heeltoe.models.flexible.expected import analysing, frame_step_of
 from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
 from heeltoe.models.flexible.refinement import Answer, answer
 from heeltoe.models.flexible.response import FlexibleResponse
@@ -20,8 +22,6 @@ from heeltoe.motion.earthquake import Earthquake
 from heeltoe.references import cited
 from heeltoe.result.rest import LAST_S, last_change, still_since
 
-#: Frames kept: enough for an animation, few enough for memory.
-_FRAME_STEP = 0.01
 _SHORTEST_FRAME_STEP = 1e-3
 
 
@@ -48,7 +48,9 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
             "frame-step", "output_step", f"{output_step:g} s", shortest=f"{_SHORTEST_FRAME_STEP:g} s", end=f"{end:g} s"
         )
     block = build_block(case)
-    found, earthquake = _answer(case, block, earthquake, output_step or min(_FRAME_STEP, end))
+    frame_step = frame_step_of(end, output_step)
+    check_cost(case, analysing(case, earthquake.run_end, frame_step))
+    found, earthquake = _answer(case, block, earthquake, frame_step)
     shaken, run, evidence = found.shaken, found.run, found.evidence
     # Its mesh may be finer by now.
     case, dam = shaken.case, shaken.dam
@@ -87,7 +89,10 @@ def _answer(case: Case, block: Block, earthquake: Earthquake, frame_step: float)
 
     def run(through: Earthquake) -> tuple[Earthquake, ShakenDam, DamRun]:
         shaken = ShakenDam(case, dam, through.shaking)
-        return through, shaken, shaken.run(shaken.first_step(), frame_step)
+        step = shaken.first_step()
+        # Water and anchors may have made it shorter than could be expected.
+        check_cost(case, analysing(case, through.run_end, frame_step, step))
+        return through, shaken, shaken.run(step, frame_step)
 
     def reach(first: tuple[Earthquake, ShakenDam, DamRun]) -> float:
         return _reach(dam, block, first[-1])

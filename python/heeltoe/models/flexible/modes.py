@@ -15,8 +15,8 @@ import numpy as np
 from heeltoe.arrays import Floats
 from heeltoe.models.flexible.elastic import Body, Dam, Sparse, dofs, side_by_side
 
-# Modes kept at first; they are doubled until so much of the crack's compliance at most is lost.
-_KEPT = 50
+#: Modes kept at first; they are doubled until so much of the crack's compliance at most is lost.
+FIRST_KEPT = 50
 ENOUGH = 0.03
 # The frequency of that compliance over the first one of the intact dam.
 _RANGE = 15.0
@@ -96,7 +96,7 @@ def reduce(body: Body, keep: int | None = None) -> Modes:
 def enough_modes(body: Body, dam: Dam) -> tuple[Modes, float]:
     """Return as many of the lowest modes of a body, with its static shapes, as its crack needs, and their error."""
     circular = error_frequency(dam)
-    keep = _KEPT
+    keep = FIRST_KEPT
     while True:
         modes = reduce(body, keep)
         error = residual_error(body, modes, circular)

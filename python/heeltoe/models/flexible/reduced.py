@@ -14,6 +14,7 @@ from heeltoe.geometry.axes import along_and_across, places
 from heeltoe.geometry.section import CutSection
 from heeltoe.kept import Kept
 from heeltoe.kernel.dam import CrackedDam
+from heeltoe.models.flexible.cost import building, check_cost, part_of
 from heeltoe.models.flexible.damping import Damping, damping_of
 from heeltoe.models.flexible.elastic import Body, Dam, bonded_state, dam
 from heeltoe.models.flexible.inside import CrackAnchor, FollowingWater, crack_anchors, following_water
@@ -156,7 +157,9 @@ def fingerprints(case: Case) -> list[str]:
 
 
 def _build(case: Case) -> FlexibleDam:
-    bonded = dam(case, dam_mesh(case))
+    mesh = dam_mesh(case)
+    check_cost(case, building([part_of(case, each.crack.size, each.nodes.size) for each in mesh.parts]))
+    bonded = dam(case, mesh)
     bodies = bonded.bodies
     *bent, crack_force = bonded_state(bonded)
     modes, errors = _modes(case, bonded)

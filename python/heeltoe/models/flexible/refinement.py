@@ -50,7 +50,7 @@ def answer(shaken: ShakenDam, frame_step: float, asked: str, first: DamRun | Non
     first
         A run at the first step with such frames, where it has been made before.
     """
-    options = shaken.case.flexible
+    case, options = shaken.case, shaken.case.flexible
     trials = Trials(shaken, shaken.first_step(), frame_step, first)
     level = Level(0, 0)
     if asked == "none":
@@ -63,7 +63,8 @@ def answer(shaken: ShakenDam, frame_step: float, asked: str, first: DamRun | Non
         if finer is None:
             break
         wanted = _Stand(trials, finer, full=full).wanted(means=found.mean)
-        if trials.work + trials.cost(wanted) > BUDGET:
+        work = trials.work + trials.cost(wanted)
+        if work > BUDGET or not trials.expected(finer, work).within(case):
             found = stand.evidence(spent=True)
             break
         level = finer

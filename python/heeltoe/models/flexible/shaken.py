@@ -9,7 +9,7 @@ import numpy as np
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
-from heeltoe.kernel.dam import DamRun
+from heeltoe.kernel.dam import DamRun, Ending
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.flexible.modes import part_periods
 from heeltoe.models.flexible.reduced import FlexibleDam
@@ -25,6 +25,12 @@ _SHORTEST_OF_ALL = 1e-5
 #: closely at least a given one must.
 _ENOUGH_STEPS, _FEWEST_STEPS = 30.0, 8.0
 _TOO_FEW_STEPS = 16.0
+
+
+def usual_step(period: float) -> float:
+    """Return a step [s] that follows a part above the crack of this longest period [s]."""
+    shortest = max(_SHORTEST_OF_ALL, min(_SHORTEST_STEP, period / _ENOUGH_STEPS))
+    return float(np.clip(period / _STEPS_PER_PERIOD, shortest, _LONGEST_STEP))
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,8 +51,7 @@ class ShakenDam:
         """
         period = float(part_periods(self.dam.modes[0], 1)[0])
         given = self.case.flexible.time_step
-        shortest = max(_SHORTEST_OF_ALL, min(_SHORTEST_STEP, period / _ENOUGH_STEPS))
-        wanted = given or float(np.clip(period / _STEPS_PER_PERIOD, shortest, _LONGEST_STEP))
+        wanted = given or usual_step(period)
         step, field = longest_step(self.dam, self.case.flexible.theta, wanted)
         if step < (wanted if given else _SHORTEST_OF_ALL):
             raise InputError("step-stiff", field, step=f"{step:.2g} s")
@@ -64,19 +69,21 @@ class ShakenDam:
         followed, _ = longest_step(self.dam, self.case.flexible.theta, step)
         return step <= min(followed, period / _TOO_FEW_STEPS, self.shaking.end / 2.0)
 
-    def run(self, step: float, frame_step: float | None = None) -> DamRun:
+    def run(self, step: float, frame_step: float | None = None, ending: Ending | None = None) -> DamRun:
         """Run at about this step, which is made to fit the duration [s]; with frames about every `frame_step`."""
         count, step = self._steps(step)
         stride = 0 if frame_step is None else max(1, min(count, round(frame_step / step)))
         theta = self.case.flexible.theta
-        return self.dam.kernel.run(self._ground(count), step, theta, stride=stride, penalty=self._penalty())
+        return self.dam.kernel.run(
+            self._ground(count), step, theta, stride=stride, penalty=self._penalty(), ending=ending
+        )
 
-    def run_scaled(self, step: float, scales: Floats) -> dict[str, Floats]:
+    def run_scaled(self, step: float, scales: Floats, ending: Ending | None = None) -> dict[str, Floats]:
         """Run once for each factor on the ground motion, side by side; (n,) arrays by name."""
         count, step = self._steps(step)
         pairs = np.column_stack([scales, scales])
         theta = self.case.flexible.theta
-        return self.dam.kernel.run_many(self._ground(count), step, theta, pairs, penalty=self._penalty())
+        return self.dam.kernel.run_many(self._ground(count), step, theta, pairs, penalty=self._penalty(), ending=ending)
 
     def _steps(self, step: float) -> tuple[int, float]:
         """Return how many steps of about this length make the whole run, and their length [s]."""

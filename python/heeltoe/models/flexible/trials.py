@@ -12,7 +12,9 @@ import numpy as np
 
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
-from heeltoe.kernel.dam import DAM_OUTCOMES, DamRun
+from heeltoe.kernel.dam import DAM_OUTCOMES, DamRun, Ending
+from heeltoe.models.flexible.cost import Cost, building, parts_of
+from heeltoe.models.flexible.expected import running
 from heeltoe.models.flexible.reduced import build_flexible_dam
 from heeltoe.models.flexible.shaken import ShakenDam
 from heeltoe.result.contract import HEADLINES, headlines
@@ -58,6 +60,7 @@ class Trials:
         self._shaken = {0: shaken}
         self._numbers: dict[tuple[Level, float], dict[str, float]] = {}
         self._whole: dict[Level, DamRun] = {}
+        self._ending = Ending()
         if first is not None:
             self._keep(Level(0, 0), first)
 
@@ -75,6 +78,15 @@ class Trials:
         """Return what the runs that are still to be made would cost."""
         runs = {(level, scale) for level, scales in wanted for scale in scales}
         return sum(level.work for level, _ in runs - self._numbers.keys())
+
+    def expected(self, level: Level, work: float) -> Cost:
+        """Return what so many runs at level 0 are estimated to take with one at another level among them."""
+        first = self._shaken[0]
+        case, end = with_mesh(first.case, level.mesh), first.shaking.end
+        parts = building(parts_of(case))
+        runs = running(first.case, end, self._frame_step, self.step, runs=work)
+        finest = running(case, end, self._frame_step, self.step_of(level))
+        return Cost(parts.seconds + runs.seconds, parts.memory + finest.memory)
 
     def dam_of(self, mesh: int) -> ShakenDam:
         """Return the dam with another mesh."""
@@ -95,7 +107,8 @@ class Trials:
     def whole(self, level: Level) -> DamRun:
         """Return a run with its frames, the shaking as it is."""
         if level not in self._whole:
-            self._keep(level, self.dam_of(level.mesh).run(self.step_of(level), self._frame_step))
+            found = self.dam_of(level.mesh).run(self.step_of(level), self._frame_step, self._ending)
+            self._keep(level, found)
         return self._whole[level]
 
     def _keep(self, level: Level, run: DamRun) -> None:
@@ -110,14 +123,23 @@ class Trials:
 
         with ThreadPoolExecutor(os.cpu_count()) as pool:
             shown = pool.submit(self.whole, whole)
-            list(pool.map(make, wanted))
-            shown.result()
+            try:
+                list(pool.map(make, wanted))
+                shown.result()
+            except KeyboardInterrupt as error:
+                # Threads hear of no signal; what the run with frames has come to is told.
+                self._ending.ask()
+                pool.shutdown(cancel_futures=True)
+                ended = None if shown.cancelled() else shown.exception()
+                for note in getattr(ended, "__notes__", ()):
+                    error.add_note(note)
+                raise
 
     def numbers(self, level: Level, scales: Sequence[float]) -> dict[str, Floats]:
         """Return the headline numbers of runs with these factors on the shaking, (n,) by name."""
         missing = [scale for scale in scales if (level, scale) not in self._numbers]
         if missing:
-            table = self.dam_of(level.mesh).run_scaled(self.step_of(level), np.array(missing))
+            table = self.dam_of(level.mesh).run_scaled(self.step_of(level), np.array(missing), self._ending)
             for place, scale in enumerate(missing):
                 self._numbers[level, scale] = {name: float(column[place]) for name, column in table.items()}
         rows = [self._numbers[level, scale] for scale in scales]

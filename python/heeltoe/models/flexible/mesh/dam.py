@@ -69,6 +69,11 @@ class DamMesh:
     upper: BodyMesh
     lower: BodyMesh | None
 
+    @property
+    def parts(self) -> tuple[BodyMesh, ...]:
+        """Those that there are."""
+        return (self.upper,) if self.lower is None else (self.upper, self.lower)
+
 
 def dam_mesh(case: Case) -> DamMesh:
     """Return the mesh of the dam.

@@ -19,8 +19,8 @@ from heeltoe.models.flexible.mesh.checks import check_elements
 
 Line = tuple[Floats, Floats]
 
-# Rows per element across, so that any part has about so many elements; a tip has its own instead of some of them.
-_ROWS, _ROWS_OF_TIP = 1.65, 0.75
+#: Rows per element across, so that any part has about so many elements; a tip has its own instead of some of them.
+ROWS, _ROWS_OF_TIP = 1.65, 0.75
 # Between these ratios to the width of their elements, rows are as high as its square root says: with as many elements,
 # the higher frequencies of tall dams are much nearer to the exact ones than with rows as high as the elements are wide.
 _SQUAT, _SLENDER = 1.0, 3.0
@@ -77,7 +77,7 @@ def meshed_rows(left: Floats, right: Floats, across: int) -> tuple[Floats, Integ
     if pointed:
         # Rows up to half the height of the uppermost segment, the tip from there.
         keys[-1] = ((keys[-2][0] + left[-1]) / 2.0, (keys[-2][1] + left[-1]) / 2.0)
-    lines = _graded(keys, across, across * (_ROWS - _ROWS_OF_TIP if pointed else _ROWS))
+    lines = _graded(keys, across, across * (ROWS - _ROWS_OF_TIP if pointed else ROWS))
     if sloping:
         ends = (face[[0, -1], 1] for face in faces)
         back = [
