@@ -138,6 +138,12 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "no state of rest was found in which friction holds the crack before the earthquake; the run starts from the "
         "dam with its crack bonded",
     ),
+    "outline-simplified": (
+        "note",
+        "section.polygon",
+        "corners of the section are finer than the mesh, which misses some of them by {missed_m:.3g m}; loads of the "
+        "flexible model are those of its mesh, and more flexible.elements_across follow closer",
+    ),
     "self-excited": (
         "grave",
         "concrete.damping",

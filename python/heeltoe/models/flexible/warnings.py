@@ -20,6 +20,8 @@ from heeltoe.result.contract import LARGEST_ROTATION, TOO_FAR
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings import Notice
 
+#: A mesh that misses corners of the section by more than this part of its height is told.
+_MISSED = 1e-3
 # What to do about it.
 _STAND = "give the dam more friction, less uplift or less water until it stands before the earthquake"
 _REMEDIES = {
@@ -85,10 +87,17 @@ def warnings_of(
         *(_about_the_evidence(evidence) if outcome != "unstable" else ()),
         *_about_the_start(dam, safety),
         *_about_the_growth(growth, run.summary),
+        *_about_the_mesh(dam),
         *_about_the_concrete(case, dam),
         *_about_the_anchors(case, run),
         *_about_the_contact(case, run, history),
     ]
+
+
+def _about_the_mesh(dam: FlexibleDam) -> Iterator[Notice]:
+    missed = max(body.mesh.missed for body in dam.bodies)
+    if missed > _MISSED * dam.section.height:
+        yield Notice("outline-simplified", missed_m=missed)
 
 
 def _about_the_start(dam: FlexibleDam, safety: float | None) -> Iterator[Notice]:

@@ -5,7 +5,7 @@ have any shape whose crack and area are those of the section."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +18,7 @@ from heeltoe.geometry.axes import in_x_and_z
 from heeltoe.geometry.axes import places as locate
 from heeltoe.geometry.section import CutSection
 from heeltoe.models.flexible.mesh.checks import boundary_edges
+from heeltoe.models.flexible.mesh.faces import followed
 from heeltoe.models.flexible.mesh.rows import meshed_rows
 
 # As parts of the size of a mesh: nodes this close to the crack line are on it (files may have single precision),
@@ -44,6 +45,8 @@ class BodyMesh:
         Nodes along the two faces from bottom to top, midside nodes included.
     fixed
         Nodes held still: the base of the lower part, none of the upper.
+    missed
+        How far corners of the section are from it at most, where they are finer than its rows [m].
     """
 
     nodes: Floats
@@ -52,6 +55,7 @@ class BodyMesh:
     upstream: Integers
     downstream: Integers
     fixed: Integers
+    missed: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,8 +100,7 @@ def dam_mesh(case: Case) -> DamMesh:
     if options.mesh_above:
         upper = _from_file(directory / options.mesh_above, section, section.area, above=True)
     else:
-        rows = meshed_rows(section.upstream_face, section.downstream_face, options.elements_across)
-        upper = _body(*rows, section, "section", above=True)
+        upper = _own(section.upstream_face, section.downstream_face, options.elements_across, section, above=True)
     if grounded:
         if options.mesh_below:
             raise InputError("mesh-none-below", "flexible.mesh_below", options.mesh_below)
@@ -105,8 +108,14 @@ def dam_mesh(case: Case) -> DamMesh:
     if options.mesh_below:
         return DamMesh(upper, _from_file(directory / options.mesh_below, section, below, above=False))
     across = options.elements_across_below or options.elements_across
-    rows = meshed_rows(*_faces_below(case), across)
-    return DamMesh(upper, _body(*rows, section, "section", above=False))
+    return DamMesh(upper, _own(*_faces_below(case), across, section, above=False))
+
+
+def _own(upstream: Floats, downstream: Floats, across: int, section: CutSection, *, above: bool) -> BodyMesh:
+    """Return the program's own mesh between two faces."""
+    faces = followed(upstream, downstream, across, above=above)
+    mesh = _body(*meshed_rows(faces.upstream, faces.downstream, across), section, "section", above=above)
+    return replace(mesh, missed=faces.missed)
 
 
 def _check_ends(section: CutSection, *, grounded: bool) -> None:
