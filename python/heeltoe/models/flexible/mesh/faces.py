@@ -37,7 +37,8 @@ class Faces:
 
 
 def followed(upstream: Floats, downstream: Floats, across: int, *, above: bool) -> Faces:
-    """Return faces with a level crest, if they are those `above` the crack, and with no more kinks than rows of so many elements can have."""
+    """Return the faces of a part with no more kinks than rows of so many elements can have; `above` the crack with a
+    level crest."""
     faces = upstream, downstream
     if above:
         crest = max(face[-1, 1] for face in faces)
