@@ -13,10 +13,10 @@ from heeltoe.models.flexible.mesh.rows import ROWS
 # As a part of the height of a face: a crest that is uneven by less is level.
 _LEVEL = 1e-4
 # As a part of the width of an element: so closely rows follow a face with more kinks than they can have; twice as far
-# off, and so on, where that leaves too many.
-_CLOSE = 0.005
-# Kinks of a face for each row that a part would have without them.
-_KINKS = 2.0
+# off, and so on, where that leaves too many, but no farther than that.
+_CLOSE, _FAR = 0.005, 0.16
+# Kinks of a face for each row that a part would have without them, and how many are followed on any mesh.
+_KINKS, _FEW = 2.0, 20.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +45,7 @@ def followed(upstream: Floats, downstream: Floats, across: int, *, above: bool) 
         slack = _LEVEL * (crest - min(face[0, 1] for face in faces))
         faces = _levelled(upstream, crest, slack), _levelled(downstream, crest, slack)
     width = abs(downstream[0, 0] - upstream[0, 0]) / across
-    found = [_simpler(face, width, _KINKS * ROWS * across) for face in faces]
+    found = [_simpler(face, width, max(_FEW, _KINKS * ROWS * across)) for face in faces]
     return Faces(found[0][0], found[1][0], max(missed for _, missed in found))
 
 
@@ -63,11 +63,9 @@ def _simpler(face: Floats, width: float, most: float) -> tuple[Floats, float]:
     """Return a face with few enough kinks, and what it misses."""
     if len(face) <= most:
         return face, 0.0
-    line = shapely.LineString(face)
+    line = simpler = shapely.LineString(face)
     tolerance = _CLOSE * width
-    while True:
+    while len(simpler.coords) > most and tolerance <= _FAR * width:
         simpler = shapely.simplify(line, tolerance, preserve_topology=False)
-        if len(simpler.coords) <= most:
-            missed = shapely.distance(simpler, shapely.points(face)).max()
-            return np.array(simpler.coords), float(missed)
         tolerance *= 2.0
+    return np.array(simpler.coords), float(shapely.distance(simpler, shapely.points(face)).max())
