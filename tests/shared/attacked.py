@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import resource
 import signal
+import stat
 import traceback
 from collections import Counter
 from collections.abc import Iterator
@@ -14,7 +15,8 @@ from typing import Any, NoReturn
 
 from shared.command import Said, command
 
-SECONDS, BYTES = 10.0, 3 * 10**9
+# Of computing, on any machine; of waiting, on one that others share.
+SECONDS, WAITED, BYTES = 10.0, 60.0, 3 * 10**9
 ENDS = {0: "accepted", 2: "refused", 3: "no result"}
 
 
@@ -38,7 +40,7 @@ class Attack:
                 said = command(*arguments, cwd=cwd)
             wrong = faults(said, data=data)
         except TooLong:
-            said, wrong = None, [f"runs longer than {SECONDS:g} s"]
+            said, wrong = None, [f"computes longer than {SECONDS:g} s"]
         except BaseException as error:
             last = traceback.extract_tb(error.__traceback__)[-1]
             said, wrong = None, [f"{type(error).__name__}: {error} ({last.filename}:{last.lineno})"]
@@ -86,29 +88,34 @@ def _files(directory: Path) -> dict[str, tuple[int, int]]:
     found = {}
     for path in directory.rglob("*"):
         status = path.lstat()
-        found[str(path.relative_to(directory))] = (0, 0) if path.is_dir() else (status.st_size, status.st_mtime_ns)
+        found[str(path.relative_to(directory))] = (
+            (status.st_size, status.st_mtime_ns) if stat.S_ISREG(status.st_mode) else (0, 0)
+        )
     return found
 
 
 @contextmanager
 def limited(seconds: float = SECONDS, bytes_: int = BYTES) -> Iterator[None]:
-    """End what takes longer, and give no more memory than so much beyond what there is."""
+    """End what computes longer, and give no more memory than so much beyond what there is."""
 
     def end(*_: object) -> NoReturn:
         raise TooLong
 
     soft, hard = resource.getrlimit(resource.RLIMIT_AS)
     used = int(Path("/proc/self/statm").read_text().split()[0]) * resource.getpagesize() if _PROC else 0
-    before = signal.signal(signal.SIGALRM, end)
+    clocks = {signal.SIGPROF: (signal.ITIMER_PROF, seconds), signal.SIGALRM: (signal.ITIMER_REAL, WAITED)}
+    before = {each: signal.signal(each, end) for each in clocks}
     if used:
         resource.setrlimit(resource.RLIMIT_AS, (used + bytes_, hard))
     # Again and again: what is caught by somebody who takes it for an interruption does not go on for long.
-    signal.setitimer(signal.ITIMER_REAL, seconds, 1.0)
+    for clock, most in clocks.values():
+        signal.setitimer(clock, most, 1.0)
     try:
         yield
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
-        signal.signal(signal.SIGALRM, before)
+        for each, (clock, _) in clocks.items():
+            signal.setitimer(clock, 0.0)
+            signal.signal(each, before[each])
         resource.setrlimit(resource.RLIMIT_AS, (soft, hard))
 
 
