@@ -88,9 +88,8 @@ def _files(directory: Path) -> dict[str, tuple[int, int]]:
     found = {}
     for path in directory.rglob("*"):
         status = path.lstat()
-        found[str(path.relative_to(directory))] = (
-            (status.st_size, status.st_mtime_ns) if stat.S_ISREG(status.st_mode) else (0, 0)
-        )
+        size = (status.st_size, status.st_mtime_ns) if stat.S_ISREG(status.st_mode) else (0, 0)
+        found[str(path.relative_to(directory))] = size
     return found
 
 

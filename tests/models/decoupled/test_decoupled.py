@@ -285,3 +285,10 @@ def test_pieces_of_any_length_are_divided_alike_for_all_modes_and_half_of_them()
     put(fields, "motion.processing", [{"step": "cut", "start": 1e-12}])
     evidence = decoupled(read_case(fields)).crack_level["convergence"]
     assert 0.0 < evidence["half_the_modes"] < 0.2
+
+
+def test_without_damping_the_amplitude_at_a_period_of_its_own_is_large_and_a_number():
+    fields = copy.deepcopy(BASE)
+    put(fields, "concrete.damping", 0.0)
+    transfer = decoupled(read_case(fields)).crack_level["spectrum"]["transfer"]
+    assert 1e3 < max(transfer) < 1e7

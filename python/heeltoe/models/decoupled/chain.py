@@ -27,6 +27,7 @@ from heeltoe.models.flexible.reduced import fingerprints
 #: Modes that are kept: the lowest, up to so many, and none with a shorter period [s]. Nothing in an accelerogram is as
 #: fast; faster modes move with the ground, as all that is left out does.
 MOST_MODES, SHORTEST_PERIOD = 60, 0.005
+_LEAST_DAMPING = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,9 +63,12 @@ class Chain:
 
     def transfer(self, periods: Floats) -> Floats:
         """Return the amplitude of the crack's horizontal acceleration under a horizontal ground motion that is a
-        steady vibration of amplitude 1, by its period [s]."""
+        steady vibration of amplitude 1, by its period [s].
+
+        Without damping it has no bound at a period of its own, and is told as with next to none.
+        """
         w = 2.0 * math.pi / periods[:, None]
-        swing = w**2 / (self.omega**2 - w**2 + 2j * self.damping * self.omega * w)
+        swing = w**2 / (self.omega**2 - w**2 + 2j * max(self.damping, _LEAST_DAMPING) * self.omega * w)
         total: Floats = np.abs(1.0 + swing @ (self.shapes[0] * self.participation[:, 0]))
         return total
 
