@@ -28,14 +28,17 @@ _HOME = {
     "en_1998": "motion.targets",
     "flexible": "models.run",
     "match": "motion.matching",
+    "open_study": "study.opened",
     "overturning_map": "study.overturning",
     "read_case": "case.read",
     "read_channels": "motion.records",
     "read_record": "motion.records",
+    "read_study": "study.file",
     "response_spectrum": "motion.spectrum",
     "rigid": "models.run",
     "rigid_many": "models.rigid.many",
     "run": "models.run",
+    "run_study": "study.run",
     "statics": "models.statics.model",
     "stochastic_motion": "motion.stochastic",
     "synthetic": "motion.scenario",
@@ -75,7 +78,10 @@ if TYPE_CHECKING:
     from heeltoe.motion.targets import en_1998 as en_1998
     from heeltoe.result.response import Response as Response
     from heeltoe.result.verdict import verdict as verdict
+    from heeltoe.study.file import read_study as read_study
+    from heeltoe.study.opened import open_study as open_study
     from heeltoe.study.overturning import overturning_map as overturning_map
+    from heeltoe.study.run import run_study as run_study
     from heeltoe.study.spread import with_spread as with_spread
     from heeltoe.views.animation.write import animate as animate
     from heeltoe.views.report.write import write_report as write_report

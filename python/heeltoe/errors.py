@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 
+from heeltoe.errors_of_studies import OF_STUDIES
 from heeltoe.plain import plain
 
 _SHOWN_LENGTH = 60
@@ -333,6 +334,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "set TMPDIR to a place with room",
     ),
     "cannot-write": ("{value} cannot be written ({reason})", "give a place where you may write"),
+    **OF_STUDIES,
 }
 
 

@@ -25,6 +25,7 @@ QUICK = {
     "animate": (*COARSE, "--set", "motion.duration=9s", "--fps", "1"),
     "periods": COARSE,
     "overturning": ("--count", "4"),
+    "study": ("--dry-run",),
 }
 RECORD = """PEER NGA STRONG MOTION DATABASE RECORD
 Somewhere, 1/1/2000, Station, 0
@@ -80,6 +81,8 @@ def test_commands_and_options_in_passing_are_there(page):
     for span in spans(page):
         if span.startswith("heeltoe "):
             _, name, *arguments = shlex.split(span)
+            if name == "--version":
+                continue
             assert name in COMMANDS, span
             known = {option for parameter in COMMANDS[name].params for option in parameter.opts}
             assert name != "validate" or set(arguments) <= set(CASES), span

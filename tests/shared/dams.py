@@ -10,7 +10,8 @@ from heeltoe import Case, read_case
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = ROOT / "examples"
-ALL_EXAMPLES = sorted(EXAMPLES.rglob("*.toml"))
+STUDIES = sorted((EXAMPLES / "studies").glob("*.toml"))
+ALL_EXAMPLES = sorted(set(EXAMPLES.rglob("*.toml")) - set(STUDIES))
 BASE, HEIGHT, KOYNA, KOYNA_TOP, BLOCK, SLENDER = (
     EXAMPLES / f"{name}.toml" for name in ("typical-base", "typical-height", "koyna", "koyna-top", "block", "slender")
 )

@@ -118,7 +118,8 @@ def _path(location: Sequence[int | str], model: type[BaseModel]) -> str:
     for part, _, tells in _steps(location, model):
         if isinstance(part, int):
             text += f"[{part}]"
-        elif not tells:
+        # A name of blanks tells which kind of value stands there, and no more.
+        elif part.strip() and not tells:
             text += f".{part}" if text else part
     return text
 

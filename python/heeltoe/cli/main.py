@@ -13,6 +13,7 @@ import typer
 from heeltoe.cli import dam as dam_commands
 from heeltoe.cli import motion as motion_command
 from heeltoe.cli import run as run_command
+from heeltoe.cli import study as study_command
 from heeltoe.cli.common import BAD_INPUT, BUG, INTERRUPTED, NO_RESULT, app
 from heeltoe.cli.streams import console, streams
 from heeltoe.errors import InputError
@@ -106,6 +107,7 @@ for command in (
     dam_commands.statics,
     dam_commands.animate,
     motion_command.motion,
+    study_command.study,
     validate,
     new,
 ):

@@ -44,7 +44,7 @@ class Earthquake:
 
     def silent(self, seconds: float) -> Earthquake:
         """Return the same with so much silence after it [s]."""
-        return replace(self, silence=seconds)
+        return self if seconds == self.silence else replace(self, silence=seconds)
 
     @cached_property
     def shaking(self) -> Shaking:

@@ -1,1 +1,1 @@
-"""Several runs of one case: grids, spreads, maps of overturning."""
+"""Many runs of one dam: tables, spreads, maps of overturning, studies with their plan, their store and what they say."""

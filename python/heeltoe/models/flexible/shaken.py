@@ -78,12 +78,16 @@ class ShakenDam:
             self._ground(count), step, theta, stride=stride, penalty=self._penalty(), ending=ending
         )
 
-    def run_scaled(self, step: float, scales: Floats, ending: Ending | None = None) -> dict[str, Floats]:
+    def run_scaled(
+        self, step: float, scales: Floats, ending: Ending | None = None, threads: int = 0
+    ) -> dict[str, Floats]:
         """Run once for each factor on the ground motion, side by side; (n,) arrays by name."""
         count, step = self._steps(step)
         pairs = np.column_stack([scales, scales])
         theta = self.case.flexible.theta
-        return self.dam.kernel.run_many(self._ground(count), step, theta, pairs, penalty=self._penalty(), ending=ending)
+        return self.dam.kernel.run_many(
+            self._ground(count), step, theta, pairs, threads=threads, penalty=self._penalty(), ending=ending
+        )
 
     def _steps(self, step: float) -> tuple[int, float]:
         """Return how many steps of about this length make the whole run, and their length [s]."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from time import monotonic
 
@@ -78,14 +78,31 @@ def rigid_many(
     rows = rows_of(blocks, motions, motion_of, scales)
     pairs = [motion if isinstance(motion, tuple) else (motion, None) for motion in motions]
     earthquakes = [Earthquake(across, up, across.duration) for across, up in pairs]
-    table = {name: np.zeros(len(rows.numbers)) for name in SUMMARY}
     with Progress(console=Console(stderr=True), transient=True, disable=not progress) as bar:
         task, began = bar.add_task("rigid runs", total=len(rows.numbers), visible=False), monotonic()
-        for part, kind in _parts(rows, limits, _CHUNK if progress else len(rows.numbers)):
-            for some, found in _until_rest(rows, part, earthquakes, kind, threads):
-                for name, values in found.items():
-                    table[name][some] = values
-            bar.update(task, advance=part.size, visible=monotonic() - began > 1.0)
+
+        def told(done: int) -> None:
+            bar.update(task, advance=done, visible=monotonic() - began > 1.0)
+
+        return run_rows(rows, earthquakes, limits, threads, told if progress else None)
+
+
+def run_rows(
+    rows: Rows,
+    earthquakes: Sequence[Earthquake],
+    limits: Limits | None = None,
+    threads: int = 0,
+    progress: Callable[[int], None] | None = None,
+) -> dict[str, Floats]:
+    """Run blocks that have been checked; what `rows.which` counts are `earthquakes`. `progress` is told how many more
+    are done. Otherwise as :func:`rigid_many`."""
+    table = {name: np.zeros(len(rows.numbers)) for name in SUMMARY}
+    for part, kind in _parts(rows, limits, _CHUNK if progress else len(rows.numbers)):
+        for some, found in _until_rest(rows, part, earthquakes, kind, threads):
+            for name, values in found.items():
+                table[name][some] = values
+        if progress is not None:
+            progress(part.size)
     return table
 
 
@@ -111,11 +128,12 @@ def _until_rest(
     limits, exact = kind
 
     def run(some: Integers, silence: float) -> dict[str, Floats]:
-        shakings = [each.silent(silence).shaking for each in earthquakes]
+        used, place = np.unique(rows.which[some], return_inverse=True)
+        which = place.astype(np.int64)
+        shakings = [earthquakes[each].silent(silence).shaking for each in used.tolist()]
         if exact:
-            which, scale = rows.which[some], rows.scales[some]
-            return run_blocks(rows.numbers[some], shakings, which, scale, limits, threads)
-        return _integrated(rows, some, shakings, limits, threads)
+            return run_blocks(rows.numbers[some], shakings, which, rows.scales[some], limits, threads)
+        return _integrated(rows, some, which, shakings, limits, threads)
 
     found = run(part, 0.0)
     yield part, found
@@ -141,17 +159,18 @@ def _move(found: dict[str, Floats]) -> NDArray[np.bool_]:
 
 
 def _integrated(
-    rows: Rows, part: Integers, shakings: Sequence[Shaking], limits: Limits, threads: int
+    rows: Rows, part: Integers, which: Integers, shakings: Sequence[Shaking], limits: Limits, threads: int
 ) -> dict[str, Floats]:
     """Run blocks of which something changes as they move; the kernel leaves Python to the others meanwhile."""
 
-    def run(row: int) -> list[float]:
-        block, shaking, (across, up) = rows.blocks[row], shakings[rows.which[row]], rows.scales[row]
+    def run(place: int) -> list[float]:
+        row, shaking = part[place], shakings[which[place]]
+        block, (across, up) = rows.blocks[row], rows.scales[row]
         vertical = None if shaking.up is None else up * shaking.up
         shaken = Shaking(shaking.time, across * shaking.horizontal, vertical)
         what = varying(block.case, block)
         return list(run_block(rows.numbers[row], shaken, np.empty(0), limits, varying=what).summary.values())
 
     with ThreadPoolExecutor(threads or None) as pool:
-        summaries = np.array(list(pool.map(run, part.tolist())))
+        summaries = np.array(list(pool.map(run, range(part.size))))
     return dict(zip(SUMMARY, summaries.T, strict=True))

@@ -1,0 +1,87 @@
+"""The command that runs a study."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from heeltoe.cli.common import LONGEST_PATH, NO_RESULT, JsonPath, check_json, finish, say_file
+from heeltoe.cli.streams import console
+from heeltoe.plain import plain
+
+if TYPE_CHECKING:
+    from heeltoe.study.run import Progress
+
+
+def study(
+    file: Annotated[str, typer.Argument(metavar="STUDY.toml", help="The study file (TOML or JSON).")],
+    out: Annotated[
+        Path | None, typer.Option(metavar="DIR", help="Where the runs go; named by the file if not given.")
+    ] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Go on with a study that was begun there.")] = False,
+    scheduler: Annotated[
+        str | None, typer.Option(metavar="ADDRESS", help="A Dask scheduler whose workers run it; else this machine.")
+    ] = None,
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Say what there would be, and run nothing.")] = False,
+    json_: JsonPath = None,
+) -> None:
+    """Run a study: many dams, many earthquakes, one table."""
+    from heeltoe.study.file import read_study
+    from heeltoe.study.plan import plan_of
+    from heeltoe.study.run import outlook, run_study
+    from heeltoe.views.terminal.study import print_outlook, print_study
+
+    check_json(json_)
+    words = console(stderr=True)
+    read = read_study(file)
+    if dry_run:
+        print_outlook(outlook(plan_of(read), os.cpu_count() or 1), words)
+        return
+    place = out or Path(f"{Path(file).stem}-study")
+    try:
+        with _bar() as progress:
+            found = run_study(
+                read,
+                place,
+                resume=resume,
+                scheduler=scheduler,
+                progress=progress,
+                before=lambda expected: print_outlook(expected, words),
+            )
+    except KeyboardInterrupt:
+        again = f"heeltoe study {plain(file, LONGEST_PATH)} --out {plain(place, LONGEST_PATH)} --resume"
+        print(f"heeltoe: what is done stays in {plain(place, LONGEST_PATH)}; go on by: {again}", file=sys.stderr)
+        raise
+    finish(found.to_json(), json_, [], lambda console: print_study(found, console))
+    say_file("wrote", place, words)
+    if not found.all_ok:
+        raise typer.Exit(NO_RESULT)
+
+
+@contextmanager
+def _bar() -> Iterator[Callable[[Progress], None]]:
+    """Show how far the study is, on a terminal; elsewhere nothing."""
+    if not sys.stderr.isatty():
+        yield lambda progress: None
+        return
+    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import Progress as Bar
+
+    from heeltoe.views.terminal.study import duration
+
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Bar(*columns, console=console(stderr=True), transient=True) as bar:
+        task = bar.add_task("running", total=None)
+
+        def told(progress: Progress) -> None:
+            failed = f", {progress.failed} without a result" if progress.failed else ""
+            said = f"{progress.rate:,.0f} runs/s, {duration(progress.left)} left{failed}"
+            bar.update(task, description=said, completed=progress.done, total=progress.of)
+
+        yield told

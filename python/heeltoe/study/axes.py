@@ -1,0 +1,205 @@
+"""What varies in a study: a field of the case with its values, or the distribution that they are drawn from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+
+from heeltoe.arrays import Floats
+from heeltoe.case.model import Case
+from heeltoe.case.paths import quantity_of, value_of
+from heeltoe.errors import InputError, shown
+from heeltoe.study.file import Distribution, Value
+from heeltoe.units.parse import DIMENSIONS, parse
+
+
+@dataclass(frozen=True, eq=False)
+class Axis:
+    """A field that varies.
+
+    Attributes
+    ----------
+    path
+        Of the field.
+    quantity
+        That it holds, a key of :data:`heeltoe.units.parse.DIMENSIONS`; None of a choice among words.
+    values
+        As the user wrote them; of a distribution those that a grid takes, none where it is only drawn.
+    numbers
+        The same in SI units; None of words.
+    law
+        What is drawn from; None of a list, of which each value is as likely.
+    """
+
+    path: str
+    quantity: str | None
+    values: tuple[Value, ...]
+    numbers: Floats | None
+    law: Any = None
+
+    def changes(self, value: Any) -> dict[str, Any]:
+        """Return the change of the case that gives the field a value of :meth:`at` or :meth:`drawn`."""
+        if self.quantity is None or not isinstance(value, float):
+            return {self.path: value}
+        unit = DIMENSIONS[self.quantity].unit
+        return {self.path: f"{float(value)!r} {unit}" if unit else float(value)}
+
+    def at(self, index: NDArray[np.integer[Any]]) -> NDArray[Any]:
+        """Return the values at places of the list; SI numbers, or words."""
+        found: NDArray[Any] = self._listed[index]
+        return found
+
+    def drawn(self, share: Floats) -> NDArray[Any]:
+        """Return the values below which these shares of all draws lie, from 0 to 1; SI numbers, or words."""
+        if self.law is None:
+            return self._listed[np.minimum((share * len(self.values)).astype(np.int64), len(self.values) - 1)]
+        # What a sequence puts at the very ends is not infinite.
+        return np.asarray(self.law.ppf(np.clip(share, 1e-12, 1.0 - 1e-12)), dtype=np.float64)
+
+    @cached_property
+    def _listed(self) -> NDArray[Any]:
+        return np.array(self.values, dtype=object) if self.numbers is None else self.numbers
+
+
+def axis_of(path: str, given: tuple[Value, ...] | Distribution, case: Case, *, drawn: bool) -> Axis:
+    """Return what varies.
+
+    Parameters
+    ----------
+    path, given
+        From the study file.
+    case
+        The base case, whose other fields decide which values there can be.
+    drawn
+        Whether values are drawn; otherwise a distribution needs a count.
+
+    Raises
+    ------
+    InputError
+        Where there is no such field, or it cannot have such a value.
+    """
+    quantity = quantity_of(path)
+    if isinstance(given, Distribution):
+        if quantity is None:
+            case.with_({path: 1.0})  # which says what is wrong with the path, if anything
+            raise InputError("study-not-a-number", f"vary.{path}", shown(given.distribution))
+        law = law_of(given, lambda value, field: parse(value, quantity, field), f"vary.{path}")
+        numbers = np.zeros(0) if drawn else _even(given, law, f"vary.{path}")
+        ends = (*law.support(), *numbers)
+        for value in (each for each in ends if np.isfinite(each)):
+            _tried(case, Axis(path, quantity, (), None), float(value))
+        return Axis(path, quantity, tuple(numbers.tolist()), numbers, law)
+    axis = Axis(path, quantity, given, None)
+    found = [value_of(_tried(case, axis, value), path) for value in given]
+    if len({str(value) for value in found}) < len(found):
+        raise InputError("study-twice", f"vary.{path}", shown(list(given)))
+    if quantity is None:
+        return Axis(path, None, given, None)
+    # An acceleration remembers whether it was given in g.
+    numbers = np.array([each.si(case.gravity) if hasattr(each, "si") else float(each) for each in found])
+    return Axis(path, quantity, given, numbers)
+
+
+def check_drawn(axis: Axis, values: NDArray[Any], case: Case) -> None:
+    """Refuse a distribution of which something was drawn that the field cannot have.
+
+    Raises
+    ------
+    InputError
+        Naming the lowest or the highest value.
+    """
+    if axis.law is not None:
+        for value in (values.min(), values.max()):
+            _tried(case, axis, float(value))
+
+
+def law_of(given: Distribution, read: Callable[[object, str], float], field: str) -> Any:
+    """Return a distribution in SI units, as scipy has them.
+
+    Parameters
+    ----------
+    given
+        From the study file.
+    read
+        Returns the number that a value in a field means.
+    field
+        Where the distribution stands.
+
+    Raises
+    ------
+    InputError
+        Where its numbers do not make one.
+    """
+
+    def number(name: str) -> float:
+        value = getattr(given, "from_" if name == "from" else name)
+        return read(value, f"{field}.{name}")
+
+    if given.distribution in ("uniform", "triangular"):
+        low, high = number("from"), number("to")
+        if low >= high:
+            raise InputError("distribution-order", f"{field}.to", shown(given.to), lowest=shown(given.from_))
+        if given.distribution == "uniform":
+            return stats.uniform(low, high - low)
+        middle = number("mode")
+        if not low <= middle <= high:
+            raise InputError("distribution-mode", f"{field}.mode", shown(given.mode))
+        return stats.triang((middle - low) / (high - low), low, high - low)
+    low = -np.inf if given.lower is None else number("lower")
+    high = np.inf if given.upper is None else number("upper")
+    if low >= high:
+        raise InputError("distribution-order", f"{field}.upper", shown(given.upper), lowest=shown(given.lower))
+    if given.distribution == "normal":
+        mean, std = number("mean"), number("std")
+        if std <= 0.0:
+            raise InputError("distribution-spread", f"{field}.std", shown(given.std))
+        return stats.truncnorm((low - mean) / std, (high - mean) / std, mean, std)
+    median, dispersion = number("median"), given.dispersion
+    assert dispersion is not None
+    if median <= 0.0 or high <= 0.0:
+        raise InputError("distribution-spread", f"{field}.median", shown(given.median))
+    logarithms = [np.log(each / median) / dispersion if each > 0.0 else -np.inf for each in (low, high)]
+    return _CutLognormal(median, dispersion, *logarithms)
+
+
+class _CutLognormal:
+    """The lognormal distribution between two bounds, which scipy has not; what is used of it."""
+
+    def __init__(self, median: float, dispersion: float, low: float, high: float) -> None:
+        self._normal = stats.truncnorm(low, high, 0.0, 1.0)
+        self._median, self._dispersion = median, dispersion
+
+    def ppf(self, share: Floats) -> Floats:
+        """Return the values below which these shares of all draws lie."""
+        return np.asarray(self._median * np.exp(self._dispersion * self._normal.ppf(share)), dtype=np.float64)
+
+    def support(self) -> tuple[float, float]:
+        """Return the bounds, infinite where there is none: zero is never drawn."""
+        low, high = (float(end) for end in self._normal.support())
+        scaled = [self._median * np.exp(self._dispersion * end) if np.isfinite(end) else end for end in (low, high)]
+        return float(scaled[0]), float(scaled[1])
+
+
+def _even(given: Distribution, law: Any, field: str) -> Floats:
+    """Return equally likely values; of a uniform distribution from end to end, as people count."""
+    if given.count is None:
+        raise InputError("study-count", field, shown(given.distribution))
+    if given.distribution == "uniform":
+        low, high = (float(end) for end in law.support())
+        return np.linspace(low, high, given.count)
+    return np.asarray(law.ppf((np.arange(given.count) + 0.5) / given.count), dtype=np.float64)
+
+
+def _tried(case: Case, axis: Axis, value: Any) -> Case:
+    """Return the case with a value, which it may refuse."""
+    try:
+        return case.with_(axis.changes(value))
+    except InputError as error:
+        error.field = f"vary.{error.field}" if error.field == axis.path else f"vary.{axis.path}: {error.field}"
+        raise

@@ -1,0 +1,174 @@
+"""Fragility: the probability that a limit is exceeded, given how strong the motion is.
+
+A lognormal curve, ``P = Phi(ln(x / median) / dispersion)``, is fitted by maximum likelihood to which runs exceed the
+limit and which do not (Shinozuka et al. 2000; Baker 2015). Runs of one event are no independent witnesses: the
+confidence is that of a jackknife that leaves one event out at a time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+from scipy.special import ndtr
+
+from heeltoe.arrays import Floats, Integers
+from heeltoe.study.likelihood import Witnesses, fit, within, witnesses
+
+#: Events that are left out side by side.
+_TOGETHER = 64
+#: Outcomes of dams that have failed, whatever the limit.
+FAILED = ("overturned", "unstable", "large rotation")
+#: Of the limits, which numbers of a run are held against them, without sign.
+LIMITED = {
+    "residual_slip": ("residual_slip_m",),
+    "peak_slip": ("peak_slip_downstream_m", "peak_slip_upstream_m"),
+    "opening": ("opening_upstream_m", "opening_downstream_m"),
+    "rotation": ("rocking_downstream_rad", "rocking_upstream_rad"),
+}
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A fragility curve with what it rests on.
+
+    Attributes
+    ----------
+    limit, value
+        What is limited, and to how much, SI.
+    measure
+        Of the strength.
+    median, dispersion
+        Of the strength at which the limit is reached; None where there is no curve.
+    median_interval, dispersion_interval
+        What they lie within with the probability `confidence`; None of a single event, or where one of them decides
+        whether there is a curve at all.
+    record, other
+        Parts of the dispersion: from event to event, and what varies besides; None of a single event.
+    runs, exceeding, events
+        Behind the curve.
+    unknown
+        Runs that ended without a result; they are not behind it.
+    reached
+        Whether the median lies among the strengths; beyond them the curve is a guess.
+    why
+        Why there is no curve; empty where there is one.
+    """
+
+    limit: str
+    value: float
+    measure: str
+    confidence: float
+    median: float | None
+    dispersion: float | None
+    median_interval: tuple[float, float] | None
+    dispersion_interval: tuple[float, float] | None
+    record: float | None
+    other: float | None
+    runs: int
+    exceeding: int
+    events: int
+    unknown: int
+    reached: bool = True
+    why: str = ""
+
+    def probability(self, strength: Floats) -> Floats:
+        """Return the probability that the limit is exceeded at some strengths."""
+        assert self.median is not None
+        assert self.dispersion is not None
+        return np.asarray(ndtr(np.log(strength / self.median) / self.dispersion), dtype=np.float64)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return it as a result has it."""
+        return asdict(self)
+
+
+def exceeding(table: Mapping[str, Floats], outcome: NDArray[Any], limit: str, value: float) -> NDArray[np.float64]:
+    """Return which runs exceed a limit: 1, 0, or not a number where a run ended without a result."""
+    largest = np.max([np.abs(table[name]) for name in LIMITED[limit]], axis=0)
+    found = np.where(outcome == "ok", (largest > value).astype(np.float64), np.nan)
+    return np.where(np.isin(outcome, FAILED), 1.0, found)
+
+
+def curve(
+    limit: str,
+    value: float,
+    measure: str,
+    strength: Floats,
+    exceeds: Floats,
+    event: Integers,
+    *,
+    confidence: float,
+) -> Curve:
+    """Fit a curve.
+
+    Parameters
+    ----------
+    limit, value, measure
+        What is fitted.
+    strength
+        (n,) of the motion of each run.
+    exceeds
+        (n,) as of :func:`exceeding`.
+    event
+        (n,) which runs belong together.
+    confidence
+        Probability of the intervals.
+    """
+    known = np.isfinite(exceeds)
+    empty = Curve(
+        *(limit, value, measure, confidence, None, None, None, None, None, None),
+        runs=int(known.sum()),
+        exceeding=int(np.nansum(exceeds)),
+        events=np.unique(event[known]).size,
+        unknown=int((~known).sum()),
+    )
+    if not 0 < empty.exceeding < empty.runs:
+        return replace(empty, why="every run exceeds it" if empty.exceeding else "no run exceeds it")
+    seen = witnesses(strength[known], exceeds[known] > 0.5, event[known])
+    logarithm, dispersion = fit(seen, np.ones((1, seen.runs.size)))[0].tolist()
+    if not np.isfinite(dispersion):
+        return replace(empty, why="stronger motions exceed it no more often")
+    reached = bool(strength[known].min() <= np.exp(logarithm) <= strength[known].max())
+    found = replace(empty, median=float(np.exp(logarithm)), dispersion=dispersion, reached=reached)
+    if seen.events < 2:
+        return found
+    other = within(seen, dispersion)
+    median, spread = _intervals(seen, (logarithm, np.log(dispersion)), confidence)
+    return replace(
+        found,
+        median_interval=median,
+        dispersion_interval=spread,
+        record=float(np.sqrt(max(dispersion**2 - other**2, 0.0))),
+        other=other,
+    )
+
+
+def _intervals(
+    seen: Witnesses, found: tuple[float, float], confidence: float
+) -> tuple[tuple[float, float], tuple[float, float]] | tuple[None, None]:
+    """Return what median and dispersion lie within, from their logarithms with each event left out in turn.
+
+    The jackknife over events (Efron and Stein 1981): their deviation, on either side of the value without its bias, as
+    far as Student's distribution has it. Of intervals that ought to hold in 90 % of all cases, those of 21 and of 42
+    events hold in 87 to 89 % for the dispersion; a bootstrap of events, without its bias or not, in 75 to 86 %.
+    """
+    events = seen.events
+    fits = [
+        fit(seen, (np.arange(start, min(start + _TOGETHER, events))[:, None] != seen.event).astype(np.float64))
+        for start in range(0, events, _TOGETHER)
+    ]
+    left = np.concatenate(fits)
+    if not np.isfinite(left).all():
+        return None, None
+    left[:, 1] = np.log(left[:, 1])
+    mean = left.mean(axis=0)
+    deviation = np.sqrt((events - 1.0) / events * np.sum((left - mean) ** 2, axis=0))
+    middle = np.array(found) - (events - 1.0) * (mean - found)
+    reach = float(stats.t.ppf(0.5 + confidence / 2.0, events - 1)) * deviation
+    low, high = np.exp(middle - reach).tolist(), np.exp(middle + reach).tolist()
+    return (low[0], high[0]), (low[1], high[1])

@@ -1,0 +1,188 @@
+"""Run a study from its file to its table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from os import PathLike
+from pathlib import Path
+from time import monotonic
+
+import numpy as np
+import pyarrow as pa
+
+from heeltoe.study.file import Study, read_study
+from heeltoe.study.opened import Opened, open_study
+from heeltoe.study.parts import run_part
+from heeltoe.study.pilot import pilot_run
+from heeltoe.study.plan import Plan, plan_of
+from heeltoe.study.schedule import run_here, run_on_workers
+from heeltoe.study.store import Store, begin, keep, pilot_of
+
+#: Seconds that a part should take a worker: long beside what it costs to hand one out, short beside a patient wait.
+_SECONDS = 2.0
+#: Runs of a part at most, so that memory stays small.
+_MOST = 50_000
+#: Runs that are tried to know how long all will take.
+_TRIED = 200
+
+
+@dataclass(frozen=True)
+class Progress:
+    """How far a study is.
+
+    Attributes
+    ----------
+    done, of
+        Runs, those of earlier sessions among them.
+    failed
+        Of those of this session, the ones without a result.
+    rate
+        Runs a second in this session.
+    """
+
+    done: int
+    of: int
+    failed: int
+    rate: float
+
+    @property
+    def left(self) -> float:
+        """Seconds to go."""
+        return (self.of - self.done) / self.rate if self.rate > 0.0 else float("inf")
+
+
+@dataclass(frozen=True, eq=False)
+class Outlook:
+    """What a study will be, before it runs.
+
+    Attributes
+    ----------
+    plan
+        The study.
+    seconds_per_run
+        On one core, as tried on a few.
+    cores
+        That will run it.
+    """
+
+    plan: Plan
+    seconds_per_run: float
+    cores: int
+
+    @property
+    def seconds(self) -> float:
+        """About how long it will take."""
+        return self.plan.count * self.seconds_per_run / self.cores
+
+    @property
+    def size(self) -> int:
+        """How many runs make a part: whole dams where that is possible, so that what is built for one is built once."""
+        wanted = int(np.clip(_SECONDS / max(self.seconds_per_run, 1e-9), 1, _MOST))
+        for together in (self.plan.count // self.plan.samples.count, self.plan.sizes[2] * self.plan.sizes[3]):
+            if together <= max(4 * wanted, 8) and together <= _MOST:
+                return max(1, wanted // together) * together
+        return wanted
+
+
+def outlook(study: Study | Plan, cores: int) -> Outlook:
+    """Say how many runs there are and about how long they take, by trying some.
+
+    Raises
+    ------
+    InputError
+        Where the study cannot run.
+    """
+    plan = study if isinstance(study, Plan) else plan_of(study)
+    count = min(plan.count, plan.sizes[3] if set(plan.study.model) - {"rigid"} else _TRIED)
+    run_part(plan, 0, min(count, 1))  # what is loaded at first use is not counted
+    began = monotonic()
+    run_part(plan, 0, count)
+    return Outlook(plan, (monotonic() - began) / count, cores)
+
+
+def run_study(
+    source: Study | str | PathLike[str],
+    out: str | PathLike[str],
+    *,
+    resume: bool = False,
+    scheduler: str | None = None,
+    progress: Callable[[Progress], None] | None = None,
+    before: Callable[[Outlook], None] | None = None,
+) -> Opened:
+    """Run a study, or what is left of it.
+
+    Parameters
+    ----------
+    source
+        A study file, or what :func:`heeltoe.read_study` returns.
+    out
+        Directory of the results; see :mod:`heeltoe.study.store`.
+    resume
+        Go on with a study that was begun there.
+    scheduler
+        Address of a Dask scheduler whose workers run it; without one rigid studies run in this process on all cores,
+        others in one worker process for each core. The results are the same bits.
+    progress
+        Told after each part.
+    before
+        Told what there will be before anything runs.
+
+    Returns
+    -------
+    Opened
+        The results, as :func:`heeltoe.open_study` returns them.
+
+    Raises
+    ------
+    InputError
+        Where the study cannot run, or its results cannot be written.
+    """
+    study = source if isinstance(source, Study) else read_study(source)
+    plan = plan_of(study)
+    directory = Path(out)
+    store, plan = _begun(plan, directory, resume, before)
+    _run(plan, store, scheduler, progress)
+    return open_study(directory)
+
+
+def _begun(plan: Plan, directory: Path, resume: bool, before: Callable[[Outlook], None] | None) -> tuple[Store, Plan]:
+    """Take up the study where it stands, or begin it."""
+    import os
+
+    from heeltoe.study.store import STUDY
+
+    if (directory / STUDY).exists():
+        store = begin(plan, directory, 1, resume=resume)
+        return store, replace(plan, pilot=pilot_of(directory))
+    if "flexible" in plan.study.model:
+        plan = replace(plan, pilot=pilot_run(plan))
+    expected = outlook(plan, os.cpu_count() or 1)
+    if before is not None:
+        before(expected)
+    store = begin(plan, directory, expected.size, resume=resume)
+    keep(store, plan)
+    return store, plan
+
+
+def _run(plan: Plan, store: Store, scheduler: str | None, progress: Callable[[Progress], None] | None) -> None:
+    missing = store.missing()
+    if not missing:
+        return
+    parts = [(part, *store.stretch(part)) for part in missing]
+    here = scheduler is None and set(plan.study.model) == {"rigid"}
+    ran = run_here(plan, parts) if here else run_on_workers(plan, parts, scheduler)
+    done = store.count - sum(stop - start for _, start, stop in parts)
+    began, session, failed = monotonic(), 0, 0
+    for part, table in ran:
+        store.write(part, table)
+        session += len(table)
+        failed += _failed(table)
+        if progress is not None:
+            rate = session / max(monotonic() - began, 1e-9)
+            progress(Progress(done + session, store.count, failed, rate))
+
+
+def _failed(table: pa.Table) -> int:
+    counts = table["outcome"].combine_chunks().value_counts().to_pylist()
+    return sum(each["counts"] for each in counts if each["values"] not in ("ok", "overturned"))

@@ -1,0 +1,143 @@
+"""What the terminal shows of a study (rich)."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rich.console import Console
+from rich.markup import escape
+
+from heeltoe.motion.intensity import MEASURES
+from heeltoe.study.opened import Opened
+from heeltoe.study.run import Outlook
+from heeltoe.units.parse import STANDARD_GRAVITY
+from heeltoe.units.write import length
+from heeltoe.views.terminal.common import print_title, quiet_table
+
+_KINDS = {"residual_slip": "residual slip", "peak_slip": "peak slip", "opening": "opening", "rotation": "rotation"}
+
+
+def duration(seconds: float) -> str:
+    """Write a time as people say it."""
+    if seconds == float("inf"):
+        return "?"
+    for most, unit, size in ((90.0, "s", 1.0), (5400.0, "min", 60.0), (172800.0, "h", 3600.0)):
+        if seconds < most:
+            return f"{seconds / size:.0f} {unit}" if seconds >= 1.0 else "less than 1 s"
+    return f"{seconds / 86400.0:,.0f} days"
+
+
+def print_outlook(expected: Outlook, console: Console) -> None:
+    """Say what a study will be."""
+    plan = expected.plan
+    dams, motions, strengths, models = plan.sizes
+    parts = [f"{dams:,} dams"]
+    if plan.every and motions > 1:
+        parts.append(f"{motions} motions")
+    parts += [f"{strengths} strengths"] if strengths > 1 else []
+    parts += [f"{models} models"] if models > 1 else []
+    drawn = f"; of {len(plan.shakes)} motions, one each" if not plan.every and len(plan.shakes) > 1 else ""
+    times = " x ".join(parts)
+    how_long = duration(expected.seconds)
+    about = how_long if how_long.startswith("less") else f"about {how_long}"
+    text = f"{plan.count:,} runs ({times}{drawn}), {about} on {expected.cores} cores"
+    console.print(escape(text), soft_wrap=True, highlight=False)
+
+
+def print_study(found: Opened, console: Console) -> None:
+    """Print what a study says."""
+    print_title(found.title, "study", console)
+    told = found.told["study"]
+    by = f"{told['method']}, {counted(len(told['vary']), 'field')}, {counted(len(found.told['events']), 'event')}"
+    console.print(escape(f"{found.store.count:,} runs; {by}"), style="dim", soft_wrap=True, highlight=False)
+    if not found.complete:
+        missing = len(found.store.missing())
+        console.print(f"[yellow]warning[/yellow]  {missing} of {found.store.parts} parts are not there yet")
+    console.print()
+    table = quiet_table()
+    table.add_column("", no_wrap=True)
+    for each in found.summary:
+        table.add_column(each["model"], justify="right", no_wrap=True)
+    for label, *cells in zip(*(_lines(each) for each in found.summary), strict=True):
+        table.add_row(label[0], *(text for _, text in (label, *cells)))
+    console.print(table)
+    for each in found.summary:
+        others = [f"{name} {count:,}" for name, count in each["outcomes"].items() if name != "ok"]
+        if others:
+            console.print(escape(f"{each['model']}, runs that ended otherwise: {', '.join(others)}"), highlight=False)
+    if told["fragility"] is not None:
+        _print_fragility(found.fragility, console)
+
+
+def counted(count: int, what: str) -> str:
+    """Write how many of something there are."""
+    return f"{count:,} {what}{'' if count == 1 else 's'}"
+
+
+def _lines(each: dict[str, Any]) -> list[tuple[str, str]]:
+    """Return what a summary says of one model, with labels."""
+    lost = each["runs"] - sum(each["outcomes"].get(name, 0) for name in ("ok", "overturned"))
+    lines = [
+        ("runs", f"{each['runs']:,}"),
+        ("without a result", f"{lost:,}"),
+        ("that slide", f"{each['share_that_slides']:.1%}"),
+    ]
+    for name, label in (("residual_slip_m", "residual slip"), ("opening_upstream_m", "opening, upstream face")):
+        values = each[name]
+        for key, what in (("50%", "half stay below"), ("84%", "84 % stay below"), ("95%", "95 % stay below")):
+            lines.append((f"{label}: {what}", _length(values[key])))
+        lines.append((f"{label}: largest", _length(values["largest"])))
+    modes = ("sliding", "slide_rocking", "drifting")
+    for name in modes:
+        share = each["dominant_mode"].get(name)
+        lines.append((f"most of the slip by {name.replace('_', '-')}", "-" if share is None else f"{share:.1%}"))
+    return lines
+
+
+def _length(value: float | None) -> str:
+    return "-" if value is None else length(value, "si") if value else "0"
+
+
+def _print_fragility(curves: list[dict[str, Any]], console: Console) -> None:
+    if not curves:
+        return
+    console.print()
+    table = quiet_table()
+    table.padding = (0, 2, 0, 0)
+    models = {each["model"] for each in curves}
+    measure = curves[0]["measure"]
+    headings = ["exceeds", f"median {measure}", "dispersion", "records", "other", "runs"]
+    for place, heading in enumerate(headings):
+        table.add_column(heading, no_wrap=True, justify="left" if place < 3 else "right")
+    for each in curves:
+        amount = f"{each['value']:.3g} rad" if each["limit"] == "rotation" else length(each["value"], "si")
+        what = f"{_KINDS[each['limit']]} {amount}" + (f", {each['model']}" if len(models) > 1 else "")
+        share = f"{each['exceeding'] / max(each['runs'], 1):.1%}"
+        if each["median"] is None:
+            table.add_row(what, each["why"], "", "", "", share)
+            continue
+        median = _with(each["median"], each["median_interval"], measure, "" if each["reached"] else " *")
+        dispersion = _with(each["dispersion"], each["dispersion_interval"])
+        table.add_row(what, median, dispersion, _part(each["record"]), _part(each["other"]), share)
+    console.print(table)
+    said = [
+        f"below each number what it lies within with {curves[0]['confidence']:.0%}, leaving out one event at a time"
+    ]
+    unit = MEASURES[measure][0] if measure in MEASURES else "m/s^2"
+    said.append(f"medians in {'g' if unit == 'm/s^2' else unit}")
+    said += ["* stronger or weaker than any motion here"] if not all(each["reached"] for each in curves) else []
+    console.print("; ".join(said), style="dim", highlight=False)
+    unknown = max(each["unknown"] for each in curves)
+    if unknown:
+        console.print(f"[yellow]warning[/yellow]  {counted(unknown, 'run')} without a result are behind no curve")
+
+
+def _with(value: float, interval: tuple[float, float] | None, measure: str = "", mark: str = "") -> str:
+    """Write a number above what it lies within."""
+    scale = STANDARD_GRAVITY if measure in ("pga", "sa") else 1.0
+    ends = "" if interval is None else f"\n[dim]{interval[0] / scale:.2g} to {interval[1] / scale:.2g}[/]"
+    return f"{value / scale:.3g}{mark}{ends}"
+
+
+def _part(value: float | None) -> str:
+    return "-" if value is None else f"{value:.2f}"

@@ -1,0 +1,205 @@
+"""Fragility curves: known answers come out, failures count, and what is said to hold with 90 % holds about so often."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from heeltoe import InputError, run_study
+from heeltoe.study.answers import bands
+from heeltoe.study.fragility import curve, exceeding
+from heeltoe.study.likelihood import fit, within, witnesses
+from shared.command import command
+from shared.studies import DRAWN, GRID, study_file
+
+MEDIAN, RECORD, OTHER = 0.5, 0.3, 0.25
+LEVELS = np.linspace(0.1, 1.5, 15)
+OPTIONS = {"confidence": 0.9}
+
+
+def capacities(seed, events, dams, record=RECORD, other=OTHER):
+    """Return strength, whether each run exceeds, and its event: each dam through all strengths in each event."""
+    random = np.random.default_rng(seed)
+    capacity = MEDIAN * np.exp(
+        record * random.standard_normal((events, 1, 1)) + other * random.standard_normal((events, dams, 1))
+    )
+    exceeds = (capacity <= LEVELS).astype(float)
+    strength, event = np.broadcast_arrays(LEVELS, np.arange(events)[:, None, None])
+    shape = exceeds.shape
+    return np.broadcast_to(strength, shape).ravel(), exceeds.ravel(), np.broadcast_to(event, shape).ravel()
+
+
+def test_a_known_curve_and_its_parts_come_out():
+    found = curve("residual_slip", 0.01, "pga", *capacities(12, 300, 20), **OPTIONS)
+    assert found.median == pytest.approx(MEDIAN, rel=0.04)
+    assert found.dispersion == pytest.approx(np.hypot(RECORD, OTHER), rel=0.05)
+    assert found.record == pytest.approx(RECORD, rel=0.08)
+    assert found.other == pytest.approx(OTHER, rel=0.05)
+    assert found.median_interval[0] < MEDIAN < found.median_interval[1]
+    assert found.reached
+    assert found.probability(np.array([found.median])) == pytest.approx(0.5)
+
+
+def test_what_does_not_vary_within_an_event_is_of_the_records():
+    found = curve("residual_slip", 0.01, "pga", *capacities(2, 60, 4, other=0.0), **OPTIONS)
+    assert found.other == 0.0
+    assert found.record == found.dispersion
+
+
+def test_one_event_has_no_interval():
+    strength, exceeds, event = capacities(3, 1, 50)
+    found = curve("residual_slip", 0.01, "pga", strength, exceeds, event, **OPTIONS)
+    assert found.median is not None
+    assert found.median_interval is None
+    assert found.record is None
+
+
+def test_the_fit_is_that_of_greatest_likelihood():
+    strength, exceeds, event = capacities(4, 12, 3)
+    seen = witnesses(strength, exceeds > 0.5, event)
+    middle, dispersion = fit(seen, np.ones((1, seen.runs.size)))[0]
+
+    def likelihood(m, d):
+        p = stats.norm.cdf((np.log(strength) - m) / d)
+        return np.sum(np.where(exceeds > 0.5, np.log(p), np.log1p(-p)))
+
+    best = likelihood(middle, dispersion)
+    for dm, dd in ((1e-4, 0.0), (-1e-4, 0.0), (0.0, 1e-4), (0.0, -1e-4)):
+        assert likelihood(middle + dm, dispersion + dd) < best
+
+
+def test_many_strengths_are_put_together_without_moving_the_curve():
+    random = np.random.default_rng(5)
+    strength = random.uniform(0.1, 1.5, 60_000)
+    event = random.integers(0, 20, strength.size)
+    exceeds = strength > MEDIAN * np.exp(0.4 * random.standard_normal(strength.size))
+    together = witnesses(strength, exceeds, event)
+    assert together.runs.size < 0.6 * strength.size
+    assert together.runs.sum() == strength.size
+    found = np.exp(fit(together, np.ones((1, together.runs.size)))[0, 0])
+    # One event, none of it put together, in pieces that are few enough.
+    alone = [fit(witnesses(strength[i::4], exceeds[i::4], event[i::4]), np.ones((1, 15_000)))[0, 0] for i in range(4)]
+    assert found == pytest.approx(np.exp(np.mean(alone)), rel=2e-3)
+    assert within(together, 0.5) == pytest.approx(0.4, rel=0.05)
+
+
+def test_no_curve_where_none_can_be():
+    strength, exceeds, event = capacities(6, 10, 2)
+    none = curve("residual_slip", 0.01, "pga", strength, 0.0 * exceeds, event, **OPTIONS)
+    assert none.median is None
+    assert none.why == "no run exceeds it"
+    all_ = curve("residual_slip", 0.01, "pga", strength, 0.0 * exceeds + 1.0, event, **OPTIONS)
+    assert all_.why == "every run exceeds it"
+    turned = curve("residual_slip", 0.01, "pga", strength, 1.0 - exceeds, event, **OPTIONS)
+    assert turned.why == "stronger motions exceed it no more often"
+
+
+def test_a_median_beyond_the_motions_is_said():
+    strength, exceeds, event = capacities(7, 40, 5)
+    weak = strength < 0.35
+    found = curve("residual_slip", 0.01, "pga", strength[weak], exceeds[weak], event[weak], **OPTIONS)
+    assert not found.reached
+
+
+def test_failures_exceed_every_limit_and_what_is_not_known_is_counted():
+    table = {"residual_slip_m": np.array([0.02, -0.02, 0.0, np.nan, np.nan, np.nan])}
+    outcome = np.array(["ok", "ok", "ok", "overturned", "unstable", "cycling"])
+    found = exceeding(table, outcome, "residual_slip", 0.01)
+    assert found.tolist()[:5] == [1.0, 1.0, 0.0, 1.0, 1.0]
+    assert np.isnan(found[5])
+
+
+def test_a_band_counts_what_is_not_known_as_the_worst():
+    found = bands(np.repeat([1.0, 2.0], 10), np.array([*np.arange(1.0, 10.0), np.nan] * 2))
+    assert found["strength"] == pytest.approx([1.0, 2.0])
+    assert found["runs"] == [10, 10]
+    assert found["median"] == [5.0, 5.0]
+    assert found["high"] == [9.0, 9.0]
+    drawn = bands(np.linspace(1.0, 2.0, 1200), np.linspace(1.0, 2.0, 1200) ** 2)
+    assert len(drawn["runs"]) == 12
+    assert sum(drawn["runs"]) == 1200
+    assert drawn["median"] == pytest.approx(np.array(drawn["strength"]) ** 2, rel=0.02)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("events", [21, 42])
+def test_intervals_hold_about_as_often_as_they_say(events):
+    held = np.zeros(2)
+    for seed in range(100):
+        found = curve("residual_slip", 0.01, "pga", *capacities([events, seed], events, 8), **OPTIONS)
+        held += [
+            found.median_interval[0] <= MEDIAN <= found.median_interval[1],
+            found.dispersion_interval[0] <= np.hypot(RECORD, OTHER) <= found.dispersion_interval[1],
+        ]
+    # Neither too narrow nor too wide: 85 to 95 of 100, with what chance makes of 100 trials on either side.
+    assert (held >= 84).all(), held
+    assert (held <= 97).all(), held
+
+
+def test_the_command_says_what_the_study_found(tmp_path):
+    file = study_file(tmp_path, DRAWN)
+    said = command("study", file, "--out", tmp_path / "out", "--json", tmp_path / "study.json", columns=80)
+    assert said.returncode == 0, said.stderr
+    assert "60 runs (60 dams; of 10 motions, one each)" in said.stderr
+    for text in ("A block  (study)", "residual slip: half stay below", "exceeds", "median pga", "rotation 0.01 rad"):
+        assert text in said.stdout
+    assert max(len(line) for line in said.stdout.splitlines() if "wrote" not in line) <= 80
+    assert (tmp_path / "study.json").read_text().count('"limit"') == 3
+
+
+def test_a_dry_run_says_what_there_would_be(tmp_path):
+    said = command("study", study_file(tmp_path, GRID), "--dry-run", "--out", tmp_path / "out")
+    assert said.returncode == 0
+    assert "60 runs (6 dams x 5 motions x 2 strengths)" in said.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_an_interrupted_command_says_how_to_go_on(tmp_path, monkeypatch):
+    def stop(*args, **options):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("heeltoe.study.run._run", stop)
+    said = command("study", study_file(tmp_path, GRID), "--out", tmp_path / "out")
+    assert said.returncode == 130
+    assert f"--out {tmp_path / 'out'} --resume" in said.stderr
+
+
+def test_the_tables_of_an_opened_study(tmp_path):
+    found = run_study(study_file(tmp_path, GRID), tmp_path / "out")
+    frame = found.to_pandas()
+    assert len(frame) == 60
+    count, most = found.duckdb().execute("select count(*), max(abs(residual_slip_m)) from runs").fetchone()
+    assert count == 60
+    assert most == frame["residual_slip_m"].abs().max()
+    cube = found.to_xarray()
+    assert dict(cube.sizes) == {"crack.friction": 2, "crack.restitution": 3, "motion": 5, "strength": 2}
+    one = frame.iloc[37]
+    place = {name: one[name] for name in ("crack.friction", "crack.restitution", "motion")}
+    there = cube["residual_slip_m"].sel(place).isel(strength=37 % 2)
+    assert float(there) == one["residual_slip_m"]
+    assert found.dataset.count_rows() == 60
+    # All motions are scaled to these.
+    assert found.strength("pga") == pytest.approx(np.tile([0.3 * 9.80665, 0.9 * 9.80665], 30))
+    assert found.strength("arias")[1] == pytest.approx(9.0 * found.strength("arias")[0])
+    with pytest.raises(InputError) as refused:
+        found.strength("magnitude")
+    assert refused.value.code == "study-measure"
+    with pytest.raises(InputError) as refused:
+        _ = found.fragility
+    assert refused.value.code == "study-no-fragility"
+    assert found.bands()["rigid"]["runs"] == [30, 30]
+    assert found.summary[0]["outcomes"] == {"ok": 60}
+    drawn = run_study(study_file(tmp_path, DRAWN, "drawn.toml"), tmp_path / "drawn")
+    with pytest.raises(InputError) as refused:
+        drawn.to_xarray()
+    assert refused.value.code == "study-no-grid"
+
+
+def test_what_is_not_installed_is_said(tmp_path, monkeypatch):
+    found = run_study(study_file(tmp_path, GRID), tmp_path / "out")
+    for package, call in (("duckdb", found.duckdb), ("xarray", found.to_xarray), ("pandas", found.to_pandas)):
+        with monkeypatch.context() as patch:
+            patch.setitem(__import__("sys").modules, package, None)
+            with pytest.raises(InputError, match="pip install"):
+                call()

@@ -1,0 +1,212 @@
+"""The study file: what is read of it, and what is refused in one line before anything runs."""
+
+from __future__ import annotations
+
+import pytest
+
+from heeltoe import InputError
+from heeltoe.study import parts
+from heeltoe.study.file import read_study
+from heeltoe.study.plan import plan_of
+from shared.command import command
+from shared.dams import STUDIES
+from shared.studies import DRAWN, GRID, study_file
+
+
+def plan(folder, text, case=None):
+    return plan_of(read_study(study_file(folder, text, case=case)))
+
+
+def changed(text, old, new):
+    assert old in text
+    return text.replace(old, new)
+
+
+FRICTION = '"crack.friction" = [0.3, 0.5]'
+CORRELATED = 'correlation = [["crack.friction"'
+# fmt: off
+# What is wrong, and the field and a word of the one line that says so.
+REFUSED = {
+    "an unknown field": (changed(GRID, FRICTION, '"crack.fricton" = [0.3]'), "crack.fricton", "friction"),
+    "an unknown key": (changed(GRID, "[vary]", "sample = 3\n[vary]"), "sample", "samples"),
+    "a value out of range": (changed(GRID, FRICTION, '"crack.friction" = [0.3, 99]'), "vary.crack.friction", "10"),
+    "the same value twice": (changed(GRID, FRICTION, '"crack.friction" = [0.3, "30 %"]'), "crack.friction", "once"),
+    "no unit": (
+        changed(GRID, FRICTION, '"concrete.density" = { from = 2300, to = "2400 kg/m^3", count = 2 }'),
+        "vary.concrete.density.from",
+        "no unit",
+    ),
+    "a distribution without a count": (changed(GRID, ", count = 3", ""), "vary.crack.restitution", "count"),
+    "a distribution of words": (
+        changed(GRID, FRICTION, '"uplift.pattern" = { from = 1, to = 2, count = 2 }'),
+        "uplift.pattern",
+        "choice",
+    ),
+    "a distribution of what has no numbers": (
+        changed(GRID, FRICTION, "title = { from = 1, to = 2, count = 2 }"),
+        "title",
+        "type",
+    ),
+    "a distribution that leaves the range": (
+        changed(GRID, "from = 0.2, to = 0.8", "from = 0.2, to = 1.8"),
+        "vary.crack.restitution",
+        "at most 1",
+    ),
+    "draws that leave the range": (
+        changed(DRAWN, '"50 kg/m^3", lower = "2200 kg/m^3"', '"50000 kg/m^3"'),
+        "vary.concrete.density",
+        "out of range",
+    ),
+    "the ends exchanged": (changed(GRID, "from = 0.2, to = 0.8", "from = 0.8, to = 0.2"), "restitution.to", "lower"),
+    "bounds exchanged": (changed(DRAWN, "upper = 1.0", "lower = 2.0, upper = 1.0"), "friction.upper", "lower number"),
+    "a mode outside": (changed(DRAWN, "mode = 0.4", "mode = 0.95"), "restitution.mode", "between"),
+    "no spread": (changed(DRAWN, 'std = "50 kg/m^3"', 'std = "0 kg/m^3"'), "density.std", "more than 0"),
+    "a median below zero": (changed(DRAWN, "median = 0.4", "median = -0.4"), "friction.median", "more than 0"),
+    "half a distribution": (changed(DRAWN, "median = 0.4, ", ""), "median", "needs it"),
+    "numbers of another distribution": (changed(DRAWN, "median = 0.4", "median = 0.4, std = 3"), "std", "lognormal"),
+    "no number of samples": (changed(DRAWN, "samples = 60", ""), "samples", "required"),
+    "samples of a grid": (changed(GRID, "[vary]", "samples = 3\n[vary]"), "samples", "draws"),
+    "no power of two": (changed(DRAWN, '"latin hypercube"', '"sensitivity"'), "samples", "32 or 64"),
+    "a million million runs": (changed(DRAWN, "samples = 60", "samples = 1000000000000"), "study", "too many"),
+    "more than Sobol has": (
+        changed(changed(DRAWN, '"latin hypercube"', '"sobol"'), "samples = 60", "samples = 4294967296"),
+        "samples",
+        "too many",
+    ),
+    "an empty folder": (changed(GRID, '"quakes"', '"."'), "motions.folder", "no records"),
+    "no folder": (changed(GRID, '"quakes"', '"nowhere"'), "motions.folder", "no directory"),
+    "no motions": (changed(GRID, 'folder = "quakes"', ""), "motions.folder", "files"),
+    "motions twice": (changed(GRID, 'folder = "quakes"', 'folder = "quakes"\nfiles = ["x"]'), "folder", "keep one"),
+    "components that do not pair": (
+        changed(GRID, 'folder = "quakes"', 'folder = "quakes"\npairs = true'),
+        "motions.pairs",
+        "quake-c",
+    ),
+    "no vertical component": (
+        changed(GRID, 'folder = "quakes"', 'folder = "quakes"\nvertical = true'),
+        "motions.vertical",
+        "quake-c",
+    ),
+    "a vertical component alone": (
+        changed(GRID, 'folder = "quakes"', 'files = ["quakes/quake-a-up.txt"]'),
+        "motions",
+        "horizontal",
+    ),
+    "too many components": (
+        changed(GRID, 'folder = "quakes"', 'files = ["a-1.txt", "a-2.txt", "a-3.txt"]'),
+        "motions",
+        "more components",
+    ),
+    "a motion that varies": (changed(GRID, FRICTION, '"motion.pga" = ["0.1 g"]'), "vary.motion.pga", "[motions]"),
+    "a strength below zero": (changed(GRID, '"0.3 g", ', '"-0.3 g", '), "motions.scale.values[0]", "above 0"),
+    "strengths that may be below zero": (
+        changed(
+            DRAWN,
+            'values = { from = "0.2 g", to = "2 g" }',
+            'values = { distribution = "normal", mean = "0.2 g", std = "0.2 g" }',
+        ),
+        "motions.scale.values",
+        "below zero",
+    ),
+    "strengths drawn in a grid": (
+        changed(GRID, '["0.3 g", "0.9 g"]', '{ from = "0.2 g", to = "2 g" }'),
+        "motions.scale.values",
+        "draws",
+    ),
+    "a period without its measure": (
+        changed(GRID, 'measure = "pga"', 'measure = "pga", period = "1 s"'),
+        "period",
+        "sa",
+    ),
+    "a measure without its period": (changed(GRID, 'measure = "pga"', 'measure = "sa"'), "period", "required"),
+    "a correlation with a list": (
+        changed(DRAWN, "[vary]", 'correlation = [["crack.friction", "nothing", 0.5]]\n[vary]'),
+        "correlation[0]",
+        "drawn",
+    ),
+    "a field with itself": (
+        changed(DRAWN, "[vary]", f'{CORRELATED}, "crack.friction", 0.5]]\n[vary]'),
+        "correlation[0]",
+        "drawn",
+    ),
+    "a correlation in a grid": (
+        changed(GRID, "[vary]", 'correlation = [["crack.friction", "nothing", 0.5]]\n[vary]'),
+        "correlation",
+        "method",
+    ),
+    "correlations against each other": (
+        changed(
+            DRAWN,
+            "[vary]",
+            'correlation = [["crack.friction", "concrete.density", 0.9], '
+            '["crack.friction", "crack.restitution", 0.9], ["concrete.density", "crack.restitution", -0.9]]\n[vary]',
+        ),
+        "correlation",
+        "contradict",
+    ),
+    "a model twice": (changed(GRID, "[vary]", 'model = ["rigid", "rigid"]\n[vary]'), "model", "once"),
+    "no case": (changed(GRID, '"case.toml"', '"nothing.toml"'), "nothing.toml", "no such file"),
+    "no base to stand beside": (
+        changed(changed(GRID, "[vary]", 'method = "one at a time"\n[vary]'), FRICTION, '"reservoir.depth" = ["1 m"]'),
+        "vary.reservoir.depth",
+        "value of its own",
+    ),
+}
+
+
+@pytest.mark.parametrize("what", REFUSED)
+def test_a_bad_study_gets_one_line_before_anything_runs(what, tmp_path):
+    text, field, word = REFUSED[what]
+    said = command("study", study_file(tmp_path, text), "--out", tmp_path / "out")
+    assert said.returncode == 2
+    assert said.stderr.count("\n") == 1
+    assert said.stderr.startswith("heeltoe: ")
+    assert field in said.stderr
+    assert word in said.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_no_study_file(tmp_path):
+    said = command("study", tmp_path / "none.toml")
+    assert said.returncode == 2
+    assert "study file" in said.stderr
+
+
+def test_a_grid_counts_all_combinations(tmp_path):
+    found = plan(tmp_path, GRID)
+    # Two frictions, three restitutions; five horizontal components, two strengths.
+    assert found.sizes == (6, 5, 2, 1)
+    assert found.count == 60
+    runs = found.runs(0, 60)
+    assert len({tuple(each) for each in zip(*runs.values.values(), runs.motion, runs.strength, strict=True)}) == 60
+    assert sorted(set(runs.values["crack.restitution"].tolist())) == pytest.approx([0.2, 0.5, 0.8])
+
+
+def test_one_at_a_time_keeps_the_others_as_they_are(tmp_path):
+    found = plan(tmp_path, changed(GRID, "[vary]", 'method = "one at a time"\n[vary]'))
+    assert found.sizes[0] == 1 + 2 + 3
+    values = found.runs(0, found.count).values
+    base = (found.case.crack.mu_static, found.case.crack.restitution)
+    seen = set(zip(*values.values(), strict=True))
+    assert base in seen
+    assert all(friction == base[0] or bounce == base[1] for friction, bounce in seen)
+
+
+def test_a_case_keeps_its_own_motion_where_the_study_has_none(tmp_path):
+    found = plan(tmp_path, GRID.split("[motions]")[0])
+    assert found.count == 6
+    assert found.shakes[0].horizontal.pga == pytest.approx(found.earthquakes[0].motion.pga)
+
+
+def test_a_base_value_that_is_none_is_refused(tmp_path):
+    text = changed(changed(GRID, "[vary]", 'method = "one at a time"\n[vary]'), FRICTION, '"tailwater.depth" = ["1 m"]')
+    with pytest.raises(InputError) as refused:
+        plan(tmp_path, text)
+    assert refused.value.code == "study-base"
+
+
+@pytest.mark.parametrize("path", STUDIES, ids=lambda path: path.stem)
+def test_examples_can_run(path):
+    found = plan_of(read_study(path))
+    assert found.count >= 100
+    assert parts.run_part(found, 0, 1).num_rows == 1
