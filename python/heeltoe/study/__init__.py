@@ -1,1 +1,1 @@
-"""Many runs of one dam: tables, spreads, maps of overturning, studies with their plan, their store and what they say."""
+"""Many runs of one dam: tables, spreads, maps of overturning, and studies with their plan and their store."""

@@ -23,6 +23,7 @@ from heeltoe.models.rigid.rows import Rows
 from heeltoe.models.rigid.tables import with_openings
 from heeltoe.models.rigid.varying import varies
 from heeltoe.models.rigid.walk import limits_of
+from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.contract import HEADLINES, LARGEST_ROTATION, TOO_FAR, headlines
 from heeltoe.study.plan import Plan, Runs
 
@@ -179,17 +180,25 @@ def _elastic(plan: Plan, runs: Runs, rows: Integers, found: Found, run: Callable
 
 
 def _flexible(plan: Plan, runs: Runs, rows: Integers, found: Found, threads: int) -> None:
-    from heeltoe.kernel.dam import DAM_OUTCOMES
+    from heeltoe.kernel.dam import DAM_OUTCOMES, DAM_STATES
     from heeltoe.models.flexible.reduced import build_flexible_dam
     from heeltoe.models.flexible.shaken import ShakenDam
 
     def run(case: Case, motion: int, scales: Floats) -> Ran:
         case = plan.pilot.refined(case) if plan.pilot else case
         dam = build_flexible_dam(case)
-        shaken = ShakenDam(case, dam, plan.earthquakes[motion].shaking)
-        table = shaken.run_scaled(
-            shaken.first_step() / 2.0 ** (plan.pilot.halvings if plan.pilot else 0), scales, threads
-        )
+        halvings = plan.pilot.halvings if plan.pilot else 0
+
+        def shake(earthquake: Earthquake, scales: Floats) -> dict[str, Floats]:
+            shaken = ShakenDam(case, dam, earthquake.shaking)
+            return shaken.run_scaled(shaken.first_step() / 2.0**halvings, scales, threads=threads)
+
+        table = shake(plan.earthquakes[motion], scales)
+        moves = (table["outcome"] == DAM_OUTCOMES.index("ok")) & (table["final_state"] != DAM_STATES.index("rest"))
+        if moves.any() and case.analysis.silence:
+            longer = shake(plan.earthquakes[motion].silent(case.analysis.silence), scales[moves])
+            for name, values in longer.items():
+                table[name][moves] = values
         outcome = np.array(DAM_OUTCOMES, dtype=object)[table["outcome"].astype(np.int64)]
         if not dam.anchors and (not dam.start.stands or instability(build_block(case)) is not None):
             outcome[:] = "unstable"
