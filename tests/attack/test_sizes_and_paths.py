@@ -12,7 +12,9 @@ from heeltoe.models.flexible.mesh.file import _read
 from heeltoe.plain import plain
 from shared.cases import dam, refusal
 from shared.command import command, process
-from shared.dams import BLOCK, example
+from shared.dams import BLOCK, EXAMPLES, example
+
+LONG = "x" * 300
 
 
 def test_a_case_without_end(tmp_path):
@@ -87,3 +89,20 @@ def test_options_and_commands_that_there_are_not_are_refused_in_one_line(argumen
 
 def test_halves_of_letters_are_refused():
     assert refusal(dam(reservoir={"depth": "\ud800"})).code == "wrong-quantity"
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("run", str(BLOCK), "--motion", LONG),
+        ("new", LONG),
+        ("run", str(EXAMPLES / "typical-base.toml"), "--model", "flexible", "--set", f"flexible.mesh_above={LONG}.msh"),
+    ],
+    ids=["motion", "new", "mesh"],
+)
+def test_names_longer_than_a_file_may_have(arguments, tmp_path):
+    said = process(*arguments, cwd=tmp_path)
+    assert said.returncode == 2
+    assert said.stderr.count("\n") == 1
+    assert "standard output" not in said.stderr
+    assert not list(tmp_path.iterdir())

@@ -82,7 +82,7 @@ def command_line() -> str:
 def as_given(motion: str) -> str:
     """A path on the command line is relative to where the user stands, not to the case file."""
     path = Path(os.path.expanduser(motion))  # unlike that of paths, it leaves nobody's home as it is
-    return str(path.resolve()) if path.is_file() else motion
+    return str(path.resolve()) if os.path.isfile(path) else motion
 
 
 def check_json(json_: str | None) -> None:

@@ -93,7 +93,7 @@ def new(
     from heeltoe.case.template import new_case_text
 
     path = Path(name if name.endswith(".toml") else f"{name}.toml")
-    if path.exists():
+    if os.path.lexists(path):
         raise InputError("file-exists", str(path))
     write_text(path, new_case_text(path.stem))
     print(f"wrote {path}; run it with: heeltoe run {path}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, replace
 from hashlib import sha256
 
@@ -152,7 +153,7 @@ def fingerprints(case: Case) -> list[str]:
     found = []
     for name in (case.flexible.mesh_above, case.flexible.mesh_below):
         path = case.base_directory / name if name else None
-        found.append(sha256(path.read_bytes()).hexdigest() if path and path.is_file() else "")
+        found.append(sha256(path.read_bytes()).hexdigest() if path and os.path.isfile(path) else "")
     return found
 
 

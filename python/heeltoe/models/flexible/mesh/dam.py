@@ -5,6 +5,7 @@ have any shape whose crack and area are those of the section."""
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -131,7 +132,7 @@ def _check_ends(section: CutSection, *, grounded: bool) -> None:
 
 
 def _from_file(path: Path, section: CutSection, area: float, *, above: bool) -> BodyMesh:
-    if not path.is_file():
+    if not os.path.isfile(path):
         raise InputError("mesh-missing", f"flexible.mesh_{'above' if above else 'below'}", path)
     # Needs an optional package and is seldom used.
     from heeltoe.models.flexible.mesh.file import read_quadrilaterals
