@@ -84,6 +84,8 @@ def chain(case: Case) -> Chain:
     InputError
         Where the crack is at the base, or the case has no modulus or no mesh.
     """
+    # Its few modes cost less than those of parts that a crack divides.
+    check_cost(case, building([Part(part.freedoms, 0, MOST_MODES) for part in parts_of(case)]))
     return _kept(case, _chain)
 
 
@@ -113,8 +115,6 @@ def _kept(case: Case, build: Callable[[Case], Chain]) -> Chain:
 def _chain(case: Case) -> Chain:
     block = build_block(case)
     section = block.section
-    # Its few modes cost less than those of parts that a crack divides.
-    check_cost(case, building([Part(part.freedoms, 0, MOST_MODES) for part in parts_of(case)]))
     if section.crack_elevation == section.base_elevation:
         raise InputError("crack-at-base", "crack.elevation", f"{case.crack.elevation:g} m")
     body = dam(case, dam_mesh(case)).lower
