@@ -272,7 +272,7 @@ def _decoupled(case: Case, earthquake: Earthquake, output_step: float | None) ->
     def run(through: Earthquake) -> DecoupledResponse:
         return run_decoupled(case, through, output_step)
 
-    return until_rest(run, reach_of_block, earthquake, case.analysis.silence)
+    return until_rest(run, reach_of_block, earthquake, case.analysis.silence, swings=True)
 
 
 def _flexible(case: Case, earthquake: Earthquake, output_step: float | None) -> FlexibleResponse:

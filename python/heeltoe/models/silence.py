@@ -18,7 +18,14 @@ STEP = 2.5
 T = TypeVar("T")
 
 
-def until_rest(run: Callable[[Earthquake], T], reach: Callable[[T], float], earthquake: Earthquake, most: float) -> T:
+def until_rest(
+    run: Callable[[Earthquake], T],
+    reach: Callable[[T], float],
+    earthquake: Earthquake,
+    most: float,
+    *,
+    swings: bool = False,
+) -> T:
     """Run through an earthquake, and where the dam still moves then again with silence after it, until it is at rest.
 
     A dam that is at rest as it is costs this one run; else there are up to two more, one of them through the longest
@@ -35,12 +42,18 @@ def until_rest(run: Callable[[Earthquake], T], reach: Callable[[T], float], eart
         It may have some silence after it already, which is kept.
     most
         How much silence there may be [s].
+    swings
+        Whether what shakes the dam goes on in the silence, as a crack on an elastic part does: a dam that is at rest
+        when the ground is may slide once more.
     """
     found = run(earthquake)
-    if reach(found) < math.inf or earthquake.silence >= most:
+    rests = reach(found) < math.inf
+    if earthquake.silence >= most or (rests and not (swings and reach(found) > -math.inf)):
         return found
     whole = run(earthquake.silent(most))
     needed = reach(whole) - earthquake.end
+    if rests and needed <= earthquake.silence:
+        return found
     seconds = STEP * max(1.0, math.ceil(needed / STEP)) if math.isfinite(needed) else most
     if not earthquake.silence < seconds < most:
         return whole
