@@ -213,3 +213,10 @@ def test_moment_about_another_point():
     force = loads.Resultant("one", horizontal=2.0, vertical=3.0, moment=5.0)
     # Seen from a point 7 to the right and 11 up, the same force at the heel acts 7 to the left and 11 down.
     assert force.moment_about(7.0, 11.0) == 5.0 + (-7.0) * 3.0 - (-11.0) * 2.0
+
+
+def test_where_a_face_with_a_ledge_is():
+    ledge = [(0.0, 0.0), (60.0, 0.0), (10.0, 70.0), (6.0, 70.0), (2.0, 20.0), (0.0, 20.0)]
+    section = solved(ledge, 5.0).cut
+    found = [loads.face_at(section, height) for height in (0.0, 10.0, 15.0, 40.0, 65.0, 80.0)]
+    assert found == pytest.approx([0.0, 0.0, 2.0, 4.0, 6.0, 6.0])

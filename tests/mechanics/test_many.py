@@ -48,7 +48,7 @@ def sizes_of(block):
     return np.concatenate([masses * [1.0, 1.0, long], lengths, forces, moved, followed, ones, coupling])
 
 
-def compare(case, columns):
+def compare(case, columns, piece=3):
     found = block_columns(case, columns)
     count = len(next(iter(columns.values())))
     assert found.shape == (count, len(BLOCK))
@@ -58,8 +58,8 @@ def compare(case, columns):
         assert crack_widths(found)[row] == pytest.approx(alone.width, rel=1e-13)
     # The same bits whatever else is in the columns.
     pieces = [
-        block_columns(case, {path: values[start : start + 3] for path, values in columns.items()})
-        for start in range(0, count, 3)
+        block_columns(case, {path: values[start : start + piece] for path, values in columns.items()})
+        for start in range(0, count, piece)
     ]
     assert np.array_equal(found, np.concatenate(pieces))
 
@@ -141,6 +141,16 @@ def test_sections_of_odd_shapes(corners):
     elevations = np.array([5.0, 20.0, 20.000000005, 35.0, 5.0, 44.0, 65.0])
     case = read_case({"section": polygon(corners), "crack": crack, "anchors": [ANCHOR]})
     compare(case, drawn(70.0, elevations.size, **{"crack.elevation": elevations}))
+
+
+def test_water_before_a_slope_or_beyond_the_dam_in_some_rows_alone():
+    # The upstream face is vertical up to 30 m and leans back above.
+    bent = [(0.0, 0.0), (60.0, 0.0), (20.0, 70.0), (12.0, 70.0), (0.0, 30.0)]
+    depths = np.random.default_rng(5).uniform(0.0, 70.0, 200)
+    light = {"concrete": {"density": "100 kg/m^3"}}
+    case = read_case({"section": polygon(bent), "crack": {"friction": 1.0}} | light)
+    compare(case, {"reservoir.depth": depths}, piece=1)
+    compare(case, {"reservoir.depth": depths, "tailwater.depth": np.where(depths > 20.0, 0.0, depths[::-1])}, piece=1)
 
 
 def test_a_static_friction_of_its_own():
