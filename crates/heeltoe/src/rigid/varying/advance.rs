@@ -149,8 +149,8 @@ impl Varying<'_> {
         let reactions = self.reactions(&instant);
         let mut first = Earliest::default();
         self.see_limits(trial, &reactions, &mut first);
-        let now = fresh.unwrap_or_else(|| instant.contact_acceleration(&reactions));
-        self.see_contacts(trial, &now, &mut first);
+        let real = instant.contact_acceleration(&reactions);
+        self.see_contacts(trial, &fresh.unwrap_or(real), &real, &mut first);
         let over = std::f64::consts::FRAC_PI_2;
         if self.turning.rotation != Rotation::Small && end[2].abs() > over && first.0.is_none() {
             let value = |y: &State, _: f64| over - y[2].abs();
@@ -218,15 +218,16 @@ impl Varying<'_> {
         }
     }
 
-    /// See whether the slip stops or a gap closes, with the accelerations at the start.
-    fn see_contacts(&self, trial: &Trial, now: &Vector, first: &mut Earliest) {
+    /// See whether the slip stops or a gap closes, with the accelerations at the start; of the `real` ones `now` leaves out
+    /// what is rounding, and so does what follows: the shorter the step, the more of its end is that.
+    fn see_contacts(&self, trial: &Trial, now: &Vector, real: &Vector, first: &mut Earliest) {
         let length = trial.length;
         let ends = [&trial.start, &trial.end];
         let speeds = ends.map(|y| self.turning.contact_velocity(self.corner, y));
         if let Some(way) = self.walk.mode.slip() {
             let s = way.sign();
             let (v0, v1, a0) = (s * speeds[0][SLIP], s * speeds[1][SLIP], s * now[SLIP]);
-            let bend = (v1 - v0 - a0 * length) / (length * length);
+            let bend = (v1 - v0 - s * real[SLIP] * length) / (length * length);
             if let Some(t) = event::quadratic(v0, a0, bend, length) {
                 first.note(t, Cause::Stop, SLIP);
             }
@@ -237,7 +238,7 @@ impl Varying<'_> {
                 continue;
             }
             let (p0, p1, v0, a0) = (gaps[0][corner], gaps[1][corner], speeds[0][gap], now[gap]);
-            let bend = (p1 - p0 - length * (v0 + 0.5 * length * a0)) / length.powi(3);
+            let bend = (p1 - p0 - length * (v0 + 0.5 * length * real[gap])) / length.powi(3);
             if let Some(t) = event::cubic(p0, v0, 0.5 * a0, bend, length) {
                 first.note(t, Cause::Gap(gap), gap);
             }
