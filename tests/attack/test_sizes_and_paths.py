@@ -6,9 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from heeltoe import InputError, rigid
+from heeltoe import GroundMotion, InputError, rigid
 from heeltoe.cli.common import as_given
 from heeltoe.models.flexible.mesh.file import _read
+from heeltoe.motion.processing import taper
+from heeltoe.motion.records import read_text
 from heeltoe.plain import plain
 from shared.cases import dam, refusal
 from shared.command import command, process
@@ -106,3 +108,13 @@ def test_names_longer_than_a_file_may_have(arguments, tmp_path):
     assert said.stderr.count("\n") == 1
     assert "standard output" not in said.stderr
     assert not list(tmp_path.iterdir())
+
+
+def test_a_mark_and_no_text_is_no_record():
+    with pytest.raises(InputError):
+        read_text(b"\xef\xbb\xbf", "marked.smc")
+
+
+def test_a_taper_over_next_to_nothing_leaves_the_motion():
+    motion = GroundMotion.from_points([0.0, 0.5, 1.0], [1.0, 2.0, 1.0])
+    assert taper(motion, 5e-324).acceleration.tolist() == [0.0, 2.0, 0.0]

@@ -171,9 +171,9 @@ def taper(motion: GroundMotion, share: float = 0.05, ends: Ends = "both") -> Gro
     place = motion.time / motion.duration
     weight = np.ones_like(place)
     if ends in ("both", "start"):
-        weight *= 0.5 - 0.5 * np.cos(np.pi * np.minimum(place / share, 1.0))
+        weight *= 0.5 - 0.5 * np.cos(np.pi * (np.minimum(place, share) / share))
     if ends in ("both", "end"):
-        weight *= 0.5 - 0.5 * np.cos(np.pi * np.minimum((1.0 - place) / share, 1.0))
+        weight *= 0.5 - 0.5 * np.cos(np.pi * (np.minimum(1.0 - place, share) / share))
     where = "both ends" if ends == "both" else f"the {ends}"
     return replace(
         motion,

@@ -6,6 +6,7 @@ each channel. To add a format, write one and put it into :data:`READERS` before 
 
 from __future__ import annotations
 
+import codecs
 import os
 import stat
 from dataclasses import replace
@@ -145,7 +146,7 @@ def _records(data: bytes, name: str) -> tuple[list[RawRecord], str]:
 
 
 def _lines(data: bytes, name: str) -> list[str]:
-    if not data.strip():
+    if not data.removeprefix(codecs.BOM_UTF8).strip():
         raise InputError("record-empty", name)
     if b"\x00" in data:
         raise InputError("record-binary", name)
