@@ -61,7 +61,7 @@ class Case(Shown, Fields):
     """Static checks."""
     limits: Limits = Limits()
     """What is allowed."""
-    analysis: Analysis = Analysis()
+    analysis: Analysis = Field(default_factory=Analysis)
     """Choices for rare situations."""
 
     def __repr__(self) -> str:
