@@ -158,6 +158,14 @@ impl Varying<'_> {
             return Found::of(Cause::Normal, self.located(trial, near, value)?)
                 .filter(|found| found.at.is_finite());
         }
+        if first.0.is_none() && self.jams(&trial.end, &trial.piece.after(*length)) {
+            // Friction jams on the way: nearer to where it begins to, the choice of the next mode says what follows.
+            let long = *length > SHORTEST * self.time_scale;
+            return Found::of(
+                Cause::Normal,
+                (if long { f64::NAN } else { *length }, trial.end, 0.0),
+            );
+        }
         let (near, why, which) = first.0?;
         if near <= 0.0 && fresh.is_some() && *length > SHORT * self.time_scale {
             // What has just been chosen ends at once: on a shorter step one sees whether it does.

@@ -22,6 +22,15 @@ impl Varying<'_> {
         .unwrap_or([0.0; 3])
     }
 
+    /// Whether friction makes the reactions of a slip infinite at a state.
+    pub(super) fn jams(&self, state: &State, ground: &Ground) -> bool {
+        self.walk.mode.slip().is_some() && {
+            let instant = self.turning.at(self.corner, state, ground);
+            let (friction, mode) = (self.walk.block.friction_kinetic, self.walk.mode);
+            reaction_to(&instant.compliance, friction, mode, &instant.free_acceleration).is_none()
+        }
+    }
+
     pub(super) fn rates(&self, state: &State, ground: &Ground) -> State {
         let instant = self.turning.at(self.corner, state, ground);
         let reactions = self.reactions(&instant);
