@@ -56,8 +56,7 @@ def test_impacts_of_a_rigid_block():
         ((0.0, 0.0, 0.0), False, 1, {"not-converged", "evidence-failures"}),
     ],
 )
-def test_what_moves_the_slip_of_an_elastic_dam(typical_both, moved, mean, failed, said):
-    dam = typical_both.crack.dam
+def test_what_moves_the_slip_of_an_elastic_dam(moved, mean, failed, said):
     evidence = Evidence(
         asked="full",
         mean=mean,
@@ -72,7 +71,7 @@ def test_what_moves_the_slip_of_an_elastic_dam(typical_both, moved, mean, failed
         work=4.0,
         spent=False,
     )
-    assert codes(flexible._about_the_slip(dam, evidence, None)) == said
+    assert codes(flexible._about_the_evidence(evidence)) == said
 
 
 @pytest.mark.parametrize(("error", "warned"), [(0.029, False), (0.031, True)])

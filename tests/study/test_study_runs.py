@@ -89,6 +89,11 @@ scale = {{ measure = "pga", values = ["0.3 g", "0.6 g"] }}
 """
 
 
+ICE = """"ice.force" = ["100 kN/m"]
+"ice.depth" = ["0.5 m", "3 m"]
+"reservoir.depth" = ["90 m", "2 m"]"""
+
+
 def test_elastic_runs_are_those_by_hand(tmp_path):
     text = SMALL.format(model='["rigid", "decoupled", "flexible"]')
     plan = plan_of(read_study(study_file(tmp_path, text, case=elastic(level=60))))
@@ -192,21 +197,19 @@ def test_a_full_disk_is_one_line_and_a_study_to_go_on_with(tmp_path, monkeypatch
     assert rows(run_study(file, tmp_path / "out", resume=True)) == whole
 
 
-def test_a_dam_that_the_case_refuses_is_counted(tmp_path):
-    text = GRID.replace('"crack.friction" = [0.3, 0.5]', '"uplift.intensity" = [1.0]\n"crack.friction" = [0.3, 0.5]')
-    plan = plan_of(read_study(study_file(tmp_path, text)))
-    sound = parts._cases
-
-    def some(plan, values, count):
-        return (None if place == 1 else case for place, case in enumerate(sound(plan, values, count)))
-
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(parts, "COLUMNS", ())
-        patch.setattr(parts, "_cases", some)
-        table = parts.run_part(plan, 0, 60).to_pylist()
+@pytest.mark.parametrize("model", ["rigid", "flexible"])
+def test_a_dam_that_the_case_refuses_is_counted(tmp_path, model):
+    # Ice that acts below the bottom of the water, in a quarter of the dams.
+    text = SMALL.format(model=f'["{model}"]').replace('"crack.friction" = [0.5, 0.7]', ICE)
+    plan = plan_of(read_study(study_file(tmp_path, text, case=elastic())))
+    table = parts.run_part(plan, 0, plan.count).to_pylist()
     refused = [run for run in table if run["outcome"] == "refused"]
-    assert len(refused) == 10
+    assert len(table) == 16
+    assert len(refused) == 4
+    assert all(run["reservoir.depth"] == 2.0 and run["ice.depth"] == 3.0 for run in refused)
     assert all(run["residual_slip_m"] is None for run in refused)
+    assert {run["outcome"] for run in table if run not in refused} <= {"ok", "unstable"}
+    assert sum(run["outcome"] == "ok" for run in table) >= 4
 
 
 def test_what_is_no_study_is_refused(tmp_path):

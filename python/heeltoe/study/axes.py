@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cached_property
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -67,7 +69,14 @@ class Axis:
         return np.array(self.values, dtype=object) if self.numbers is None else self.numbers
 
 
-def axis_of(path: str, given: tuple[Value, ...] | Distribution, case: Case, *, drawn: bool) -> Axis:
+def axis_of(
+    path: str,
+    given: tuple[Value, ...] | Distribution,
+    case: Case,
+    *,
+    drawn: bool,
+    beside: Mapping[str, Any] = MappingProxyType({}),
+) -> Axis:
     """Return what varies.
 
     Parameters
@@ -78,6 +87,8 @@ def axis_of(path: str, given: tuple[Value, ...] | Distribution, case: Case, *, d
         The base case, whose other fields decide which values there can be.
     drawn
         Whether values are drawn; otherwise a distribution needs a count.
+    beside
+        Values of other fields that vary, without which this one may have no meaning.
 
     Raises
     ------
@@ -93,10 +104,10 @@ def axis_of(path: str, given: tuple[Value, ...] | Distribution, case: Case, *, d
         numbers = np.zeros(0) if drawn else _even(given, law, f"vary.{path}")
         ends = (*law.support(), *numbers)
         for value in (each for each in ends if np.isfinite(each)):
-            _tried(case, Axis(path, quantity, (), None), float(value))
+            _tried(case, Axis(path, quantity, (), None), float(value), beside)
         return Axis(path, quantity, tuple(numbers.tolist()), numbers, law)
     axis = Axis(path, quantity, given, None)
-    found = [value_of(_tried(case, axis, value), path) for value in given]
+    found = [value_of(_tried(case, axis, value, beside), path) for value in given]
     if len({str(value) for value in found}) < len(found):
         raise InputError("study-twice", f"vary.{path}", shown(list(given)))
     if quantity is None:
@@ -106,7 +117,7 @@ def axis_of(path: str, given: tuple[Value, ...] | Distribution, case: Case, *, d
     return Axis(path, quantity, given, numbers)
 
 
-def check_drawn(axis: Axis, values: NDArray[Any], case: Case) -> None:
+def check_drawn(axis: Axis, values: NDArray[Any], case: Case, beside: Mapping[str, Any]) -> None:
     """Refuse a distribution of which something was drawn that the field cannot have.
 
     Raises
@@ -116,7 +127,7 @@ def check_drawn(axis: Axis, values: NDArray[Any], case: Case) -> None:
     """
     if axis.law is not None:
         for value in (values.min(), values.max()):
-            _tried(case, axis, float(value))
+            _tried(case, axis, float(value), beside)
 
 
 def law_of(given: Distribution, read: Callable[[object, str], float], field: str) -> Any:
@@ -196,10 +207,19 @@ def _even(given: Distribution, law: Any, field: str) -> Floats:
     return np.asarray(law.ppf((np.arange(given.count) + 0.5) / given.count), dtype=np.float64)
 
 
-def _tried(case: Case, axis: Axis, value: Any) -> Case:
-    """Return the case with a value, which it may refuse."""
+def beside(axis_path: str, vary: Mapping[str, tuple[Value, ...] | Distribution]) -> dict[str, Any]:
+    """Return a value of each other field that varies by a list."""
+    return {path: given[0] for path, given in vary.items() if path != axis_path and not isinstance(given, Distribution)}
+
+
+def _tried(case: Case, axis: Axis, value: Any, others: Mapping[str, Any]) -> Case:
+    """Return the case with a value, which it may refuse; taken by itself, and beside others if it needs them."""
+    changes = axis.changes(value)
     try:
-        return case.with_(axis.changes(value))
+        return case.with_(changes)
     except InputError as error:
+        if others:
+            with suppress(InputError):
+                return case.with_({**others, **changes})
         error.field = f"vary.{error.field}" if error.field == axis.path else f"vary.{axis.path}: {error.field}"
         raise

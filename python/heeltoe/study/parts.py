@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import suppress
 from dataclasses import replace
 from typing import Any
 
@@ -17,7 +16,7 @@ from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.kernel.block import BLOCK, OUTCOMES
 from heeltoe.mechanics.block import Block, build_block, instability
-from heeltoe.mechanics.many import block_columns, crack_widths
+from heeltoe.mechanics.many import crack_widths, sound_blocks
 from heeltoe.models.rigid.many import run_rows
 from heeltoe.models.rigid.rows import Rows
 from heeltoe.models.rigid.tables import with_openings
@@ -122,12 +121,11 @@ def _blocks(
     plan: Plan, values: Mapping[str, NDArray[Any]], count: int
 ) -> tuple[Floats, list[Block], NDArray[np.bool_]]:
     """Return the numbers of the blocks of some dams, the blocks where something varies as they move, and which of the
-    dams there are: the others are refused, and some block stands in their places."""
+    dams there are: the others are refused, and what stands in their places says nothing."""
     sound = np.ones(count, dtype=bool)
     if values and not varies(plan.case) and values.keys() <= set(COLUMNS):
-        # Where one of them is refused it takes single cases to know which.
-        with suppress(InputError):
-            return block_columns(plan.case, values), [], sound
+        numbers, sound = sound_blocks(plan.case, values)
+        return numbers, [], sound
     numbers = np.zeros((count, len(BLOCK)))
     blocks: list[Block] = []
     some = build_block(plan.case)

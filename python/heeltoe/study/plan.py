@@ -19,7 +19,7 @@ from heeltoe.errors import InputError
 from heeltoe.models.run import earthquake
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.intensity import MEASURES, intensity, spectral_acceleration
-from heeltoe.study.axes import Axis, axis_of, check_drawn, law_of
+from heeltoe.study.axes import Axis, axis_of, beside, check_drawn, law_of
 from heeltoe.study.file import Distribution, Scale, Study
 from heeltoe.study.motions import Shake, shakes_of
 from heeltoe.study.samples import MOST_SOBOL, Columns, Samples
@@ -246,7 +246,10 @@ def plan_of(study: Study) -> Plan:
     case = read_case(study.directory / study.case)
     if study.title == "" and case.title:
         study = study.model_copy(update={"title": case.title})
-    axes = tuple(axis_of(path, given, case, drawn=study.drawn) for path, given in study.vary.items())
+    axes = tuple(
+        axis_of(path, given, case, drawn=study.drawn, beside=beside(path, study.vary))
+        for path, given in study.vary.items()
+    )
     if study.motions is None:
         base = earthquake(case)
         shakes: tuple[Shake, ...] = (Shake(base.motion.name, 0, base.motion, base.vertical),)
@@ -263,7 +266,7 @@ def plan_of(study: Study) -> Plan:
     if study.drawn:
         looked, _ = plan.samples.at(np.arange(min(plan.samples.count, _LOOKED_AT), dtype=np.int64))
         for axis in axes:
-            check_drawn(axis, looked[axis.path], case)
+            check_drawn(axis, looked[axis.path], case, beside(axis.path, study.vary))
     elif study.method == "one at a time":
         _ = plan.samples
     return plan
