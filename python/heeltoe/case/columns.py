@@ -139,7 +139,7 @@ def _checked(columns: Columns) -> tuple[_Given, int]:
         if path not in COLUMNS:
             raise InputError("column-unknown", path, columns=", ".join(COLUMNS))
         try:
-            column = np.asarray(values, dtype=None if path == PATTERN else np.float64)
+            column = np.asarray(values, dtype=np.str_ if path == PATTERN else np.float64)
         except (ValueError, TypeError):
             raise InputError("wrong-type", path, shown(values), expected="a column of numbers in SI units") from None
         count = column.size if count is None else count

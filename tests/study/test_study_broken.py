@@ -1,0 +1,103 @@
+"""A study that is killed, and workers that are: nothing is lost, nothing is run twice, the bits are the same."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from heeltoe import open_study, run_study
+from shared.studies import DRAWN, rows, study_file
+
+pytestmark = pytest.mark.slow
+
+HEELTOE = [sys.executable, "-m", "heeltoe"]
+
+
+def test_ten_kills_change_nothing(tmp_path):
+    text = DRAWN.replace("samples = 60", "samples = 100000").replace(
+        '"crack.friction"', '"uplift.pattern" = ["none"]\n"crack.friction"'
+    )
+    file = study_file(tmp_path, text.split("[fragility]")[0])
+    whole = open_study(run_study(file, tmp_path / "whole").store.directory).to_table()
+    out, random, kills = tmp_path / "out", np.random.default_rng(1), 0
+    for _ in range(60):
+        running = subprocess.Popen(
+            [*HEELTOE, "study", str(file), "--out", str(out), *(["--resume"] if (out / "study.json").exists() else [])],
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
+        try:
+            # Most of it is over when the parts begin; the kills go on until there have been ten.
+            running.wait(random.uniform(0.8, 3.0) if kills < 10 else None)
+        except subprocess.TimeoutExpired:
+            running.send_signal(signal.SIGKILL)
+            running.wait()
+            kills += 1
+            continue
+        assert running.returncode in (0, 3)
+        if kills >= 10:
+            break
+        # It came to its end too soon: some of its parts are lost, as on a disk that loses some.
+        for path in sorted((out / "runs").glob("part-*.parquet"))[1::2]:
+            path.unlink()
+    assert kills == 10
+    found = open_study(out)
+    assert found.complete
+    assert found.to_table().equals(whole)
+    assert not [path for path in out.rglob(".heeltoe-*") if path.is_dir()]
+
+
+@pytest.fixture
+def cluster(tmp_path):
+    """A scheduler and two workers, each a process that was started by hand."""
+    environment = {**os.environ, "DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT": "60s"}
+    started = []
+
+    def start(*arguments):
+        path = tmp_path / f"{len(started)}.log"
+        command = [str(Path(sys.executable).with_name("dask")), *arguments]
+        with path.open("w") as log:
+            started.append(subprocess.Popen(command, stdout=log, stderr=log, env=environment, cwd=tmp_path))
+        return path
+
+    log = start("scheduler", "--port", "0", "--no-dashboard")
+    address = None
+    for _ in range(300):
+        found = re.search(r"Scheduler at:\s+(tcp://\S+)", log.read_text())
+        if found:
+            address = found[1]
+            break
+        time.sleep(0.1)
+    assert address, log.read_text()
+    for _ in range(2):
+        start("worker", address, "--nthreads", "1", "--no-dashboard")
+    yield address, started
+    for each in started:
+        each.kill()
+        each.wait()
+
+
+@pytest.mark.parametrize("kill", [False, True], ids=["two workers", "one of them killed"])
+def test_workers_started_by_hand_give_the_same_table(tmp_path, cluster, kill, monkeypatch):
+    address, started = cluster
+    monkeypatch.setattr("heeltoe.study.run._MOST", 500)
+    file = study_file(tmp_path, DRAWN.replace("samples = 60", "samples = 12000"))
+    here = rows(run_study(file, tmp_path / "here"))
+    told = []
+
+    def progress(each):
+        told.append(each)
+        if kill and len(told) == 4:
+            started[2].kill()
+
+    there = run_study(file, tmp_path / "there", scheduler=address, progress=progress)
+    assert rows(there) == here
+    assert told[-1].done == 12000
