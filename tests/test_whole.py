@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import stat
 import subprocess
@@ -12,7 +13,18 @@ from pathlib import Path
 import pytest
 
 from heeltoe.errors import InputError
-from heeltoe.whole import LISTED, READY, check_directory, check_file, files, settle, write_text, write_whole, written
+from heeltoe.whole import (
+    LISTED,
+    READY,
+    check_directory,
+    check_file,
+    files,
+    settle,
+    temporary,
+    write_text,
+    write_whole,
+    written,
+)
 
 
 def found(directory):
@@ -213,3 +225,13 @@ def test_what_a_process_is_filling_is_left_alone(tmp_path):
     write_text(tmp_path / "three", "3")
     assert found(tmp_path) == {"one": "1", "two": "2", "three": "3"}
     assert not (tmp_path / ".heeltoe-left").exists()
+
+
+def test_no_room_for_what_nobody_shall_see_is_said(monkeypatch):
+    def fail(*_):
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("heeltoe.whole.TemporaryDirectory", fail)
+    with pytest.raises(InputError, match="No space left on device") as refused, temporary():
+        pass
+    assert refused.value.code == "no-room"

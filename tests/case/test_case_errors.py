@@ -298,6 +298,8 @@ def test_refused(fields, message):
 
 FILES = [
     (b"title = ", "case-file-syntax", "is not valid TOML: "),
+    (b"a" + b".a" * 20_000 + b" = 1", "case-file-syntax", "a key of more than 50 parts (at line 1)"),
+    (b'title = "..."\nx = {' + b'"a" . ' * 50 + b"a = 1}", "case-file-syntax", "more than 50 parts (at line 2)"),
     (b'{"title": }', "case-file-syntax", "is not valid JSON: "),
     (b'{"a":' * 100_000, "case-file-syntax", "is not valid JSON: "),
     ('title = "x"'.encode("utf-16"), "case-file-encoding", "is not UTF-8 text; save it as UTF-8"),

@@ -288,6 +288,16 @@ def test_units_of_the_united_states_all_through(which, request):
             assert abs(shown_number) == pytest.approx(abs(number), abs=half * 1.0001, rel=1e-3), (key, text)
 
 
+def test_packages_that_do_not_work_are_named(monkeypatch):
+    def fail(name):
+        raise ImportError("cannot allocate memory")
+
+    monkeypatch.setattr("heeltoe.views.report.write.import_module", fail)
+    with pytest.raises(InputError, match=r"typst, which does not work here \(cannot allocate memory\)") as found:
+        check_packages()
+    assert found.value.code == "report-package-broken"
+
+
 def test_packages_that_are_missing_are_named(monkeypatch, tmp_path, block):
     monkeypatch.setattr("heeltoe.views.report.write.find_spec", lambda name: None)
     with pytest.raises(InputError) as found:

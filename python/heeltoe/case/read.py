@@ -9,6 +9,7 @@ from __future__ import annotations
 import copy
 import json
 import os
+import re
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -20,6 +21,11 @@ from heeltoe.errors import InputError, shown
 
 # A case is some kilobytes; what never ends, as /dev/zero, is none.
 _LARGEST = 10_000_000
+# The time to read a dotted key of TOML grows with the square of its parts; no field is so deep.
+_DEEPEST = 50
+_OF_KEYS = re.compile(
+    r'''"""(?:\\[\s\S]|[^\\])*?"""|\'\'\'[\s\S]*?\'\'\'|"(?:\\.|[^"\\\n])*"|'[^'\n]*'|\#[^\n]*|[][{}=,\n.]'''
+)
 
 
 def read_case(source: str | os.PathLike[str] | Mapping[str, Any], changes: Changes = ()) -> Case:
@@ -82,10 +88,24 @@ def read_fields(path: Path, missing: str = "case-file-missing") -> dict[str, Any
         raise InputError("case-file-unreadable", name, reason=getattr(error, "strerror", None) or error) from None
     kind = "JSON" if text.lstrip().startswith("{") else "TOML"
     try:
-        fields: dict[str, Any] = json.loads(text, object_pairs_hook=_once) if kind == "JSON" else tomllib.loads(text)
+        fields: dict[str, Any] = json.loads(text, object_pairs_hook=_once) if kind == "JSON" else _toml(text)
     except (ValueError, RecursionError) as error:
         raise InputError("case-file-syntax", name, kind=kind, reason=error) from None
     return fields
+
+
+def _toml(text: str) -> dict[str, Any]:
+    if any(line.count(".") >= _DEEPEST for line in text.splitlines()):
+        parts = 1
+        for found in _OF_KEYS.finditer(text):
+            if found[0] == ".":
+                parts += 1
+            elif found[0] in "[]{}=,\n":
+                parts = 1
+            if parts > _DEEPEST:
+                line = text.count("\n", 0, found.start()) + 1
+                raise ValueError(f"a key of more than {_DEEPEST} parts (at line {line})")
+    return tomllib.loads(text)
 
 
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
