@@ -41,6 +41,7 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
     "study-not-there": ("is no directory of a study", "give what `heeltoe study FILE --out DIR` has written"),
     "study-unreadable": ("does not say what study it is ({reason})", "give another directory, or restore the file"),
     "study-no-grid": ("a study by {value} has no axes of a grid", "take to_pandas"),
+    "study-no-answer": ("a study by {value} has no such answer", 'run one with method = "{method}"'),
     "study-measure": ("{value} is not known of its motions", "known are {known}"),
     "study-no-fragility": ("the study asks for no curves", "say the limits under [fragility]"),
     "study-package": ("needs the package {value}, which is not installed", "pip install 'heeltoe[study]'"),

@@ -29,12 +29,14 @@ def study(
         str | None, typer.Option(metavar="ADDRESS", help="A Dask scheduler whose workers run it; else this machine.")
     ] = None,
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Say what there would be, and run nothing.")] = False,
+    no_figures: Annotated[bool, typer.Option("--no-figures", help="Leave the figures out.")] = False,
     json_: JsonPath = None,
 ) -> None:
     """Run a study: many dams, many earthquakes, one table."""
     from heeltoe.study.file import read_study
     from heeltoe.study.plan import plan_of
     from heeltoe.study.run import outlook, run_study
+    from heeltoe.views.files.write import write_study_figures
     from heeltoe.views.terminal.study import print_outlook, print_study
 
     check_json(json_)
@@ -58,8 +60,11 @@ def study(
         again = f"heeltoe study {plain(file, LONGEST_PATH)} --out {plain(place, LONGEST_PATH)} --resume"
         print(f"heeltoe: what is done stays in {plain(place, LONGEST_PATH)}; go on by: {again}", file=sys.stderr)
         raise
+    figures = [] if no_figures else write_study_figures(found, place)
     finish(found.to_json(), json_, [], lambda console: print_study(found, console))
     say_file("wrote", place, words)
+    if figures:
+        say_file("wrote", place / "figures", words)
     if not found.all_ok:
         raise typer.Exit(NO_RESULT)
 

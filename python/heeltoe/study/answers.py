@@ -57,11 +57,7 @@ def bands(strength: Floats, demand: Floats) -> dict[str, list[float]]:
         (n,) what it did to the dam; not a number where a run ended without a result, which counts as infinitely much:
         what is not known is not small.
     """
-    # What differs by rounding is alike.
-    levels, group = np.unique(np.rint(np.log(strength) / _ALIKE), return_inverse=True)
-    if levels.size > 2 * _GROUPS:
-        edges = np.quantile(strength, np.linspace(0.0, 1.0, _GROUPS + 1))
-        group = np.clip(np.searchsorted(edges, strength, side="right") - 1, 0, _GROUPS - 1)
+    group = groups(strength)
     found: dict[str, list[float]] = {"strength": [], "runs": [], "low": [], "median": [], "high": []}
     worst = np.where(np.isnan(demand), np.inf, demand)
     for place in np.unique(group).tolist():
@@ -74,8 +70,29 @@ def bands(strength: Floats, demand: Floats) -> dict[str, list[float]]:
     return found
 
 
-def fragility_of(table: pa.Table, strength: Floats, told: dict[str, Any]) -> list[dict[str, Any]]:
-    """Return the curves that a study asks for, model by model.
+def groups(strength: Floats) -> NDArray[np.integer[Any]]:
+    """Return which runs are about as strongly shaken as each other, (n,) numbers that grow with the strength."""
+    # What differs by rounding is alike.
+    levels, group = np.unique(np.rint(np.log(strength) / _ALIKE), return_inverse=True)
+    if levels.size > 2 * _GROUPS:
+        edges = np.quantile(strength, np.linspace(0.0, 1.0, _GROUPS + 1))
+        group = np.clip(np.searchsorted(edges, strength, side="right") - 1, 0, _GROUPS - 1)
+    return np.asarray(group)
+
+
+def observed(strength: Floats, exceeds: Floats) -> tuple[list[float], list[float]]:
+    """Return which share of the runs exceeds a limit at each strength, or over groups of about the same."""
+    known = np.isfinite(exceeds)
+    strength, exceeds = strength[known], exceeds[known]
+    group = groups(strength)
+    runs = np.bincount(group)
+    there = runs > 0
+    middle, share = (np.bincount(group, each)[there] / runs[there] for each in (np.log(strength), exceeds))
+    return np.exp(middle).tolist(), share.tolist()
+
+
+def fragility_of(table: pa.Table, strength: Floats, told: dict[str, Any]) -> list[tuple[str, Curve]]:
+    """Return the curves that a study asks for, each with its model.
 
     Raises
     ------
@@ -100,7 +117,7 @@ def fragility_of(table: pa.Table, strength: Floats, told: dict[str, Any]) -> lis
                     event.astype(np.int64),
                     confidence=asked["confidence"],
                 )
-                found.append({"model": model, **fitted.to_json()})
+                found.append((model, fitted))
     return found
 
 

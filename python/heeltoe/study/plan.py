@@ -19,6 +19,7 @@ from heeltoe.errors import InputError
 from heeltoe.models.run import earthquake
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.intensity import MEASURES, intensity, spectral_acceleration
+from heeltoe.motion.measures import measures
 from heeltoe.study.axes import Axis, axis_of, beside, check_drawn, law_of
 from heeltoe.study.file import Distribution, Scale, Study
 from heeltoe.study.motions import Shake, shakes_of
@@ -201,8 +202,20 @@ class Plan:
                 by_name |= {f"sa({period:g})": spectral_acceleration(motion, period) for period in periods}
                 measured[motion.name] = by_name
             told = {"name": shake.name, "event": self.events[shake.event], "reversed": shake.turned}
-            found.append({**told, "measures": measured[motion.name]})
+            found.append({**told, "measures": measured[motion.name], "traits": self._traits(shake)})
         return found
+
+    def _traits(self, shake: Shake) -> dict[str, float | None]:
+        """Return what is known of a motion beside its strength."""
+        told = measures(shake.horizontal, self.case.gravity)
+        motions = self.study.motions
+        event = motions.events[shake.event] if motions and motions.events else None
+        return {
+            "mean_period_s": told.get("mean_period_s"),
+            "significant_duration_s": told.get("significant_duration_s"),
+            "magnitude": event.magnitude if event else None,
+            "distance_m": event.distance if event else None,
+        }
 
     def _factors(self, motion: Integers, strength: Floats) -> Floats:
         """Return the factors on the motions as recorded."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import wraps
-from typing import Any, ParamSpec
+from typing import Any, ParamSpec, TypeVar
 
 import matplotlib as mpl
 from matplotlib.figure import Figure
@@ -64,13 +64,14 @@ STYLE: dict[Any, Any] = {
 }
 
 _P = ParamSpec("_P")
+_F = TypeVar("_F", Figure, Figure | None)
 
 
-def styled(draw: Callable[_P, Figure]) -> Callable[_P, Figure]:
+def styled(draw: Callable[_P, _F]) -> Callable[_P, _F]:
     """Let a function draw in this style, whoever calls it."""
 
     @wraps(draw)
-    def drawn(*args: _P.args, **kwargs: _P.kwargs) -> Figure:
+    def drawn(*args: _P.args, **kwargs: _P.kwargs) -> _F:
         with mpl.rc_context(STYLE):
             return draw(*args, **kwargs)
 

@@ -14,10 +14,12 @@ from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.result.write import json_text, write_table
 from heeltoe.study.grid import Grid
+from heeltoe.study.opened import Opened
 from heeltoe.study.overturning import OverturningMap
 from heeltoe.views.figures.all import NAMES, all_figures
 from heeltoe.views.figures.overturning import overturning_figure
 from heeltoe.views.figures.runs import grid_figures
+from heeltoe.views.figures.study import study_figures
 from heeltoe.views.figures.write import save_all
 from heeltoe.views.files.vtk import OWN as VTK_FILES
 from heeltoe.views.files.vtk import write_frames
@@ -127,6 +129,17 @@ def write_overturning(found: OverturningMap, directory: Path) -> list[Path]:
         save_all({"overturning": overturning_figure(found)}, fresh)
 
     return write_whole(write, directory, ())
+
+
+def write_study_figures(found: Opened, directory: Path) -> list[Path]:
+    """Write the figures of a study into ``figures/`` of its directory, those of an earlier time gone, and return their
+    paths; its runs stay as they are."""
+
+    def write(fresh: Path) -> None:
+        (fresh / "figures").mkdir()
+        save_all(study_figures(found), fresh / "figures")
+
+    return write_whole(write, directory, ("*.png", "*.svg"))
 
 
 @singledispatch

@@ -1,0 +1,24 @@
+"""The figures of a study: those that its method and its motions make sense of."""
+
+from __future__ import annotations
+
+from matplotlib.figure import Figure
+
+from heeltoe.study.opened import Opened
+from heeltoe.views.figures.study_curves import bands_figure, fragility_figure
+from heeltoe.views.figures.study_parts import modes_figure, slips_figure
+from heeltoe.views.figures.study_sensitivity import sobol_figure, tornado_figure
+
+
+def study_figures(found: Opened) -> dict[str, Figure]:
+    """Return what can be drawn of a study, complete or not, by name."""
+    method, asked = found.told["study"]["method"], found.told["study"]["fragility"]
+    drawn = {
+        "bands": bands_figure(found),
+        "fragility": fragility_figure(found) if asked else None,
+        "slips": slips_figure(found),
+        "modes": modes_figure(found),
+        "sobol": sobol_figure(found) if method == "sensitivity" else None,
+        "tornado": tornado_figure(found) if method == "one at a time" else None,
+    }
+    return {name: figure for name, figure in drawn.items() if figure is not None}

@@ -1,0 +1,89 @@
+"""What the slip hangs on: Sobol's indices, and one field at a time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from heeltoe.study.opened import Opened
+from heeltoe.views.figures.study_common import headed
+from heeltoe.views.figures.style import COLOURS, WIDTH, styled
+
+_HIGH, _LOW = COLOURS["rotation"], COLOURS["slip"]
+
+
+@styled
+def sobol_figure(found: Opened) -> Figure | None:
+    """Draw first and total indices of the residual slip with what they lie within; None where it does not vary."""
+    by_model = {name: told for name, told in found.sensitivity().items() if told["indices"]}
+    if not by_model:
+        return None
+    figure, panels = _panels(by_model, max(len(each["indices"]) for each in by_model.values()))
+    for axes, (name, told) in zip(panels, by_model.items(), strict=True):
+        indices = told["indices"][::-1]
+        rows = np.arange(len(indices))
+        for kind, shift, marker, colour in (("total", 0.12, "o", _HIGH), ("first", -0.12, "s", _LOW)):
+            low, high = np.array([each[f"{kind}_interval"] for each in indices]).T
+            axes.hlines(rows + shift, low, high, color=colour, linewidth=1.4)
+            values = [each[kind] for each in indices]
+            text = {"first": "by itself (first)", "total": "with all others (total)"}[kind]
+            axes.plot(values, rows + shift, marker, color=colour, markersize=5, label=text)
+        _rows(axes, [each["name"] for each in indices])
+        axes.axvline(0.0, color="#444444", linewidth=0.8)
+        axes.set_xlabel("share of the variance of the slip")
+        axes.set_title(f"{name} model{_left_out(told['left_out'], 'rows')}", fontsize=9, loc="left")
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    confidence = next(iter(by_model.values()))["confidence"]
+    return headed(figure, found, f"Sobol's indices of the residual slip, {confidence:.0%} intervals")
+
+
+@styled
+def tornado_figure(found: Opened) -> Figure | None:
+    """Draw what each field by itself makes of the slip; None where no motion gave a result for all dams."""
+    by_model = {name: told for name, told in found.tornado().items() if told["fields"]}
+    if not by_model:
+        return None
+    figure, panels = _panels(by_model, max(len(each["fields"]) for each in by_model.values()))
+    for axes, (name, told) in zip(panels, by_model.items(), strict=True):
+        fields = told["fields"][::-1]
+        for row, each in enumerate(fields):
+            _bar(axes, row, each["values"], told["base"])
+        axes.axvline(1e3 * told["base"], color="#444444", linewidth=0.8)
+        axes.margins(x=0.15)
+        _rows(axes, [each["name"] for each in fields])
+        axes.set_xlabel("residual slip, either way, mean of the motions [mm]")
+        axes.set_title(f"{name} model{_left_out(told['left_out'], 'motions')}", fontsize=9, loc="left")
+    return headed(figure, found, "one field at a time; the line is the case as it is")
+
+
+def _panels(by_model: Mapping[str, Any], rows: int) -> tuple[Figure, list[Axes]]:
+    figure = Figure(figsize=(WIDTH, 1.3 + (0.8 + 0.42 * rows) * len(by_model)), layout="constrained")
+    return figure, list(figure.subplots(len(by_model), 1, sharex=True, squeeze=False)[:, 0])
+
+
+def _bar(axes: Axes, row: int, values: list[dict[str, Any]], base: float) -> None:
+    ends = sorted(values, key=lambda each: float(each["demand"]))
+    for end, colour, side in ((ends[0], _LOW, "right"), (ends[-1], _HIGH, "left")):
+        at = 1e3 * end["demand"]
+        outward = at >= 1e3 * base if side == "left" else at <= 1e3 * base
+        if not outward:
+            continue  # all values lie on the other side of the case
+        axes.barh(row, at - 1e3 * base, 0.6, left=1e3 * base, color=colour)
+        shift = (4.0 if side == "left" else -4.0, 0.0)
+        axes.annotate(
+            str(end["value"]), (at, row), shift, textcoords="offset points", ha=side, va="center", fontsize=8, zorder=5
+        )
+
+
+def _rows(axes: Axes, names: list[str]) -> None:
+    axes.set_yticks(np.arange(len(names)), names)
+    axes.set_ylim(-0.6, len(names) - 0.4)
+    axes.grid(visible=False, axis="y")
+
+
+def _left_out(count: int, what: str) -> str:
+    return f", {count:,} {what} left out" if count else ""
