@@ -43,6 +43,8 @@ def bands_figure(found: Opened) -> Figure | None:
             which = found.told["study"]["model"].index(name)
             _thin(axes, thin[0][..., which], thin[1][..., which])
         _band(axes, bands(strength[here], slip[here]))
+        if not np.isfinite(slip[here]).any():
+            axes.text(0.5, 0.5, "no run has a slip", transform=axes.transAxes, ha="center")
         axes.set_title(f"{name} model", fontsize=9, loc="left")
         axes.set_xlabel(label)
     axes = panels[0]

@@ -68,6 +68,8 @@ def modes_figure(found: Opened) -> Figure | None:
         here = slides & (model == place)
         total = np.bincount(group[here], minlength=middle.size)
         there = np.flatnonzero(total)
+        if not there.size:
+            axes.text(0.5, 0.5, "none", transform=axes.transAxes, ha="center")
         bottom = np.zeros(there.size)
         for number, mode in enumerate(MODES):
             share = np.bincount(group[here & (most == number)], minlength=middle.size)[there] / total[there]
