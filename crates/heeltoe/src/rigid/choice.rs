@@ -81,8 +81,8 @@ fn admissible(
     }
 }
 
-/// The mode in which the block goes on: the present one if it is still admissible, else the first of [`Mode::ALL`]
-/// that is, or drift; `None` is a Painlevé paradox.
+/// The mode in which the block goes on: the present one if it is still admissible and nothing has come to stand or to lie,
+/// else the first of [`Mode::ALL`] that is, or drift; `None` is a Painlevé paradox.
 pub(super) fn select(
     reactions: &Reactions,
     present: Mode,
@@ -91,8 +91,12 @@ pub(super) fn select(
     piece: &Piece<2>,
 ) -> Option<Mode> {
     for tie in [TIE, HAIR] {
-        // A base that has come to stand is held by static friction if that can hold it: sticking goes first.
-        let goes_on = velocity != 0.0 || present.slip().is_none();
+        // A base that has come to stand is held by static friction if that can hold it: sticking goes first. So does
+        // contact where a corner has come to lie: loads that just balance there leave it lying, while a motion that went
+        // on would lift it by rounding, and close it at once.
+        let stopped = velocity == 0.0 && present.slip().is_some();
+        let landed = (0..2).any(|corner| closed[corner] && !present.contacts()[corner]);
+        let goes_on = !stopped && !landed;
         let mut candidates = goes_on
             .then_some(present)
             .into_iter()

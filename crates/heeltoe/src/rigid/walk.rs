@@ -249,7 +249,10 @@ pub(super) trait Carried<'a> {
         let kind = match strikes {
             [true, true] => EventKind::BothStrike,
             [true, false] => EventKind::HeelStrikes,
-            _ => EventKind::ToeStrikes,
+            [false, true] => EventKind::ToeStrikes,
+            // It has come down without a velocity.
+            [false, false] if gap == HEEL => EventKind::HeelStrikes,
+            [false, false] => EventKind::ToeStrikes,
         };
         Some((kind, blow))
     }
