@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
@@ -24,10 +25,13 @@ USUAL: dict[str, list[str | Path]] = {
     "overturning": [SLENDER, "--count=2"],
     "animate": [BLOCK, "--to=page.html"],
     "motion": ["record.txt", "--no-figure"],
+    "study": ["study.json", "--dry-run"],
     "validate": [],
     "new": [],
 }
 RECORD = "# units: time [s], acceleration [g]\n" + "".join(f"{0.01 * k:.2f} {(-1) ** k * 0.2}\n" for k in range(50))
+# A run of one dam.
+STUDY = json.dumps({"case": str(BLOCK), "vary": {"crack.friction": [0.5]}})
 WORDS = (
     *(each for each in TEXTS if len(each) < 10_000),
     *(str(each) for each in NUMBERS),
@@ -65,6 +69,7 @@ def attack(name: str, place: Path, every: int, record_property: Any) -> None:
         cwd = place / str(number)
         cwd.mkdir()
         (cwd / "record.txt").write_text(RECORD)
+        (cwd / "study.json").write_text(STUDY)
         found.strike(f"{name} {arguments[-1] if len(arguments) > 1 else arguments!r}", name, *arguments, cwd=cwd)
         shutil.rmtree(cwd)
     found.told(record_property)

@@ -24,6 +24,7 @@ from heeltoe.case.read import read_fields
 from heeltoe.case.sentences import collected, first_error
 from heeltoe.errors import InputError, shown
 from heeltoe.shown import Shown
+from heeltoe.units.parse import acceleration_unit
 
 #: A value of some field as a case file has it; which quantity it is depends on the field.
 Value = str | int | float
@@ -168,6 +169,8 @@ class Motions(Fields):
             raise InputError("study-motions", "folder")
         if len(given) > 1:
             raise InputError("fields-conflict", given[0], other=given[1])
+        if self.unit is not None:
+            acceleration_unit(self.unit, "unit")
         return self
 
 

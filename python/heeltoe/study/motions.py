@@ -3,21 +3,25 @@ strong as is wanted."""
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+from pydantic import ValidationError
 
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.case.motion import Source
+from heeltoe.case.sentences import first_error
 from heeltoe.case.shaking import read_source
 from heeltoe.errors import InputError, shown
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.intensity import intensity
 from heeltoe.motion.records.catalog import is_record
+from heeltoe.plain import harmless
 from heeltoe.study.file import Event, Motions
 
 # What the last part of a vertical component's name is.
@@ -91,7 +95,10 @@ def shakes_of(motions: Motions, case: Case, directory: Path) -> tuple[tuple[Shak
             found.append(shake)
             if motions.both_signs:
                 found.append(replace(shake, turned=True))
-    return tuple(found), tuple(event.name for event in events)
+    # Halves of letters are none that a table can hold.
+    return tuple(replace(each, name=harmless(each.name)) for each in found), tuple(
+        harmless(each.name) for each in events
+    )
 
 
 def _reference(motions: Motions, motion: GroundMotion, case: Case) -> float:
@@ -104,7 +111,10 @@ def _reference(motions: Motions, motion: GroundMotion, case: Case) -> float:
 
 
 def _read(motions: Motions, case: Case, directory: Path, name: str, way: str) -> GroundMotion:
-    source = Source(file=name, unit=motions.unit, time_step=motions.time_step)
+    try:
+        source = Source(file=name, unit=motions.unit, time_step=motions.time_step)
+    except ValidationError as found:
+        raise first_error(found, Source) from None
     field = f"motions: {name}"
     return read_source(source, case.gravity, directory, field, upward=way == "vertical")
 
@@ -141,7 +151,8 @@ def _parts(name: str) -> tuple[str, str]:
 
 def _folder(name: str, directory: Path) -> list[str]:
     """Return the records of a folder, in the order of their names."""
-    root = directory / Path(name).expanduser()
+    # Unlike that of paths, it leaves the home of nobody as it is.
+    root = directory / os.path.expanduser(name)
     if not root.is_dir():
         raise InputError("study-folder", "motions.folder", shown(name))
     found = [str(path.resolve()) for path in sorted(root.iterdir()) if is_record(path)]

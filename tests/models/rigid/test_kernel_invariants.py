@@ -10,7 +10,7 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from heeltoe.kernel.block import SUMMARY, run_blocks
+from heeltoe.kernel.block import SUMMARY, Limits, run_blocks
 from heeltoe.kernel.shaking import Shaking
 from shared.kernel_cases import GRAVITY, Floats, Run, ordinary, paradox_possible, rectangle, rows, run
 
@@ -185,7 +185,8 @@ def test_ensembles_give_the_same_bits(examples):
     def law(many, random):
         def ensemble(order, threads):
             arrays = [np.array([value[k] for k in order]) for value in (blocks, which)]
-            found = run_blocks(arrays[0], motions, arrays[1], np.ones((len(order), 2)), threads=threads)
+            ones = np.ones((len(order), 2))
+            found = run_blocks(arrays[0], motions, arrays[1], ones, Limits(event_limit=EVENT_LIMIT), threads)
             return np.column_stack(list(found.values()))
 
         blocks, which = [rows(one.block) for one in many], np.arange(len(many))
