@@ -72,3 +72,26 @@ def test_a_bug_of_a_kernel_is_one_line(panic, monkeypatch, capsys, tmp_path):
     assert said.err.count("\n") == 1
     assert "please report it" in said.err
     assert (tmp_path / "before.json").read_text() == "{}"
+
+
+@pytest.mark.parametrize(
+    "error",
+    [MemoryError(), ImportError("lib.so: failed to map segment from shared object"), ImportError("no such library")],
+    ids=["array", "library", "another reason"],
+)
+def test_too_little_memory_is_one_line(error, monkeypatch, capsys):
+    def fail(*_):
+        raise error
+
+    monkeypatch.setattr(_kernel, "run_rigid", fail)
+    monkeypatch.setattr("sys.argv", ["heeltoe", "run", str(BLOCK)])
+    if "no such" in str(error):
+        with pytest.raises(ImportError):
+            command.main()
+        return
+    with pytest.raises(SystemExit) as ended:
+        command.main()
+    assert ended.value.code == 3
+    assert capsys.readouterr().err == (
+        "heeltoe: there is not enough memory for this; give the program more, or ask for less\n"
+    )

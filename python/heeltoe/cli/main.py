@@ -6,7 +6,7 @@ import gc
 import os
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Never
 
 import typer
 
@@ -39,8 +39,12 @@ def main() -> None:
         print(f"heeltoe: {error}", file=sys.stderr)
         sys.exit(BAD_INPUT)
     except MemoryError:
-        print("heeltoe: there is not enough memory for this; give the program more, or ask for less", file=sys.stderr)
-        sys.exit(NO_RESULT)
+        _no_memory()
+    except ImportError as error:
+        # What the loader says where a library does not fit.
+        if "failed to map" not in str(error) and "cannot allocate memory" not in str(error).lower():
+            raise
+        _no_memory()
     except SystemExit as ended:
         if ended.code == INTERRUPTED:
             print("; ".join(["heeltoe: interrupted", *_known(ended)]), file=sys.stderr)
@@ -51,6 +55,11 @@ def main() -> None:
         asked = "please report it with the command and its files"
         print(f"heeltoe: this is a bug of its kernel: {plain(error)}; {asked}", file=sys.stderr)
         sys.exit(BUG)
+
+
+def _no_memory() -> Never:
+    print("heeltoe: there is not enough memory for this; give the program more, or ask for less", file=sys.stderr)
+    sys.exit(NO_RESULT)
 
 
 def _known(ended: BaseException) -> list[str]:

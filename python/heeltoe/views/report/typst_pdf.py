@@ -54,6 +54,9 @@ _HELD = 3
 _WIDTH_MM, _HEIGHT_MM = 170.0, 225.0
 """Room for a figure on a page, its caption left out."""
 
+# Address space that typst takes for a report, threads and fonts, twice over [bytes].
+_ROOM = 300e6
+
 
 def pdf(document: Document) -> bytes:
     """Return the document as PDF; the same document gives the same bytes with the same fonts."""
@@ -71,6 +74,7 @@ def compiled(document: Document, kind: Literal["pdf", "png"], ppi: float | None 
     import typst
     from matplotlib import get_data_path
 
+    _check_room()
     with temporary() as directory:
         for number, figure in enumerate(_figures(document.blocks)):
             (directory / f"{number}.svg").write_bytes(figure.svg)
@@ -92,6 +96,26 @@ def compiled(document: Document, kind: Literal["pdf", "png"], ppi: float | None 
                 raise
             raise InputError("report-package-broken", "report", "typst", reason=error) from None
     return [made] if isinstance(made, bytes) else list(made)
+
+
+def _check_room() -> None:
+    """Refuse where the process is not allowed as much more memory as typst may ask for, since that ends it then.
+
+    Raises
+    ------
+    InputError
+        Saying how much is left.
+    """
+    try:
+        import resource
+
+        allowed, _ = resource.getrlimit(resource.RLIMIT_AS)
+        taken = int(Path("/proc/self/statm").read_text(encoding="ascii").split()[0]) * resource.getpagesize()
+    except (ImportError, OSError, ValueError):  # other systems tell it otherwise, or not at all
+        return
+    if allowed != resource.RLIM_INFINITY and allowed - taken < _ROOM:
+        left = f"it wants {_ROOM / 1e6:.0f} MB of memory, {max(0, allowed - taken) / 1e6:.0f} MB are left"
+        raise InputError("report-package-broken", "report", "typst", reason=left)
 
 
 def source(document: Document) -> str:
