@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from heeltoe import run_study
-from heeltoe.views.figures.study import study_figures
+from heeltoe.views.figures.studies.all import study_figures
 from shared.command import command
 from shared.studies import DRAWN, GRID, study_file
 

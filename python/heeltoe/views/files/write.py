@@ -19,7 +19,7 @@ from heeltoe.study.overturning import OverturningMap
 from heeltoe.views.figures.all import NAMES, all_figures
 from heeltoe.views.figures.overturning import overturning_figure
 from heeltoe.views.figures.runs import grid_figures
-from heeltoe.views.figures.study import study_figures
+from heeltoe.views.figures.studies.all import study_figures
 from heeltoe.views.figures.write import save_all
 from heeltoe.views.files.vtk import OWN as VTK_FILES
 from heeltoe.views.files.vtk import write_frames

@@ -5,9 +5,9 @@ from __future__ import annotations
 from matplotlib.figure import Figure
 
 from heeltoe.study.opened import Opened
-from heeltoe.views.figures.study_curves import bands_figure, fragility_figure
-from heeltoe.views.figures.study_parts import modes_figure, slips_figure
-from heeltoe.views.figures.study_sensitivity import sobol_figure, tornado_figure
+from heeltoe.views.figures.studies.curves import bands_figure, fragility_figure
+from heeltoe.views.figures.studies.parts import modes_figure, slips_figure
+from heeltoe.views.figures.studies.sensitivity import sobol_figure, tornado_figure
 
 
 def study_figures(found: Opened) -> dict[str, Figure]:

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from heeltoe.study.opened import Opened
-from heeltoe.views.figures.study_common import headed
+from heeltoe.views.figures.studies.common import headed
 from heeltoe.views.figures.style import COLOURS, WIDTH, styled
 
 _HIGH, _LOW = COLOURS["rotation"], COLOURS["slip"]

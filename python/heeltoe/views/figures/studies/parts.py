@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from heeltoe.result.contract import JOINT_METER_M
 from heeltoe.study.answers import MODES, groups
 from heeltoe.study.opened import Opened, codes
-from heeltoe.views.figures.study_common import LINES, headed, strength_of
+from heeltoe.views.figures.studies.common import LINES, headed, strength_of
 from heeltoe.views.figures.style import MODE_COLOURS, MODE_HATCHES, WIDTH, styled
 
 _KINDS = {"sliding": "slide", "slide_rocking": "slide-rock", "drifting": "drift"}

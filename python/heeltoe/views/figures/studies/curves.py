@@ -15,7 +15,7 @@ from heeltoe.study.answers import bands, observed
 from heeltoe.study.fragility import LIMITED, Curve, exceeding
 from heeltoe.study.opened import Opened, codes
 from heeltoe.units.write import length
-from heeltoe.views.figures.study_common import LINES, headed, measured, strength_of
+from heeltoe.views.figures.studies.common import LINES, headed, measured, strength_of
 from heeltoe.views.figures.style import WIDTH, styled
 
 #: More curves than these are a cloud: evenly chosen ones stand for them.
