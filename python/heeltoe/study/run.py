@@ -34,11 +34,11 @@ class Progress:
     Attributes
     ----------
     done, of
-        Runs, those of earlier sessions among them.
+        Runs, those that were there before among them.
     failed
-        Of those of this session, the ones without a result.
+        Of those made now, the ones without a result.
     rate
-        Runs a second in this session.
+        Runs a second, of those made now.
     """
 
     done: int
@@ -173,14 +173,14 @@ def _run(plan: Plan, store: Store, scheduler: str | None, progress: Callable[[Pr
     here = scheduler is None and set(plan.study.model) == {"rigid"}
     ran = run_here(plan, parts) if here else run_on_workers(plan, parts, scheduler)
     done = store.count - sum(stop - start for _, start, stop in parts)
-    began, session, failed = monotonic(), 0, 0
+    began, made, failed = monotonic(), 0, 0
     for part, table in ran:
         store.write(part, table)
-        session += len(table)
+        made += len(table)
         failed += _failed(table)
         if progress is not None:
-            rate = session / max(monotonic() - began, 1e-9)
-            progress(Progress(done + session, store.count, failed, rate))
+            rate = made / max(monotonic() - began, 1e-9)
+            progress(Progress(done + made, store.count, failed, rate))
 
 
 def _failed(table: pa.Table) -> int:
