@@ -88,5 +88,5 @@ def test_some_words_for_every_option(name, tmp_path, record_property):
 @pytest.mark.slow
 @pytest.mark.usefixtures("empty_figures")
 @pytest.mark.parametrize("name", USUAL)
-def test_every_word_for_every_option(name, tmp_path, record_property):
-    attack(name, tmp_path, 1, record_property)
+def test_most_words_for_every_option(name, tmp_path, record_property):
+    attack(name, tmp_path, 3, record_property)

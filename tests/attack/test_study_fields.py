@@ -108,5 +108,5 @@ def test_some_values_of_every_field(tmp_path, record_property):
 
 
 @pytest.mark.slow
-def test_every_value_of_every_field(tmp_path, record_property):
-    attack(tmp_path, 1, record_property)
+def test_many_values_of_every_field(tmp_path, record_property):
+    attack(tmp_path, 3, record_property)
