@@ -98,7 +98,11 @@ def axis_of(
     quantity = quantity_of(path)
     if isinstance(given, Distribution):
         if quantity is None:
-            case.with_({path: 1.0})  # which says what is wrong with the path, if anything
+            try:
+                case.with_({path: 1.0})
+            except InputError as error:
+                if error.code == "unknown-field":
+                    raise
             raise InputError("study-not-a-number", f"vary.{path}", shown(given.distribution))
         law = law_of(given, lambda value, field: parse(value, quantity, field), f"vary.{path}")
         numbers = np.zeros(0) if drawn else _even(given, law, f"vary.{path}")
