@@ -39,13 +39,13 @@ REFUSED = {
     "a distribution without a count": (changed(GRID, ", count = 3", ""), "vary.crack.restitution", "count"),
     "a distribution of words": (
         changed(GRID, FRICTION, '"uplift.pattern" = { from = 1, to = 2, count = 2 }'),
-        "uplift.pattern",
-        "choice",
+        "vary.uplift.pattern",
+        "no number",
     ),
     "a distribution of what has no numbers": (
         changed(GRID, FRICTION, "title = { from = 1, to = 2, count = 2 }"),
-        "title",
-        "type",
+        "vary.title",
+        "no number",
     ),
     "a distribution that leaves the range": (
         changed(GRID, "from = 0.2, to = 0.8", "from = 0.2, to = 1.8"),
