@@ -96,7 +96,10 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     ends = ("accepted", "refused", "no result", "defect")
     terminalreporter.write_sep("-", "attacks")
     terminalreporter.write_line(f"{'':32s}{'tried':>10s}" + "".join(f"{end:>10s}" for end in ends))
-    for what, found in [*sorted(rows), ("all", sum((Counter(found) for _, found in rows), Counter()))]:
+    for what, found in [
+        *sorted(rows, key=lambda row: str(row[0])),
+        ("all", sum((Counter(found) for _, found in rows), Counter())),
+    ]:
         counts = "".join(f"{found.get(end, 0):>10d}" for end in ends)
         terminalreporter.write_line(f"{what:32s}{sum(found.values()):>10d}{counts}")
 

@@ -223,3 +223,11 @@ def test_a_vertical_that_counts_down_is_turned():
 def test_gravity_of_the_case_is_the_g_of_records_and_points():
     case = _case({"points": [["0 s", "0.5 g"], ["1 s", "0.5 g"]]}, gravity="9.81 m/s^2")
     assert resolve(case.motion, case.gravity, case.base_directory)[0].pga == pytest.approx(0.5 * 9.81, rel=1e-15)
+
+
+def test_a_factor_beyond_all_numbers_is_refused():
+    motion = GroundMotion.from_points([0.0, 1.0, 2.0], [0.0, 1.0, 0.0])
+    for factor in (np.inf, 1e308 * 10.0, np.nan):
+        with pytest.raises(InputError) as refused:
+            motion.scaled(factor)
+        assert refused.value.code == "motion-not-finite"

@@ -14,7 +14,7 @@ from heeltoe.cli import dam as dam_commands
 from heeltoe.cli import motion as motion_command
 from heeltoe.cli import run as run_command
 from heeltoe.cli import study as study_command
-from heeltoe.cli.common import BAD_INPUT, BUG, INTERRUPTED, NO_RESULT, app
+from heeltoe.cli.common import BAD_INPUT, BUG, INTERRUPTED, LONGEST_PATH, NO_RESULT, app
 from heeltoe.cli.streams import console, streams
 from heeltoe.errors import InputError
 from heeltoe.plain import plain
@@ -105,7 +105,8 @@ def new(
     if os.path.lexists(path):
         raise InputError("file-exists", str(path))
     write_text(path, new_case_text(path.stem))
-    print(f"wrote {path}; run it with: heeltoe run {path}")
+    shown = plain(path, LONGEST_PATH)
+    print(f"wrote {shown}; run it with: heeltoe run {shown}")
 
 
 # In the order of the help.

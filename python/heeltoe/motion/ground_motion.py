@@ -179,7 +179,9 @@ class GroundMotion(Shown):
     def scaled(self, factor: float, note: str = "") -> GroundMotion:
         """Return the motion times `factor`."""
         said = note or f"scaled by {factor:.6g}"
-        return replace(self, acceleration=self.acceleration * factor, processing=(*self.processing, said))
+        with np.errstate(over="ignore", invalid="ignore"):  # what is beyond all numbers is refused as none
+            acceleration = self.acceleration * factor
+        return replace(self, acceleration=acceleration, processing=(*self.processing, said))
 
     def scaled_to(self, pga: float, note: str = "") -> GroundMotion:
         """Return the motion scaled to a peak of `pga` [m/s2]."""
