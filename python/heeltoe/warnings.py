@@ -44,6 +44,12 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "{periods_s:.2g s|to}, where this motion shakes it with {accelerations_g:.2g g|to}, {times:.2g|to} times its "
         "peak{level}; it may slide and rock several times as far: {remedy}, and the dam is elastic",
     ),
+    "study-rigid": (
+        "caution",
+        "model",
+        "all runs are of rigid blocks, which leave out the vibration of the dam: it may slide and rock several times "
+        'as far; model = ["rigid", "flexible"] shows both',
+    ),
     "rigid-top": (
         "caution",
         "decoupled",

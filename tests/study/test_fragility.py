@@ -146,6 +146,8 @@ def test_the_command_says_what_the_study_found(tmp_path):
         assert text in said.stdout
     assert max(len(line) for line in said.stdout.splitlines() if "wrote" not in line) <= 80
     assert (tmp_path / "study.json").read_text().count('"limit"') == 3
+    assert "all runs are of rigid blocks" in " ".join(said.stdout.split())
+    assert "all runs are of rigid blocks" in (tmp_path / "study.json").read_text()
 
 
 def test_a_dry_run_says_what_there_would_be(tmp_path):
@@ -203,3 +205,8 @@ def test_what_is_not_installed_is_said(tmp_path, monkeypatch):
             patch.setitem(__import__("sys").modules, package, None)
             with pytest.raises(InputError, match="pip install"):
                 call()
+
+
+def test_what_a_field_that_varies_makes_suspicious_is_said(tmp_path):
+    found = run_study(study_file(tmp_path, GRID.replace("[0.3, 0.5]", "[0.5, 3.0]")), tmp_path / "out")
+    assert any("friction of 3 is higher" in text for text in found.told["warnings"])

@@ -285,6 +285,7 @@ class Opened(Shown):
             "measures_compared": self.compared(),
             "sensitivity": self.sensitivity() if self.told["study"]["method"] == "sensitivity" else None,
             "one_at_a_time": self.tornado() if self.told["study"]["method"] == "one at a time" else None,
+            "warnings": self.told["warnings"],
             "pilot": self.told["pilot"],
             "study": self.told["study"],
             "build": self.told["build"],

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from typing import Any
@@ -15,6 +16,7 @@ from heeltoe.arrays import Floats, Integers
 from heeltoe.case.model import Case
 from heeltoe.case.paths import value_of
 from heeltoe.case.read import read_case
+from heeltoe.case.warnings import case_warnings
 from heeltoe.errors import InputError
 from heeltoe.models.run import earthquake
 from heeltoe.motion.earthquake import Earthquake
@@ -25,6 +27,7 @@ from heeltoe.study.file import Distribution, Scale, Study
 from heeltoe.study.motions import Shake, shakes_of
 from heeltoe.study.samples import MOST_SOBOL, Columns, Samples
 from heeltoe.units.parse import parse, parse_acceleration
+from heeltoe.warnings import Notice
 
 #: More runs than this are a slip of the pen: a hundred core-years of the fastest model.
 MOST = 10**11
@@ -185,6 +188,20 @@ class Plan:
             horizontal = shake.horizontal.reversed() if shake.turned else shake.horizontal
             found.append(Earthquake(horizontal, shake.vertical, horizontal.duration))
         return tuple(found)
+
+    def warnings(self) -> list[str]:
+        """Return what the case warns of, as it is and with the least and the largest of each field, and the motions."""
+        cases = [self.case]
+        for axis in self.axes:
+            ends = axis.numbers if axis.law is None else np.array(axis.law.support())
+            for value in () if ends is None else (ends.min(), ends.max()):
+                with suppress(InputError):
+                    cases += [self.case.with_(axis.changes(float(value)))] if np.isfinite(value) else []
+        said = [notice for case in cases for notice in case_warnings(case)]
+        said += [notice for shake in self.shakes for notice in shake.horizontal.warnings]
+        if set(self.study.model) == {"rigid"}:
+            said.append(Notice("study-rigid"))
+        return list(dict.fromkeys(map(str, said)))
 
     def told_motions(self) -> list[dict[str, Any]]:
         """Return the motions with their measures as recorded, SI; spectral accelerations at the periods that the study

@@ -119,6 +119,7 @@ def keep(store: Store, plan: Plan) -> None:
         "count": store.count,
         "size": store.size,
         "inputs": plan.inputs,
+        "warnings": plan.warnings(),
         "events": list(plan.events),
         "motions": plan.told_motions(),
         "pilot": None if plan.pilot is None else plan.pilot.to_json(),

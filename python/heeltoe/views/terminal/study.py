@@ -12,7 +12,7 @@ from heeltoe.study.opened import Opened
 from heeltoe.study.run import Outlook
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.write import length
-from heeltoe.views.terminal.common import print_title, quiet_table
+from heeltoe.views.terminal.common import print_title, print_warnings, quiet_table
 from heeltoe.views.terminal.study_answers import print_compared, print_hangs_on
 
 _KINDS = {"residual_slip": "residual slip", "peak_slip": "peak slip", "opening": "opening", "rotation": "rotation"}
@@ -70,6 +70,7 @@ def print_study(found: Opened, console: Console) -> None:
         _print_fragility(found.fragility, console)
     print_compared(found, console)
     print_hangs_on(found, console)
+    print_warnings(found.told["warnings"], console)
 
 
 def counted(count: int, what: str) -> str:
