@@ -3,8 +3,8 @@
 from pathlib import Path
 
 from heeltoe import decoupled, read_case, rigid
-from heeltoe.study.grid import parse_variations, run_grid
 from heeltoe.study.overturning import overturning_map
+from heeltoe.study.small import parse_axes, run_small
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.histories import response_figure
 from heeltoe.views.figures.overturning import overturning_figure
@@ -16,8 +16,8 @@ EXAMPLES = HERE.parent / "examples"
 
 if __name__ == "__main__":
     case = read_case(EXAMPLES / "koyna-top.toml", ["motion.pga=1g", "motion.duration=15s"])
-    varied = parse_variations(["crack.friction=0.8,1.0,1.2", "uplift.pattern=uniform,triangular"])
-    grid = run_grid(EXAMPLES / "koyna.toml", [], varied, decoupled)
+    varied = parse_axes(["crack.friction=0.8,1.0,1.2", "uplift.pattern=uniform,triangular"])
+    grid = run_small(EXAMPLES / "koyna.toml", [], varied, decoupled)
     save(response_figure(rigid(case)), HERE / "koyna-top.png", dpi=110)
     save(crack_level_figure(grid.responses[0]), HERE / "koyna-crack-level.png", dpi=110)
     save(slips_figure(grid), HERE / "koyna-slips.png", dpi=110)

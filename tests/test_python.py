@@ -12,7 +12,7 @@ import pytest
 
 import heeltoe
 from heeltoe import GroundMotion, InputError, build_block, dam_periods, read_case, read_record, rigid, rigid_many
-from heeltoe.study.grid import parse_variations, run_grid
+from heeltoe.study.small import parse_axes, run_small
 from shared.dams import BASE, FAST, SLENDER, example
 
 
@@ -28,7 +28,7 @@ def response(case):
 
 @pytest.fixture(scope="module")
 def grid():
-    return run_grid(BASE, FAST, parse_variations(["crack.friction=0.8,1.0"]), rigid)
+    return run_small(BASE, FAST, parse_axes(["crack.friction=0.8,1.0"]), rigid)
 
 
 def test_things_say_what_they_are_in_a_few_lines(case, response, grid, typical_both):
@@ -41,7 +41,7 @@ def test_things_say_what_they_are_in_a_few_lines(case, response, grid, typical_b
         (response.motion, ("<GroundMotion elcentro-1940-180-nga", "3.923 m/s2", "301 samples")),
         (build_block(case), ("<Block: 1.071e+07 kg/m of concrete", "80 m", "sliding factor 1.341")),
         (heeltoe.statics(case, 0.1), ("<Statics: ", "usual, post-seismic", "of 8 checks are met", "not met: usual")),
-        (grid, ("<Grid: 2 runs of the rigid model", "crack.friction 2 times")),
+        (grid, ("<SmallStudy: 2 runs of the rigid model", "crack.friction 2 times")),
         (dam_periods(case), ("DamPeriods",)),
         (heeltoe.overturning_map(read_case(SLENDER), count=2), ("OverturningMap",)),
     ):

@@ -10,7 +10,7 @@ from heeltoe import InputError, read_case, run
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.processing import band_pass
 from heeltoe.motion.spectrum import response_spectrum
-from heeltoe.study.grid import parse_variations, run_grid
+from heeltoe.study.small import parse_axes, run_small
 from shared.cases import refusal
 from shared.dams import example
 
@@ -72,13 +72,13 @@ def test_what_is_proposed_allows_it():
 
 def test_a_table_is_judged_as_a_whole():
     fields = example("typical-base", *DAM).model_dump(mode="json", exclude_unset=True)
-    variations = parse_variations(["crack.friction=0.8,1.0"])
+    variations = parse_axes(["crack.friction=0.8,1.0"])
     from heeltoe.models.run import cost_of
 
     one = cost_of(read_case(fields))
     limit = f"analysis.time_limit={1.5 * one.seconds} s"
     with pytest.raises(InputError) as error:
-        run_grid(fields, [limit], variations, pytest.fail, cost=cost_of)
+        run_small(fields, [limit], variations, pytest.fail, cost=cost_of)
     assert (error.value.code, error.value.field) == ("too-costly", "--vary")
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from heeltoe import InputError, read_case, rigid
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.study.grid import parse_variations, run_grid
+from heeltoe.study.small import parse_axes, run_small
 from shared.cases import DAM, dam, refusal, write
 from shared.dams import BLOCK, PULSE
 
@@ -22,9 +22,7 @@ def test_a_pattern_that_is_there_already_keeps_its_options():
     assert same.model_dump() == read_case(DRAINED).model_dump()
     other = read_case(DRAINED, ["uplift.pattern=triangular"])
     assert (other.uplift.drain_position, other.uplift.drain_efficiency, other.statics.drain_diameter) == (None,) * 3
-    found = run_grid(
-        DRAINED | {"motion": PULSE}, [], parse_variations(["uplift.pattern=drained,triangular,none"]), rigid
-    )
+    found = run_small(DRAINED | {"motion": PULSE}, [], parse_axes(["uplift.pattern=drained,triangular,none"]), rigid)
     assert [each.outcome for each in found.responses] == ["ok"] * 3
 
 

@@ -11,7 +11,7 @@ from rich.console import Console
 
 from heeltoe import flexible, read_case, rigid, write_report
 from heeltoe.models.run import run
-from heeltoe.study.grid import parse_variations, run_grid
+from heeltoe.study.small import parse_axes, run_small
 from heeltoe.views.figures.all import all_figures
 from heeltoe.views.figures.energy import energy_figure
 from heeltoe.views.figures.histories import response_figure
@@ -147,12 +147,12 @@ def test_values_of_the_energy_stand_in_rows_of_their_own():
 
 
 def test_a_table_of_runs_says_all_its_peaks():
-    variations = parse_variations(["motion.pga=0.2g,0.6g", "crack.friction=0.8,1.0"])
-    grid = run_grid(KOYNA, ["motion.duration=6s"], variations, lambda case: run(case, "rigid"))
+    variations = parse_axes(["motion.pga=0.2g,0.6g", "crack.friction=0.8,1.0"])
+    grid = run_small(KOYNA, ["motion.duration=6s"], variations, lambda case: run(case, "rigid"))
     figure = slips_figure(grid)
     assert "peaks 0.2 to 0.6 g" in figure._suptitle.get_text()
     check(figure, "slips")
-    one = run_grid(KOYNA, ["motion.duration=6s"], variations[1:], lambda case: run(case, "rigid"))
+    one = run_small(KOYNA, ["motion.duration=6s"], variations[1:], lambda case: run(case, "rigid"))
     assert "peak 0.49 g" in slips_figure(one)._suptitle.get_text()
 
 

@@ -11,7 +11,7 @@ import pytest
 
 from heeltoe import InputError, Response, flexible, overturning_map, read_case, rigid
 from heeltoe.result.write import json_text
-from heeltoe.study.grid import parse_variations, run_grid
+from heeltoe.study.small import parse_axes, run_small
 from heeltoe.views.files.write import write_all, write_overturning
 from heeltoe.whole import LISTED, files
 from shared.dams import BLOCK, FAST, HEIGHT, KOYNA, SHORT, SLENDER, example
@@ -86,7 +86,7 @@ def test_what_an_earlier_run_left_does_not_stay(both, typical_elastic, tmp_path)
 
 def test_kinds_of_results_replace_each_other(both, typical_elastic, block, tmp_path):
     """Whatever was written last into a directory is alone there."""
-    grid = run_grid(BLOCK, [], parse_variations(["crack.friction=0.2,0.3"]), rigid)
+    grid = run_small(BLOCK, [], parse_axes(["crack.friction=0.2,0.3"]), rigid)
     results = {"block": block, "both": both, "grid": grid, "elastic": typical_elastic}
     for name in ("block", "both", "grid", "elastic", "both", "block"):
         alone, after = ({*write_all(results[name], tmp_path / place, figures={})} for place in (name, "all"))
@@ -97,7 +97,7 @@ def test_kinds_of_results_replace_each_other(both, typical_elastic, block, tmp_p
 
 
 def test_files_of_a_table_of_runs(tmp_path):
-    grid = run_grid(KOYNA, SHORT, parse_variations(["crack.friction=0.1,1.0"]), rigid)
+    grid = run_small(KOYNA, SHORT, parse_axes(["crack.friction=0.1,1.0"]), rigid)
     paths = write_all(grid, tmp_path, KOYNA)
     assert {path.name for path in paths} == {"result.json", "table.csv", "table.parquet", "slips.png", "slips.svg"}
     assert pq.read_table(tmp_path / "table.parquet").to_pylist() == grid.rows()

@@ -6,7 +6,7 @@ import pytest
 from matplotlib.image import imread
 
 from heeltoe import InputError, overturning_map, read_case, rigid, statics
-from heeltoe.study.grid import parse_variations, run_grid
+from heeltoe.study.small import parse_axes, run_small
 from shared.dams import BASE, FAST, SLENDER, example
 from shared.drawn import check, texts
 
@@ -24,7 +24,7 @@ def test_each_thing_has_a_main_figure(response, typical_both):
         (typical_both, "comparison", "flexible model"),
         (response.motion, "motion", "PGA 0.400 g"),
         (statics(case, 0.1), "statics", "2 of 16 checks are not met"),
-        (run_grid(BASE, FAST, parse_variations(["crack.friction=0.8,1.0"]), rigid), "slips", "elcentro-1940-180-nga"),
+        (run_small(BASE, FAST, parse_axes(["crack.friction=0.8,1.0"]), rigid), "slips", "elcentro-1940-180-nga"),
         (overturning_map(read_case(SLENDER), count=3), "overturning", "pulse"),
     ):
         figure = thing.plot()

@@ -12,7 +12,7 @@ from rich.console import Console
 
 from heeltoe import rigid, statics, with_spread
 from heeltoe.models.statics.model import Statics
-from heeltoe.study.grid import parse_variations, run_grid
+from heeltoe.study.small import parse_axes, run_small
 from heeltoe.views.terminal.motion import print_motion
 from heeltoe.views.terminal.show import show
 from heeltoe.views.terminal.statics import print_statics
@@ -46,7 +46,7 @@ def results(typical_both, koyna_both) -> dict[str, Any]:
         "flexible": replace(typical_both, beside=None),
         "decoupled": koyna_both.beside,
         "chain": koyna_both,
-        "grid": run_grid(KOYNA_TOP, ["motion.duration=2s"], parse_variations(["crack.friction=0.2,1.0"]), rigid),
+        "grid": run_small(KOYNA_TOP, ["motion.duration=2s"], parse_axes(["crack.friction=0.2,1.0"]), rigid),
         "statics": statics(example("typical-base", *loads), 0.1),
         "failed": rigid(dam("99 m", crack={"friction": 0.2}, motion={"points": [["0 s", "0.1 g"], ["1 s", "0 g"]]})),
     }

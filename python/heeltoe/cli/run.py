@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from heeltoe.case.model import Case
     from heeltoe.models.flexible.cost import Cost
     from heeltoe.result.response import Response
-    from heeltoe.study.grid import Grid
+    from heeltoe.study.small import SmallStudy
 
 
 class Run(TyperCommand):
@@ -93,7 +93,11 @@ def run(
     ] = None,
     vary: Annotated[
         list[str] | None,
-        typer.Option(metavar="PATH=V1,V2,...", help="A table of runs: every combination of the values of some fields."),
+        typer.Option(
+            metavar="PATH=V1,V2,...",
+            help="A small study: every combination of the values of some fields, a list, or "
+            "{from=V1,to=V2,count=N} and the other distributions of a study file.",
+        ),
     ] = None,
     report: Annotated[
         bool,
@@ -196,7 +200,7 @@ def _run(path: str, changes: list[str], reverse: bool, output_step: str | None, 
         check_directory(place, "--out", names(asked.suffix, report=asked.report))
     check_json(asked.json)
     with status() as say:
-        result: Response | Grid
+        result: Response | SmallStudy
         if asked.vary:
             result = _table(path, changes, asked, step, say)
         else:
@@ -212,11 +216,11 @@ def _run(path: str, changes: list[str], reverse: bool, output_step: str | None, 
         raise typer.Exit(NO_RESULT)
 
 
-def _table(path: str, changes: list[str], asked: _Asked, step: float | None, say: Callable[[str], None]) -> Grid:
+def _table(path: str, changes: list[str], asked: _Asked, step: float | None, say: Callable[[str], None]) -> SmallStudy:
     """Run a table of runs."""
     from heeltoe.models.run import cost_of
     from heeltoe.models.run import run as run_model
-    from heeltoe.study.grid import parse_variations, run_grid
+    from heeltoe.study.small import parse_axes, run_small
 
     def run_one(each: Case) -> Response:
         return run_model(each, asked.model, output_step=step)
@@ -227,19 +231,21 @@ def _table(path: str, changes: list[str], asked: _Asked, step: float | None, say
     def progress(done: int, of: int) -> None:
         say(f"running the {asked.model} model, {done} of {of} runs done")
 
-    return run_grid(path, changes, parse_variations(asked.vary or []), run_one, cost=cost, progress=progress)
+    return run_small(path, changes, parse_axes(asked.vary or []), run_one, cost=cost, progress=progress)
 
 
-def _write(result: Response | Grid, case: Case, asked: _Asked, place: Path, say: Callable[[str], None]) -> list[Path]:
+def _write(
+    result: Response | SmallStudy, case: Case, asked: _Asked, place: Path, say: Callable[[str], None]
+) -> list[Path]:
     """Write files and report; what asks for a report alone has its figures in it."""
-    from heeltoe.study.grid import Grid
+    from heeltoe.study.small import SmallStudy
     from heeltoe.views.files.write import figures_of, write_run
 
     say("writing")
     figures = figures_of(result, case, asked.units)
 
     def report(fresh: Path) -> None:
-        if not asked.report or isinstance(result, Grid):
+        if not asked.report or isinstance(result, SmallStudy):
             return
         from heeltoe.views.report.write import build_report, write_kinds
 

@@ -201,8 +201,18 @@ class _CutLognormal:
         return float(scaled[0]), float(scaled[1])
 
 
+def even(given: Distribution, quantity: str, field: str) -> Floats:
+    """Return equally likely values of a distribution, SI; of a uniform one from end to end, as people count.
+
+    Raises
+    ------
+    InputError
+        Where its numbers do not make one, or it does not say how many.
+    """
+    return _even(given, law_of(given, lambda value, name: parse(value, quantity, name), field), field)
+
+
 def _even(given: Distribution, law: Any, field: str) -> Floats:
-    """Return equally likely values; of a uniform distribution from end to end, as people count."""
     if given.count is None:
         raise InputError("study-count", field, shown(given.distribution))
     if given.distribution == "uniform":

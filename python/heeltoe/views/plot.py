@@ -15,8 +15,8 @@ from heeltoe.models.statics.model import Statics
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.near import near
 from heeltoe.result.response import Response
-from heeltoe.study.grid import Grid
 from heeltoe.study.overturning import OverturningMap
+from heeltoe.study.small import SmallStudy
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.systems import unit_system
 from heeltoe.views.figures.all import Figures, all_figures
@@ -64,10 +64,10 @@ def _(response: Response, units: str) -> Mapping[str, Figure]:
 
 
 @_figures.register
-def _(grid: Grid, units: str) -> Mapping[str, Figure]:
-    from heeltoe.views.figures.runs import grid_figures
+def _(grid: SmallStudy, units: str) -> Mapping[str, Figure]:
+    from heeltoe.views.figures.runs import small_figures
 
-    return grid_figures(grid, units)
+    return small_figures(grid, units)
 
 
 @_figures.register

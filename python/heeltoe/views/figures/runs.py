@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from heeltoe.models.decoupled.response import DecoupledResponse
-from heeltoe.study.grid import Grid
+from heeltoe.study.small import SmallStudy
 from heeltoe.units.systems import unit_system
 from heeltoe.units.write import length
 from heeltoe.views.figures.crack_level import crack_level_figure
@@ -31,7 +31,7 @@ _LINES = (
 _ONE_COLUMN = 3
 
 
-def grid_figures(grid: Grid, units: str = "si") -> dict[str, Figure]:
+def small_figures(grid: SmallStudy, units: str = "si") -> dict[str, Figure]:
     """Return the figure ``slips`` of a table of runs, and ``crack-level`` of its first run that has one."""
     figures = {}
     if any(each.histories for each in grid.responses):
@@ -44,10 +44,10 @@ def grid_figures(grid: Grid, units: str = "si") -> dict[str, Figure]:
 
 
 @styled
-def slips_figure(grid: Grid, units: str = "si") -> Figure:
+def slips_figure(grid: SmallStudy, units: str = "si") -> Figure:
     """Draw the slip of every run over time: a line for each value of the first varied field, a panel for each
     combination of the others."""
-    first, *others = grid.variations
+    first, *others = grid.axes
     slips = [each.histories["slip_m"] for each in grid.responses if each.histories]
     scale = unit_system(units).scale("displacement", largest(*slips))
     panels = list(dict.fromkeys(cell[1:] for cell in grid.cells))
@@ -86,7 +86,7 @@ def slips_figure(grid: Grid, units: str = "si") -> Figure:
     return figure
 
 
-def _shaken_by(grid: Grid) -> str:
+def _shaken_by(grid: SmallStudy) -> str:
     """Say what shakes the dams, and how strongly: the runs may differ in that."""
     names = dict.fromkeys(each.motion.name for each in grid.responses)
     peaks = [each.motion.pga / each.gravity for each in grid.responses]

@@ -13,12 +13,12 @@ from heeltoe.models.flexible.history import crack_table
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.result.write import json_text, write_table
-from heeltoe.study.grid import Grid
 from heeltoe.study.opened import Opened
 from heeltoe.study.overturning import OverturningMap
+from heeltoe.study.small import SmallStudy
 from heeltoe.views.figures.all import NAMES, all_figures
 from heeltoe.views.figures.overturning import overturning_figure
-from heeltoe.views.figures.runs import grid_figures
+from heeltoe.views.figures.runs import small_figures
 from heeltoe.views.figures.studies.all import study_figures
 from heeltoe.views.figures.write import save_all
 from heeltoe.views.files.vtk import OWN as VTK_FILES
@@ -44,7 +44,7 @@ def names(*suffixes: str, report: bool = True) -> tuple[str, ...]:
 
 
 def write_all(
-    result: Response | Grid,
+    result: Response | SmallStudy,
     directory: Path,
     case: Case | None = None,
     units: str = "si",
@@ -95,7 +95,7 @@ def write_all(
 
 
 def write_run(
-    result: Response | Grid,
+    result: Response | SmallStudy,
     directory: Path,
     figures: Mapping[str, Figure],
     *,
@@ -149,7 +149,7 @@ def figures_of(result: object, case: Case | None, units: str) -> Mapping[str, Fi
 
 
 figures_of.register(Response, lambda result, case, units: all_figures(case, result, units))
-figures_of.register(Grid, lambda result, case, units: grid_figures(result, units))
+figures_of.register(SmallStudy, lambda result, case, units: small_figures(result, units))
 
 
 @singledispatch
@@ -178,11 +178,11 @@ def _(response: Response, directory: Path, suffix: str, vtk: bool) -> None:
 
 
 @_write.register
-def _(grid: Grid, directory: Path, suffix: str, vtk: bool) -> None:
+def _(grid: SmallStudy, directory: Path, suffix: str, vtk: bool) -> None:
     _write_json(grid, directory)
     for each in (".csv", ".parquet"):
         write_table(grid.to_table(), directory / f"table{each}")
 
 
-def _write_json(result: Response | Grid, directory: Path) -> None:
+def _write_json(result: Response | SmallStudy, directory: Path) -> None:
     (directory / "result.json").write_text(json_text(result.to_json()) + "\n", encoding="utf-8")

@@ -14,11 +14,11 @@ from heeltoe.views.terminal.response import print_summary
 def show(result: object, console: Console, units: str = "si") -> None:
     """Print a result in units ``"si"`` or ``"us"``."""
     # Loaded when there is one to show: most commands end with a single response.
-    from heeltoe.study.grid import Grid
-    from heeltoe.views.terminal.grid import print_grid
+    from heeltoe.study.small import SmallStudy
+    from heeltoe.views.terminal.small import print_small
 
-    show.register(Grid, print_grid)
-    if not isinstance(result, Grid):
+    show.register(SmallStudy, print_small)
+    if not isinstance(result, SmallStudy):
         raise TypeError(f"nothing shows a {type(result).__name__} on the terminal")
     show(result, console, units)
 

@@ -1,17 +1,23 @@
-"""A table of runs: one case, some of its fields varied, every combination of their values."""
+"""A small study of one case: every combination of some values, each run kept whole, with its histories and its words.
+
+What varies, and which dams that makes, is that of any study; nothing of it is stored as it runs."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
+from tomllib import TOMLDecodeError, loads
 from typing import Any
 
+import numpy as np
 import pyarrow as pa
+from pydantic import ValidationError
 
 from heeltoe.case.model import Case
+from heeltoe.case.paths import quantity_of
 from heeltoe.case.read import read_case
+from heeltoe.case.sentences import first_error
 from heeltoe.dataframe import dataframe
 from heeltoe.errors import InputError, shown
 from heeltoe.models.flexible.cost import Cost, check_cost
@@ -19,6 +25,10 @@ from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.write import build_info
 from heeltoe.shown import Shown
+from heeltoe.study.axes import Axis, even
+from heeltoe.study.file import Distribution
+from heeltoe.study.samples import Samples
+from heeltoe.units.parse import DIMENSIONS
 
 #: More runs than this are a study, not a table.
 MOST = 32
@@ -29,29 +39,21 @@ Run = Callable[[Case], Response]
 _MODES = ("sliding", "slide_rocking", "drifting")
 
 
-@dataclass(frozen=True)
-class Variation:
-    """A field of the case and its values, as the user wrote them."""
-
-    path: str
-    values: tuple[str, ...]
-
-
 @dataclass(frozen=True, eq=False)
-class Grid(Shown):
+class SmallStudy(Shown):
     """Every combination of some values.
 
     Attributes
     ----------
-    variations
-        The fields that vary.
+    axes
+        The fields that vary, with their values in words.
     cells
-        The values of each run, in the order of the variations; the last varies fastest.
+        The values of each run, in the order of the axes; the last varies fastest.
     responses
         The results, in the order of `cells`.
     """
 
-    variations: tuple[Variation, ...]
+    axes: tuple[Axis, ...]
     cells: tuple[tuple[str, ...], ...]
     responses: tuple[Response, ...]
 
@@ -71,13 +73,13 @@ class Grid(Shown):
         return all(each.ok for each in self.responses)
 
     def __repr__(self) -> str:
-        varied = ", ".join(f"{each.path} {len(each.values)} times" for each in self.variations)
+        varied = ", ".join(f"{each.path} {len(each.values)} times" for each in self.axes)
         title = self.title or "untitled case"
-        return f"<Grid: {len(self.responses)} runs of the {self.model} model, {title!r}, {varied}>"
+        return f"<SmallStudy: {len(self.responses)} runs of the {self.model} model, {title!r}, {varied}>"
 
     def rows(self) -> list[dict[str, Any]]:
         """Return the table: the varied fields, numbers by their JSON names (None without a result), the outcome."""
-        paths = [each.path for each in self.variations]
+        paths = [each.path for each in self.axes]
         return [
             {**dict(zip(paths, cell, strict=True)), **_numbers(response)}
             for cell, response in zip(self.cells, self.responses, strict=True)
@@ -94,11 +96,11 @@ class Grid(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return all results in full, with the values that belong to them."""
-        paths = [each.path for each in self.variations]
+        paths = [each.path for each in self.axes]
         return {
             "model": self.model,
             "title": self.title,
-            "varied": {each.path: list(each.values) for each in self.variations},
+            "varied": {each.path: list(each.values) for each in self.axes},
             "runs": [
                 {"varied": dict(zip(paths, cell, strict=True)), **response.to_json()}
                 for cell, response in zip(self.cells, self.responses, strict=True)
@@ -107,47 +109,65 @@ class Grid(Shown):
         }
 
 
-def parse_variations(texts: Sequence[str], field: str = "--vary") -> tuple[Variation, ...]:
-    """Return what ``"PATH=VALUE,VALUE"`` mean.
+def parse_axes(texts: Sequence[str], field: str = "--vary") -> tuple[Axis, ...]:
+    """Return what ``"PATH=VALUE,VALUE"`` mean, or ``"PATH={from=VALUE,to=VALUE,count=3}"``, a distribution as a study
+    file has it.
 
     Raises
     ------
     InputError
         Where one has no values or no path, a path comes twice, or they make too many runs.
     """
-    found: list[Variation] = []
-    runs = 1
+    found: list[Axis] = []
     for text in texts:
-        path, _, values = text.partition("=")
-        each = Variation(path.strip(), tuple(value.strip() for value in values.split(",")))
-        if not each.path or not all(each.values):
+        path, _, given = (part.strip() for part in text.partition("="))
+        if not path:
             raise InputError("vary-form", field, shown(text))
-        if each.path in [other.path for other in found] or len(set(each.values)) < len(each.values):
-            raise InputError("vary-twice", field, shown(each.path))
-        found.append(each)
-        runs *= len(each.values)
+        values = _spread(path, given, field) if given.startswith("{") else tuple(map(str.strip, given.split(",")))
+        if not all(values):
+            raise InputError("vary-form", field, shown(text))
+        if path in [other.path for other in found] or len(set(values)) < len(values):
+            raise InputError("vary-twice", field, shown(path))
+        # As written: the case reads them, as it reads its own file.
+        found.append(Axis(path, None, values, None))
+    runs = Samples(found, "grid", None, 0).count
     if runs > MOST:
         raise InputError("vary-many", field, runs, most=MOST)
     return tuple(found)
 
 
-def run_grid(
+def _spread(path: str, given: str, field: str) -> tuple[str, ...]:
+    """Return equally likely values of a distribution, with their units."""
+    try:
+        told = Distribution.model_validate(loads(f"given = {given}")["given"])
+    except TOMLDecodeError:
+        raise InputError("vary-form", field, shown(f"{path}={given}")) from None
+    except ValidationError as error:
+        raise first_error(error, Distribution) from None
+    quantity = quantity_of(path)
+    if quantity is None:
+        raise InputError("study-not-a-number", path, shown(told.distribution))
+    unit = DIMENSIONS[quantity].unit
+    return tuple(f"{value:.6g} {unit}".strip() for value in even(told, quantity, path).tolist())
+
+
+def run_small(
     source: str | os.PathLike[str] | Mapping[str, Any],
     changes: Sequence[str],
-    variations: Sequence[Variation],
+    axes: Sequence[Axis],
     run: Run,
     *,
     cost: Callable[[Case], Cost | None] = lambda case: None,
     progress: Callable[[int, int], None] | None = None,
-) -> Grid:
+) -> SmallStudy:
     """Run every combination of the values.
 
     Parameters
     ----------
     source, changes
         As :func:`heeltoe.read_case` takes them; the varied fields win.
-    variations
-        From :func:`parse_variations`.
+    axes
+        From :func:`parse_axes`.
     run
         Makes a response of a case.
     cost
@@ -161,10 +181,11 @@ def run_grid(
         Where a value cannot be used, or all runs together take more than the first case allows; all cases are read
         before the first one runs.
     """
-    cells = tuple(product(*(each.values for each in variations)))
-    paths = [each.path for each in variations]
+    samples = Samples(axes, "grid", None, 0)
+    columns, _ = samples.at(np.arange(samples.count, dtype=np.int64))
+    cells = tuple(zip(*columns.values(), strict=True)) if columns else ((),)
     cases = [
-        read_case(source, [*changes, *(f"{path}={value}" for path, value in zip(paths, cell, strict=True))])
+        read_case(source, [*changes, *(f"{path}={value}" for path, value in zip(columns, cell, strict=True))])
         for cell in cells
     ]
     _check_together(cases, cost)
@@ -173,7 +194,7 @@ def run_grid(
         if progress is not None:
             progress(done, len(cases))
         responses.append(run(case))
-    return Grid(tuple(variations), cells, tuple(responses))
+    return SmallStudy(tuple(axes), cells, tuple(responses))
 
 
 def _check_together(cases: Sequence[Case], cost: Callable[[Case], Cost | None]) -> None:

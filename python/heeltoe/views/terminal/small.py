@@ -17,7 +17,7 @@ from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.result.verdict import advice
-from heeltoe.study.grid import Grid
+from heeltoe.study.small import SmallStudy
 from heeltoe.units.systems import INCH
 from heeltoe.views.terminal.common import print_title
 
@@ -57,7 +57,7 @@ _KEPT = {True: "yes", False: "[red]NO[/]", None: "-"}
 _UNITS = {"si": "mm", "us": "inches"}
 
 
-def print_grid(grid: Grid, console: Console, units: str = "si") -> None:
+def print_small(grid: SmallStudy, console: Console, units: str = "si") -> None:
     """Print the table: lengths in mm or inches, rotations in mrad, slip positive downstream."""
     first = grid.responses[0]
     peak = first.motion.pga / first.gravity
@@ -89,7 +89,7 @@ def print_grid(grid: Grid, console: Console, units: str = "si") -> None:
         console.print(f"\n[bold]Verdict[/bold]  {text}")
 
 
-def _judged(grid: Grid) -> list[str]:
+def _judged(grid: SmallStudy) -> list[str]:
     """Say how many runs keep within the limits, and how many have no result."""
     said = []
     judged = [each for each in grid.responses if each.limits]
@@ -103,12 +103,12 @@ def _judged(grid: Grid) -> list[str]:
     return [" ".join(said)] if said else []
 
 
-def _fits(grid: Grid, columns: tuple[_Column, ...], console: Console, units: str) -> bool:
+def _fits(grid: SmallStudy, columns: tuple[_Column, ...], console: Console, units: str) -> bool:
     wide = console.options.update(max_width=10_000)
     return Measurement.get(console, wide, _table(grid, columns, units)).maximum <= console.width
 
 
-def _parts(grid: Grid, columns: tuple[_Column, ...], console: Console, units: str) -> list[tuple[_Column, ...]]:
+def _parts(grid: SmallStudy, columns: tuple[_Column, ...], console: Console, units: str) -> list[tuple[_Column, ...]]:
     """Divide columns so that no number has to be cut, as far as at least one fits beside the varied fields."""
     parts: list[tuple[_Column, ...]] = [columns[:1]]
     for column in columns[1:]:
@@ -119,7 +119,7 @@ def _parts(grid: Grid, columns: tuple[_Column, ...], console: Console, units: st
     return parts
 
 
-def _remarks(grid: Grid, units: str) -> list[str]:
+def _remarks(grid: SmallStudy, units: str) -> list[str]:
     """Return all warnings, once each; what belongs to some of the runs says to which."""
     runs: dict[str, list[str]] = {}
     for cell, response in zip(grid.cells, grid.responses, strict=True):
@@ -130,7 +130,7 @@ def _remarks(grid: Grid, units: str) -> list[str]:
     return [text if len(which) == len(grid.cells) else f"{'; '.join(which)}: {text}" for text, which in runs.items()]
 
 
-def _table(grid: Grid, columns: tuple[_Column, ...], units: str) -> Table:
+def _table(grid: SmallStudy, columns: tuple[_Column, ...], units: str) -> Table:
     table = Table(
         box=box.SIMPLE_HEAD,
         show_edge=False,
@@ -139,7 +139,7 @@ def _table(grid: Grid, columns: tuple[_Column, ...], units: str) -> Table:
         header_style="dim",
         border_style="dim",
     )
-    for each in grid.variations:
+    for each in grid.axes:
         table.add_column(escape(each.path.replace(".", "\n")), no_wrap=True)
     for heading, *_ in columns:
         table.add_column(heading, justify="right", no_wrap=True)
@@ -168,7 +168,7 @@ def _end(response: Response) -> str:
     return "at rest" if comes_to_rest(response) else "moving"
 
 
-def _print_crack_level(grid: Grid, console: Console) -> None:
+def _print_crack_level(grid: SmallStudy, console: Console) -> None:
     """Say how much stronger the crack is shaken than the ground, over all runs."""
     levels = [each.crack_level for each in grid.responses if isinstance(each, DecoupledResponse) and each.summary]
     factors = sorted(level["amplification"] for level in levels if level["amplification"] is not None)

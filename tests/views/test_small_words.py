@@ -7,18 +7,18 @@ import io
 from rich.console import Console
 
 from heeltoe import rigid
-from heeltoe.study.grid import parse_variations, run_grid
-from heeltoe.views.terminal.grid import print_grid
+from heeltoe.study.small import parse_axes, run_small
+from heeltoe.views.terminal.small import print_small
 from shared.dams import KOYNA, SHORT
 
 
 def test_a_narrow_terminal_cuts_no_number():
     texts = ["crack.friction=0.1,1.0", "reservoir.depth=85 m,91.75 m", "uplift.pattern=none,triangular"]
-    grid = run_grid(KOYNA, SHORT, parse_variations(texts), rigid)
+    grid = run_small(KOYNA, SHORT, parse_axes(texts), rigid)
     tables = []
     for width in (60, 80, 160):
         console = Console(file=io.StringIO(), width=width)
-        print_grid(grid, console)
+        print_small(grid, console)
         text = console.file.getvalue()
         assert "…" not in text
         assert text.count("impacts") == 1

@@ -8,7 +8,7 @@ import pytest
 
 from heeltoe import InputError, read_case, rigid
 from heeltoe.result.write import json_text
-from heeltoe.study.grid import MOST, Variation, parse_variations, run_grid
+from heeltoe.study.small import MOST, parse_axes, run_small
 from shared.dams import BLOCK, KOYNA, SHORT, TRIANGLE, polygon
 
 VERTICAL = ["motion.vertical.file=elcentro-1940-up-nga"]
@@ -26,7 +26,7 @@ KINDS = {
 
 
 def grid(path, texts, changes=(), run=rigid, **options):
-    return run_grid(path, changes, parse_variations(texts), run, **options)
+    return run_small(path, changes, parse_axes(texts), run, **options)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -42,7 +42,7 @@ def test_each_run_is_the_one_by_hand(kind):
 
 def test_every_combination_the_last_varies_fastest():
     found = grid(BLOCK, ["crack.friction = 0.2 , 0.3", "motion.reverse=true,false", "gravity=9.81 m/s^2"])
-    assert found.variations[0] == Variation("crack.friction", ("0.2", "0.3"))
+    assert (found.axes[0].path, found.axes[0].values) == ("crack.friction", ("0.2", "0.3"))
     assert found.cells == (
         ("0.2", "true", "9.81 m/s^2"),
         ("0.2", "false", "9.81 m/s^2"),
@@ -61,7 +61,35 @@ def test_what_varies_wins_over_what_is_set():
 
 
 def test_a_value_may_hold_an_equals_sign():
-    assert parse_variations(["title=a=b,c"]) == (Variation("title", ("a=b", "c")),)
+    (axis,) = parse_axes(["title=a=b,c"])
+    assert (axis.path, axis.values) == ("title", ("a=b", "c"))
+
+
+def test_what_varies_may_be_spread_as_in_a_study_file():
+    found = grid(KOYNA, ['reservoir.depth={ from = "80 m", to = "100 m", count = 3 }'], SHORT)
+    assert found.cells == (("80 m",), ("90 m",), ("100 m",))
+    assert (
+        found.responses[1].residual_slip_m == rigid(read_case(KOYNA, [*SHORT, "reservoir.depth=90 m"])).residual_slip_m
+    )
+    (axis,) = parse_axes(['crack.friction={distribution="lognormal",median=1,dispersion=0.2,count=3}'])
+    assert axis.values == ("0.824083", "1", "1.21347")  # exp(0.2 z), z a sixth from either end
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("crack.friction={from=0.8,to=1.2}", "study-count"),
+        ("crack.friction={from=0.8,count=3}", "distribution-incomplete"),
+        ("crack.friction={from=1.2,to=0.8,count=3}", "distribution-order"),
+        ("crack.friction={from=0.8", "vary-form"),
+        ("uplift.pattern={from=0.8,to=1.2,count=3}", "study-not-a-number"),
+        ("crack.friction={from=1,to=1.0000000001,count=3}", "vary-twice"),
+    ],
+)
+def test_spreads_that_are_none(text, code):
+    with pytest.raises(InputError) as refused:
+        parse_axes([text])
+    assert refused.value.code == code
 
 
 def test_the_table_has_the_numbers_of_the_runs():
@@ -137,12 +165,12 @@ def test_the_fields_themselves_can_vary():
 
 
 def test_as_many_as_a_table_holds():
-    assert len(parse_variations([f"crack.friction={','.join(map(str, range(MOST)))}"])[0].values) == MOST
-    assert parse_variations([]) == ()
+    assert len(parse_axes([f"crack.friction={','.join(map(str, range(MOST)))}"])[0].values) == MOST
+    assert parse_axes([]) == ()
 
 
 def test_a_run_without_a_result_has_its_row():
-    grid = run_grid(KOYNA, SHORT, parse_variations(["crack.friction=0.1,1.0"]), rigid)
+    grid = run_small(KOYNA, SHORT, parse_axes(["crack.friction=0.1,1.0"]), rigid)
     rows = grid.rows()
     assert [row["outcome"] for row in rows] == ["unstable", "ok"]
     assert rows[0]["residual_slip_m"] is None
@@ -150,7 +178,7 @@ def test_a_run_without_a_result_has_its_row():
     # What has no result is seen in the exit code, too.
     assert not grid.ok
     assert (grid.model, grid.title) == ("rigid", "Koyna Dam cracked at 66.5 m")
-    assert not run_grid(KOYNA, SHORT, parse_variations(["crack.friction=0.1"]), rigid).ok
+    assert not run_small(KOYNA, SHORT, parse_axes(["crack.friction=0.1"]), rigid).ok
 
 
 @pytest.mark.parametrize(
@@ -167,5 +195,5 @@ def test_a_run_without_a_result_has_its_row():
 )
 def test_variations_that_are_none(texts, code):
     with pytest.raises(InputError) as refused:
-        parse_variations(texts)
+        parse_axes(texts)
     assert refused.value.code == code
