@@ -7,9 +7,22 @@ import pytest
 from scipy.stats import qmc
 
 from heeltoe import InputError, read_study, run_study
-from heeltoe.study.compared import compared
+from heeltoe.study.compared import Comparison
 from heeltoe.study.sensitivity import sobol_indices, tornado
 from shared.studies import DRAWN, GRID, study_file
+
+
+def compared(strengths, demand, event, traits, pieces=1):
+    """Compare measures, the runs taken in at once or in pieces."""
+    found = Comparison(int(event.max()) + 1)
+    for here in np.array_split(np.arange(demand.size), pieces):
+        found.add(
+            {name: each[here] for name, each in strengths.items()},
+            demand[here],
+            event[here],
+            {name: each[here] for name, each in traits.items()},
+        )
+    return found.told()
 
 
 def saltelli(function, dimensions, count):
@@ -73,6 +86,11 @@ def test_the_measure_that_makes_the_slip_is_the_most_efficient():
     demand[10:30] = 5e-5
     found = compared({"other": other, "good": good}, demand, event, {"period": np.log(period)})
     first, second = found["measures"]
+    pieces = compared({"other": other, "good": good}, demand, event, {"period": np.log(period)}, pieces=7)
+    assert pieces["measures"][0]["efficiency"] == pytest.approx(first["efficiency"], rel=1e-12)
+    assert pieces["measures"][1]["sufficiency"]["period"]["p"] == pytest.approx(
+        second["sufficiency"]["period"]["p"], rel=1e-9
+    )
     assert found["unknown"] == 10
     assert found["at_rest"] == 20 + int((demand[30:] <= 1e-4).sum())
     assert (first["measure"], second["measure"]) == ("good", "other")

@@ -145,6 +145,10 @@ def test_a_study_goes_on_where_it_stopped(tmp_path, monkeypatch):
     assert len(ran) == half.store.parts - 3
     assert rows(run_study(file, out, resume=True)) == whole
     assert len(ran) == half.store.parts - 3
+    # What took how long is kept, of all that ran.
+    before, after = half.told["seconds"], open_study(out).told["seconds"]
+    assert set(before) == set(after) == {"sampling", "blocks", "kernel", "tables", "writing"}
+    assert all(0.0 <= before[name] <= after[name] for name in before)
 
 
 @pytest.mark.parametrize(

@@ -1,18 +1,20 @@
-"""What the runs of a study say: summaries, curves over the strength of the motion, fragility."""
+"""What the runs of a study say: summaries, curves over the strength of the motion, modes of motion. All of it walks
+through the runs and holds none of them."""
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import pyarrow as pa
-import pyarrow.compute as pc
 from numpy.typing import NDArray
 
-from heeltoe.arrays import Floats
-from heeltoe.errors import InputError
+from heeltoe.arrays import Floats, Integers
 from heeltoe.result.contract import HEADLINES, JOINT_METER_M
-from heeltoe.study.fragility import LIMITED, Curve, curve, exceeding
+from heeltoe.study.order import quantiles
+from heeltoe.study.walk import SHAKEN, Stretch, Walk
 
 #: Shares of the runs that stay below the values of a summary; 16, 50 and 84 % are a deviation below the median of a
 #: lognormal distribution, the median, and one above.
@@ -22,131 +24,205 @@ _BAND = (0.16, 0.50, 0.84)
 _GROUPS = 12
 _ALIKE = 1e-9
 MODES = ("sliding", "slide_rocking", "drifting")
+#: Largest slips, by which a run is said to slide at all.
+PEAKS = ("peak_slip_downstream_m", "peak_slip_upstream_m")
 
 
-def summary(table: pa.Table) -> list[dict[str, Any]]:
+def summary(walk: Walk) -> list[dict[str, Any]]:
     """Return for each model how its runs ended, how many slide at all, and how the headline numbers are distributed."""
-    found = []
-    for model in table["model"].unique().to_pylist():
-        rows = table.filter(pc.equal(table["model"], model))
-        outcome = np.array(rows["outcome"].to_pylist())
-        names, counts = np.unique(outcome, return_counts=True)
-        by_name = {each.key: _values(rows, each.key) for each in HEADLINES}
-        slides = np.maximum(by_name["peak_slip_downstream_m"], -by_name["peak_slip_upstream_m"]) > JOINT_METER_M
-        found.append(
-            {
-                "model": model,
-                "runs": len(rows),
-                "outcomes": dict(zip(names.tolist(), counts.tolist(), strict=True)),
-                "share_that_slides": float(np.mean(slides)),
-                "dominant_mode": _dominant(rows, slides),
-                **{name: _distribution(values) for name, values in by_name.items()},
-            }
-        )
-    return found
+    keys, models = [each.key for each in HEADLINES], walk.models
+    places = len(models)
+    total = np.zeros((places, len(keys)))
+    known = np.zeros((places, len(keys)), dtype=np.int64)
+    largest = np.zeros((places, len(keys)))
+    slid, most = np.zeros(places, dtype=np.int64), np.zeros((places, len(MODES)), dtype=np.int64)
+    outcomes: list[Counter[str]] = [Counter() for _ in models]
+    for runs in walk("model", "outcome", *keys, *(f"slip_{mode}_m" for mode in MODES)):
+        model, (names, code) = runs.model, runs.words("outcome")
+        slides, mode = sliding(runs), dominant(runs)
+        for place in range(places):
+            here = model == place
+            ended = np.bincount(code[here], minlength=len(names)).tolist()
+            outcomes[place].update({name: count for name, count in zip(names, ended, strict=True) if count})
+            slid[place] += np.count_nonzero(slides & here)
+            most[place] += np.bincount(mode[slides & here], minlength=len(MODES))
+            for column, key in enumerate(keys):
+                values = runs.numbers(key)[here]
+                fine = values[np.isfinite(values)]
+                total[place, column] += fine.sum()
+                known[place, column] += fine.size
+                far = float(fine[np.abs(fine).argmax()]) if fine.size else 0.0
+                largest[place, column] = max(largest[place, column], far, key=abs)
+    below = _below(walk, keys).tolist()
+    return [
+        {
+            "model": name,
+            "runs": outcomes[place].total(),
+            "outcomes": dict(sorted(outcomes[place].items())),
+            "share_that_slides": float(slid[place] / outcomes[place].total()),
+            "dominant_mode": dict(zip(MODES, (most[place] / slid[place]).tolist(), strict=True)) if slid[place] else {},
+            **{
+                key: _distribution(
+                    int(known[place, column]), total[place, column], largest[place, column], below[place][column]
+                )
+                for column, key in enumerate(keys)
+            },
+        }
+        for place, name in enumerate(models)
+        if outcomes[place]
+    ]
 
 
-def bands(strength: Floats, demand: Floats) -> dict[str, list[float]]:
-    """Return what 16, 50 and 84 % of the runs stay below at each strength, or over groups of about the same strength.
+def sliding(runs: Stretch) -> NDArray[np.bool_]:
+    """Return which runs slide more than a joint meter reads."""
+    downstream, upstream = (runs.numbers(name) for name in PEAKS)
+    return np.asarray(np.maximum(downstream, -upstream) > JOINT_METER_M)
+
+
+def dominant(runs: Stretch) -> Integers:
+    """Return which mode of motion makes most of the slip, (n,) its place in :data:`MODES`."""
+    slips = [np.nan_to_num(np.abs(runs.numbers(f"slip_{mode}_m"))) for mode in MODES]
+    return np.asarray(np.argmax(slips, axis=0), dtype=np.int64)
+
+
+def _below(walk: Walk, keys: Sequence[str]) -> Floats:
+    """Return what :data:`SHARES` of the runs of each model stay below, (models, numbers, shares)."""
+
+    def numbers() -> Iterable[tuple[Integers, Floats]]:
+        for runs in walk("model", *keys):
+            model = runs.model
+            for column, key in enumerate(keys):
+                values = runs.numbers(key)
+                fine = np.isfinite(values)
+                yield model[fine] * len(keys) + column, values[fine]
+
+    found = quantiles(numbers, len(walk.models) * len(keys), SHARES)
+    return found.reshape(len(walk.models), len(keys), len(SHARES))
+
+
+def _distribution(count: int, total: float, largest: float, below: Sequence[float]) -> dict[str, float | None]:
+    names = [f"{share:.0%}" for share in SHARES]
+    if not count:
+        return {"mean": None, "largest": None, **dict.fromkeys(names)}
+    return {"mean": float(total / count), "largest": float(largest), **dict(zip(names, below, strict=True))}
+
+
+@dataclass(frozen=True, eq=False)
+class Groups:
+    """Runs that are about as strongly shaken as each other.
+
+    Attributes
+    ----------
+    ends
+        Of labels of the strengths where there are few of them, else of the strengths themselves.
+    few
+        Which of the two.
+    """
+
+    ends: Floats
+    few: bool
+
+    @property
+    def count(self) -> int:
+        """How many groups."""
+        return self.ends.size if self.few else _GROUPS
+
+    def of(self, strength: Floats) -> Integers:
+        """Return the group of each strength; they grow with it."""
+        if self.few:
+            return np.searchsorted(self.ends, _label(strength))
+        return np.clip(np.searchsorted(self.ends, strength, side="right") - 1, 0, _GROUPS - 1)
+
+
+def groups(strengths: Callable[[], Iterable[Floats]]) -> Groups:
+    """Return the groups of runs; each strength is one where there are few, else there are some of equal size."""
+    levels = np.zeros(0)
+    for strength in strengths():
+        levels = np.union1d(levels, _label(strength))
+        if levels.size > 2 * _GROUPS:
+            break
+    else:
+        return Groups(levels, few=True)
+
+    def numbers() -> Iterable[tuple[Integers, Floats]]:
+        return ((np.zeros(each.size, dtype=np.int64), each) for each in strengths())
+
+    return Groups(quantiles(numbers, 1, np.linspace(0.0, 1.0, _GROUPS + 1).tolist())[0], few=False)
+
+
+def _label(strength: Floats) -> Floats:
+    # What differs by rounding is alike.
+    return np.asarray(np.rint(np.log(strength) / _ALIKE), dtype=np.float64)
+
+
+#: Model, strength and demand of some runs after others.
+Pairs = Callable[[], Iterable[tuple[Integers, Floats, Floats]]]
+
+
+def bands(pairs: Pairs, models: int = 1) -> list[dict[str, list[float]]]:
+    """Return for each model what 16, 50 and 84 % of the runs stay below at each strength, or over groups of about the
+    same strength.
 
     Parameters
     ----------
-    strength
-        (n,) of the motion of each run.
-    demand
-        (n,) what it did to the dam; not a number where a run ended without a result, which counts as infinitely much:
-        what is not known is not small.
+    pairs
+        Called several times, walks through the place of the model of each run, (n,), the strength of its motion, and
+        what that did to the dam; not a number where a run ended without a result, which counts as infinitely much: what
+        is not known is not small.
+    models
+        How many there are.
     """
-    group = groups(strength)
-    found: dict[str, list[float]] = {"strength": [], "runs": [], "low": [], "median": [], "high": []}
-    worst = np.where(np.isnan(demand), np.inf, demand)
-    for place in np.unique(group).tolist():
-        here = group == place
-        values = np.quantile(worst[here], _BAND, method="inverted_cdf").tolist()
-        found["strength"].append(float(np.exp(np.mean(np.log(strength[here])))))
-        found["runs"].append(int(here.sum()))
-        for name, value in zip(("low", "median", "high"), values, strict=True):
-            found[name].append(value)
-    return found
+    group = groups(lambda: (strength for _, strength, _ in pairs()))
+    cells = models * group.count
+    runs, logarithms = np.zeros(cells, dtype=np.int64), np.zeros(cells)
+    for model, strength, _ in pairs():
+        cell = model * group.count + group.of(strength)
+        runs += np.bincount(cell, minlength=cells)
+        logarithms += np.bincount(cell, np.log(strength), cells)
 
+    def numbers() -> Iterable[tuple[Integers, Floats]]:
+        for model, strength, demand in pairs():
+            yield model * group.count + group.of(strength), np.where(np.isnan(demand), np.inf, demand)
 
-def groups(strength: Floats) -> NDArray[np.integer[Any]]:
-    """Return which runs are about as strongly shaken as each other, (n,) numbers that grow with the strength."""
-    # What differs by rounding is alike.
-    levels, group = np.unique(np.rint(np.log(strength) / _ALIKE), return_inverse=True)
-    if levels.size > 2 * _GROUPS:
-        edges = np.quantile(strength, np.linspace(0.0, 1.0, _GROUPS + 1))
-        group = np.clip(np.searchsorted(edges, strength, side="right") - 1, 0, _GROUPS - 1)
-    return np.asarray(group)
-
-
-def observed(strength: Floats, exceeds: Floats) -> tuple[list[float], list[float]]:
-    """Return which share of the runs exceeds a limit at each strength, or over groups of about the same."""
-    known = np.isfinite(exceeds)
-    strength, exceeds = strength[known], exceeds[known]
-    group = groups(strength)
-    runs = np.bincount(group)
-    there = runs > 0
-    middle, share = (np.bincount(group, each)[there] / runs[there] for each in (np.log(strength), exceeds))
-    return np.exp(middle).tolist(), share.tolist()
-
-
-def fragility_of(table: pa.Table, strength: Floats, told: dict[str, Any]) -> list[tuple[str, Curve]]:
-    """Return the curves that a study asks for, each with its model.
-
-    Raises
-    ------
-    InputError
-        Where the study asks for none.
-    """
-    asked = told["study"]["fragility"]
-    if asked is None:
-        raise InputError("study-no-fragility", "fragility")
+    values = quantiles(numbers, cells, _BAND, between=False)
     found = []
-    for model in table["model"].unique().to_pylist():
-        here = np.array(table["model"].to_pylist()) == model
-        rows = table.filter(pa.array(here))
-        outcome = np.array(rows["outcome"].to_pylist())
-        _, event = np.unique(np.array(rows["event"].to_pylist()), return_inverse=True)
-        for limit, values in asked["limits"].items():
-            columns = {name: _values(rows, name) for name in LIMITED[limit]}
-            for value in values:
-                number = _number(value)
-                fitted: Curve = curve(
-                    *(limit, number, asked["measure"], strength[here], exceeding(columns, outcome, limit, number)),
-                    event.astype(np.int64),
-                    confidence=asked["confidence"],
-                )
-                found.append((model, fitted))
+    for place in range(models):
+        here = np.flatnonzero((np.arange(cells) // group.count == place) & (runs > 0))
+        band = {"strength": np.exp(logarithms[here] / runs[here]).tolist(), "runs": runs[here].tolist()}
+        found.append({**band, **dict(zip(("low", "median", "high"), values[here].T.tolist(), strict=True))})
     return found
 
 
-def _number(value: object) -> float:
-    """Return a limit as the study keeps it: SI, with its unit where it has one."""
-    return float(value) if isinstance(value, int | float) else float(str(value).split()[0])
+def modes(walk: Walk, measure: str) -> tuple[Floats, Integers]:
+    """Return the strength of each group of runs about as strongly shaken as each other, (groups,), and how many of them
+    slide mostly by each mode of motion, (models, groups, modes)."""
+
+    def strengths() -> Iterable[Floats]:
+        return (runs.strength(measure) for runs in walk(*SHAKEN))
+
+    group = groups(strengths)
+    shape = (len(walk.models), group.count, len(MODES))
+    found = np.zeros(int(np.prod(shape)), dtype=np.int64)
+    runs_of, logarithms = np.zeros(group.count), np.zeros(group.count)
+    for runs in walk("model", *SHAKEN, *PEAKS, *(f"slip_{mode}_m" for mode in MODES)):
+        strength = runs.strength(measure)
+        of = group.of(strength)
+        runs_of += np.bincount(of, minlength=group.count)
+        logarithms += np.bincount(of, np.log(strength), group.count)
+        cell = np.ravel_multi_index((runs.model, of, dominant(runs)), shape)
+        found += np.bincount(cell[sliding(runs)], minlength=found.size)
+    return np.exp(logarithms / np.maximum(runs_of, 1.0)), found.reshape(shape)
 
 
-def _values(rows: pa.Table, name: str) -> Floats:
-    return np.asarray(rows[name].to_numpy(), dtype=np.float64)
-
-
-def _distribution(values: Floats) -> dict[str, float | None]:
-    fine = values[np.isfinite(values)]
-    if not fine.size:
-        return {"mean": None, "largest": None, **{f"{share:.0%}": None for share in SHARES}}
-    below = np.quantile(fine, SHARES).tolist()
-    largest = float(fine[np.abs(fine).argmax()])
-    return {
-        "mean": float(fine.mean()),
-        "largest": largest,
-        **{f"{share:.0%}": value for share, value in zip(SHARES, below, strict=True)},
-    }
-
-
-def _dominant(rows: pa.Table, slides: NDArray[np.bool_]) -> dict[str, float]:
-    """Return of which share of the dams that slide each mode of motion made most of the slip."""
-    if not slides.any():
-        return {}
-    slips = np.abs(np.column_stack([_values(rows, f"slip_{name}_m") for name in MODES]))[slides]
-    most = np.bincount(np.nanargmax(np.nan_to_num(slips), axis=1), minlength=len(MODES)) / slides.sum()
-    return dict(zip(MODES, most.tolist(), strict=True))
+def farther(walk: Walk, than: Floats) -> tuple[Integers, Integers]:
+    """Return how many runs of each model slide farther than so much, either way, (models, than), and how many have a
+    residual slip at all, (models,)."""
+    models = len(walk.models)
+    counts = np.zeros((models, than.size + 1), dtype=np.int64)
+    for runs in walk("model", "residual_slip_m"):
+        slip = np.abs(runs.numbers("residual_slip_m"))
+        fine = np.isfinite(slip)
+        place = np.searchsorted(than, slip[fine], side="left")
+        cell = runs.model[fine] * (than.size + 1) + place
+        counts += np.bincount(cell, minlength=counts.size).reshape(counts.shape)
+    return counts[:, ::-1].cumsum(axis=1)[:, ::-1][:, 1:], counts.sum(axis=1)

@@ -16,11 +16,14 @@ from numpy.typing import NDArray
 from scipy import stats
 from scipy.special import ndtr
 
-from heeltoe.arrays import Floats, Integers
-from heeltoe.study.likelihood import Witnesses, fit, within, witnesses
+from heeltoe.arrays import Floats
+from heeltoe.study.likelihood import Tally, Witnesses, fit, within
+from heeltoe.study.walk import SHAKEN, Walk
 
 #: Events that are left out side by side.
 _TOGETHER = 64
+#: Strengths that differ by rounding are one; where there are many the shares are those of so many groups of runs.
+_SAME, _GROUPS = 1e-9, 12
 #: Outcomes of dams that have failed, whatever the limit.
 FAILED = ("overturned", "unstable", "large rotation")
 #: Of the limits, which numbers of a run are held against them, without sign.
@@ -108,51 +111,37 @@ def exceeding(table: Mapping[str, Floats], outcome: NDArray[Any], limit: str, va
     return np.where(np.isin(outcome, FAILED), 1.0, found)
 
 
-def curve(
-    limit: str,
-    value: float,
-    measure: str,
-    strength: Floats,
-    exceeds: Floats,
-    event: Integers,
-    *,
-    confidence: float,
-) -> Curve:
+def curve(limit: str, value: float, measure: str, seen: Tally, *, confidence: float) -> Curve:
     """Fit a curve.
 
     Parameters
     ----------
     limit, value, measure
         What is fitted.
-    strength
-        (n,) of the motion of each run.
-    exceeds
-        (n,) as of :func:`exceeding`.
-    event
-        (n,) which runs belong together.
+    seen
+        Which runs exceed the limit, and how strong the motion of each is.
     confidence
         Probability of the intervals.
     """
-    known = np.isfinite(exceeds)
     empty = Curve(
         *(limit, value, measure, confidence, None, None, None, None, None, None),
-        runs=int(known.sum()),
-        exceeding=int(np.nansum(exceeds)),
-        events=np.unique(event[known]).size,
-        unknown=int((~known).sum()),
+        runs=seen.runs,
+        exceeding=seen.exceeding,
+        events=seen.witnesses.events,
+        unknown=seen.unknown,
     )
     if not 0 < empty.exceeding < empty.runs:
         return replace(empty, why="every run exceeds it" if empty.exceeding else "no run exceeds it")
-    seen = witnesses(strength[known], exceeds[known] > 0.5, event[known])
-    logarithm, dispersion = fit(seen, np.ones((1, seen.runs.size)))[0].tolist()
+    known = seen.witnesses
+    logarithm, dispersion = fit(known, np.ones((1, known.runs.size)))[0].tolist()
     if not np.isfinite(dispersion):
         return replace(empty, why="stronger motions exceed it no more often")
-    reached = bool(strength[known].min() <= np.exp(logarithm) <= strength[known].max())
+    reached = bool(seen.lowest <= np.exp(logarithm) <= seen.highest)
     found = replace(empty, median=float(np.exp(logarithm)), dispersion=dispersion, reached=reached)
-    if seen.events < 2:
+    if known.events < 2:
         return found
-    other = within(seen, dispersion)
-    left = _left_out(seen)
+    other = within(known, dispersion)
+    left = _left_out(known)
     median, spread = (None, None) if left is None else _intervals(left, (logarithm, np.log(dispersion)), confidence)
     return replace(
         found,
@@ -162,6 +151,46 @@ def curve(
         record=float(np.sqrt(max(dispersion**2 - other**2, 0.0))),
         other=other,
     )
+
+
+def counted(walk: Walk, asked: Mapping[str, Any]) -> dict[tuple[str, str, float], Tally]:
+    """Count which runs exceed the limits that a study asks about, by model, limit and value."""
+    limits = [(limit, _number(value)) for limit, values in asked["limits"].items() for value in values]
+    found = {(model, *each): Tally() for model in walk.models for each in limits}
+    measure = walk.measure(asked["measure"], asked["period"])
+    columns = sorted({name for limit, _ in limits for name in LIMITED[limit]})
+    for runs in walk("model", "outcome", "event", *SHAKEN, *columns):
+        strength, model, event = runs.strength(measure), runs.model, runs.event
+        names, code = runs.words("outcome")
+        outcome = np.array(names)[code]
+        values = {name: runs.numbers(name) for name in columns}
+        for limit, value in limits:
+            exceeds = exceeding(values, outcome, limit, value)
+            for place, name in enumerate(walk.models):
+                here = model == place
+                found[name, limit, value].add(strength[here], exceeds[here], event[here])
+    return {key: tally for key, tally in found.items() if tally.runs or tally.unknown}
+
+
+def observed(seen: Tally) -> tuple[list[float], list[float]]:
+    """Return which share of the runs exceeds a limit at each strength, or over groups of about the same."""
+    known = seen.witnesses
+    strength = np.exp(known.logarithm)
+    levels, place = np.unique(np.rint(known.logarithm / _SAME), return_inverse=True)
+    if levels.size > 2 * _GROUPS:
+        order = np.argsort(strength)
+        before = np.empty(strength.size)
+        before[order] = np.cumsum(known.runs[order]) - known.runs[order]
+        place = np.minimum((before * _GROUPS / known.runs.sum()).astype(np.int64), _GROUPS - 1)
+    runs = np.bincount(place, known.runs)
+    there = runs > 0.0
+    middle, hits = (np.bincount(place, each)[there] for each in (known.logarithm * known.runs, known.exceeding))
+    return np.exp(middle / runs[there]).tolist(), (hits / runs[there]).tolist()
+
+
+def _number(value: object) -> float:
+    """Return a limit as the study keeps it: SI, with its unit where it has one."""
+    return float(value) if isinstance(value, int | float) else float(str(value).split()[0])
 
 
 def _left_out(seen: Witnesses) -> Floats | None:

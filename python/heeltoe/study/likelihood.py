@@ -46,19 +46,70 @@ class Witnesses:
         return int(self.event.max()) + 1 if self.event.size else 0
 
 
+class Tally:
+    """Counts part by part which runs exceed a limit; what is alike is counted together, so that it stays small."""
+
+    def __init__(self) -> None:
+        self.unknown = 0
+        self.lowest, self.highest = np.inf, -np.inf
+        self._coarse = False
+        self._label, self._logarithm, self._runs, self._exceeding = (np.zeros(0) for _ in range(4))
+        self._event = np.zeros(0, dtype=np.int64)
+
+    def add(self, strength: Floats, exceeds: Floats, event: Integers) -> None:
+        """Count some runs: strength of the motion, whether they exceed (not a number: not known), event."""
+        known = np.isfinite(exceeds)
+        self.unknown += int((~known).sum())
+        if not known.any():
+            return
+        strength = strength[known]
+        self.lowest, self.highest = min(self.lowest, strength.min()), max(self.highest, strength.max())
+        logarithm = np.log(strength)
+        label = np.rint(logarithm / _ALIKE) if self._coarse else logarithm
+        self._event = np.concatenate([self._event, event[known]])
+        self._label = np.concatenate([self._label, label])
+        self._logarithm = np.concatenate([self._logarithm, logarithm])
+        self._runs = np.concatenate([self._runs, np.ones(label.size)])
+        self._exceeding = np.concatenate([self._exceeding, exceeds[known]])
+        levels = self._together()
+        if levels > _MANY and not self._coarse:
+            self._coarse = True
+            # Each that has been counted has one strength so far.
+            self._label = np.rint(self._logarithm / self._runs / _ALIKE)
+            self._together()
+
+    def _together(self) -> int:
+        """Count together what has the same label and event, and return how many labels there are."""
+        labels, place = np.unique(self._label, return_inverse=True)
+        events = int(self._event.max()) + 1
+        key, which = np.unique(place * events + self._event, return_inverse=True)
+        self._label, self._event = labels[key // events], key % events
+        for name in ("_logarithm", "_runs", "_exceeding"):
+            setattr(self, name, np.bincount(which, getattr(self, name)))
+        return labels.size
+
+    @property
+    def runs(self) -> int:
+        """How many runs of which it is known."""
+        return int(self._runs.sum())
+
+    @property
+    def exceeding(self) -> int:
+        """How many of them exceed."""
+        return int(self._exceeding.sum())
+
+    @property
+    def witnesses(self) -> Witnesses:
+        """What is known."""
+        _, event = np.unique(self._event, return_inverse=True)
+        return Witnesses(self._logarithm / self._runs, event, self._runs, self._exceeding)
+
+
 def witnesses(strength: Floats, exceeds: NDArray[np.bool_], event: Integers) -> Witnesses:
     """Count the runs of each event at each strength."""
-    logarithm = np.log(strength)
-    label = logarithm
-    if np.unique(logarithm).size > _MANY:
-        label = np.rint(logarithm / _ALIKE)
-    _, place = np.unique(label, return_inverse=True)
-    _, names = np.unique(event, return_inverse=True)
-    key, which = np.unique(place * (int(names.max()) + 1) + names, return_inverse=True)
-    runs = np.asarray(np.bincount(which, np.ones(which.size)), dtype=np.float64)
-    hits = np.asarray(np.bincount(which, exceeds.astype(np.float64)), dtype=np.float64)
-    events = (key % (int(names.max()) + 1)).astype(np.int64)
-    return Witnesses(np.bincount(which, logarithm) / runs, events, runs, hits)
+    tally = Tally()
+    tally.add(strength, exceeds.astype(np.float64), event)
+    return tally.witnesses
 
 
 def fit(seen: Witnesses, weight: Floats) -> Floats:

@@ -12,20 +12,19 @@ from typing import Any
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.compute as pc
-import pyarrow.dataset as ds
+import pyarrow.parquet as pq
 
 from heeltoe.arrays import Floats, Integers
 from heeltoe.case.paths import quantity_of
 from heeltoe.errors import InputError
-from heeltoe.motion.intensity import at_factor
-from heeltoe.result.contract import HEADLINES
 from heeltoe.shown import Shown
-from heeltoe.study.answers import MODES, bands, fragility_of, summary
+from heeltoe.study.answers import bands, summary
 from heeltoe.study.compared import compared
-from heeltoe.study.fragility import LIMITED, Curve
+from heeltoe.study.fragility import Curve, counted, curve
+from heeltoe.study.likelihood import Tally
 from heeltoe.study.sensitivity import sobol_indices, tornado
 from heeltoe.study.store import RUNS, Store, read_told
+from heeltoe.study.walk import SHAKEN, Walk
 from heeltoe.units.parse import DIMENSIONS
 
 
@@ -59,15 +58,17 @@ class Opened(Shown):
         return not self.store.missing()
 
     @property
-    def dataset(self) -> ds.Dataset:
-        """All runs that are there, as an Arrow dataset: nothing is read yet."""
+    def dataset(self) -> Any:
+        """All runs that are there, as a ``pyarrow.dataset.Dataset``: nothing is read yet."""
+        import pyarrow.dataset as ds
+
         return ds.dataset(self.store.directory / RUNS, format="parquet", exclude_invalid_files=False)
 
     def batches(self, columns: list[str] | None = None) -> Iterator[pa.RecordBatch]:
         """Walk through the runs in their order, a part at a time."""
         for part in range(self.store.parts):
             if self.store.path(part).exists():
-                yield from ds.dataset(self.store.path(part)).to_batches(columns=columns)
+                yield from pq.ParquetFile(self.store.path(part)).read(columns).to_batches()
 
     def to_table(self, columns: list[str] | None = None) -> pa.Table:
         """Return the runs as an Arrow table, in their order."""
@@ -124,12 +125,17 @@ class Opened(Shown):
         return ["strength"]
 
     @cached_property
+    def walk(self) -> Walk:
+        """Walks through the runs, some at a time."""
+        return Walk(self.store, self.told)
+
+    @cached_property
     def outcomes(self) -> dict[str, int]:
         """How many runs ended how."""
         found: Counter[str] = Counter()
-        for batch in self.batches(["outcome"]):
-            for each in pc.value_counts(batch["outcome"]).to_pylist():
-                found[each["values"]] += each["counts"]
+        for runs in self.walk("outcome"):
+            names, code = runs.words("outcome")
+            found.update(dict(zip(names, np.bincount(code, minlength=len(names)).tolist(), strict=True)))
         return dict(found.most_common())
 
     @property
@@ -140,8 +146,7 @@ class Opened(Shown):
     @cached_property
     def summary(self) -> list[dict[str, Any]]:
         """For each model how its runs ended, how many slide, and how the headline numbers are distributed."""
-        kept = ["model", "outcome", *(each.key for each in HEADLINES), *(f"slip_{mode}_m" for mode in MODES)]
-        return summary(self.to_table(kept))
+        return summary(self.walk)
 
     @property
     def fragility(self) -> list[dict[str, Any]]:
@@ -163,10 +168,25 @@ class Opened(Shown):
         InputError
             Where it asks for none.
         """
-        asked = self.told["study"]["fragility"] or {"measure": "pga"}
-        columns = {name for names in LIMITED.values() for name in names}
-        table = self.to_table(["model", "outcome", "event", *sorted(columns)])
-        return fragility_of(table, self.strength(asked["measure"], asked.get("period")), self.told)
+        asked = self.told["study"]["fragility"]
+        return [
+            (model, curve(limit, value, asked["measure"], tally, confidence=asked["confidence"]))
+            for (model, limit, value), tally in self.counted.items()
+        ]
+
+    @cached_property
+    def counted(self) -> dict[tuple[str, str, float], Tally]:
+        """How many runs exceed the limits of the curves at each strength, by model, limit and value.
+
+        Raises
+        ------
+        InputError
+            Where the study asks for no curve.
+        """
+        asked = self.told["study"]["fragility"]
+        if asked is None:
+            raise InputError("study-no-fragility", "fragility")
+        return counted(self.walk, asked)
 
     def bands(self, demand: str = "residual_slip_m", measure: str = "pga", period: str | float | None = None) -> Any:
         """Return what 16, 50 and 84 % of the runs of each model stay below, by the strength of the motion: incremental
@@ -179,49 +199,29 @@ class Opened(Shown):
         measure, period
             As :meth:`strength` takes them.
         """
-        table = self.to_table(["model", demand])
-        values = np.abs(np.asarray(table[demand].to_numpy(), dtype=np.float64))
-        strong, (names, model) = self.strength(measure, period), codes(table, "model")
-        here = {name: model == place for place, name in enumerate(names)}
-        return {name: bands(strong[each], values[each]) for name, each in here.items() if each.any()}
+        name, models = self.walk.measure(measure, period), self.walk.models
+
+        def pairs() -> Iterator[tuple[Integers, Floats, Floats]]:
+            for runs in self.walk("model", *SHAKEN, demand):
+                yield runs.model, runs.strength(name), np.abs(runs.numbers(demand))
+
+        found = zip(models, bands(pairs, len(models)), strict=True)
+        return {model: band for model, band in found if band["runs"]}
+
+    @cached_property
+    def _compared(self) -> dict[str, dict[str, Any]]:
+        return compared(self.walk, "residual_slip_m")
 
     def compared(self, demand: str = "residual_slip_m") -> dict[str, dict[str, Any]]:
         """Compare the measures of the strength of motions by how well they foretell a slip, for each model; see
-        :func:`heeltoe.study.compared.compared`.
+        :meth:`heeltoe.study.compared.Comparison.told`.
 
         Parameters
         ----------
         demand
             A slip of the table, which counts without sign.
         """
-        table = self.to_table(["model", "event", demand])
-        values = np.abs(np.asarray(table[demand].to_numpy(), dtype=np.float64))
-        place, factor = self._motions
-        motions = self.told["motions"]
-
-        def of(kind: str, name: str) -> Floats:
-            return np.array([each[kind][name] for each in motions], dtype=np.float64)[place]
-
-        strengths = {name: np.asarray(at_factor(of("measures", name), name, factor)) for name in motions[0]["measures"]}
-        traits = {name: of("traits", name) for name in motions[0].get("traits", ())}
-        (names, model), (_, event) = codes(table, "model"), codes(table, "event")
-        found = {}
-        for number, name in enumerate(names):
-            here = model == number
-            measured = {key: each[here] for key, each in strengths.items()}
-            found[name] = compared(
-                measured, values[here], event[here], {key: each[here] for key, each in traits.items()}
-            )
-        return found
-
-    def cube(self, name: str) -> Floats:
-        """Return a number of all runs in an array of dams, motions of each, strengths of each motion, and models; not a
-        number where a run has no such result."""
-        found = np.full(self.store.count, np.nan)
-        for batch in self.batches(["run", name]):
-            found[batch["run"].to_numpy()] = batch[name].to_numpy(zero_copy_only=False)
-        motions = len(self.told["motions"]) if self.every else 1
-        return found.reshape(-1, motions, self.strengths or 1, len(self.told["study"]["model"]))
+        return self._compared if demand == "residual_slip_m" else compared(self.walk, demand)
 
     def sensitivity(self, demand: str = "residual_slip_m") -> dict[str, dict[str, Any]]:
         """Return Sobol's indices of a number for each model, without its sign; see
@@ -233,8 +233,12 @@ class Opened(Shown):
             Where the study was not drawn for them.
         """
         study = self._asked("sensitivity")
-        names = [*study["vary"], *([] if self.every else ["motion"]), *(["strength"] if self.strengths is None else [])]
-        means = np.abs(self.cube(demand)).mean(axis=(1, 2)).reshape(-1, len(names) + 2, len(study["model"]))
+        names = [
+            *study["vary"],
+            *([] if self.walk.every else ["motion"]),
+            *(["strength"] if self.walk.strengths is None else []),
+        ]
+        means = np.abs(self.walk.cube(demand)).mean(axis=(1, 2)).reshape(-1, len(names) + 2, len(study["model"]))
         return {model: sobol_indices(means[:, :, place], names) for place, model in enumerate(study["model"])}
 
     def tornado(self, demand: str = "residual_slip_m") -> dict[str, dict[str, Any]]:
@@ -252,7 +256,7 @@ class Opened(Shown):
             count = len(given) if isinstance(given, list) else given["count"]
             fields.append((path, self._written(path, given, range(first, first + count))))
             first += count
-        values = np.abs(self.cube(demand))
+        values = np.abs(self.walk.cube(demand))
         values = values.reshape(len(values), -1, len(study["model"]))
         return {model: tornado(values[:, :, place], fields) for place, model in enumerate(study["model"])}
 
@@ -287,6 +291,7 @@ class Opened(Shown):
             "one_at_a_time": self.tornado() if self.told["study"]["method"] == "one at a time" else None,
             "warnings": self.told["warnings"],
             "pilot": self.told["pilot"],
+            "seconds": self.told.get("seconds"),
             "study": self.told["study"],
             "build": self.told["build"],
         }
@@ -300,48 +305,8 @@ class Opened(Shown):
         InputError
             Where it is not known.
         """
-        if name == "sa" and period is not None:
-            name = f"sa({float(str(period).split()[0]):g})"
-        known = ", ".join(self.told["motions"][0]["measures"])
-        if any(name not in each["measures"] for each in self.told["motions"]):
-            raise InputError("study-measure", "measure", name, known=known)
-        place, factor = self._motions
-        values = np.array([each["measures"][name] for each in self.told["motions"]])[place]
-        return np.asarray(at_factor(values, name, factor), dtype=np.float64)
-
-    @property
-    def _motions(self) -> tuple[Integers, Floats]:
-        """The place of each run's motion among those of the study, and its factor."""
-        table = self.to_table(["motion", "reversed", "factor"])
-        names, code = codes(table, "motion")
-        places = {(each["name"], each["reversed"]): place for place, each in enumerate(self.told["motions"])}
-        of = np.array([[places.get((name, turned), 0) for turned in (False, True)] for name in names], dtype=np.int64)
-        turned = table["reversed"].to_numpy().astype(np.int64)
-        return of.reshape(-1, 2)[code, turned], np.asarray(table["factor"].to_numpy(), dtype=np.float64)
-
-    @property
-    def every(self) -> bool:
-        """Whether every dam meets every motion, or one each."""
-        study = self.told["study"]
-        chosen = study["motions"] and study["motions"]["every"]
-        return study["method"] in ("grid", "one at a time") if chosen is None else bool(chosen)
-
-    @property
-    def strengths(self) -> int | None:
-        """Through how many strengths each motion goes; None where each dam draws one."""
-        motions = self.told["study"]["motions"]
-        scale = motions and motions["scale"]
-        if not scale:
-            return 1
-        return len(scale["values"]) if isinstance(scale["values"], list) else None
-
-
-def codes(table: pa.Table, name: str) -> tuple[list[str], Integers]:
-    """Return the words of a column, and the place of each row's among them."""
-    column = table[name].unify_dictionaries().combine_chunks()
-    if isinstance(column, pa.ChunkedArray):
-        column = column.chunk(0) if column.num_chunks else pa.array([], pa.dictionary(pa.int32(), pa.string()))
-    return column.dictionary.to_pylist(), np.asarray(column.indices.to_numpy(), dtype=np.int64)
+        measure = self.walk.measure(name, period)
+        return np.concatenate([np.zeros(0), *(runs.strength(measure) for runs in self.walk(*SHAKEN))])
 
 
 def open_study(directory: str | PathLike[str]) -> Opened:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import replace
+from time import perf_counter
 from typing import Any
 
 import numpy as np
@@ -28,6 +31,8 @@ from heeltoe.study.plan import Plan, Runs
 
 #: What the case of a run refuses, as water above the crest: such a run has no result and is counted as this.
 REFUSED = "refused"
+#: What the seconds of a part stand under in the metadata of its table, on their way to who counts them.
+SECONDS = "seconds"
 _SLIPS = ("slip_sliding", "slip_slide_rocking", "slip_drifting")
 _TIMES = tuple(f"time_{name}" for name in ("rest", "sliding", "rocking", "slide_rocking", "drifting"))
 #: Names of the numbers of a run, in their order in the table.
@@ -54,6 +59,14 @@ class Found:
         self.numbers = {name: np.full(count, np.nan) for name in NUMBERS}
         self.impacts = np.zeros(count, dtype=np.int64)
         self.outcome = np.full(count, REFUSED, dtype=object)
+        self.seconds: dict[str, float] = {}
+
+    @contextmanager
+    def timed(self, what: str) -> Iterator[None]:
+        """Add what is done here to the seconds that it takes."""
+        began = perf_counter()
+        yield
+        self.seconds[what] = self.seconds.get(what, 0.0) + perf_counter() - began
 
     def put(self, rows: Integers, table: Mapping[str, Floats], outcome: Words, named: Mapping[str, Floats]) -> None:
         """Put what a kernel found into some rows; `named` are the headline numbers."""
@@ -83,14 +96,22 @@ def run_part(plan: Plan, start: int, stop: int, threads: int = 1) -> pa.Table:
         Numbers of the first run and of the one after the last.
     threads
         Cores for it, 0 for all; the results are the same bits for any number.
+
+    Returns
+    -------
+    Table
+        Its metadata say, under :data:`SECONDS`, what took how long.
     """
-    runs = plan.runs(start, stop)
-    found = Found(runs.number.size)
+    found = Found(min(stop, plan.count) - start)
+    with found.timed("sampling"):
+        runs = plan.runs(start, stop)
     for place, model in enumerate(plan.study.model):
         rows = np.flatnonzero(runs.model == place)
         if rows.size:
             _MODELS[model](plan, runs, rows, found, threads)
-    return _table(plan, runs, found)
+    with found.timed("tables"):
+        table = _table(plan, runs, found)
+    return table.replace_schema_metadata({SECONDS: json.dumps(found.seconds)})
 
 
 def _rigid(plan: Plan, runs: Runs, rows: Integers, found: Found, threads: int) -> None:
@@ -98,17 +119,19 @@ def _rigid(plan: Plan, runs: Runs, rows: Integers, found: Found, threads: int) -
     values = {path: column[rows][first] for path, column in runs.values.items()}
     motions, which = np.unique(runs.motion[rows], return_inverse=True)
     earthquakes = [plan.earthquakes[motion] for motion in motions.tolist()]
-    numbers, blocks, sound = _blocks(plan, values, samples.size)
+    with found.timed("blocks"):
+        numbers, blocks, sound = _blocks(plan, values, samples.size)
     kept = sound[of_sample]
     rows, which, dam = rows[kept], which[kept], of_sample[kept]
     scales = _both_ways(runs.factor[rows])
     several = [blocks[place] for place in dam.tolist()] if blocks else []
-    table = run_rows(
-        Rows(numbers[dam], several, which.astype(np.int64), scales),
-        earthquakes,
-        None if blocks else limits_of(plan.case),
-        threads,
-    )
+    with found.timed("kernel"):
+        table = run_rows(
+            Rows(numbers[dam], several, which.astype(np.int64), scales),
+            earthquakes,
+            None if blocks else limits_of(plan.case),
+            threads,
+        )
     width = crack_widths(numbers[dam])
     named = with_openings(headlines(table), plan.case, width)
     outcome = np.array(OUTCOMES, dtype=object)[table["outcome"].astype(np.int64)]
@@ -171,7 +194,8 @@ def _elastic(plan: Plan, runs: Runs, rows: Integers, found: Found, run: Callable
         for motion in np.unique(runs.motion[mine]).tolist():
             here = mine[runs.motion[mine] == motion]
             try:
-                table, outcome, named = run(case, motion, runs.factor[here])
+                with found.timed("kernel"):
+                    table, outcome, named = run(case, motion, runs.factor[here])
             except InputError:
                 continue
             found.put(here, table, outcome, named)

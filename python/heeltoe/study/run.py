@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
@@ -11,18 +13,19 @@ from time import monotonic
 import numpy as np
 import pyarrow as pa
 
+from heeltoe.errors import InputError
 from heeltoe.study.file import Study, read_study
 from heeltoe.study.opened import Opened, open_study
-from heeltoe.study.parts import run_part
+from heeltoe.study.parts import SECONDS, run_part
 from heeltoe.study.pilot import pilot_run
 from heeltoe.study.plan import Plan, plan_of
 from heeltoe.study.schedule import run_here, run_on_workers
-from heeltoe.study.store import Store, begin, keep, pilot_of
+from heeltoe.study.store import Store, begin, keep, keep_seconds, pilot_of
 
 #: Seconds that a part should take a worker: long beside what it costs to hand one out, short beside a patient wait.
 _SECONDS = 2.0
 #: Runs of a part at most, so that memory stays small.
-_MOST = 50_000
+_MOST = 32_768
 #: Runs that are tried to know how long all will take.
 _TRIED = 200
 
@@ -174,13 +177,23 @@ def _run(plan: Plan, store: Store, scheduler: str | None, progress: Callable[[Pr
     ran = run_here(plan, parts) if here else run_on_workers(plan, parts, scheduler)
     done = store.count - sum(stop - start for _, start, stop in parts)
     began, made, failed = monotonic(), 0, 0
-    for part, table in ran:
-        store.write(part, table)
-        made += len(table)
-        failed += _failed(table)
-        if progress is not None:
-            rate = made / max(monotonic() - began, 1e-9)
-            progress(Progress(done + made, store.count, failed, rate))
+    seconds: dict[str, float] = {}
+    try:
+        for part, table in ran:
+            taken = json.loads(table.schema.metadata[SECONDS.encode()])
+            writing = monotonic()
+            store.write(part, table.replace_schema_metadata(None))
+            taken["writing"] = monotonic() - writing
+            seconds |= {name: seconds.get(name, 0.0) + more for name, more in taken.items()}
+            made += len(table)
+            failed += _failed(table)
+            if progress is not None:
+                rate = made / max(monotonic() - began, 1e-9)
+                progress(Progress(done + made, store.count, failed, rate))
+    finally:
+        # What stopped it is the thing to say, not that this could not be written.
+        with suppress(InputError):
+            keep_seconds(store.directory, seconds)
 
 
 def _failed(table: pa.Table) -> int:

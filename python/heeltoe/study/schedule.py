@@ -50,8 +50,15 @@ def run_on_workers(plan: Plan, parts: Sequence[Part], address: str | None = None
         if address is None:
             cores = min(os.cpu_count() or 1, len(parts))
             # Workers are started anew, not forked: what the parent's threads hold would be held for ever.
+            # Any port does for a server that nobody asks: the usual one may be that of another study.
             cluster = stack.enter_context(
-                LocalCluster(n_workers=cores, threads_per_worker=1, dashboard_address=None, silence_logs=40)
+                LocalCluster(
+                    n_workers=cores,
+                    threads_per_worker=1,
+                    dashboard_address=None,
+                    scheduler_kwargs={"dashboard_address": ":0"},
+                    silence_logs=40,
+                )
             )
             client = stack.enter_context(Client(cluster))
         else:

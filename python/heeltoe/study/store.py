@@ -130,6 +130,14 @@ def keep(store: Store, plan: Plan) -> None:
     write_text(store.directory / STUDY, json_text(told), "--out")
 
 
+def keep_seconds(directory: Path, seconds: Mapping[str, float]) -> None:
+    """Add to what a study is how long what of its runs took."""
+    told = read_told(directory)
+    before = told.get("seconds", {})
+    told["seconds"] = before | {name: round(before.get(name, 0.0) + more, 3) for name, more in seconds.items()}
+    write_text(directory / STUDY, json_text(told), "--out")
+
+
 def pilot_of(directory: Path) -> Pilot | None:
     """Return how fine the flexible runs of a study that has been begun are; None where that is not known yet."""
     found = read_told(directory)["pilot"]

@@ -70,7 +70,14 @@ def print_study(found: Opened, console: Console) -> None:
         _print_fragility(found.fragility, console)
     print_compared(found, console)
     print_hangs_on(found, console)
+    if found.told.get("seconds"):
+        parts = ", ".join(f"{name} {_seconds(taken)}" for name, taken in found.told["seconds"].items())
+        console.print(f"time of the runs, all workers together: {parts}", style="dim", highlight=False)
     print_warnings(found.told["warnings"], console)
+
+
+def _seconds(taken: float) -> str:
+    return f"{taken:.2g} s" if taken < 10.0 else duration(taken)
 
 
 def counted(count: int, what: str) -> str:

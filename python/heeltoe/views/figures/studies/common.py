@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 from matplotlib.figure import Figure
 
-from heeltoe.arrays import Floats
 from heeltoe.motion.intensity import MEASURES
 from heeltoe.study.opened import Opened
 from heeltoe.units.parse import STANDARD_GRAVITY
@@ -17,22 +17,48 @@ LINES = (("#0072B2", "-"), ("#D55E00", "--"), ("#009E73", "-."), ("#CC79A7", ":"
 _WORDS = {"pga": "peak ground acceleration", "pgv": "peak ground velocity", "arias": "Arias intensity"}
 
 
-def strength_of(found: Opened) -> tuple[Floats, str]:
-    """Return how strong the motion of each run is, by the measure in which the study counts, and what to call it."""
+@dataclass(frozen=True)
+class Strength:
+    """How strong motions are, along an axis.
+
+    Attributes
+    ----------
+    measure, period
+        As :meth:`heeltoe.study.opened.Opened.bands` takes them.
+    scale
+        What a strength in SI is divided by.
+    label
+        What it is called, with the unit of people.
+    """
+
+    measure: str
+    period: Any
+    scale: float
+    label: str
+
+
+def strength_of(found: Opened) -> Strength:
+    """Return the measure in which the study counts."""
     study = found.told["study"]
     asked = study["fragility"] or (study["motions"] or {}).get("scale") or {}
     measure = asked.get("measure", "pga")
-    return measured(found, "pga" if measure == "factor" else measure, asked.get("period"))
+    return measured("pga" if measure == "factor" else measure, asked.get("period"))
 
 
-def measured(found: Opened, measure: str, period: Any) -> tuple[Floats, str]:
-    """Return how strong the motion of each run is, in the unit of people, and what to call it."""
+def measured(measure: str, period: Any) -> Strength:
+    """Return a measure as people read it."""
     unit = MEASURES[measure][0] if measure in MEASURES else "m/s^2"
-    values = found.strength(measure, period)
     name = _WORDS.get(measure, measure)
     if measure == "sa":
         name = f"spectral acceleration at {float(str(period).split()[0]):g} s"
-    return (values / STANDARD_GRAVITY, f"{name} [g]") if unit == "m/s^2" else (values, f"{name} [{unit}]")
+    if unit == "m/s^2":
+        return Strength(measure, period, STANDARD_GRAVITY, f"{name} [g]")
+    return Strength(measure, period, 1.0, f"{name} [{unit}]")
+
+
+def farthest(found: Opened) -> float:
+    """Return the largest residual slip of all runs, either way [m]; zero where there is none."""
+    return max((abs(each["residual_slip_m"]["largest"] or 0.0) for each in found.summary), default=0.0)
 
 
 def headed(figure: Figure, found: Opened, *lines: str) -> Figure:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
@@ -11,11 +9,11 @@ from matplotlib.figure import Figure
 
 from heeltoe.arrays import Floats
 from heeltoe.result.contract import JOINT_METER_M
-from heeltoe.study.answers import bands, observed
-from heeltoe.study.fragility import LIMITED, Curve, exceeding
-from heeltoe.study.opened import Opened, codes
+from heeltoe.study.fragility import Curve, observed
+from heeltoe.study.opened import Opened
+from heeltoe.study.walk import SHAKEN
 from heeltoe.units.write import length
-from heeltoe.views.figures.studies.common import LINES, headed, measured, strength_of
+from heeltoe.views.figures.studies.common import LINES, Strength, farthest, headed, measured, strength_of
 from heeltoe.views.figures.style import WIDTH, styled
 
 #: More curves than these are a cloud: evenly chosen ones stand for them.
@@ -28,28 +26,26 @@ _LIMITS = {"residual_slip": "residual slip", "peak_slip": "peak slip", "opening"
 def bands_figure(found: Opened) -> Figure | None:
     """Draw what 16, 50 and 84 % of the runs stay below, by the strength of the motion; of an incremental dynamic
     analysis each motion beside. None where no strength varies or nothing slides."""
-    strength, label = strength_of(found)
-    table = found.to_table(["model", _SLIP])
-    slip = np.abs(np.asarray(table[_SLIP].to_numpy(), dtype=np.float64))
-    names, model = codes(table, "model")
-    if strength.size < 2 or np.ptp(strength) <= 1e-9 * strength.max() or not (slip > JOINT_METER_M).any():
+    strength, largest = strength_of(found), farthest(found)
+    by_model = found.bands(_SLIP, strength.measure, strength.period)
+    if not largest > JOINT_METER_M or max(len(each["strength"]) for each in by_model.values()) < 2:
         return None
+    names = list(by_model)
     figure = Figure(figsize=(WIDTH, 4.2 if len(names) == 1 else 3.8), layout="constrained")
     panels = figure.subplots(1, len(names), sharex=True, sharey=True, squeeze=False)[0]
-    thin = _single_curves(found, strength) if found.complete else None
-    for place, (name, axes) in enumerate(zip(names, panels, strict=True)):
-        here = model == place
+    thin = _single_curves(found, strength) if found.complete and (found.walk.strengths or 1) > 1 else None
+    for name, axes in zip(names, panels, strict=True):
+        which = found.walk.models.index(name)
         if thin is not None:
-            which = found.told["study"]["model"].index(name)
             _thin(axes, thin[0][..., which], thin[1][..., which])
-        _band(axes, bands(strength[here], slip[here]))
-        if not np.isfinite(slip[here]).any():
+        _band(axes, by_model[name], strength.scale)
+        if not np.isfinite(by_model[name]["low"]).any():
             axes.text(0.5, 0.5, "no run has a slip", transform=axes.transAxes, ha="center")
         axes.set_title(f"{name} model", fontsize=9, loc="left")
-        axes.set_xlabel(label)
+        axes.set_xlabel(strength.label)
     axes = panels[0]
     axes.set_yscale("log")
-    axes.set_ylim(1e3 * JOINT_METER_M / 2.0, 2.0 * 1e3 * float(np.nanmax(slip)))
+    axes.set_ylim(1e3 * JOINT_METER_M / 2.0, 2.0 * 1e3 * largest)
     axes.set_xlim(0.0, None)
     axes.set_ylabel("residual slip, either way [mm]")
     panels[-1].legend(loc="lower right", fontsize=8)
@@ -57,16 +53,21 @@ def bands_figure(found: Opened) -> Figure | None:
     return headed(figure, found, shown, "slips below 0.05 mm stand on the lower edge")
 
 
-def _single_curves(found: Opened, strength: Floats) -> tuple[Floats, Floats] | None:
-    """Return strength and slip of single dams in single motions, (curves, strengths, models); None where motions do
-    not go through strengths."""
-    if (found.strengths or 1) < 2:
-        return None
-    slip = np.abs(found.cube(_SLIP))
-    of = strength.reshape(slip.shape).reshape(-1, *slip.shape[2:])
-    slip = slip.reshape(-1, *slip.shape[2:])
-    chosen = np.unique(np.linspace(0, len(slip) - 1, min(len(slip), _CURVES)).astype(np.int64))
-    return of[chosen], slip[chosen]
+def _single_curves(found: Opened, strength: Strength) -> tuple[Floats, Floats]:
+    """Return strength and slip of some single dams in single motions, (curves, strengths, models)."""
+    strengths, models = found.walk.strengths or 1, len(found.walk.models)
+    count = found.store.count // (strengths * models)
+    chosen = np.unique(np.linspace(0, count - 1, min(count, _CURVES)).astype(np.int64))
+    of, slip = (np.full((chosen.size, strengths * models), np.nan) for _ in range(2))
+    measure = found.walk.measure(strength.measure, strength.period)
+    for runs in found.walk("run", *SHAKEN, _SLIP):
+        curve, place = np.divmod(runs.whole("run"), strengths * models)
+        at = np.minimum(np.searchsorted(chosen, curve), chosen.size - 1)
+        here = chosen[at] == curve
+        of[at[here], place[here]] = runs.strength(measure)[here] / strength.scale
+        slip[at[here], place[here]] = np.abs(runs.numbers(_SLIP))[here]
+    shape = (chosen.size, strengths, models)
+    return of.reshape(shape), slip.reshape(shape)
 
 
 def _thin(axes: Axes, strength: Floats, slip: Floats) -> None:
@@ -77,8 +78,8 @@ def _thin(axes: Axes, strength: Floats, slip: Floats) -> None:
     axes.add_collection(LineCollection(list(lines), colors="#999999", linewidths=0.5, alpha=0.6, zorder=1))
 
 
-def _band(axes: Axes, band: dict[str, list[float]]) -> None:
-    middle = np.array(band["strength"])
+def _band(axes: Axes, band: dict[str, list[float]], scale: float) -> None:
+    middle = np.array(band["strength"]) / scale
     low, median, high = (
         # Runs without a result count as infinitely far; the line ends there.
         1e3 * np.where(np.isfinite(each), np.maximum(each, JOINT_METER_M / 2.0), np.nan)
@@ -107,28 +108,19 @@ def fragility_figure(found: Opened) -> Figure | None:
     fitted = [each for each in found.curves if each[1].median is not None]
     if not fitted:
         return None
-    strength, label = measured(found, asked["measure"], asked["period"])
-    si = found.strength(asked["measure"], asked["period"])
-    columns = sorted({name for _, curve in fitted for name in LIMITED[curve.limit]})
-    table = found.to_table(["model", "outcome", *columns])
-    names, model = codes(table, "model")
-    outcomes, code = codes(table, "outcome")
-    outcome = np.array(outcomes)[code]
-    values = {name: np.asarray(table[name].to_numpy(), dtype=np.float64) for name in columns}
+    strength = measured(asked["measure"], asked["period"])
     models = list(dict.fromkeys(name for name, _ in fitted))
     figure = Figure(figsize=(WIDTH, 4.4), layout="constrained")
     panels = figure.subplots(1, len(models), sharex=True, sharey=True, squeeze=False)[0]
-    x = np.linspace(0.0, strength.max(), 241)[1:]
-    to_si = float(si.max() / strength.max())
+    strongest = max(tally.highest for tally in found.counted.values()) / strength.scale
+    x = np.linspace(0.0, strongest, 241)[1:]
     for name, axes in zip(models, panels, strict=True):
-        here = model == names.index(name)
         for place, curve in enumerate(each for of, each in fitted if of == name):
-            shares = exceeding(
-                {key: each[here] for key, each in values.items()}, outcome[here], curve.limit, curve.value
-            )
-            _curve(axes, curve, x, to_si, observed(strength[here], shares), LINES[place % len(LINES)])
+            middle, shares = observed(found.counted[name, curve.limit, curve.value])
+            points = (np.array(middle) / strength.scale, np.array(shares))
+            _curve(axes, curve, (x, strength.scale), points, LINES[place % len(LINES)])
         axes.set_title(f"{name} model", fontsize=9, loc="left")
-        axes.set_xlabel(label)
+        axes.set_xlabel(strength.label)
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), fontsize=8, ncols=3 if len(models) == 1 else 1)
     panels[0].set_ylim(0.0, 1.0)
     panels[0].set_xlim(0.0, None)
@@ -139,11 +131,11 @@ def fragility_figure(found: Opened) -> Figure | None:
 
 
 def _curve(
-    axes: Axes, curve: Curve, x: Floats, to_si: float, points: tuple[list[float], list[float]], look: tuple[str, str]
+    axes: Axes, curve: Curve, along: tuple[Floats, float], points: tuple[Floats, Floats], look: tuple[str, str]
 ) -> None:
-    colour, dash = look
+    (x, scale), (colour, dash) = along, look
     amount = f"{curve.value:.3g} rad" if curve.limit == "rotation" else length(curve.value, "si")
-    strength: Any = x * to_si
+    strength = x * scale
     axes.plot(
         x,
         curve.probability(strength),
