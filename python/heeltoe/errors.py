@@ -292,6 +292,12 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "output-step": ("{value} is not a step within the run", "give one above 0 s and up to {duration}"),
     "output-many": ("a step of {value} makes {count:.3g} moments", "give a step that makes up to {most:.3g}"),
     "unknown-model": ("{value} is no model", "use {models}{near}"),
+    "app-package": ("needs the package {value}", 'install heeltoe with the extra "app"'),
+    "app-public": (
+        "{value} can be reached from other machines",
+        "add --public, which lets those in that have its token, or leave --host out",
+    ),
+    "app-address": ("{value} cannot be listened at ({reason})", "give another, or leave it out"),
     "unknown-units": ("{value} is no system of units", "use si or us"),
     "block-number": ("{value} is no number of a block", "give {bounds}"),
     "blocks-shape": ("{value} is no table of blocks", "give blocks, cases, or numbers of shape (n, {columns})"),

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from heeltoe.case.motion import Motion, Source
 from heeltoe.errors import InputError
+from heeltoe.kept import Kept
 from heeltoe.motion.check import check, check_pair, check_record
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.processing import process
@@ -14,6 +15,9 @@ from heeltoe.motion.records import called, read_record
 from heeltoe.motion.records.catalog import find
 from heeltoe.motion.scenario import PREFIX, synthetic
 from heeltoe.warnings import Notice
+
+# Records as they were read: many runs differ in all else.
+_KEPT: Kept[GroundMotion] = Kept(8)
 
 
 def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[GroundMotion, GroundMotion | None]:
@@ -91,8 +95,10 @@ def _source(shaking: Source, gravity: float, base_directory: Path, field: str, u
                 raise InputError("synthetic-option", f"{field}.{option}")
         return synthetic(shaking.file, gravity=gravity, field=f"{field}.file")
     path = find(shaking.file, base_directory, field=f"{field}.file")
-    motion = read_record(
-        path, shaking.channel, unit=shaking.unit, time_step=shaking.time_step, gravity=gravity, field=field
+    options = {"unit": shaking.unit, "time_step": shaking.time_step, "gravity": gravity, "field": field}
+    motion = _KEPT.get(
+        (_state_of(path), shaking.channel, *options.values()),
+        lambda: read_record(path, shaking.channel, **options),  # type: ignore[arg-type]
     )
     component = motion.component.lower()
     if upward and (component.startswith(("down", "dwn")) or "positive down" in component):
@@ -101,6 +107,15 @@ def _source(shaking: Source, gravity: float, base_directory: Path, field: str, u
             processing=(*motion.processing, "the record counts down as positive: turned to up"),
         )
     return called(motion, path, shaking.file)
+
+
+def _state_of(path: Path) -> tuple[object, ...]:
+    """Return what is another where a file has been written anew."""
+    try:
+        found = path.stat()
+    except OSError:
+        return (path,)
+    return path.resolve(), found.st_mtime_ns, found.st_size, found.st_ino
 
 
 def _finish(motion: GroundMotion, shaking: Source, duration: float | None) -> GroundMotion:

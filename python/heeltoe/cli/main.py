@@ -10,6 +10,7 @@ from typing import Annotated, Never
 
 import typer
 
+from heeltoe.cli import app as app_command
 from heeltoe.cli import dam as dam_commands
 from heeltoe.cli import motion as motion_command
 from heeltoe.cli import run as run_command
@@ -118,6 +119,7 @@ for command in (
     dam_commands.animate,
     motion_command.motion,
     study_command.study,
+    app_command.app,
     validate,
     new,
 ):

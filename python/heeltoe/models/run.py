@@ -202,6 +202,18 @@ def flexible(
     return _alone(_flexible(case, earthquake(case, motion, vertical), output_step), case)
 
 
+def live(case: Case, model: str, shaking: Earthquake) -> Response:
+    """Run a block, ``"rigid"`` or ``"decoupled"``, for someone who waits: numbers and histories are those of
+    :func:`run`, but a decoupled one has no evidence at the level of its crack.
+
+    Raises
+    ------
+    InputError
+        As :func:`run`.
+    """
+    return _alone(_live(case, shaking) if model == "decoupled" else _rigid(case, shaking, None), case)
+
+
 def earthquake(
     case: Case,
     motion: GroundMotion | None = None,
@@ -271,6 +283,15 @@ def _decoupled(case: Case, earthquake: Earthquake, output_step: float | None) ->
 
     def run(through: Earthquake) -> DecoupledResponse:
         return run_decoupled(case, through, output_step)
+
+    return until_rest(run, reach_of_block, earthquake, case.analysis.silence, swings=True)
+
+
+def _live(case: Case, earthquake: Earthquake) -> DecoupledResponse:
+    from heeltoe.models.decoupled.live import run_live
+
+    def run(through: Earthquake) -> DecoupledResponse:
+        return run_live(case, through)
 
     return until_rest(run, reach_of_block, earthquake, case.analysis.silence, swings=True)
 

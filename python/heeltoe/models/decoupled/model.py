@@ -59,17 +59,14 @@ def run_decoupled(case: Case, earthquake: Earthquake, output_step: float | None 
     InputError
         Where the crack is at the base, or the case has no modulus.
     """
-    motion = earthquake.motion
     check_cost(case, Cost(0.0, _BYTES * earthquake.end / FIRST_STEP), "motion.duration")
     part = chain(case)
     at_crack, straightness = crack_motion(part, earthquake)
-    if output_step is None:
-        spacing = motion.dt if motion.is_uniform else _OUTPUT_STEP
-        output_step = min(earthquake.run_end, spacing / math.ceil(spacing / _OUTPUT_STEP * (1.0 - 1e-9)))
     block = build_block(case)
-    found = run_rigid(case, at_crack.felt(case, earthquake), output_step, block)
+    step = step_of(earthquake) if output_step is None else output_step
+    found = run_rigid(case, at_crack.felt(case, earthquake), step, block)
     if not found.summary:
-        return _of_the_chain(found, earthquake)
+        return of_the_chain(found, earthquake)
     rough = crack_motion_at(part, earthquake, 2.0 * at_crack.step)
     coarser = walk(case, block, rough.felt(case, earthquake).shaking)
     level = _crack_level(case, part, at_crack, earthquake)
@@ -79,7 +76,7 @@ def run_decoupled(case: Case, earthquake: Earthquake, output_step: float | None 
         "half_the_modes": _of_half_the_modes(part, at_crack, earthquake),
         **_change(found.residual_slip_m, coarser.summary["slip"], rough.step),
     }
-    return _of_the_chain(
+    return of_the_chain(
         found,
         earthquake,
         summary={**found.summary, "crack_level": level},
@@ -89,7 +86,14 @@ def run_decoupled(case: Case, earthquake: Earthquake, output_step: float | None 
     )
 
 
-def _of_the_chain(block: Response, earthquake: Earthquake, **changes: Any) -> DecoupledResponse:
+def step_of(earthquake: Earthquake) -> float:
+    """Return the spacing of the histories, where none is given [s]."""
+    motion = earthquake.motion
+    spacing = motion.dt if motion.is_uniform else _OUTPUT_STEP
+    return min(earthquake.run_end, spacing / math.ceil(spacing / _OUTPUT_STEP * (1.0 - 1e-9)))
+
+
+def of_the_chain(block: Response, earthquake: Earthquake, **changes: Any) -> DecoupledResponse:
     """Return what the block has done as what the chain has done."""
     found = {each.name: getattr(block, each.name) for each in fields(block)}
     found |= {"model": "decoupled", "motion": earthquake.motion, "vertical": earthquake.vertical}

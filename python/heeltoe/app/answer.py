@@ -1,0 +1,95 @@
+"""Actions of the answer: what the dam does as a block while a slider moves, and as an elastic dam on a button."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Mapping
+from typing import Any
+
+from heeltoe.app.actions import Asked, BadRequestError, Desk, Entry, number
+from heeltoe.app.jobs import Job, Work
+from heeltoe.app.sessions import Session
+from heeltoe.app.workers import WorkerLostError
+
+_LOST = "The process that computes this model was ended, perhaps for want of memory. It has been started anew."
+# Of all tabs.
+_RUNNING: set[asyncio.Task[None]] = set()
+
+
+def changes_of(session: Session, values: object) -> dict[str, Any]:
+    """Return what the sliders of a page change, by the paths of the case; what stands where the case is changes
+    nothing."""
+    from heeltoe.app.sliders import change, sliders
+
+    if session.case is None or not isinstance(values, Mapping):
+        raise BadRequestError("values are numbers by the paths of the sliders")
+    known = {each.path: each for each in sliders(session.case, session.units)}
+    found: dict[str, Any] = {}
+    for path in values:
+        if path not in known:
+            raise BadRequestError(f"{path} is no slider")
+        found |= change(known[path], number(dict(values), path), session.case)
+    return found
+
+
+async def rigid(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Run the rigid block with the sliders where they are, and remember where that is."""
+    from heeltoe.app.live import answer
+
+    session = desk.session
+    values = asked.get("values")
+    session.changes, session.moved = changes_of(session, values), frozenset(values or ())
+    found = await desk.workers.quick(answer, session.case, session.changes, "rigid", session.units)
+    return {"of": "rigid", **found}
+
+
+async def decoupled(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Run the decoupled chain with the sliders where they are."""
+    from heeltoe.app.live import answer
+
+    session = desk.session
+    changes = changes_of(session, asked.get("values"))
+    try:
+        found = await desk.workers.beside(answer, session.case, changes, "decoupled", session.units)
+    except WorkerLostError:
+        found = {"absent": _LOST}
+    return {"of": "decoupled", **found}
+
+
+async def flexible(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Start the flexible model with the sliders where they are; it tells how far it is, and its result in the end."""
+    from heeltoe.app.live import flexible as work
+
+    session = desk.session
+    changes = changes_of(session, asked.get("values"))
+    return start(desk, "flexible", work, session.case, changes, session.units)
+
+
+def start(desk: Desk, what: str, work: Work, *arguments: Any) -> dict[str, Any]:
+    """Start a long run of this tab, and return what is told of it."""
+    session = desk.session
+    if len(_RUNNING) >= desk.settings.most_jobs:
+        return {"of": "job refused", "text": f"{len(_RUNNING)} long runs go on: cancel one, or wait for it."}
+    job = Job(what, work, *arguments)
+    session.jobs[job.number] = job
+    task = asyncio.create_task(job.follow(session.say))
+    _RUNNING.add(task)
+    task.add_done_callback(_RUNNING.discard)
+    return job.told()
+
+
+async def cancel(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Cancel a long run of this tab."""
+    job = desk.session.jobs.get(int(number(asked, "number")))
+    if job is None:
+        raise BadRequestError("there is no such run")
+    job.cancel()
+    return job.told()
+
+
+ACTIONS = {
+    "rigid": Entry(rigid, newest=True),
+    "decoupled": Entry(decoupled, newest=True),
+    "flexible": Entry(flexible),
+    "cancel": Entry(cancel),
+}

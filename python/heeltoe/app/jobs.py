@@ -1,0 +1,113 @@
+"""Long runs, each in a process of its own: it says how far it is, can be cancelled, and may die without the app."""
+
+from __future__ import annotations
+
+import asyncio
+import multiprocessing
+import signal
+from collections.abc import Awaitable, Callable
+from contextlib import suppress
+from itertools import count
+from multiprocessing.connection import Connection
+from time import monotonic
+from typing import Any
+
+from heeltoe.errors import InputError
+
+#: What a job calls: it says what goes on, and returns what a page can draw.
+Work = Callable[..., dict[str, Any]]
+Tell = Callable[[dict[str, Any]], Awaitable[None]]
+
+_NUMBERS = count(1)
+# A process that does not end by itself when asked to is ended after this [s].
+_PATIENCE_S = 3.0
+
+
+class Job:
+    """One long run.
+
+    Parameters
+    ----------
+    what
+        It is, in a word, for the page.
+    work
+        A function of a module, called in the process with a function that says what goes on and `arguments`.
+    """
+
+    def __init__(self, what: str, work: Work, *arguments: Any) -> None:
+        self.number = next(_NUMBERS)
+        self.what = what
+        self.state = "running"
+        self.said = "starting"
+        self.result: dict[str, Any] | None = None
+        self._began = monotonic()
+        context = multiprocessing.get_context("spawn")
+        self._here, there = context.Pipe(duplex=False)
+        self._process = context.Process(target=_run, args=(there, work, arguments), daemon=True)
+        self._process.start()
+        there.close()
+
+    def told(self) -> dict[str, Any]:
+        """Return what a page shows of it."""
+        seconds = monotonic() - self._began
+        told = {"of": "job", "number": self.number, "what": self.what, "state": self.state, "seconds": seconds}
+        return told | {"said": self.said, "result": self.result}
+
+    def cancel(self) -> None:
+        """End it, where it has not ended."""
+        if self.state == "running":
+            self.state, self.said = "cancelled", "cancelled"
+            self._process.terminate()
+
+    async def follow(self, tell: Tell) -> None:
+        """Tell what goes on until it has ended, whatever ends it."""
+        loop = asyncio.get_running_loop()
+        await tell(self.told())
+        while True:
+            ready = await loop.run_in_executor(None, self._here.poll, 0.5)
+            try:
+                if ready:
+                    self._take(self._here.recv())
+            except (EOFError, OSError):
+                break
+            await tell(self.told())
+        self._process.join(_PATIENCE_S)
+        if self._process.is_alive():
+            self._process.kill()
+        self._here.close()
+        if self.state == "running":
+            self.state, self.said = "lost", _lost(self._process.exitcode)
+        await tell(self.told())
+
+    def _take(self, message: tuple[str, Any]) -> None:
+        kind, content = message
+        if self.state != "running":
+            return
+        if kind == "says":
+            self.said = content
+        else:
+            self.state, self.said, self.result = kind, "" if kind == "done" else content, None
+            if kind == "done":
+                self.result = content
+
+
+def _lost(code: int | None) -> str:
+    """Say how a process ended that did not say so itself."""
+    if code is not None and code < 0:
+        with suppress(ValueError):
+            return (
+                f"The process of this run was ended from outside ({signal.Signals(-code).name}), perhaps for want of "
+                "memory. Nothing else is lost; run it again, or with fewer elements."
+            )
+    return "The process of this run has ended without a result. Nothing else is lost; run it again."
+
+
+def _run(there: Connection, work: Work, arguments: tuple[Any, ...]) -> None:
+    """Run in the process of a job."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        there.send(("done", work(lambda text: there.send(("says", text)), *arguments)))
+    except InputError as error:
+        there.send(("refused", str(error)))
+    except MemoryError:
+        there.send(("failed", "There is not enough memory for this run."))

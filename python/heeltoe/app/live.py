@@ -1,0 +1,56 @@
+"""The answer while a slider moves: both blocks, each as soon as it is there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from time import perf_counter
+from typing import Any
+
+from heeltoe.app.drawn import drawn
+from heeltoe.case.model import Case
+from heeltoe.errors import InputError
+from heeltoe.kept import Kept
+from heeltoe.models.run import cost_of, earthquake, live
+from heeltoe.motion.earthquake import Earthquake
+
+_KEPT: Kept[Earthquake] = Kept(16)
+
+
+def answer(case: Case, changes: Mapping[str, Any], model: str, units: str) -> dict[str, Any]:
+    """Return what a block does, or why it cannot be said."""
+    began = perf_counter()
+    try:
+        changed = case.with_(changes) if changes else case
+        if model == "decoupled" and changed.crack.elevation == 0.0:
+            return {"absent": "The decoupled chain needs something below the crack: this one is at the base."}
+        if model == "decoupled" and changed.concrete.modulus is None:
+            return {"absent": "The decoupled chain needs the concrete's modulus, which this case does not give."}
+        found = live(changed, model, _earthquake(changed))
+    except InputError as error:
+        return refused(error)
+    return drawn(found, units) | {"computed_s": perf_counter() - began}
+
+
+def _earthquake(case: Case) -> Earthquake:
+    """Return what shakes a case: the very same where it is as before, so that what is kept of it is found."""
+    found = earthquake(case)
+    key = tuple(
+        each and (each.name, each.time.tobytes(), each.acceleration.tobytes(), each.processing, each.warnings)
+        for each in (found.motion, found.vertical)
+    )
+    return _KEPT.get((key, found.end), lambda: found)
+
+
+def refused(error: InputError) -> dict[str, Any]:
+    """Return an error as the page shows it, at its field."""
+    return {"error": {"field": error.field, "text": str(error), "problem": error.problem, "remedy": error.remedy}}
+
+
+def flexible(say: Callable[[str], None], case: Case, changes: Mapping[str, Any], units: str) -> dict[str, Any]:
+    """Return what the elastic dam does; it takes seconds to minutes."""
+    from heeltoe.models.run import flexible as run_flexible
+
+    changed = case.with_(changes) if changes else case
+    cost = cost_of(changed, "flexible")
+    say("running the flexible model" + ("" if cost is None else f", about {max(1.0, cost.seconds):.0f} s"))
+    return drawn(run_flexible(changed), units)

@@ -1,0 +1,81 @@
+"""Actions of a tab as it comes: its case, an example to start from, its units."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
+
+from heeltoe.app.actions import Asked, BadRequestError, Desk, Entry, text
+from heeltoe.app.examples import FIRST, example_path, examples
+from heeltoe.app.sessions import Session
+
+# Not as the server starts: the page is there before all that reads a case is loaded.
+if TYPE_CHECKING:
+    from heeltoe.case.model import Case
+
+
+def state(session: Session) -> dict[str, Any]:
+    """Return what all pages of a tab stand on: its case and where its sliders are."""
+    from heeltoe.app.sliders import sliders
+
+    case = session.case
+    if case is None:
+        return {"of": "state", "case": None, "examples": examples(), "units": session.units}
+    found = sliders(case.with_(session.changes) if session.changes else case, session.units)
+    return {
+        "of": "state",
+        "case": {"title": case.title, "example": session.example},
+        "examples": examples(),
+        "units": session.units,
+        "sliders": [asdict(each) for each in found],
+        "moved": {each.path: each.value for each in found if each.path in session.moved},
+        "drained": case.uplift.pattern == "drained",
+        "elastic": case.concrete.modulus is not None,
+    }
+
+
+def begin(session: Session) -> dict[str, Any]:
+    """Return the state of a tab that comes; a new one has the first example."""
+    if session.case is None:
+        _open(session, examples()[0])
+    return state(session)
+
+
+def _open(session: Session, name: str) -> None:
+    session.case = _read(session, name)
+    session.example = name
+    session.changes, session.moved = {}, frozenset()
+    session.kept.clear()
+
+
+def _read(session: Session, name: str) -> Case:
+    from heeltoe.case.read import read_case
+
+    path = example_path(name, session.folder)
+    if path is None:
+        raise BadRequestError(f"{name} is no example; the first one is {FIRST}")
+    return read_case(path)
+
+
+async def open_example(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Open an example in the place of the case that the tab has."""
+
+    def opened() -> dict[str, Any]:
+        _open(desk.session, text(asked, "name"))
+        return state(desk.session)
+
+    found: dict[str, Any] = await desk.workers.quick(opened)
+    return found
+
+
+async def set_units(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Show everything in SI or in units of the United States."""
+    name = text(asked, "units")
+    if name not in ("si", "us"):
+        raise BadRequestError("units are si or us")
+    desk.session.units = name
+    found: dict[str, Any] = await desk.workers.quick(state, desk.session)
+    return found
+
+
+ACTIONS = {"open example": Entry(open_example), "units": Entry(set_units)}

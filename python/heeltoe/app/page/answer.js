@@ -1,0 +1,141 @@
+/** The page "Answer": sliders, and what the models make of them. */
+import { Card } from "./card.js";
+import { byId, element } from "./dom.js";
+import { FlexibleRun } from "./flexible.js";
+import { draw, loadPlotly } from "./plot.js";
+import { showSliders } from "./sliders.js";
+
+const LIVE = ["rigid", "decoupled"];
+const KINDS = ["rest", "slide", "rock", "slide-rock", "drift"];
+const SPOKEN_AFTER_MS = 700;
+
+/** @param {import("./talk.js").Talk} talk */
+export function answerPage(talk) {
+  /** Of the sliders that were moved, by their paths. @type {Record<string, number>} */
+  let values = {};
+  /** What each model has said last. @type {Record<string, any>} */
+  let answers = {};
+  /** When the event was that asked for an answer, by the number of the rigid one [ms]. @type {Map<number, number>} */
+  const began = new Map();
+  /** Numbers of the questions of one position of the sliders, by model. @type {Record<string, number>} */
+  let newest = {};
+  let position = 0;
+  /** @type {Map<number, number>} */
+  const positions = new Map();
+  let drawing = false;
+  let wanted = false;
+  let speaking = 0;
+  const cards = /** @type {Record<string, Card>} */ ({ rigid: new Card("rigid"), decoupled: new Card("decoupled") });
+  const controls = element("div", { class: "controls" });
+  const plot = element("div", { class: "plot", role: "figure", "aria-label": "Ground acceleration, slip, rotation and modes of motion over time" });
+  const flexible = new FlexibleRun(talk, () => values, (answer) => {
+    answers.flexible = answer;
+    redraw();
+  });
+  const ready = loadPlotly();
+
+  /** @param {number} time */
+  function ask(time) {
+    position += 1;
+    for (const model of LIVE) {
+      newest[model] = talk.ask(model, { values });
+      positions.set(newest[model], position);
+    }
+    began.set(newest.rigid, time);
+    flexible.moved();
+  }
+
+  /** @param {any} answer */
+  function take(answer) {
+    const at = positions.get(answer.serial) || 0;
+    for (const [serial, place] of positions) if (place < at - 1) positions.delete(serial);
+    answers[answer.of] = { ...answer, position: at };
+    cards[answer.of].show(answer);
+    // What is older than the newest answer of any model stands beside a number that it does not belong to.
+    const latest = Math.max(...LIVE.map((model) => (answers[model] ? answers[model].position : 0)));
+    for (const model of LIVE) {
+      const old = answers[model] ? answers[model].position < latest && !answers[model].absent : true;
+      cards[model].mark(old ? "updating" : "");
+      if (answers[model]) answers[model].stale = old;
+    }
+    if (answer.of === "rigid") faults(answer);
+    redraw();
+    speak();
+  }
+
+  /** Say an error at its slider. @param {any} answer */
+  function faults(answer) {
+    for (const place of controls.querySelectorAll("[data-wrong]")) {
+      const mine = answer.error && answer.error.field === place.getAttribute("data-wrong");
+      const text = mine ? `${answer.error.problem}; ${answer.error.remedy}` : "";
+      if (place.textContent !== text) place.textContent = text;
+    }
+  }
+
+  function speak() {
+    clearTimeout(speaking);
+    speaking = setTimeout(() => {
+      const said = LIVE.map((model) => answers[model] && answers[model].verdict).filter(Boolean);
+      byId("spoken").textContent = said.join(" ");
+    }, SPOKEN_AFTER_MS);
+  }
+
+  function redraw() {
+    wanted = true;
+    if (!drawing) requestAnimationFrame(drawNow);
+    drawing = true;
+  }
+
+  async function drawNow() {
+    await ready;
+    wanted = false;
+    const shown = [...LIVE, "flexible"]
+      .filter((model) => answers[model] && answers[model].curves)
+      .map((model) => ({ model, stale: Boolean(answers[model].stale), answer: answers[model] }));
+    plot.hidden = shown.length === 0;
+    if (shown.length && plot.clientWidth) await draw(plot, shown);
+    measure();
+    drawing = false;
+    if (wanted) redraw();
+  }
+
+  /** Note how long it took from the event of a slider to the plot, by the browser's clock. */
+  function measure() {
+    const serial = answers.rigid && answers.rigid.serial;
+    const start = began.get(serial);
+    if (start === undefined) return;
+    for (const each of began.keys()) if (each <= serial) began.delete(each);
+    requestAnimationFrame(() => setTimeout(() => performance.measure("slider to plot", { start, end: performance.now() })));
+  }
+
+  talk.on("state", (state) => {
+    answers = {};
+    values = state.moved || {};
+    if (state.case) {
+      showSliders(controls, state.sliders, state.drained, values, ask);
+      controls.append(flexible.root);
+      flexible.begin(state.elastic);
+      ask(performance.now());
+    }
+  });
+  for (const model of LIVE) talk.on(model, take);
+
+  return {
+    name: "answer",
+    label: "Answer",
+    redraw,
+    /** @param {HTMLElement} root */
+    mount(root) {
+      const key = KINDS.map((kind) => {
+        const patch = element("i", {});
+        patch.style.background = `var(--${kind})`;
+        return element("span", {}, patch, kind);
+      });
+      const all = [cards.rigid, cards.decoupled, flexible.card];
+      const verdicts = element("div", { class: "cards" }, ...all.map((each) => each.root));
+      const details = element("div", { class: "cards" }, ...all.map((each) => each.details));
+      root.append(element("div", { class: "answer" }, controls, element("div", {}, verdicts, plot, element("p", { class: "key" }, "Modes of motion:", ...key), details)));
+      return redraw;
+    },
+  };
+}

@@ -1,0 +1,64 @@
+/** What one model says: the verdict above the plot, numbers, slip by mode and warnings below it; both are marked where
+ * they are not of the sliders as they stand. */
+import { element } from "./dom.js";
+
+const NAMES = /** @type {Record<string, string>} */ ({ rigid: "Rigid block", decoupled: "Rigid block on an elastic part", flexible: "Elastic dam" });
+
+/** @param {any} answer */
+function numbers(answer) {
+  const rows = answer.numbers.map((/** @type {any} */ each) => element("tr", { "data-key": each.key }, element("th", { scope: "row" }, each.label), element("td", {}, each.text)));
+  return element("table", { class: "numbers", "aria-label": "Results" }, element("tbody", {}, ...rows));
+}
+
+/** @param {any} answer */
+function slips(answer) {
+  const rows = answer.slips.map((/** @type {any} */ each) => {
+    const bar = element("div", {});
+    bar.style.width = `${Math.round(100 * each.share)}%`;
+    return element("tr", {}, element("th", { scope: "row" }, `slip in ${each.kind}`), element("td", {}, each.text), element("td", { class: "bar", "aria-hidden": "true" }, bar));
+  });
+  return element("table", { class: "numbers", "aria-label": "Slip by mode of motion" }, element("tbody", {}, ...rows));
+}
+
+/** @param {any} answer */
+function warnings(answer) {
+  if (!answer.warnings.length) return [];
+  const items = answer.warnings.map((/** @type {any} */ each) => element("li", { class: each.severity }, each.text));
+  return [element("h3", {}, "What to know before using these numbers"), element("ul", { class: "warnings" }, ...items)];
+}
+
+export class Card {
+  /** @param {string} model */
+  constructor(model) {
+    this.states = [element("span", { class: "state" }), element("span", { class: "state" })];
+    this.verdict = element("div", { class: "content" }, element("p", { class: "faint" }, "computing"));
+    this.content = element("div", { class: "content" });
+    this.root = element("section", { class: "card", "data-model": model, "aria-label": `${NAMES[model]}: verdict` }, element("h2", {}, NAMES[model], this.states[0]), this.verdict);
+    this.details = element("section", { class: "card", "data-details": model, "aria-label": `${NAMES[model]}: numbers` }, element("h2", {}, NAMES[model], this.states[1]), this.content);
+    for (const each of [this.root, this.details]) each.style.setProperty("--of", `var(--${model})`);
+    this.details.hidden = true;
+  }
+
+  /** @param {boolean} hidden */
+  hide(hidden) {
+    this.root.hidden = hidden;
+    this.details.hidden = hidden || !this.content.hasChildNodes();
+  }
+
+  /** @param {any} answer */
+  show(answer) {
+    const said = answer.absent || (answer.error && answer.error.text) || answer.verdict;
+    const kind = answer.absent ? "faint" : answer.ok ? "verdict" : "verdict bad";
+    const count = answer.warnings ? answer.warnings.length : 0;
+    const caveat = count ? [element("p", { class: "caveat" }, `${count} warning${count > 1 ? "s" : ""} below`)] : [];
+    this.verdict.replaceChildren(element("p", { class: kind }, said), ...caveat);
+    this.content.replaceChildren(...(answer.numbers ? [numbers(answer), slips(answer)] : []), ...(answer.warnings ? warnings(answer) : []));
+    this.hide(false);
+  }
+
+  /** @param {string} why Why it is not of the sliders as they stand; empty where it is. */
+  mark(why) {
+    for (const each of [this.root, this.details]) each.classList.toggle("stale", why !== "");
+    for (const each of this.states) each.textContent = why;
+  }
+}

@@ -1,0 +1,43 @@
+/** The start of the page: connection, tabs, and what stands above all of them. */
+import { answerPage } from "./answer.js";
+import { byId, element } from "./dom.js";
+import { laterPage } from "./later.js";
+import { showTabs } from "./tabs.js";
+import { Talk } from "./talk.js";
+import { followTheme } from "./theme.js";
+
+const talk = new Talk();
+const answer = answerPage(talk);
+const pages = [
+  laterPage("case", "Case", "Choose an example above; a case of your own is written and run by", "heeltoe new NAME"),
+  laterPage("motion", "Motion", "A record is looked at by", "heeltoe motion FILE"),
+  answer,
+  laterPage("studies", "Studies", "Many dams through many earthquakes are run by", "heeltoe study STUDY.toml"),
+  laterPage("take-away", "Take away", "A report of a case is written by", "heeltoe run CASE.toml --report"),
+];
+
+/** @param {string} text Nothing hides it. */
+function notice(text) {
+  const place = byId("notice");
+  place.textContent = text;
+  place.hidden = text === "";
+}
+
+const example = /** @type {HTMLSelectElement} */ (byId("example"));
+const units = /** @type {HTMLSelectElement} */ (byId("units"));
+example.addEventListener("change", () => talk.ask("open example", { name: example.value }));
+units.addEventListener("change", () => talk.ask("units", { units: units.value }));
+talk.on("state", (state) => {
+  byId("case-title").textContent = state.case ? state.case.title || "untitled case" : "";
+  example.replaceChildren(...state.examples.map((/** @type {string} */ name) => element("option", { value: name }, name)));
+  example.value = state.case ? state.case.example : "";
+  units.value = state.units;
+});
+talk.on("connected", () => notice(""));
+talk.on("lost", () => notice("The app is not running any more, or cannot be reached. The page goes on as soon as it is back."));
+talk.on("bad request", ({ text }) => notice(`The page has asked for something that the app does not know: ${text}. Reload it.`));
+talk.on("refused", ({ text }) => notice(text));
+
+followTheme(() => answer.redraw());
+showTabs(pages, "answer");
+talk.open();

@@ -1,0 +1,103 @@
+"""Serve the app until Ctrl-C."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import secrets
+import socket
+import tempfile
+import webbrowser
+from collections.abc import Callable
+from importlib.util import find_spec
+from pathlib import Path
+
+from heeltoe.app.settings import Settings, is_loopback
+from heeltoe.errors import InputError
+
+#: Where the app is found if it is free and no other is asked for.
+USUAL_PORT = 8642
+_PACKAGES = ("plotly", "starlette", "uvicorn", "websockets")
+# After Ctrl-C, tabs that still talk are waited for so long [s].
+_PATIENCE_S = 2
+
+
+def serve(host: str, port: int | None, *, public: bool, browser: bool, say: Callable[[str], None]) -> None:
+    """Serve the app.
+
+    Parameters
+    ----------
+    host
+        Where to listen.
+    port
+        There; the usual one, or any that is free, where none is given.
+    public
+        Whether other machines may reach it; they need the token in the address that is said.
+    browser
+        Whether to open it in the browser of this machine.
+    say
+        Told the address.
+
+    Raises
+    ------
+    InputError
+        Where a package is missing, the address cannot be used, or is not of this machine alone without `public`.
+    """
+    for package in _PACKAGES:
+        if find_spec(package) is None:
+            raise InputError("app-package", "heeltoe app", package)
+    if not is_loopback(host) and not public:
+        raise InputError("app-public", "--host", host)
+    with contextlib.closing(_listen(host, port)) as listening, tempfile.TemporaryDirectory(prefix="heeltoe-") as folder:
+        token = "" if is_loopback(host) else secrets.token_urlsafe(24)
+        settings = Settings(host, listening.getsockname()[1], Path(folder), token)
+        address = _address(settings)
+        say(address)
+        with contextlib.suppress(KeyboardInterrupt):
+            asyncio.run(_run(settings, listening, address if browser else ""))
+
+
+async def _run(settings: Settings, listening: socket.socket, open_at: str) -> None:
+    import uvicorn
+
+    from heeltoe.app.server import application
+
+    config = uvicorn.Config(
+        application(settings),
+        ws="websockets-sansio",
+        ws_max_size=settings.largest_message,
+        log_level="warning",
+        server_header=False,
+        timeout_graceful_shutdown=_PATIENCE_S,
+    )
+    server = uvicorn.Server(config)
+    if open_at:
+        # The socket listens already: what comes before the server is there waits for it.
+        asyncio.get_running_loop().run_in_executor(None, webbrowser.open, open_at)
+    await server.serve(sockets=[listening])
+
+
+def _listen(host: str, port: int | None) -> socket.socket:
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    for tried in (USUAL_PORT, 0) if port is None else (port,):
+        listening = socket.socket(family, socket.SOCK_STREAM)
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            listening.bind((host, tried))
+            listening.listen()
+        except (OSError, OverflowError) as error:
+            listening.close()
+            if port is not None or tried == 0:
+                reason = getattr(error, "strerror", None) or error
+                raise InputError("app-address", "--port", f"{host}:{tried}", reason=reason) from None
+        else:
+            return listening
+    raise AssertionError
+
+
+def _address(settings: Settings) -> str:
+    name = settings.host
+    if name in ("0.0.0.0", "::"):
+        name = socket.gethostname()
+    shown = f"[{name}]" if ":" in name else name
+    return f"http://{shown}:{settings.port}/" + (f"?token={settings.token}" if settings.token else "")

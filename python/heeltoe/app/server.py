@@ -1,0 +1,129 @@
+"""The server: the page and its files, uploads, and a conversation with each tab."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from starlette.applications import Starlette
+from starlette.middleware import Middleware
+from starlette.requests import Request
+from starlette.responses import FileResponse, JSONResponse, Response
+from starlette.routing import Mount, Route, WebSocketRoute
+from starlette.staticfiles import StaticFiles
+from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
+
+from heeltoe.app.actions import Desk, actions
+from heeltoe.app.conversation import Conversation
+from heeltoe.app.guard import Guard
+from heeltoe.app.sessions import Session, Sessions
+from heeltoe.app.settings import Settings
+from heeltoe.app.uploads import take
+from heeltoe.app.workers import Workers
+
+_PAGE = Path(__file__).parent / "page"
+
+
+def application(settings: Settings) -> Starlette:
+    """Return the app that serves these settings."""
+    sessions, workers = Sessions(settings), Workers()
+    known = actions()
+
+    @asynccontextmanager
+    async def life(app: Starlette) -> AsyncIterator[None]:
+        warming = asyncio.create_task(workers.quick(_warm))
+        try:
+            yield
+        finally:
+            warming.cancel()
+            sessions.close()
+            workers.close()
+
+    async def talk(socket: WebSocket) -> None:
+        await socket.accept()
+        session = sessions.enter(socket.query_params.get("session", ""))
+        try:
+            desk = Desk(session, workers, settings, _teller(socket))
+            session.tell = desk.tell
+            await desk.tell({"of": "hello", "session": session.name})
+            await _begin(desk)
+            await Conversation(socket, desk, known).listen()
+        finally:
+            sessions.leave(session)
+
+    async def upload(request: Request) -> Response:
+        session = sessions.get(request.headers.get("x-session", ""))
+        if session is None:
+            return JSONResponse({"error": "This tab is not known any more: reload the page."}, status_code=403)
+        return await take(request, session, settings)
+
+    return Starlette(
+        routes=[
+            Route("/", _index),
+            Route("/plotly.js", _plotly),
+            Route("/upload", upload, methods=["POST"]),
+            WebSocketRoute("/talk", talk),
+            Mount("/page", StaticFiles(directory=_PAGE)),
+        ],
+        middleware=[Middleware(Guard, settings=settings)],
+        lifespan=life,
+    )
+
+
+async def _begin(desk: Desk) -> None:
+    from heeltoe.app.open_case import begin
+
+    await desk.tell(await desk.workers.quick(begin, desk.session))
+    for job in desk.session.jobs.values():
+        await desk.tell(job.told())
+
+
+def _teller(socket: WebSocket) -> Any:
+    """Return what sends a message to a tab, one at a time; what is said to a tab that has gone is lost."""
+    lock = asyncio.Lock()
+
+    async def tell(message: dict[str, Any]) -> None:
+        text = json.dumps(message, separators=(",", ":"), allow_nan=False)
+        async with lock:
+            if socket.client_state is WebSocketState.CONNECTED:
+                try:
+                    await socket.send_text(text)
+                except (WebSocketDisconnect, RuntimeError):
+                    return
+
+    return tell
+
+
+async def _index(request: Request) -> Response:
+    return FileResponse(_PAGE / "index.html", headers={"Cache-Control": "no-cache"})
+
+
+async def _plotly(request: Request) -> Response:
+    return FileResponse(plotly_file(), media_type="text/javascript", headers={"Cache-Control": "max-age=86400"})
+
+
+def plotly_file() -> Path:
+    """Return the library that draws, as the Python package brings it, without loading that."""
+    found = find_spec("plotly")
+    assert found is not None
+    assert found.origin is not None
+    return Path(found.origin).parent / "package_data" / "plotly.min.js"
+
+
+def _warm() -> None:
+    """Load all that the first answer needs while the browser draws the page."""
+    from tempfile import TemporaryDirectory
+
+    from heeltoe.app.live import answer
+    from heeltoe.app.open_case import begin
+
+    with TemporaryDirectory() as folder:
+        session = Session("", Path(folder))
+        begin(session)
+        if session.case is not None:
+            answer(session.case, {}, "rigid", "si")

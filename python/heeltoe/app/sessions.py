@@ -1,0 +1,136 @@
+"""What the server remembers of a tab: its case and its files, for a while."""
+
+from __future__ import annotations
+
+import secrets
+import shutil
+from dataclasses import dataclass, field
+from pathlib import Path
+from time import monotonic
+from typing import TYPE_CHECKING, Any
+
+from heeltoe.app.settings import Settings
+
+if TYPE_CHECKING:
+    from heeltoe.app.jobs import Job, Tell
+    from heeltoe.case.model import Case
+
+
+@dataclass(eq=False)
+class Session:
+    """One tab.
+
+    Attributes
+    ----------
+    name
+        A secret between the tab and the server.
+    folder
+        Of its files.
+    case
+        As it was opened, without what the sliders change; None until one is.
+    example
+        Which of the examples it is; empty where it is none.
+    changes
+        What the sliders change, by the paths of the case.
+    moved
+        The sliders that were moved.
+    units
+        ``"si"`` or ``"us"``.
+    kept
+        What else a page wants to find again, by names of its own.
+    jobs
+        Long runs, by their number.
+    uploads
+        How many files it has sent.
+    open, tell
+        Whether there is a tab, and what sends it a message.
+    used
+        When it was asked for last.
+    """
+
+    name: str
+    folder: Path
+    case: Case | None = None
+    example: str = ""
+    changes: dict[str, Any] = field(default_factory=dict)
+    moved: frozenset[str] = frozenset()
+    units: str = "si"
+    kept: dict[str, Any] = field(default_factory=dict)
+    jobs: dict[int, Job] = field(default_factory=dict)
+    uploads: int = 0
+    open: bool = False
+    tell: Tell | None = None
+    used: float = field(default_factory=monotonic)
+
+    async def say(self, message: dict[str, Any]) -> None:
+        """Tell the tab, if there is one: a run goes on while its tab is closed or loaded anew."""
+        if self.open and self.tell is not None:
+            await self.tell(message)
+
+    def close(self) -> None:
+        """End what runs for it, and remove its files."""
+        for job in self.jobs.values():
+            job.cancel()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+
+class Sessions:
+    """The tabs that the server remembers: so many, so long.
+
+    Parameters
+    ----------
+    settings
+        How many, how long, and where their files are.
+    """
+
+    def __init__(self, settings: Settings) -> None:
+        self._settings = settings
+        self._found: dict[str, Session] = {}
+
+    def get(self, name: str) -> Session | None:
+        """Return the session of this name, where there is one."""
+        self._forget()
+        found = self._found.get(name)
+        if found is not None:
+            found.used = monotonic()
+        return found
+
+    def enter(self, name: str) -> Session:
+        """Return the session of a tab that comes: the one it had, else a new one.
+
+        A tab that was doubled has the name of one that is open, and begins with its case."""
+        found = self.get(name)
+        if found is None or found.open:
+            found = self._new(found)
+        found.open = True
+        return found
+
+    def leave(self, session: Session) -> None:
+        """Note that a tab is closed; it may come back."""
+        session.open = False
+        session.used = monotonic()
+
+    def close(self) -> None:
+        """Forget all."""
+        for each in self._found.values():
+            each.close()
+        self._found.clear()
+
+    def _new(self, like: Session | None) -> Session:
+        name = secrets.token_urlsafe(24)
+        folder = self._settings.folder / secrets.token_hex(8)
+        folder.mkdir(mode=0o700, parents=True)
+        found = Session(name, folder)
+        if like is not None:
+            found.case, found.example, found.units = like.case, like.example, like.units
+            found.changes, found.moved = dict(like.changes), like.moved
+        self._found[name] = found
+        self._forget()
+        return found
+
+    def _forget(self) -> None:
+        now = monotonic()
+        closed = sorted((each for each in self._found.values() if not each.open), key=lambda each: each.used)
+        for each in closed:
+            if len(self._found) > self._settings.most_sessions or now - each.used > self._settings.idle_s:
+                self._found.pop(each.name).close()

@@ -1,0 +1,78 @@
+"""What the server of the app allows, and to whom."""
+
+from __future__ import annotations
+
+import ipaddress
+import socket
+from dataclasses import dataclass
+from pathlib import Path
+
+#: Names by which a browser on this machine reaches it.
+_LOOPBACK = ("127.0.0.1", "localhost", "::1")
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How the app is served.
+
+    Attributes
+    ----------
+    host, port
+        Where it listens.
+    folder
+        Where uploads and results go; nothing is written anywhere else, and nothing in it outlives the app.
+    token
+        What a browser must show; empty where the app is reached from this machine alone.
+    most_sessions
+        Tabs that are remembered; the one unused for longest goes first.
+    idle_s
+        After how long without a word a tab is forgotten [s].
+    largest_message, largest_upload
+        Of what a browser sends [bytes].
+    most_uploads
+        Files of one tab.
+    most_jobs
+        Long runs at once, of all tabs.
+    """
+
+    host: str
+    port: int
+    folder: Path
+    token: str = ""
+    most_sessions: int = 64
+    idle_s: float = 4 * 3600.0
+    largest_message: int = 1_000_000
+    largest_upload: int = 20_000_000
+    most_uploads: int = 40
+    most_jobs: int = 2
+
+    @property
+    def is_public(self) -> bool:
+        """Whether other machines can reach it."""
+        return not is_loopback(self.host)
+
+    def knows(self, host: str) -> bool:
+        """Whether the header ``Host`` of a request names this server: a page of another site that has its name point
+        here does not. Numbers as addresses belong to no site."""
+        name, _, port = host.rpartition(":") if not host.endswith("]") else (host, "", "80")
+        if not name:
+            name, port = port, "80"
+        name = name.strip("[]").lower()
+        if port != str(self.port):
+            return False
+        if not self.is_public:
+            return name in _LOOPBACK
+        return name in (self.host.lower(), socket.gethostname().lower(), *_LOOPBACK) or _is_address(name)
+
+
+def is_loopback(host: str) -> bool:
+    """Whether an address is of this machine alone."""
+    return host in _LOOPBACK or (_is_address(host) and ipaddress.ip_address(host).is_loopback)
+
+
+def _is_address(name: str) -> bool:
+    try:
+        ipaddress.ip_address(name)
+    except ValueError:
+        return False
+    return True

@@ -1,0 +1,78 @@
+"""The sliders of the answer: which fields of a case they move, from where to where, and where they stand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from heeltoe.case.model import Case
+from heeltoe.units.systems import FOOT
+
+# Where drains are put that the case does not have: a part of the width of the crack.
+_DRAINS_AT = 0.1
+_FEET, _METRES = (FOOT, "ft"), (1.0, "m")
+
+
+@dataclass(frozen=True)
+class Slider:
+    """One slider.
+
+    Attributes
+    ----------
+    path
+        The field of the case.
+    label
+        What people call it.
+    least, most, step, value
+        In `unit`.
+    unit
+        Empty where it has none.
+    off
+        Why it cannot be moved; empty where it can.
+    """
+
+    path: str
+    label: str
+    least: float
+    most: float
+    step: float
+    value: float
+    unit: str = ""
+    off: str = ""
+
+
+def sliders(case: Case, units: str) -> list[Slider]:
+    """Return the sliders of a case, each where the case is."""
+    crack = case.crack
+    pga = None if case.motion is None or case.motion.pga is None else case.motion.pga.si(case.gravity) / case.gravity
+    efficiency = case.uplift.drain_efficiency
+    no_water = "" if case.reservoir else "The case has no reservoir."
+    return [
+        _with(Slider("crack.friction", "Friction coefficient", 0.3, 2.0, 0.01, crack.mu_static)),
+        _water(case, units),
+        _with(Slider("crack.restitution", "Restitution", 0.0, 1.0, 0.01, crack.restitution)),
+        _with(Slider("motion.pga", "Peak acceleration", 0.02, 1.0, 0.01, pga or 0.4, "g")),
+        Slider("uplift.drain_efficiency", "Drain efficiency", 0.0, 1.0, 0.01, efficiency or 0.0, off=no_water),
+    ]
+
+
+def _water(case: Case, units: str) -> Slider:
+    metres, unit = _FEET if units == "us" else _METRES
+    height = (case.cut.crest_elevation - case.cut.base_elevation) / metres
+    step = 10.0 ** max(-3, len(str(int(height))) - 4)
+    depth = 0.0 if case.reservoir is None else case.reservoir.depth / metres
+    # Rounding up would put the surface above the crest.
+    return Slider("reservoir.depth", "Water level", 0.0, int(height / step + 1e-9) * step, step, depth, unit)
+
+
+def _with(slider: Slider) -> Slider:
+    """Return a slider that reaches as far as the value that the case has."""
+    low, high = min(slider.least, slider.value), max(slider.most, slider.value)
+    return Slider(slider.path, slider.label, low, high, slider.step, slider.value, slider.unit, slider.off)
+
+
+def change(slider: Slider, value: float, case: Case) -> dict[str, Any]:
+    """Return what a slider at `value` changes in a case, as :meth:`heeltoe.Case.with_` takes it."""
+    if slider.path == "uplift.drain_efficiency" and case.uplift.pattern != "drained":
+        return {"uplift.pattern": "drained", "uplift.drain_position": _DRAINS_AT, slider.path: value}
+    return {slider.path: f"{value:.10g} {slider.unit}" if slider.unit else value}

@@ -1,0 +1,67 @@
+"""Where the app computes: nothing of it may hold up the loop that listens to the tabs.
+
+What takes milliseconds runs on threads, as the kernels let others run beside them. What factorises matrices would not,
+and has a process of its own."""
+
+from __future__ import annotations
+
+import asyncio
+import multiprocessing
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
+from typing import Any
+
+THREADS = 4
+
+
+class WorkerLostError(Exception):
+    """The process of a computation is gone: killed, or out of memory."""
+
+
+class Workers:
+    """Threads, and a process beside them."""
+
+    def __init__(self) -> None:
+        self._threads = ThreadPoolExecutor(THREADS, thread_name_prefix="heeltoe")
+        self._process = _process()
+
+    async def quick(self, compute: Callable[..., Any], *arguments: Any) -> Any:
+        """Compute on a thread."""
+        return await asyncio.get_running_loop().run_in_executor(self._threads, compute, *arguments)
+
+    async def beside(self, compute: Callable[..., Any], *arguments: Any) -> Any:
+        """Compute in the process beside; it keeps what is dear to build.
+
+        Raises
+        ------
+        WorkerLostError
+            Where the process was lost on the way; the next one has a new one.
+        """
+        process = self._process
+        try:
+            return await asyncio.get_running_loop().run_in_executor(process, compute, *arguments)
+        except BrokenProcessPool:
+            if self._process is process:
+                self._process = _process()
+                process.shutdown(wait=False)
+            raise WorkerLostError from None
+
+    def close(self) -> None:
+        """End all."""
+        self._threads.shutdown(wait=False, cancel_futures=True)
+        for each in (self._process._processes or {}).values():
+            each.terminate()
+        self._process.shutdown(wait=False, cancel_futures=True)
+
+
+def _process() -> ProcessPoolExecutor:
+    # Never a fork: the server has threads.
+    return ProcessPoolExecutor(1, multiprocessing.get_context("spawn"), initializer=_quietly)
+
+
+def _quietly() -> None:
+    """Leave Ctrl-C to the server."""
+    import signal
+
+    signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -1,0 +1,49 @@
+"""The command `heeltoe app`: what it refuses, and that nobody else pays for it."""
+
+from __future__ import annotations
+
+import socket
+import subprocess
+import sys
+
+import pytest
+
+from heeltoe.app import serve as serving
+from shared.command import command
+from shared.dams import BLOCK
+
+
+def test_a_public_address_is_asked_for():
+    said = command("app", "--host", "0.0.0.0", "--no-browser")
+    assert said.returncode == 2
+    assert "--public" in said.stderr
+
+
+def test_an_address_in_use_is_told():
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        said = command("app", "--port", str(taken.getsockname()[1]), "--no-browser")
+    assert said.returncode == 2
+    assert "--port: 127.0.0.1:" in said.stderr
+
+
+def test_a_missing_package_is_told(monkeypatch):
+    monkeypatch.setattr(serving, "find_spec", lambda name: None)
+    said = command("app", "--no-browser")
+    assert said.returncode == 2
+    assert 'extra "app"' in said.stderr
+
+
+@pytest.mark.parametrize("arguments", [("run", str(BLOCK)), ("--help",)])
+def test_other_commands_load_nothing_of_it(arguments):
+    program = (
+        "import sys; from heeltoe.cli.main import main\n"
+        f"sys.argv = ['heeltoe', *{arguments!r}]\n"
+        "try: main()\n"
+        "except SystemExit: pass\n"
+        "names = ('heeltoe.app', 'starlette', 'uvicorn', 'websockets', 'plotly', 'anyio')\n"
+        "print([name for name in sys.modules if name.split('.')[0] in names or name.startswith('heeltoe.app')])"
+    )
+    found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True)
+    assert found.stdout.splitlines()[-1] == "[]"

@@ -1,0 +1,62 @@
+"""What the page draws is what the models say."""
+
+from __future__ import annotations
+
+import base64
+
+import numpy as np
+import pytest
+
+from heeltoe import decoupled
+from heeltoe.app.live import answer
+from heeltoe.app.sliders import change, sliders
+from heeltoe.app.thinned import thinned
+from heeltoe.models.run import earthquake, live
+from shared.dams import SHORT, example
+
+
+@pytest.mark.parametrize("count", [2, 100, 1999, 2000, 2001, 54321])
+def test_no_peak_is_lost(count):
+    rng = np.random.default_rng(count)
+    rows = [rng.normal(size=count).cumsum(), rng.normal(size=count)]
+    kept = thinned(rows, 100)
+    assert (np.diff(kept) > 0).all()
+    assert (kept[0], kept[-1]) == (0, count - 1)
+    assert kept.size <= max(5 * 101, 200)
+    for row in rows:
+        assert (row[kept].max(), row[kept].min()) == (row.max(), row.min())
+
+
+def test_curves_are_the_histories():
+    case = example("typical-base")
+    told = answer(case, {}, "rigid", "si")
+    slip = np.frombuffer(base64.b64decode(told["curves"]["slip"]["values"]["data"]), "<f4")
+    found = live(case, "rigid", earthquake(case))
+    assert slip[-1] == pytest.approx(1e3 * found.residual_slip_m)
+    assert told["verdict"] in repr(found)
+    assert sum(span["end"] - span["start"] for span in told["ribbon"]) == pytest.approx(found.end_time_s)
+
+
+def test_the_live_chain_is_the_chain():
+    case = example("koyna-top", *SHORT)
+    for changes in ({}, {"crack.friction": 0.7}, {"motion.pga": "0.3 g"}):
+        changed = case.with_(changes)
+        quick, whole = live(changed, "decoupled", earthquake(changed)), decoupled(changed)
+        assert quick.residual_slip_m == pytest.approx(whole.residual_slip_m, rel=1e-9, abs=1e-12)
+        assert np.allclose(quick.histories["slip_m"], whole.histories["slip_m"], rtol=1e-6, atol=1e-9)
+
+
+@pytest.mark.parametrize("units", ["si", "us"])
+def test_sliders_stand_where_the_case_is_and_change_it(units):
+    case = example("typical-base")
+    for slider in sliders(case, units):
+        assert slider.least <= slider.value <= slider.most + slider.step
+        case.with_(change(slider, slider.most, case))
+        case.with_(change(slider, slider.least, case))
+    with_drains = case.with_(change(sliders(case, units)[-1], 0.5, case))
+    assert (with_drains.uplift.pattern, with_drains.uplift.drain_efficiency) == ("drained", 0.5)
+
+
+def test_an_error_is_told_at_its_field():
+    told = answer(example("typical-base"), {"crack.friction": -1.0}, "rigid", "si")
+    assert told["error"]["field"] == "crack.friction"

@@ -1,0 +1,136 @@
+"""Who may ask the server: right name, own origin, token; how much; and what a session lasts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from heeltoe.app.sessions import Sessions
+from heeltoe.app.settings import Settings
+
+pytest.importorskip("starlette")
+
+from starlette.testclient import TestClient
+from starlette.websockets import WebSocketDisconnect
+
+from heeltoe.app.server import application
+
+HOME = "http://127.0.0.1:8642"
+
+
+@pytest.fixture
+def settings(tmp_path):
+    return Settings("127.0.0.1", 8642, tmp_path)
+
+
+@pytest.fixture
+def ask(settings):
+    with TestClient(application(settings), base_url=HOME, follow_redirects=False) as client:
+        yield client
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1:8642", "localhost:8642", "[::1]:8642"])
+def test_own_names(ask, host):
+    assert ask.get("/", headers={"host": host}).status_code == 200
+
+
+@pytest.mark.parametrize(
+    "host", ["evil.example:8642", "127.0.0.1", "127.0.0.1:80", "", "evil.example", "192.0.2.7:8642"]
+)
+def test_foreign_names_are_refused(ask, host):
+    assert ask.get("/", headers={"host": host}).status_code == 403
+
+
+@pytest.mark.parametrize("origin", ["http://evil.example", "http://127.0.0.1:1", "https://127.0.0.1:8642", "null"])
+def test_foreign_origins_are_refused(ask, origin):
+    assert ask.get("/", headers={"origin": origin}).status_code == 403
+    assert ask.post("/upload", headers={"origin": origin}, content=b"1").status_code == 403
+    with pytest.raises(WebSocketDisconnect), ask.websocket_connect("/talk", headers={"origin": origin}):
+        pass
+
+
+def test_a_conversation_says_where_it_comes_from(ask):
+    with pytest.raises(WebSocketDisconnect), ask.websocket_connect("/talk"):
+        pass
+    with ask.websocket_connect("/talk", headers={"host": "127.0.0.1:8642", "origin": HOME}) as tab:
+        assert tab.receive_json()["of"] == "hello"
+        assert tab.receive_json()["case"]["title"] == "Typical dam cracked at its base"
+
+
+def test_every_answer_says_what_a_browser_may_do_with_it(ask):
+    for path in ("/", "/page/main.js", "/plotly.js", "/nothing"):
+        policy = ask.get(path).headers["content-security-policy"]
+        assert "script-src 'self';" in policy
+        assert "default-src 'self'" in policy
+
+
+@pytest.mark.parametrize(
+    "path", ["/page/../server.py", "/page/%2e%2e/server.py", "/page/..%2fserver.py", "/page//etc/passwd"]
+)
+def test_nothing_else_is_read(ask, path):
+    assert ask.get(path).status_code == 404
+
+
+def test_a_public_address_needs_its_token(settings):
+    public = replace(settings, host="0.0.0.0", token="secret")
+    with TestClient(application(public), base_url="http://192.0.2.7:8642", follow_redirects=False) as client:
+        assert client.get("/").status_code == 403
+        assert client.get("/?token=wrong").status_code == 403
+        assert client.get("/", headers={"host": "evil.example:8642"}).status_code == 403
+        told = client.get("/?token=secret")
+        assert (told.status_code, told.headers["location"]) == (303, "/")
+        assert "HttpOnly" in told.headers["set-cookie"]
+        assert "SameSite=strict" in told.headers["set-cookie"]
+        assert client.get("/").status_code == 200
+
+
+def enter(ask):
+    return ask.websocket_connect("/talk", headers={"host": "127.0.0.1:8642", "origin": HOME})
+
+
+def test_uploads_are_few_and_small(tmp_path):
+    small = Settings("127.0.0.1", 8642, tmp_path, largest_upload=10, most_uploads=2)
+    with TestClient(application(small), base_url=HOME) as ask, enter(ask) as tab:
+        headers = {"origin": HOME, "x-session": tab.receive_json()["session"]}
+        assert ask.post("/upload", content=b"12345678901", headers=headers).status_code == 413
+        name = ask.post("/upload?name=../../evil.py", content=b"1234", headers=headers).json()["name"]
+        assert [path.name for path in tmp_path.rglob("*") if path.is_file()] == [name]
+        assert ask.post("/upload", content=b"1", headers=headers).status_code == 200
+        assert ask.post("/upload", content=b"1", headers=headers).status_code == 413
+        assert ask.post("/upload", content=b"1", headers={**headers, "x-session": "guessed"}).status_code == 403
+
+
+@pytest.mark.parametrize(
+    "message",
+    ["", "{", "[]", "1", '{"do": 1}',
+     '{"do": "__class__"}', '{"do": "rigid"}', '{"do": "rigid", "values": {"title": 1}}',
+     '{"do": "rigid", "values": {"crack.friction": "1"}}', '{"do": "rigid", "values": {"crack.friction": NaN}}',
+     '{"do": "open example", "name": "../../secret"}', '{"do": "cancel", "number": 7}', '{"do": "units", "units": "x"}',
+     "[" * 100_000],
+)  # fmt: skip
+def test_what_no_page_asks_is_told_and_the_tab_goes_on(ask, message):
+    with enter(ask) as tab:
+        tab.receive_json()
+        tab.receive_json()
+        tab.send_text(message)
+        assert tab.receive_json()["of"] == "bad request"
+        tab.send_json({"do": "rigid", "values": {"crack.friction": 1.2}, "serial": 5})
+        told = tab.receive_json()
+        assert (told["of"], told["serial"], told["ok"]) == ("rigid", 5, True)
+
+
+def test_sessions_are_few_and_end(settings):
+    found = Sessions(replace(settings, most_sessions=2))
+    first = found.enter("")
+    assert found.enter(first.name) is not first  # a tab that was doubled
+    found.leave(first)
+    assert found.enter(first.name) is first
+    found.leave(first)
+    found.enter("")
+    assert found.get(first.name) is None
+    assert not first.folder.exists()
+    brief = Sessions(replace(settings, idle_s=-1.0))
+    gone = brief.enter("")
+    brief.leave(gone)
+    assert brief.get(gone.name) is None
