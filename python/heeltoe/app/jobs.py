@@ -47,6 +47,11 @@ class Job:
         self._process.start()
         there.close()
 
+    @property
+    def process_id(self) -> int | None:
+        """Of its process."""
+        return self._process.pid
+
     def told(self) -> dict[str, Any]:
         """Return what a page shows of it."""
         seconds = monotonic() - self._began

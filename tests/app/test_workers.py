@@ -1,0 +1,78 @@
+"""Where the app computes: what is killed is told, and the app goes on."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import signal
+import time
+
+import pytest
+
+from heeltoe.app.jobs import Job
+from heeltoe.app.live import flexible
+from heeltoe.app.workers import WorkerLostError, Workers
+from shared.dams import FAST, example
+
+
+def followed(job, *, when, do):
+    """Follow a job until its end; `do` something to it as soon as it says `when`."""
+    told = []
+
+    async def tell(message):
+        told.append(message)
+        if when(message) and not any(map(when, told[:-1])):
+            do(job)
+
+    asyncio.run(asyncio.wait_for(job.follow(tell), 60))
+    return told
+
+
+def running(message):
+    return message["said"].startswith("running the flexible model")
+
+
+def a_run(*changes):
+    return Job("flexible", flexible, example("typical-base", *changes), {}, "si")
+
+
+def test_a_run_says_how_far_it_is_and_what_comes_of_it():
+    told = followed(a_run(*FAST), when=lambda message: False, do=None)
+    assert any(map(running, told))
+    assert (told[-1]["state"], told[-1]["result"]["model"]) == ("done", "flexible")
+
+
+def test_a_cancelled_run_ends():
+    job = a_run()
+    told = followed(job, when=running, do=Job.cancel)
+    assert (told[-1]["state"], told[-1]["result"]) == ("cancelled", None)
+
+
+def test_a_killed_run_is_told():
+    told = followed(a_run(), when=running, do=lambda job: os.kill(job.process_id, signal.SIGKILL))
+    assert told[-1]["state"] == "lost"
+    assert "SIGKILL" in told[-1]["said"]
+
+
+def test_what_is_refused_is_told_in_its_words():
+    told = followed(a_run("analysis.time_limit=1s", "flexible.elements_across=100"), when=lambda message: False, do=None)
+    assert told[-1]["state"] == "refused"
+    assert "analysis.time_limit" in told[-1]["said"]
+
+
+def test_a_killed_process_beside_is_replaced():
+    workers = Workers()
+
+    async def lose():
+        first = await workers.beside(os.getpid)
+        waiting = asyncio.ensure_future(workers.beside(time.sleep, 60))
+        await asyncio.sleep(0.2)
+        os.kill(first, signal.SIGKILL)
+        with pytest.raises(WorkerLostError):
+            await waiting
+        assert await workers.beside(os.getpid) != first
+
+    try:
+        asyncio.run(lose())
+    finally:
+        workers.close()
