@@ -55,7 +55,9 @@ def test_a_killed_run_is_told():
 
 
 def test_what_is_refused_is_told_in_its_words():
-    told = followed(a_run("analysis.time_limit=1s", "flexible.elements_across=100"), when=lambda message: False, do=None)
+    told = followed(
+        a_run("analysis.time_limit=1s", "flexible.elements_across=100"), when=lambda message: False, do=None
+    )
     assert told[-1]["state"] == "refused"
     assert "analysis.time_limit" in told[-1]["said"]
 
