@@ -43,6 +43,13 @@ impl Affine {
         self.constant + self.horizontal * ground[0] + self.vertical * ground[1]
     }
 
+    /// The smallest value where each ground acceleration may be anywhere between two.
+    #[inline]
+    pub fn least(&self, [horizontal, vertical]: [[f64; 2]; 2]) -> f64 {
+        let lesser = |per: f64, [a, b]: [f64; 2]| (per * a).min(per * b);
+        self.constant + lesser(self.horizontal, horizontal) + lesser(self.vertical, vertical)
+    }
+
     /// Change per unit of time where the ground acceleration changes at `rate`.
     #[inline]
     pub fn slope(&self, rate: [f64; 2]) -> f64 {

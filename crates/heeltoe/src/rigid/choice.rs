@@ -4,9 +4,9 @@
 //! `|T| <= mu_s (N_h + N_t)` where it sticks; where it slips the slip must go, or start, its way. Where a quantity is zero
 //! its rate of change decides.
 
-use super::block::{Affine, HEEL, SLIP, TOE};
+use super::block::{HEEL, SLIP, TOE};
 use super::mode::Mode;
-use super::reaction::{Reaction, Reactions};
+use super::reaction::{Felt, Reaction, Reactions, ACCELERATION, CONE};
 use super::shaking::Piece;
 
 // The next three are relative to the size of the terms that make up a quantity, see [`Reaction`]. They are thus
@@ -21,91 +21,85 @@ pub(super) const VIOLATION: f64 = 1e-10;
 /// Last resort where rounding makes every mode look inadmissible by a hair, as under ground accelerations a thousand
 /// times the loads, by which sizes are not measured.
 const HAIR: f64 = 1e-9;
-/// Sign of a quantity at the start of a piece: of its value or, where that is zero to rounding, of its slope.
-fn sign(q: Affine, size: f64, piece: &Piece<2>, tie: f64) -> i8 {
-    let value = q.at(piece.ground);
-    if value.abs() > tie * size {
-        return if value > 0.0 { 1 } else { -1 };
-    }
-    let change = q.slope(piece.rate) * piece.left;
-    if change.abs() > tie * size {
-        return if change > 0.0 { 1 } else { -1 };
-    }
-    0
+
+/// A block that has to go on: the corners whose gap and gap velocity are zero, the slip velocity, the ground from here.
+pub(super) struct Moving<'a> {
+    pub closed: [bool; 2],
+    pub velocity: f64,
+    pub piece: &'a Piece<2>,
 }
 
-/// Whether the block can move on in `mode` from the contact state at hand.
-///
-/// `closed` are the corners whose gap and gap velocity are zero; `velocity` is the slip velocity.
-fn admissible(
-    reaction: &Reaction,
-    mode: Mode,
-    closed: [bool; 2],
-    velocity: f64,
-    piece: &Piece<2>,
-    tie: f64,
-) -> bool {
-    let contacts = mode.contacts();
+/// Whether the block can move on in `mode`, and if so what it feels there.
+#[inline(always)]
+fn admissible(reaction: &Reaction, moving: &Moving, tie: f64, felt: &mut Felt) -> bool {
+    let Moving {
+        closed,
+        velocity,
+        piece,
+    } = *moving;
+    let contacts = reaction.contacts;
     if (contacts[0] && !closed[0]) || (contacts[1] && !closed[1]) || !reaction.regular {
         return false;
     }
-    let (force, acceleration) = (&reaction.force, &reaction.acceleration);
-    let (force_size, acceleration_size) = (&reaction.force_size, &reaction.acceleration_size);
+    reaction.on(piece, felt);
+    // Sign of a quantity at the start of the piece: of its value or, where that is zero to rounding, of its slope.
+    let sign = |i: usize| {
+        let (value, least) = (felt.value[i], tie * reaction.size[i]);
+        if value.abs() > least {
+            return if value > 0.0 { 1 } else { -1 };
+        }
+        let change = felt.slope[i] * piece.left;
+        if change.abs() > least {
+            return if change > 0.0 { 1 } else { -1 };
+        }
+        0
+    };
     for (corner, gap) in [HEEL, TOE].into_iter().enumerate() {
         if contacts[corner] {
-            if sign(force[gap], force_size[gap], piece, tie) < 0 {
+            if sign(gap) < 0 {
                 return false;
             }
-        } else if closed[corner] && sign(acceleration[gap], acceleration_size[gap], piece, tie) < 0 {
+        } else if closed[corner] && sign(ACCELERATION + gap) < 0 {
             return false;
         }
     }
-    match mode {
-        Mode::Drift => true,
-        Mode::Rest | Mode::Rock(_) => {
-            velocity == 0.0
-                && reaction
-                    .cone
-                    .into_iter()
-                    .all(|left| sign(left, reaction.cone_size, piece, tie) >= 0)
+    if reaction.way != 0.0 {
+        if velocity != 0.0 {
+            return velocity * reaction.way > 0.0;
         }
-        Mode::Slide(slip) | Mode::SlideRock(_, slip) => {
-            let s = slip.sign();
-            if velocity != 0.0 {
-                return velocity * s > 0.0;
-            }
-            // A slip that starts must grow; at the friction limit its acceleration is zero and its slope decides.
-            let growth = sign(acceleration[SLIP], acceleration_size[SLIP], piece, tie);
-            f64::from(growth) * s > 0.0 || (tie >= HAIR && growth == 0)
-        }
+        // A slip that starts must grow; at the friction limit its acceleration is zero and its slope decides.
+        let growth = sign(ACCELERATION + SLIP);
+        return f64::from(growth) * reaction.way > 0.0 || (tie >= HAIR && growth == 0);
     }
+    let drifts = contacts == [false, false];
+    drifts || velocity == 0.0 && sign(CONE) >= 0 && sign(CONE + 1) >= 0
 }
 
 /// The mode in which the block goes on: the present one if it is still admissible and nothing has come to stand or to lie,
-/// else the first of [`Mode::ALL`] that is, or drift; `None` is a Painlevé paradox.
-pub(super) fn select(
-    reactions: &Reactions,
-    present: Mode,
-    closed: [bool; 2],
-    velocity: f64,
-    piece: &Piece<2>,
-) -> Option<Mode> {
-    for tie in [TIE, HAIR] {
-        // A base that has come to stand is held by static friction if that can hold it: sticking goes first. So does
-        // contact where a corner has come to lie: loads that just balance there leave it lying, while a motion that went
-        // on would lift it by rounding, and close it at once.
-        let stopped = velocity == 0.0 && present.slip().is_some();
-        let landed = (0..2).any(|corner| closed[corner] && !present.contacts()[corner]);
-        let goes_on = !stopped && !landed;
-        let mut candidates = goes_on
-            .then_some(present)
-            .into_iter()
-            .chain(Mode::ALL)
-            .chain(std::iter::once(Mode::Drift));
-        let found =
-            candidates.find(|&mode| admissible(reactions.of(mode), mode, closed, velocity, piece, tie));
-        if found.is_some() {
-            return found;
+/// else the first of [`Mode::ALL`] that is, or drift; `None` is a Painlevé paradox. What is felt there is in `felt` then.
+#[inline(always)]
+pub(super) fn select(reactions: &Reactions, present: Mode, moving: &Moving, felt: &mut Felt) -> Option<Mode> {
+    // A base that has come to stand is held by static friction if that can hold it: sticking goes first. So does
+    // contact where a corner has come to lie: loads that just balance there leave it lying, while a motion that went
+    // on would lift it by rounding, and close it at once.
+    let reaction = reactions.of(present);
+    let stopped = moving.velocity == 0.0 && reaction.way != 0.0;
+    let landed = (0..2).any(|corner| moving.closed[corner] && !reaction.contacts[corner]);
+    let goes_on = !stopped && !landed;
+    if goes_on && admissible(reaction, moving, TIE, felt) {
+        return Some(present);
+    }
+    another(reactions, goes_on.then_some(present), moving, felt)
+}
+
+/// As [`select`], where the present mode, if the block may go on in it, is admissible by a hair at most.
+#[inline(never)]
+fn another(reactions: &Reactions, present: Option<Mode>, moving: &Moving, felt: &mut Felt) -> Option<Mode> {
+    for (tie, first) in [(TIE, None), (HAIR, present)] {
+        for mode in first.into_iter().chain(Mode::ALL).chain([Mode::Drift]) {
+            if admissible(reactions.of(mode), moving, tie, felt) {
+                return Some(mode);
+            }
         }
     }
     None
@@ -114,18 +108,19 @@ pub(super) fn select(
 /// Acceleration and its slope of each contact coordinate on a piece. `starts` has the way, 1 or -1, in which a
 /// coordinate starts to move in this very moment, and 0 for the others. What starts has its rounding removed, and that
 /// against its way up to the hair by which [`select`] may have let it: it must not end the moment it begins.
-pub(super) fn accelerations(reaction: &Reaction, starts: [f64; 3], piece: &Piece<2>) -> [[f64; 2]; 3] {
+#[inline(always)]
+pub(super) fn accelerations(reaction: &Reaction, felt: &Felt, starts: [f64; 3], left: f64) -> [[f64; 2]; 3] {
     let mut result = [[0.0; 2]; 3];
     for i in 0..3 {
-        let size = reaction.acceleration_size[i];
+        let size = reaction.size[ACCELERATION + i];
         let nothing = |value: f64, way: f64| {
             value.abs() <= TIE * size || (value * way < 0.0 && value.abs() <= HAIR * size)
         };
-        let mut value = reaction.acceleration[i].at(piece.ground);
-        let mut slope = reaction.acceleration[i].slope(piece.rate);
+        let mut value = felt.value[ACCELERATION + i];
+        let mut slope = felt.slope[ACCELERATION + i];
         if starts[i] != 0.0 && nothing(value, starts[i]) {
             value = 0.0;
-            if nothing(slope * piece.left, starts[i]) {
+            if nothing(slope * left, starts[i]) {
                 slope = 0.0;
             }
         }

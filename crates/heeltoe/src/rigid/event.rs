@@ -12,8 +12,22 @@ pub(super) fn linear(c0: f64, c1: f64, end: f64) -> f64 {
     (-c0 / c1).clamp(0.0, end)
 }
 
+/// Whether `c0 + c1 t + c2 t^2` starts so far above zero that it cannot reach it in `(0, end]`, whatever the rounding.
+#[inline(always)]
+pub(super) fn stays_positive(c0: f64, c1: f64, c2: f64, end: f64) -> bool {
+    c0 > 2.0 * end * (c1.abs() + end * c2.abs())
+}
+
 /// First fall through zero of `c0 + c1 t + c2 t^2` in `(0, end]`.
+#[inline(always)]
 pub(super) fn quadratic(c0: f64, c1: f64, c2: f64, end: f64) -> Option<f64> {
+    if stays_positive(c0, c1, c2, end) {
+        return None;
+    }
+    near_quadratic(c0, c1, c2, end)
+}
+
+fn near_quadratic(c0: f64, c1: f64, c2: f64, end: f64) -> Option<f64> {
     if c0 == 0.0 {
         return if c1 == 0.0 {
             (c2 < 0.0).then_some(0.0)
@@ -68,17 +82,22 @@ pub(super) fn sign_changes(c0: f64, c1: f64, c2: f64, end: f64) -> [Option<f64>;
 }
 
 /// First fall through zero of `c0 + c1 t + c2 t^2 + c3 t^3` in `(0, end]`.
+#[inline(always)]
 pub(super) fn cubic(c0: f64, c1: f64, c2: f64, c3: f64, end: f64) -> Option<f64> {
+    // Most pieces end far from contact: no fall is possible where the start outweighs all the rest.
+    if c0 > 0.0 && c0 > end * (c1.abs() + end * (c2.abs() + end * c3.abs())) {
+        return None;
+    }
+    near_cubic(c0, c1, c2, c3, end)
+}
+
+fn near_cubic(c0: f64, c1: f64, c2: f64, c3: f64, end: f64) -> Option<f64> {
     if c0 <= 0.0 {
         return if c0 < 0.0 && c1 < 0.0 {
             Some(0.0)
         } else {
             quadratic(c1, c2, c3, end)
         };
-    }
-    // Most pieces end far from contact: no fall is possible where the start outweighs all the rest.
-    if c0 > end * (c1.abs() + end * (c2.abs() + end * c3.abs())) {
-        return None;
     }
     let value = |t: f64| c0 + t * (c1 + t * (c2 + t * c3));
     let turns = sign_changes(c1, 2.0 * c2, 3.0 * c3, end);
@@ -127,7 +146,7 @@ fn bracketed(
             below = t;
         }
         let newton = t - v / slope(t);
-        let next = if newton > above.min(below) && newton < above.max(below) {
+        let next = if newton > above && newton < below {
             newton
         } else {
             0.5 * (above + below)

@@ -120,6 +120,7 @@ impl Mode {
     ];
 
     /// Which of the five kinds it is: rest, slide, rock, slide-rock, drift.
+    #[inline(always)]
     pub(super) fn kind(self) -> usize {
         match self {
             Mode::Rest => 0,
@@ -137,6 +138,12 @@ impl Mode {
             Mode::Rock(c) | Mode::SlideRock(c, _) => [c == Heel, c == Toe],
             Mode::Drift => [false, false],
         }
+    }
+
+    /// Which of slip, heel gap and toe gap are free to move.
+    pub(super) fn free(self) -> [bool; 3] {
+        let [heel, toe] = self.contacts();
+        [!self.sticks(), !heel, !toe]
     }
 
     /// Which way the base slips, if it does.

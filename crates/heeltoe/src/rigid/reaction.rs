@@ -8,10 +8,18 @@
 //! of the record costs a handful of multiplications.
 
 use super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
-use super::mode::Mode;
+use super::mode::{Mode, Slip};
+use super::shaking::Piece;
 
 /// A contact that friction leaves with less than this share of its resistance to being pushed in is Painlevé's.
 const SINGULAR: f64 = 1e-9;
+
+/// Places of the accelerations of slip, heel gap and toe gap among the quantities of a [`Reaction`]; before them stand
+/// friction (downstream) and the normal forces at heel and toe.
+pub(super) const ACCELERATION: usize = 3;
+/// Place of what is left of the friction cone downstream, `mu_s (N_h + N_t) - T`, and of the same upstream behind it.
+pub(super) const CONE: usize = 6;
+const COUNT: usize = 8;
 
 /// Reactions and accelerations of one mode, affine in the ground acceleration.
 ///
@@ -19,19 +27,28 @@ const SINGULAR: f64 = 1e-9;
 /// to Painlevé's paradox, where friction all but pulls the contact in, the terms are larger than the loads by any
 /// factor, and so is their rounding. Hence each comes with the size of its terms under the static loads and a ground
 /// acceleration like theirs, taken as no less than that of the loads.
+///
+/// The accelerations of what the mode holds are exactly zero. All quantities are worked out side by side, as all that
+/// happens on a piece asks for most of them.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reaction {
     /// False where the mode's own equations are singular or push the contact apart with a positive force (Painlevé).
     pub regular: bool,
-    /// Friction (downstream), normal force at the heel, at the toe.
-    pub force: [Affine; 3],
-    pub force_size: [f64; 3],
-    /// Accelerations of slip, heel gap, toe gap; exactly zero where the mode holds them.
-    pub acceleration: [Affine; 3],
-    pub acceleration_size: [f64; 3],
-    /// What is left of the friction cone downstream and upstream, `mu_s (N_h + N_t) -/+ T`.
-    pub cone: [Affine; 2],
-    pub cone_size: f64,
+    /// Whether (heel, toe) are held in contact.
+    pub contacts: [bool; 2],
+    /// Sign of the slip velocity; zero where nothing slips on anything.
+    pub way: f64,
+    pub size: [f64; COUNT],
+    constant: [f64; COUNT],
+    horizontal: [f64; COUNT],
+    vertical: [f64; COUNT],
+}
+
+/// The quantities of a [`Reaction`] at the start of a piece, and how they change on it per second.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Felt {
+    pub value: [f64; COUNT],
+    pub slope: [f64; COUNT],
 }
 
 /// Reactions of a mode to the free acceleration `b`, or `None` where the equations are singular or Painlevé's.
@@ -108,21 +125,17 @@ impl Reaction {
             let terms = constant.abs() + accelerations * (horizontal.abs() + vertical.abs());
             terms.max(block.free_terms[i])
         };
-        let mut reaction = Reaction {
-            regular: true,
-            force: [Affine::default(); 3],
-            force_size: [0.0; 3],
-            acceleration: *free,
-            acceleration_size: [SLIP, HEEL, TOE].map(size),
-            cone: [Affine::default(); 2],
-            cone_size: 0.0,
-        };
+        let mut force = [Affine::default(); 3];
+        let mut acceleration = *free;
+        let mut force_size = [0.0; 3];
+        let mut acceleration_size = [SLIP, HEEL, TOE].map(size);
+        let mut regular = true;
         for (column, load) in free.iter().enumerate() {
             let mut one = [0.0; 3];
             one[column] = 1.0;
             let Some(unit) = reaction_to(&block.compliance, block.friction_kinetic, mode, &one) else {
-                reaction.regular = false;
-                return reaction;
+                regular = false;
+                break;
             };
             for i in 0..3 {
                 let from = |k: f64, to: &mut Affine, terms: &mut f64| {
@@ -131,27 +144,65 @@ impl Reaction {
                     to.vertical += k * load.vertical;
                     *terms += k.abs() * size(column);
                 };
-                from(unit[i], &mut reaction.force[i], &mut reaction.force_size[i]);
+                from(unit[i], &mut force[i], &mut force_size[i]);
                 let coupling: f64 = (0..3).map(|k| block.compliance[i][k] * unit[k]).sum();
-                from(
-                    coupling,
-                    &mut reaction.acceleration[i],
-                    &mut reaction.acceleration_size[i],
-                );
+                from(coupling, &mut acceleration[i], &mut acceleration_size[i]);
             }
         }
-        reaction.force_size = reaction.force_size.map(|terms| terms.max(forces));
-        reaction.acceleration_size = reaction.acceleration_size.map(|terms| terms.max(accelerations));
-        reaction.cone = [1.0, -1.0].map(|direction| cone(block, &reaction.force, direction));
-        let [friction, heel, toe] = reaction.force_size;
-        reaction.cone_size = block.friction_static * (heel + toe) + friction;
+        let [friction, heel, toe] = force_size.map(|terms| terms.max(forces));
+        let [along, left, right] = acceleration_size.map(|terms| terms.max(accelerations));
+        let cone_size = block.friction_static * (heel + toe) + friction;
         let held = [mode.sticks(), mode.contacts()[0], mode.contacts()[1]];
-        for (acceleration, held) in reaction.acceleration.iter_mut().zip(held) {
+        for (acceleration, held) in acceleration.iter_mut().zip(held) {
             if held {
                 *acceleration = Affine::default();
             }
         }
-        reaction
+        let cones = [1.0, -1.0].map(|direction| cone(block, &force, direction));
+        let ([a, b, c], [d, e, f], [g, h]) = (force, acceleration, cones);
+        let all = [a, b, c, d, e, f, g, h];
+        let row = |part: fn(&Affine) -> f64| all.each_ref().map(part);
+        Reaction {
+            regular,
+            contacts: mode.contacts(),
+            way: mode.slip().map_or(0.0, Slip::sign),
+            size: [friction, heel, toe, along, left, right, cone_size, cone_size],
+            constant: row(|q| q.constant),
+            horizontal: row(|q| q.horizontal),
+            vertical: row(|q| q.vertical),
+        }
+    }
+
+    /// Work out all quantities on a piece.
+    #[inline(always)]
+    pub(super) fn on(&self, piece: &Piece<2>, felt: &mut Felt) {
+        let [a, b] = piece.ground;
+        let [rate_a, rate_b] = piece.rate;
+        for i in 0..COUNT {
+            felt.value[i] = self.constant[i] + self.horizontal[i] * a + self.vertical[i] * b;
+            felt.slope[i] = self.horizontal[i] * rate_a + self.vertical[i] * rate_b;
+        }
+    }
+
+    /// What is needed of a block that slides on both corners: friction, the normal forces, the acceleration of the slip,
+    /// and how they change where the ground's accelerations change at `rate`.
+    #[inline(always)]
+    pub(super) fn sliding(&self, [a, b]: [f64; 2], [rate_a, rate_b]: [f64; 2]) -> [[f64; 4]; 2] {
+        let (mut value, mut slope) = ([0.0; 4], [0.0; 4]);
+        for i in 0..4 {
+            value[i] = self.constant[i] + self.horizontal[i] * a + self.vertical[i] * b;
+            slope[i] = self.horizontal[i] * rate_a + self.vertical[i] * rate_b;
+        }
+        [value, slope]
+    }
+
+    /// One of the quantities.
+    pub(super) fn quantity(&self, i: usize) -> Affine {
+        Affine {
+            constant: self.constant[i],
+            horizontal: self.horizontal[i],
+            vertical: self.vertical[i],
+        }
     }
 }
 

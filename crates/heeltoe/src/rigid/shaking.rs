@@ -1,15 +1,27 @@
 //! The ground's motion as the kernels read it: accelerations `a(t)`, linear between the samples.
 
+use std::borrow::Cow;
+
+use super::block::Affine;
+
+/// So many samples, one after the other, are looked at together where nothing depends on a single one.
+const STRETCH: usize = 32;
+
 /// Accelerations of the ground at common moments; a moment that is there twice is a jump.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Shaking<'a> {
     pub(super) time: &'a [f64],
     horizontal: &'a [f64],
     vertical: Option<&'a [f64]>,
     scale: [f64; 2],
+    /// Least and largest accelerations of each stretch of samples, before they are scaled.
+    stretches: Cow<'a, [[Range; 2]]>,
     /// Largest accelerations without their sign, before they are scaled.
     peaks: [f64; 2],
 }
+
+/// Least and largest of some numbers.
+type Range = [f64; 2];
 
 impl<'a> Shaking<'a> {
     /// Horizontal (downstream) and, if there is one, vertical (upward) acceleration in m/s2 at each `time` in s, which
@@ -26,25 +38,82 @@ impl<'a> Shaking<'a> {
         if n < 2 || horizontal.len() != n || vertical.is_some_and(|v| v.len() != n) {
             return Err("a motion needs two samples or more, and as many accelerations as times");
         }
-        let peak = |series: &[f64]| series.iter().fold(0.0, |peak: f64, a| peak.max(a.abs()));
+        let up = |k: usize| vertical.map_or(&[0.0][..], |v| &v[k..n.min(k + STRETCH)]);
+        let stretches: Vec<_> = (0..n)
+            .step_by(STRETCH)
+            .map(|k| [range(&horizontal[k..n.min(k + STRETCH)]), range(up(k))])
+            .collect();
+        let peak = |i: usize| {
+            stretches
+                .iter()
+                .fold(0.0, |peak: f64, of| peak.max(-of[i][0]).max(of[i][1]))
+        };
         Ok(Shaking {
             time,
             horizontal,
             vertical,
             scale: [1.0; 2],
-            peaks: [peak(horizontal), vertical.map_or(0.0, peak)],
+            peaks: [peak(0), peak(1)],
+            stretches: Cow::Owned(stretches),
         })
     }
 
     /// The same with the horizontal and the vertical accelerations multiplied by these factors.
     #[must_use]
-    pub fn scaled(self, scale: [f64; 2]) -> Self {
-        Shaking { scale, ..self }
+    pub fn scaled(&self, scale: [f64; 2]) -> Shaking<'_> {
+        Shaking {
+            scale,
+            stretches: Cow::Borrowed(&self.stretches),
+            ..*self
+        }
     }
 
     /// Largest horizontal and vertical acceleration, without their signs.
     pub(super) fn peaks(&self) -> [f64; 2] {
         [0, 1].map(|i| (self.peaks[i] * self.scale[i]).abs())
+    }
+
+    /// The pieces from sample `k` on, each from one sample to the next.
+    #[inline(always)]
+    pub(super) fn pieces(&self, k: usize) -> impl Iterator<Item = Piece<2>> + use<'_> {
+        let n = self.time.len();
+        let (time, horizontal) = (&self.time[k..n], &self.horizontal[k..n]);
+        let vertical = self.vertical.map(|v| &v[k..n]);
+        let at = move |j: usize| {
+            let up = vertical.map_or(0.0, |v| v[j] * self.scale[1]);
+            [horizontal[j] * self.scale[0], up]
+        };
+        let mut a0 = at(0);
+        (1..time.len()).map(move |j| {
+            let a1 = at(j);
+            let left = time[j] - time[j - 1];
+            let inverse = 1.0 / left;
+            let piece = Piece {
+                ground: a0,
+                rate: [(a1[0] - a0[0]) * inverse, (a1[1] - a0[1]) * inverse],
+                left,
+            };
+            a0 = a1;
+            piece
+        })
+    }
+
+    /// The first sample from `k` on at which the smallest of `limits` is negative, or the number of samples.
+    pub(super) fn first_below(&self, limits: &[Affine; 4], mut k: usize) -> usize {
+        let n = self.time.len();
+        while k < n {
+            let end = n.min(k - k % STRETCH + STRETCH);
+            // Rounding keeps order: what holds at the ends of the ranges holds at every sample in them.
+            let ranges = [0, 1].map(|i| self.stretches[k / STRETCH][i].map(|a| a * self.scale[i]));
+            if limits.iter().any(|limit| limit.least(ranges) < 0.0) {
+                let below = |k: &usize| limits.iter().any(|limit| limit.at(self.at(*k)) < 0.0);
+                if let Some(found) = (k..end).find(below) {
+                    return found;
+                }
+            }
+            k = end;
+        }
+        n
     }
 
     /// Where a straight piece ends right before the last moment, whatever jumps there.
@@ -58,6 +127,13 @@ impl<'a> Shaking<'a> {
         let up = self.vertical.map_or(0.0, |v| v[k] * self.scale[1]);
         [self.horizontal[k] * self.scale[0], up]
     }
+}
+
+fn range(series: &[f64]) -> Range {
+    let start = [f64::INFINITY, f64::NEG_INFINITY];
+    series
+        .iter()
+        .fold(start, |[least, most], a| [least.min(*a), most.max(*a)])
 }
 
 /// Ground accelerations from here to the end of a piece on which they are linear: values, rates of change, time left.

@@ -1,42 +1,62 @@
 //! The first event on a piece: the earliest root of what must not fall through zero.
 
-use super::super::block::{Affine, HEEL, SLIP, TOE};
+use super::super::block::{HEEL, SLIP, TOE};
 use super::super::choice::{accelerations, VIOLATION};
 use super::super::event;
-use super::super::mode::Slip;
-use super::super::reaction::Reaction;
+use super::super::mode::{Corner, Mode};
+use super::super::reaction::{Felt, Reaction, CONE};
 use super::super::shaking::Piece;
-use super::super::walk::{Carried, Cause};
+use super::super::walk::Cause;
 use super::walk::Exact;
 
 /// How the block moves on one piece: reactions, acceleration and slope of each coordinate, the ground.
 pub(super) struct Course<'a> {
-    pub force: &'a [Affine; 3],
+    pub felt: &'a Felt,
     pub motion: [[f64; 2]; 3],
     pub piece: &'a Piece<2>,
 }
 
 impl Exact<'_> {
     /// Move to the next event or to the end of the piece; returns the time that took and what ended it.
+    #[inline(always)]
     pub(super) fn advance(&mut self, piece: &Piece<2>, time: f64) -> (f64, Option<Cause>) {
+        // What slips and which corners are free decides what there is to do: each has its own machine code.
+        match self.walk.mode {
+            Mode::Rest => self.advance_free::<false, false, false>(piece, time),
+            Mode::Slide(_) => self.advance_free::<true, false, false>(piece, time),
+            Mode::Rock(Corner::Heel) => self.advance_free::<false, false, true>(piece, time),
+            Mode::Rock(Corner::Toe) => self.advance_free::<false, true, false>(piece, time),
+            Mode::SlideRock(Corner::Heel, _) => self.advance_free::<true, false, true>(piece, time),
+            Mode::SlideRock(Corner::Toe, _) => self.advance_free::<true, true, false>(piece, time),
+            Mode::Drift => self.advance_free::<true, true, true>(piece, time),
+        }
+    }
+
+    /// The same where it is known what of slip, heel gap and toe gap is free to move.
+    fn advance_free<const S: bool, const H: bool, const T: bool>(
+        &mut self,
+        piece: &Piece<2>,
+        time: f64,
+    ) -> (f64, Option<Cause>) {
         let reaction = self.reactions.of(self.walk.mode);
-        let closed = self.closed();
         let starts = [
-            if self.walk.summary.velocity[SLIP] == 0.0 {
-                self.walk.mode.slip().map_or(0.0, Slip::sign)
+            if S && self.walk.summary.velocity[SLIP] == 0.0 {
+                reaction.way
             } else {
                 0.0
             },
-            f64::from(closed[0]),
-            f64::from(closed[1]),
+            f64::from(H && self.touching[0]),
+            f64::from(T && self.touching[1]),
         ];
+        let felt = self.felt;
         let course = Course {
-            force: &reaction.force,
-            motion: accelerations(reaction, starts, piece),
+            motion: accelerations(reaction, &felt, starts, piece.left),
+            felt: &felt,
             piece,
         };
-        let (step, cause) = self.first_event(reaction, &course);
-        self.move_on(&course, step, time);
+        debug_assert_eq!([S, H, T], self.walk.mode.free());
+        let (step, cause) = self.first_event::<S, H, T>(reaction, &course);
+        self.move_on::<S, H, T>(&course, step, time);
         match cause {
             Some(Cause::Stop) => self.walk.summary.velocity[SLIP] = 0.0,
             Some(Cause::Gap(gap)) => self.walk.summary.position[gap] = 0.0,
@@ -46,9 +66,13 @@ impl Exact<'_> {
     }
 
     /// When the piece ends, and what ends it before its time.
-    fn first_event(&self, reaction: &Reaction, course: &Course) -> (f64, Option<Cause>) {
-        let Course { motion, piece, .. } = course;
-        let (mode, contacts) = (self.walk.mode, self.walk.mode.contacts());
+    #[inline(always)]
+    fn first_event<const S: bool, const H: bool, const T: bool>(
+        &self,
+        reaction: &Reaction,
+        course: &Course,
+    ) -> (f64, Option<Cause>) {
+        let Course { felt, motion, piece } = course;
         let (position, velocity) = (&self.walk.summary.position, &self.walk.summary.velocity);
         let mut step = piece.left;
         let mut cause = None;
@@ -58,31 +82,32 @@ impl Exact<'_> {
                 cause = Some(why);
             }
         };
-        let mut falls = |q: Affine, size: f64, why: Cause| {
-            let (value, slope) = (q.at(piece.ground), q.slope(piece.rate));
-            if value + slope * piece.left < -VIOLATION * size && slope < 0.0 {
+        let mut falls = |i: usize, why: Cause| {
+            let (value, slope) = (felt.value[i], felt.slope[i]);
+            if value + slope * piece.left < -VIOLATION * reaction.size[i] && slope < 0.0 {
                 earlier(event::linear(value, slope, piece.left), why);
             }
         };
-        if contacts[0] {
-            falls(reaction.force[HEEL], reaction.force_size[HEEL], Cause::Normal);
+        if !H {
+            falls(HEEL, Cause::Normal);
         }
-        if contacts[1] {
-            falls(reaction.force[TOE], reaction.force_size[TOE], Cause::Normal);
+        if !T {
+            falls(TOE, Cause::Normal);
         }
-        if mode.sticks() {
-            falls(reaction.cone[0], reaction.cone_size, Cause::Cone);
-            falls(reaction.cone[1], reaction.cone_size, Cause::Cone);
+        if !S {
+            falls(CONE, Cause::Cone);
+            falls(CONE + 1, Cause::Cone);
         }
-        if let Some(slip) = mode.slip() {
-            let s = slip.sign();
+        // In the air nothing rubs, and the slip may turn.
+        if S && !(H && T) {
+            let s = reaction.way;
             let [a0, a1] = motion[SLIP];
             if let Some(t) = event::quadratic(s * velocity[SLIP], s * a0, s * a1 / 2.0, piece.left) {
                 earlier(t, Cause::Stop);
             }
         }
-        for (corner, gap) in [HEEL, TOE].into_iter().enumerate() {
-            if contacts[corner] {
+        for (free, gap) in [(H, HEEL), (T, TOE)] {
+            if !free {
                 continue;
             }
             let [a0, a1] = motion[gap];

@@ -3,29 +3,41 @@
 use super::super::block::{Vector, HEEL, SLIP, TOE};
 use super::super::event;
 use super::super::ledger::work;
-use super::super::mode::Mode;
+use super::super::mode::{Corner, Mode, Slip};
 use super::super::result::Moment;
 use super::advance::Course;
 use super::walk::Exact;
 
 impl Exact<'_> {
     /// Take over the end of a step.
-    pub(super) fn move_on(&mut self, course: &Course, step: f64, time: f64) {
-        let Course { force, motion, piece } = course;
-        self.record(course, time + step, time);
+    #[inline(always)]
+    pub(super) fn move_on<const S: bool, const H: bool, const T: bool>(
+        &mut self,
+        course: &Course,
+        step: f64,
+        time: f64,
+    ) {
+        let Course { felt, motion, piece } = course;
+        if self.walk.observed() {
+            self.record(course, time + step, time);
+        }
         let block = self.walk.block;
-        let kind = self.walk.mode.kind();
+        let kind = match (S, H, T) {
+            (_, true, true) => Mode::Drift.kind(),
+            (true, false, false) => Mode::Slide(Slip::Downstream).kind(),
+            (false, false, false) => Mode::Rest.kind(),
+            (true, ..) => Mode::SlideRock(Corner::Heel, Slip::Downstream).kind(),
+            (false, ..) => Mode::Rock(Corner::Heel).kind(),
+        };
         self.walk.summary.time_by_mode[kind] += step;
-        if self.walk.mode == Mode::Rest {
+        if !(S || H || T) {
             return;
         }
-        let contacts = self.walk.mode.contacts();
-        let moves = [!self.walk.mode.sticks(), !contacts[0], !contacts[1]];
         let before = self.walk.summary.position;
         let speed = self.walk.summary.velocity;
         let s = &mut self.walk.summary;
-        for i in 0..3 {
-            if !moves[i] {
+        for (i, moves) in [(SLIP, S), (HEEL, H), (TOE, T)] {
+            if !moves {
                 continue;
             }
             let [a0, a1] = motion[i];
@@ -35,8 +47,9 @@ impl Exact<'_> {
             s.position[i] += step * (speed[i] + step * (a0 / 2.0 + step * a1 / 6.0));
             s.velocity[i] += step * (a0 + step * a1 / 2.0);
         }
-        if self.walk.mode.slip().is_some() {
-            let rub = [force[SLIP].at(piece.ground), force[SLIP].slope(piece.rate)];
+        // Nothing rubs in the air.
+        if S && !(H && T) {
+            let rub = [felt.value[SLIP], felt.slope[SLIP]];
             s.ledger.rub(work(rub, speed[SLIP], motion[SLIP], step));
         }
         for gap in [HEEL, TOE] {
@@ -44,7 +57,7 @@ impl Exact<'_> {
             s.position[gap] = s.position[gap].max(0.0);
         }
         s.slip_by_mode[kind] += s.position[SLIP] - before[SLIP];
-        if contacts == [true, true] {
+        if !(H || T) {
             // Both gaps stay closed and the slip keeps its sign.
             s.slip_range = [
                 s.slip_range[0].min(s.position[SLIP]),
@@ -99,7 +112,7 @@ impl Exact<'_> {
 
     /// Keep the block at every wanted moment before `until`; `since` is when the present piece began.
     pub(super) fn record(&mut self, course: &Course, until: f64, since: f64) {
-        let Course { force, motion, piece } = course;
+        let Course { felt, motion, piece } = course;
         while let Some(time) = self.walk.next_moment(until) {
             let (w, v) = (&self.walk.summary.position, &self.walk.summary.velocity);
             let t = (time - since).clamp(0.0, piece.left);
@@ -110,7 +123,7 @@ impl Exact<'_> {
                 position: [slip, heel.max(0.0), toe.max(0.0)],
                 velocity: [SLIP, HEEL, TOE].map(|i| v[i] + t * (motion[i][0] + t * motion[i][1] / 2.0)),
                 acceleration: motion.map(|[start, slope]| start + slope * t),
-                reaction: force.map(|q| q.at(piece.ground) + q.slope(piece.rate) * t),
+                reaction: [SLIP, HEEL, TOE].map(|i| felt.value[i] + felt.slope[i] * t),
             };
             self.walk.keep(moment);
         }

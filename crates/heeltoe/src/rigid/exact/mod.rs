@@ -10,6 +10,7 @@
 
 mod advance;
 mod keep;
+mod pass;
 mod walk;
 
 pub use walk::simulate;

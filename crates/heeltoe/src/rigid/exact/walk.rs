@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 
 use super::super::block::{Block, Vector, HEEL, SLIP, TOE};
-use super::super::choice::{accelerations, select};
+use super::super::choice::{accelerations, select, Moving};
 use super::super::mode::Mode;
-use super::super::reaction::Reactions;
+use super::super::reaction::{Felt, Reactions};
 use super::super::result::{Outcome, Run};
 use super::super::shaking::{Piece, Shaking};
 use super::super::walk::{Carried, Options, Walk, Wanted};
@@ -15,6 +15,10 @@ use super::advance::Course;
 pub(super) struct Exact<'a> {
     pub(super) walk: Walk<'a>,
     pub(super) reactions: &'a Reactions,
+    /// What is felt in the present mode on the present piece.
+    pub(super) felt: Felt,
+    /// Which corners lie at its start.
+    pub(super) touching: [bool; 2],
 }
 
 /// Run one block through one motion.
@@ -34,6 +38,8 @@ pub fn simulate(
     let mut exact = Exact {
         walk: Walk::new(block, shaking.time[0], from, options, wanted),
         reactions: &reactions,
+        felt: Felt::default(),
+        touching: [false; 2],
     };
     exact.run(shaking, start.is_none());
     let energy = block.kinetic_energy(&exact.walk.summary.velocity);
@@ -51,29 +57,28 @@ impl Exact<'_> {
         // Whether the present mode was chosen by the state as it is now.
         let mut settled = false;
         while k + 1 < n {
-            if settled && self.walk.mode == Mode::Rest && !self.walk.observed() {
-                k = self.rest_until(shaking, k);
+            if settled && !self.walk.observed() {
+                k = match self.walk.mode {
+                    Mode::Rest => self.rest_until(shaking, k),
+                    Mode::Slide(_) => self.slide_until(shaking, k),
+                    _ => k,
+                };
                 if k + 1 >= n {
                     break;
                 }
             }
-            let (t0, t1) = (shaking.time[k], shaking.time[k + 1]);
-            let (a0, a1) = (shaking.at(k), shaking.at(k + 1));
+            let start = shaking.time[k];
+            let Some(whole) = shaking.pieces(k).next() else {
+                break;
+            };
             k += 1;
-            let length = t1 - t0;
-            if length <= 0.0 {
+            if whole.left <= 0.0 {
                 continue;
             }
             if self.walk.stopped() {
                 return;
             }
-            let inverse = 1.0 / length;
-            let whole = Piece {
-                ground: a0,
-                rate: [(a1[0] - a0[0]) * inverse, (a1[1] - a0[1]) * inverse],
-                left: length,
-            };
-            if !self.cross(&whole, t0) {
+            if !self.cross(&whole, start) {
                 return;
             }
             settled = true;
@@ -93,9 +98,11 @@ impl Exact<'_> {
             ..Piece::still(0.0)
         };
         let reaction = self.reactions.of(self.walk.mode);
+        let mut felt = Felt::default();
+        reaction.on(&piece, &mut felt);
         let course = Course {
-            force: &reaction.force,
-            motion: accelerations(reaction, [0.0; 3], &piece),
+            motion: accelerations(reaction, &felt, [0.0; 3], 0.0),
+            felt: &felt,
             piece: &piece,
         };
         self.record(&course, f64::INFINITY, self.walk.summary.end_time);
@@ -131,28 +138,12 @@ impl Exact<'_> {
     }
 
     fn rests(&self, piece: &Piece<2>) -> bool {
-        let closed = [true, true];
-        select(self.reactions, Mode::Rest, closed, 0.0, piece) == Some(Mode::Rest)
-    }
-
-    /// While the block rests nothing moves: go through the samples as fast as they can be read and return the last
-    /// one before rest may end.
-    fn rest_until(&mut self, shaking: &Shaking, from: usize) -> usize {
-        let rest = self.reactions.of(Mode::Rest);
-        let limits = [rest.force[HEEL], rest.force[TOE], rest.cone[0], rest.cone[1]];
-        let holds = |k: usize| {
-            let ground = shaking.at(k);
-            limits.iter().all(|limit| limit.at(ground) >= 0.0)
+        let moving = Moving {
+            closed: [true, true],
+            velocity: 0.0,
+            piece,
         };
-        let mut k = from;
-        // The first sample is looked at too: right behind a jump it is new.
-        if holds(k) {
-            while k + 1 < shaking.time.len() && holds(k + 1) {
-                k += 1;
-            }
-        }
-        self.walk.summary.time_by_mode[Mode::Rest.kind()] += shaking.time[k] - shaking.time[from];
-        k
+        select(self.reactions, Mode::Rest, &moving, &mut Felt::default()) == Some(Mode::Rest)
     }
 }
 
@@ -177,8 +168,13 @@ impl<'a> Carried<'a> for Exact<'a> {
     }
 
     fn pick(&mut self, piece: &Piece<2>) -> Option<Mode> {
-        let velocity = self.walk.summary.velocity[SLIP];
-        select(self.reactions, self.walk.mode, self.closed(), velocity, piece)
+        self.touching = self.closed();
+        let moving = Moving {
+            closed: self.touching,
+            velocity: self.walk.summary.velocity[SLIP],
+            piece,
+        };
+        select(self.reactions, self.walk.mode, &moving, &mut self.felt)
     }
 
     /// Both gaps may have closed: corners nearer than rounding strike together.

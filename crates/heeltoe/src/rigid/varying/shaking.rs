@@ -9,7 +9,7 @@ pub(super) type Ground = [f64; 3];
 pub(super) type Piece = super::super::shaking::Piece<3>;
 
 /// Accelerations of a ground that turns.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct TurningShaking<'a> {
     pub(super) level: Shaking<'a>,
     turning: Option<&'a [f64]>,

@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 
 use super::super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
-use super::super::choice::{accelerations, select};
+use super::super::choice::{accelerations, select, Moving};
 use super::super::mode::{Corner, Mode, Slip};
-use super::super::reaction::Reactions;
+use super::super::reaction::{Felt, Reactions};
 use super::super::result::{Outcome, Run};
 use super::super::shaking::Piece as Level;
 use super::super::walk::{Carried, Cause, Options, Walk, Wanted};
@@ -291,7 +291,13 @@ impl<'a> Carried<'a> for Varying<'a> {
         };
         let closed = self.closed();
         let slip = self.velocity()[SLIP];
-        let mode = select(&reactions, self.walk.mode, closed, slip, &level)?;
+        let moving = Moving {
+            closed,
+            velocity: slip,
+            piece: &level,
+        };
+        let mut felt = Felt::default();
+        let mode = select(&reactions, self.walk.mode, &moving, &mut felt)?;
         let starts = [
             if slip == 0.0 {
                 mode.slip().map_or(0.0, Slip::sign)
@@ -301,7 +307,7 @@ impl<'a> Carried<'a> for Varying<'a> {
             f64::from(closed[0]),
             f64::from(closed[1]),
         ];
-        let first = accelerations(reactions.of(mode), starts, &level).map(|[value, _]| value);
+        let first = accelerations(reactions.of(mode), &felt, starts, level.left).map(|[value, _]| value);
         self.starting = Some(first);
         Some(mode)
     }
