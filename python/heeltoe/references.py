@@ -55,6 +55,24 @@ REFERENCES = {
         "reservoir's head in cracks at once); M. Leclerc, P. Léger and R. Tinawi, \"Computer aided stability analysis "
         'of gravity dams: CADAM", Advances in Engineering Software 34 (2003), 403-420'
     ),
+    "fragility": (
+        'M. Shinozuka, M. Q. Feng, J. Lee and T. Naganuma, "Statistical analysis of fragility curves", Journal of '
+        "Engineering Mechanics, ASCE 126 (2000), 1224-1231"
+    ),
+    "likelihood": (
+        'J. W. Baker, "Efficient analytical fragility function fitting using dynamic structural analysis", Earthquake '
+        "Spectra 31 (2015), 579-599"
+    ),
+    "jackknife": 'B. Efron and C. Stein, "The jackknife estimate of variance", Annals of Statistics 9 (1981), 586-596',
+    "measures": (
+        'N. Luco and C. A. Cornell, "Structure-specific scalar intensity measures for near-source and ordinary '
+        'earthquake ground motions", Earthquake Spectra 23 (2007), 357-392'
+    ),
+    "sobol": (
+        'A. Saltelli, P. Annoni, I. Azzini, F. Campolongo, M. Ratto and S. Tarantola, "Variance based sensitivity '
+        'analysis of model output", Computer Physics Communications 181 (2010), 259-270; M. J. W. Jansen, "Analysis of '
+        'variance designs for model output", Computer Physics Communications 117 (1999), 35-43'
+    ),
     "follows opening": (
         'F. Javanmardi, P. Léger and R. Tinawi, "Seismic structural stability of concrete gravity dams considering '
         'transient uplift pressures in cracks", Engineering Structures 27 (2005), 616-628'

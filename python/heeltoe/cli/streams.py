@@ -5,11 +5,13 @@ Whoever reads our output may close it, as ``head`` does: then the process ends a
 
 from __future__ import annotations
 
+import errno
 import os
 import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from typing import TextIO
 
 from rich.console import Console
 
@@ -17,6 +19,8 @@ from heeltoe.errors import InputError
 
 #: Consoles that say to be narrower than this say nothing of use.
 _NARROWEST, _USUAL = 20, 80
+# What the system says of files that cannot be written.
+_NOT_WRITTEN = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EACCES, errno.EPERM, errno.EIO)
 
 
 def console(*, stderr: bool = False) -> Console:
@@ -40,7 +44,7 @@ def streams() -> Iterator[None]:
     Raises
     ------
     InputError
-        Where standard output cannot be written.
+        Where standard output, or a file that nothing else has guarded, cannot be written.
     """
     _open()
     before = signal.signal(signal.SIGPIPE, signal.SIG_DFL) if hasattr(signal, "SIGPIPE") else None
@@ -50,6 +54,12 @@ def streams() -> Iterator[None]:
         finally:
             sys.stdout.flush()
     except OSError as error:
+        if _takes(sys.stdout):
+            # It was another file.
+            if error.errno not in _NOT_WRITTEN:
+                raise
+            place = str(error.filename or "a file of this command")
+            raise InputError("cannot-write", place, reason=error.strerror, value="it") from None
         # What could not be written shall not be tried again at the end of the process.
         with suppress(OSError):
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -57,6 +67,15 @@ def streams() -> Iterator[None]:
     finally:
         if before is not None:
             signal.signal(signal.SIGPIPE, before)
+
+
+def _takes(stream: TextIO) -> bool:
+    """Whether a stream takes what has been written to it: what it could not take it still holds."""
+    try:
+        stream.flush()
+    except OSError:
+        return False
+    return True
 
 
 def _open() -> None:

@@ -4,18 +4,31 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from heeltoe.cli.common import LONGEST_PATH, NO_RESULT, JsonPath, check_json, finish, say_file
+from heeltoe.cli.common import (
+    LONGEST_PATH,
+    NO_RESULT,
+    JsonPath,
+    UnitsName,
+    check_json,
+    command_line,
+    finish,
+    say_file,
+)
 from heeltoe.cli.streams import console
 from heeltoe.plain import plain
+from heeltoe.units.systems import unit_system
+from heeltoe.whole import check_directory
 
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
     from heeltoe.study.run import Progress
 
 
@@ -30,22 +43,34 @@ def study(
     ] = None,
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Say what there would be, and run nothing.")] = False,
     no_figures: Annotated[bool, typer.Option("--no-figures", help="Leave the figures out.")] = False,
+    report: Annotated[
+        bool, typer.Option("--report", help="Write a report as PDF and HTML into the directory of the runs.")
+    ] = False,
+    units: UnitsName = "si",
     json_: JsonPath = None,
 ) -> None:
     """Run a study: many dams, many earthquakes, one table."""
     from heeltoe.study.file import read_study
     from heeltoe.study.plan import plan_of
     from heeltoe.study.run import outlook, run_study
-    from heeltoe.views.files.write import write_study_figures
+    from heeltoe.views.files.write import STUDY_REPORT, write_study
+    from heeltoe.views.report.write import check_packages, write_study_report
     from heeltoe.views.terminal.study import print_outlook, print_study
 
     check_json(json_)
+    unit_system(units, "--units")
     words = console(stderr=True)
     read = read_study(file)
     if dry_run:
-        print_outlook(outlook(plan_of(read), os.cpu_count() or 1), words)
+        expected = outlook(plan_of(read), os.cpu_count() or 1)
+        print_outlook(expected, words)
+        if json_ is not None:
+            finish(expected.to_json(), json_, [], lambda console: None)
         return
     place = out or Path(f"{Path(file).stem}-study")
+    if report:
+        check_packages()
+        check_directory(place, "--out", STUDY_REPORT)
     try:
         with _bar() as progress:
             found = run_study(
@@ -60,11 +85,19 @@ def study(
         again = f"heeltoe study {plain(file, LONGEST_PATH)} --out {plain(place, LONGEST_PATH)} --resume"
         print(f"heeltoe: what is done stays in {plain(place, LONGEST_PATH)}; go on by: {again}", file=sys.stderr)
         raise
-    figures = [] if no_figures else write_study_figures(found, place)
-    finish(found.to_json(), json_, [], lambda console: print_study(found, console))
+
+    def reported(fresh: Path, drawn: Mapping[str, Figure]) -> None:
+        base = (read.directory / read.case).parent
+        write_study_report(found, fresh, base=base, units=units, command=command_line(), figures=drawn)
+
+    written = write_study(found, place, units, figures=not no_figures, report=reported if report else None)
+    finish(found.to_json(), json_, [], lambda console: print_study(found, console, units))
     say_file("wrote", place, words)
-    if figures:
+    if not no_figures:
         say_file("wrote", place / "figures", words)
+    for path in written:
+        if path.name in STUDY_REPORT:
+            say_file("wrote", path, words)
     if not found.all_ok:
         raise typer.Exit(NO_RESULT)
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from os import PathLike
 from pathlib import Path
 from time import monotonic
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
@@ -19,7 +20,7 @@ from heeltoe.study.opened import Opened, open_study
 from heeltoe.study.parts import SECONDS, run_part
 from heeltoe.study.pilot import pilot_run
 from heeltoe.study.plan import Plan, plan_of
-from heeltoe.study.schedule import run_here, run_on_workers
+from heeltoe.study.schedule import check_workers, run_here, run_on_workers
 from heeltoe.study.store import Store, begin, keep, keep_seconds, pilot_of
 
 #: Seconds that a part should take a worker: long beside what it costs to hand one out, short beside a patient wait.
@@ -77,6 +78,24 @@ class Outlook:
     def seconds(self) -> float:
         """About how long it will take."""
         return self.plan.count * self.seconds_per_run / self.cores
+
+    def to_json(self) -> dict[str, Any]:
+        """Return it as a dry run tells it."""
+        dams, motions, strengths, models = self.plan.sizes
+        return {
+            "title": self.plan.study.title,
+            "runs": self.plan.count,
+            "dams": dams,
+            "motions_of_each": motions,
+            "strengths_of_each": strengths,
+            "models": models,
+            "motions": len(self.plan.shakes),
+            "events": len(self.plan.events),
+            "seconds_per_run": self.seconds_per_run,
+            "cores": self.cores,
+            "seconds": self.seconds,
+            "fingerprint": self.plan.fingerprint,
+        }
 
     @property
     def size(self) -> int:
@@ -144,9 +163,16 @@ def run_study(
     study = source if isinstance(source, Study) else read_study(source)
     plan = plan_of(study)
     directory = Path(out)
+    if not _alone(plan, scheduler):
+        check_workers(scheduler)
     store, plan = _begun(plan, directory, resume, before)
     _run(plan, store, scheduler, progress)
     return open_study(directory)
+
+
+def _alone(plan: Plan, scheduler: str | None) -> bool:
+    """Whether this process runs the study by itself."""
+    return scheduler is None and set(plan.study.model) == {"rigid"}
 
 
 def _begun(plan: Plan, directory: Path, resume: bool, before: Callable[[Outlook], None] | None) -> tuple[Store, Plan]:
@@ -173,8 +199,7 @@ def _run(plan: Plan, store: Store, scheduler: str | None, progress: Callable[[Pr
     if not missing:
         return
     parts = [(part, *store.stretch(part)) for part in missing]
-    here = scheduler is None and set(plan.study.model) == {"rigid"}
-    ran = run_here(plan, parts) if here else run_on_workers(plan, parts, scheduler)
+    ran = run_here(plan, parts) if _alone(plan, scheduler) else run_on_workers(plan, parts, scheduler)
     done = store.count - sum(stop - start for _, start, stop in parts)
     began, made, failed = monotonic(), 0, 0
     seconds: dict[str, float] = {}

@@ -42,8 +42,7 @@ def run_on_workers(plan: Plan, parts: Sequence[Part], address: str | None = None
     InputError
         Where Dask is not installed, or there is no scheduler at the address.
     """
-    if find_spec("distributed") is None:
-        raise InputError("study-package", "--scheduler", "dask")
+    check_workers(None)
     from distributed import Client, LocalCluster, as_completed
 
     with ExitStack() as stack:
@@ -62,10 +61,7 @@ def run_on_workers(plan: Plan, parts: Sequence[Part], address: str | None = None
             )
             client = stack.enter_context(Client(cluster))
         else:
-            try:
-                client = stack.enter_context(Client(address, timeout=10))
-            except (OSError, ValueError, TimeoutError) as error:
-                raise InputError("study-scheduler", "--scheduler", address, reason=str(error).split("\n")[0]) from None
+            client = stack.enter_context(_reached(address))
         everywhere = client.scatter(plan, broadcast=True, hash=False)
         waiting = iter(parts)
         workers = max(1, len(client.scheduler_info()["workers"]))
@@ -80,6 +76,30 @@ def run_on_workers(plan: Plan, parts: Sequence[Part], address: str | None = None
             future.release()
             more(1)
             yield result
+
+
+def check_workers(address: str | None) -> None:
+    """Make sure that there is somebody to run parts, before anything is written.
+
+    Raises
+    ------
+    InputError
+        Where Dask is not installed, or there is no scheduler at the address.
+    """
+    if find_spec("distributed") is None:
+        raise InputError("study-package", "--scheduler", "dask")
+    if address is not None:
+        _reached(address).close()
+
+
+def _reached(address: str) -> Any:
+    """Return a client of a scheduler."""
+    from distributed import Client
+
+    try:
+        return Client(address, timeout=10)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise InputError("study-scheduler", "--scheduler", address, reason=str(error).split("\n")[0]) from None
 
 
 def _one(plan: Plan, part: int, start: int, stop: int) -> tuple[int, pa.Table]:

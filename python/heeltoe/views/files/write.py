@@ -30,7 +30,7 @@ VTK = "vtk"
 #: Files of a map of overturning.
 OVERTURNING = ("overturning.csv", "overturning.png", "overturning.svg")
 _TABLES = ("histories", "events", "crack", "table")
-_REPORT = ("report.pdf", "report.html")
+STUDY_REPORT = _REPORT = ("report.pdf", "report.html")
 
 
 def names(*suffixes: str, report: bool = True) -> tuple[str, ...]:
@@ -131,15 +131,41 @@ def write_overturning(found: OverturningMap, directory: Path) -> list[Path]:
     return write_whole(write, directory, ())
 
 
-def write_study_figures(found: Opened, directory: Path) -> list[Path]:
-    """Write the figures of a study into ``figures/`` of its directory, those of an earlier time gone, and return their
-    paths; its runs stay as they are."""
+def write_study(
+    found: Opened,
+    directory: Path,
+    units: str = "si",
+    *,
+    figures: bool = True,
+    report: Callable[[Path, Mapping[str, Figure]], None] | None = None,
+) -> list[Path]:
+    """Write the figures of a study into ``figures/`` of its directory, and its report beside them, those of an earlier
+    time gone, and return their paths; its runs stay as they are.
+
+    Parameters
+    ----------
+    found, directory
+        The study, and where it is.
+    units
+        Of the figures, ``"si"`` or ``"us"``.
+    figures
+        Whether they are written.
+    report
+        Writes a report into a directory, given the figures; None for none.
+    """
 
     def write(fresh: Path) -> None:
-        (fresh / "figures").mkdir()
-        save_all(study_figures(found), fresh / "figures")
+        drawn = study_figures(found, units)
+        if figures:
+            (fresh / "figures").mkdir()
+            save_all(drawn, fresh / "figures")
+        if report is not None:
+            report(fresh, drawn)
 
-    return write_whole(write, directory, ("*.png", "*.svg"))
+    if not figures and report is None:
+        return []
+    own = (*(("*.png", "*.svg") if figures else ()), *(STUDY_REPORT if report is not None else ()))
+    return write_whole(write, directory, own)
 
 
 @singledispatch

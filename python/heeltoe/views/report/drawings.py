@@ -32,6 +32,7 @@ CAPTIONS = {
 }
 # Simple figures need not be as wide as the page.
 _SHARES = {"section": 0.7, "spectrum": 0.7, "slip-by-mode": 0.8, "energy": 0.8, "mesh": 0.6}
+_SHARES |= {"bands": 0.8, "slips": 0.8, "fragility": 0.8}
 # Histories are drawn lower than on a page of their own, so that two of them share one, or one and a table; letters stay
 # as large as they are.
 _LOWER = {"comparison": 0.8, "response": 0.75, "accelerations": 0.75, "forces": 0.9, "crack-level": 0.75}
@@ -52,10 +53,10 @@ def drawings(figures: Mapping[str, Figure]) -> dict[str, FigureBlock]:
     They lose their headings, and some are made lower: what is to be written as a file is to be written before.
     """
     if "comparison" not in figures:
-        return {name: _block(name, figures[name], caption(name)) for name in figures}
+        return {name: drawing(name, figures[name], caption(name)) for name in figures}
     shared = ("section", "comparison")
     said = {name: caption(name if "/" in name or name in shared else f"flexible/{name}") for name in _OF_BOTH}
-    return {name: _block(name, figures[name], said[name]) for name in figures if name in _OF_BOTH}
+    return {name: drawing(name, figures[name], said[name]) for name in figures if name in _OF_BOTH}
 
 
 def caption(name: str) -> str:
@@ -69,7 +70,8 @@ def caption(name: str) -> str:
     )
 
 
-def _block(name: str, figure: Figure, text: str) -> FigureBlock:
+def drawing(name: str, figure: Figure, text: str) -> FigureBlock:
+    """Return a figure with its caption; it loses its heading."""
     import matplotlib as mpl
 
     from heeltoe.views.figures.style import laid_out, without_heading

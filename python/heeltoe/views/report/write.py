@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from heeltoe.case.model import Case
     from heeltoe.models.statics.model import Statics
     from heeltoe.result.response import Response
+    from heeltoe.study.opened import Opened
     from heeltoe.views.report.content import Document
 
 #: What each kind of report needs that heeltoe itself does not.
@@ -118,6 +119,35 @@ def write_report(
     check_packages(kinds, "kinds")
     document = build_report(case, result, statics=statics, units=units, command=command)
     return write_document(document, directory, kinds)
+
+
+def write_study_report(
+    found: Opened,
+    fresh: Path,
+    *,
+    base: Path | None = None,
+    units: str = "si",
+    command: str = "",
+    figures: Mapping[str, Figure] | None = None,
+) -> None:
+    """Write the report of a study into a directory that has none.
+
+    Parameters
+    ----------
+    found
+        The study.
+    fresh
+        Where.
+    base
+        Where relative paths of its base case start; the current directory where it is not given.
+    units, command
+        As of :func:`write_report`.
+    figures
+        Of the study, drawn before, which are changed here to what a report needs.
+    """
+    from heeltoe.views.report.study import study_document, study_subject
+
+    write_kinds(study_document(study_subject(found, base or Path(), units, command, figures)), fresh)
 
 
 def write_document(document: Document, directory: Path | str, kinds: Sequence[str] = ("pdf", "html")) -> list[Path]:

@@ -14,8 +14,7 @@ from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.write import length
 from heeltoe.views.terminal.common import print_title, print_warnings, quiet_table
 from heeltoe.views.terminal.study_answers import print_compared, print_hangs_on
-
-_KINDS = {"residual_slip": "residual slip", "peak_slip": "peak slip", "opening": "opening", "rotation": "rotation"}
+from heeltoe.views.words.studies import limit_of
 
 
 def duration(seconds: float) -> str:
@@ -32,7 +31,7 @@ def print_outlook(expected: Outlook, console: Console) -> None:
     """Say what a study will be."""
     plan = expected.plan
     dams, motions, strengths, models = plan.sizes
-    parts = [f"{dams:,} dams"]
+    parts = [counted(dams, "dam")]
     if plan.every and motions > 1:
         parts.append(f"{motions} motions")
     parts += [f"{strengths} strengths"] if strengths > 1 else []
@@ -45,8 +44,8 @@ def print_outlook(expected: Outlook, console: Console) -> None:
     console.print(escape(text), soft_wrap=True, highlight=False)
 
 
-def print_study(found: Opened, console: Console) -> None:
-    """Print what a study says."""
+def print_study(found: Opened, console: Console, units: str = "si") -> None:
+    """Print what a study says, lengths in the units ``"si"`` or ``"us"``."""
     print_title(found.title, "study", console)
     told = found.told["study"]
     by = f"{told['method']}, {counted(len(told['vary']), 'field')}, {counted(len(found.told['events']), 'event')}"
@@ -59,7 +58,7 @@ def print_study(found: Opened, console: Console) -> None:
     table.add_column("", no_wrap=True)
     for each in found.summary:
         table.add_column(each["model"], justify="right", no_wrap=True)
-    for label, *cells in zip(*(_lines(each) for each in found.summary), strict=True):
+    for label, *cells in zip(*(_lines(each, units) for each in found.summary), strict=True):
         table.add_row(label[0], *(text for _, text in (label, *cells)))
     console.print(table)
     for each in found.summary:
@@ -67,9 +66,9 @@ def print_study(found: Opened, console: Console) -> None:
         if others:
             console.print(escape(f"{each['model']}, runs that ended otherwise: {', '.join(others)}"), highlight=False)
     if told["fragility"] is not None:
-        _print_fragility(found.fragility, console)
+        _print_fragility(found.fragility, console, units)
     print_compared(found, console)
-    print_hangs_on(found, console)
+    print_hangs_on(found, console, units)
     if found.told.get("seconds"):
         parts = ", ".join(f"{name} {_seconds(taken)}" for name, taken in found.told["seconds"].items())
         console.print(f"time of the runs, all workers together: {parts}", style="dim", highlight=False)
@@ -85,7 +84,7 @@ def counted(count: int, what: str) -> str:
     return f"{count:,} {what}{'' if count == 1 else 's'}"
 
 
-def _lines(each: dict[str, Any]) -> list[tuple[str, str]]:
+def _lines(each: dict[str, Any], units: str) -> list[tuple[str, str]]:
     """Return what a summary says of one model, with labels."""
     lost = each["runs"] - sum(each["outcomes"].get(name, 0) for name in ("ok", "overturned"))
     lines = [
@@ -96,8 +95,8 @@ def _lines(each: dict[str, Any]) -> list[tuple[str, str]]:
     for name, label in (("residual_slip_m", "residual slip"), ("opening_upstream_m", "opening, upstream face")):
         values = each[name]
         for key, what in (("50%", "half stay below"), ("84%", "84 % stay below"), ("95%", "95 % stay below")):
-            lines.append((f"{label}: {what}", _length(values[key])))
-        lines.append((f"{label}: largest", _length(values["largest"])))
+            lines.append((f"{label}: {what}", _length(values[key], units)))
+        lines.append((f"{label}: largest", _length(values["largest"], units)))
     modes = ("sliding", "slide_rocking", "drifting")
     for name in modes:
         share = each["dominant_mode"].get(name)
@@ -105,32 +104,26 @@ def _lines(each: dict[str, Any]) -> list[tuple[str, str]]:
     return lines
 
 
-def _length(value: float | None) -> str:
-    return "-" if value is None else length(value, "si") if value else "0"
+def _length(value: float | None, units: str) -> str:
+    return "-" if value is None else length(value, units) if value else "0"
 
 
-def _print_fragility(curves: list[dict[str, Any]], console: Console) -> None:
+def _print_fragility(curves: list[dict[str, Any]], console: Console, units: str) -> None:
     if not curves:
         return
-    console.print()
-    table = quiet_table()
-    table.padding = (0, 2, 0, 0)
-    models = {each["model"] for each in curves}
     measure = curves[0]["measure"]
-    headings = ["exceeds", f"median {measure}", "dispersion", "records", "other", "runs"]
-    for place, heading in enumerate(headings):
-        table.add_column(heading, no_wrap=True, justify="left" if place < 3 else "right")
-    for each in curves:
-        amount = f"{each['value']:.3g} rad" if each["limit"] == "rotation" else length(each["value"], "si")
-        what = f"{_KINDS[each['limit']]} {amount}" + (f", {each['model']}" if len(models) > 1 else "")
-        share = f"{each['exceeding'] / max(each['runs'], 1):.1%}"
-        if each["median"] is None:
-            table.add_row(what, each["why"], "", "", "", share)
-            continue
-        median = _with(each["median"], each["median_interval"], measure, "" if each["reached"] else " *")
-        dispersion = _with(each["dispersion"], each["dispersion_interval"])
-        table.add_row(what, median, dispersion, _part(each["record"]), _part(each["other"]), share)
-    console.print(table)
+    models = list(dict.fromkeys(each["model"] for each in curves))
+    for model in models:
+        console.print()
+        table = quiet_table()
+        table.padding = (0, 2, 0, 0)
+        exceeds = f"exceeds, {model}" if len(models) > 1 else "exceeds"
+        for place, heading in enumerate((exceeds, f"median {measure}", "dispersion", "records", "other", "runs")):
+            table.add_column(heading, no_wrap=True, justify="left" if place < 3 else "right")
+        for each in curves:
+            if each["model"] == model:
+                table.add_row(*_fragility(each, units))
+        console.print(table)
     said = [
         f"below each number what it lies within with {curves[0]['confidence']:.0%}, leaving out one event at a time"
     ]
@@ -141,6 +134,17 @@ def _print_fragility(curves: list[dict[str, Any]], console: Console) -> None:
     unknown = max(each["unknown"] for each in curves)
     if unknown:
         console.print(f"[yellow]warning[/yellow]  {counted(unknown, 'run')} without a result are behind no curve")
+
+
+def _fragility(each: dict[str, Any], units: str) -> tuple[str, ...]:
+    """Return what is said of a curve."""
+    what = limit_of(each["limit"], each["value"], units)
+    share = f"{each['exceeding'] / max(each['runs'], 1):.1%}"
+    if each["median"] is None:
+        return what, each["why"], "", "", "", share
+    median = _with(each["median"], each["median_interval"], each["measure"], "" if each["reached"] else " *")
+    dispersion = _with(each["dispersion"], each["dispersion_interval"])
+    return what, median, dispersion, _part(each["record"]), _part(each["other"]), share
 
 
 def _with(value: float, interval: tuple[float, float] | None, measure: str = "", mark: str = "") -> str:

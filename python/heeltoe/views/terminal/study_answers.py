@@ -10,14 +10,7 @@ from rich.markup import escape
 from heeltoe.study.opened import Opened
 from heeltoe.units.write import length
 from heeltoe.views.terminal.common import quiet_table
-
-#: What a motion is known by beside its strength, as headings.
-_TRAITS = {
-    "mean_period_s": "period",
-    "significant_duration_s": "duration",
-    "magnitude": "magnitude",
-    "distance_m": "distance",
-}
+from heeltoe.views.words.studies import TRAITS
 
 
 def print_compared(found: Opened, console: Console) -> None:
@@ -28,12 +21,12 @@ def print_compared(found: Opened, console: Console) -> None:
         if not told["measures"]:
             continue
         console.print()
-        traits = [name for name in _TRAITS if any(each["sufficiency"].get(name) for each in told["measures"])]
+        traits = [name for name in TRAITS if any(each["sufficiency"].get(name) for each in told["measures"])]
         table = quiet_table()
         table.add_column(escape(f"measure, {model}"), no_wrap=True)
         table.add_column("scatter", justify="right")
         for name in traits:
-            table.add_column(f"p {_TRAITS[name]}", justify="right", no_wrap=True)
+            table.add_column(f"p {TRAITS[name]}", justify="right", no_wrap=True)
         for each in told["measures"]:
             lines = [each["sufficiency"][name] for name in traits]
             cells = ["-" if line is None else f"{line['p']:.2f}" for line in lines]
@@ -46,7 +39,7 @@ def print_compared(found: Opened, console: Console) -> None:
         console.print(text, style="dim", highlight=False)
 
 
-def print_hangs_on(found: Opened, console: Console) -> None:
+def print_hangs_on(found: Opened, console: Console, units: str) -> None:
     """Print Sobol's indices, or what each field does by itself, where the study is made for them."""
     method = found.told["study"]["method"]
     if method == "sensitivity":
@@ -54,7 +47,7 @@ def print_hangs_on(found: Opened, console: Console) -> None:
             _print_sobol(model, told, console)
     elif method == "one at a time":
         for model, told in found.tornado().items():
-            _print_tornado(model, told, console)
+            _print_tornado(model, told, console, units)
 
 
 def _print_sobol(model: str, told: dict[str, Any], console: Console) -> None:
@@ -74,7 +67,7 @@ def _print_sobol(model: str, told: dict[str, Any], console: Console) -> None:
     _print_left_out(told["left_out"], "rows with a run without a slip are behind no index", console)
 
 
-def _print_tornado(model: str, told: dict[str, Any], console: Console) -> None:
+def _print_tornado(model: str, told: dict[str, Any], console: Console, units: str) -> None:
     console.print()
     table = quiet_table()
     table.add_column(escape(f"slip at, {model}"), no_wrap=True)
@@ -83,13 +76,13 @@ def _print_tornado(model: str, told: dict[str, Any], console: Console) -> None:
     for each in told["fields"]:
         ends = sorted(each["values"], key=lambda end: float(end["demand"]))
         table.add_row(
-            escape(each["name"]), *(f"{_length(end['demand'])} [dim]({end['value']})[/]" for end in (ends[0], ends[-1]))
+            escape(each["name"]),
+            *(f"{_length(end['demand'], units)} [dim]({end['value']})[/]" for end in (ends[0], ends[-1])),
         )
     if told["base"] is not None:
         console.print(table)
-        note = (
-            f"residual slip, mean over {told['motions']:,} motions at their strengths; {_length(told['base'])} as it is"
-        )
+        base = _length(told["base"], units)
+        note = f"residual slip, mean over {told['motions']:,} motions at their strengths; {base} as it is"
         console.print(note, style="dim", highlight=False)
     _print_left_out(told["left_out"], "motions in which a dam has no slip are left out", console)
 
@@ -104,5 +97,5 @@ def _within(each: dict[str, Any], kind: str) -> str:
     return f"{each[kind]:.2f} [dim]({low:.2f} to {high:.2f})[/]"
 
 
-def _length(value: float) -> str:
-    return length(value, "si") if value else "0"
+def _length(value: float, units: str) -> str:
+    return length(value, units) if value else "0"

@@ -10,15 +10,15 @@ from heeltoe.views.figures.studies.parts import modes_figure, slips_figure
 from heeltoe.views.figures.studies.sensitivity import sobol_figure, tornado_figure
 
 
-def study_figures(found: Opened) -> dict[str, Figure]:
-    """Return what can be drawn of a study, complete or not, by name."""
+def study_figures(found: Opened, units: str = "si") -> dict[str, Figure]:
+    """Return what can be drawn of a study, complete or not, by name, in units ``"si"`` or ``"us"``."""
     method, asked = found.told["study"]["method"], found.told["study"]["fragility"]
     drawn = {
-        "bands": bands_figure(found),
-        "fragility": fragility_figure(found) if asked else None,
-        "slips": slips_figure(found),
+        "bands": bands_figure(found, units),
+        "fragility": fragility_figure(found, units) if asked else None,
+        "slips": slips_figure(found, units),
         "modes": modes_figure(found),
         "sobol": sobol_figure(found) if method == "sensitivity" else None,
-        "tornado": tornado_figure(found) if method == "one at a time" else None,
+        "tornado": tornado_figure(found, units) if method == "one at a time" else None,
     }
     return {name: figure for name, figure in drawn.items() if figure is not None}

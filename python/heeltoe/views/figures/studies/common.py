@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from heeltoe.motion.intensity import MEASURES
 from heeltoe.study.opened import Opened
 from heeltoe.units.parse import STANDARD_GRAVITY
+from heeltoe.units.systems import INCH
 from heeltoe.views.figures.style import heading
 
 #: Okabe and Ito's, with dashes beside them, for models, limits and whatever else is told apart.
@@ -54,6 +55,11 @@ def measured(measure: str, period: Any) -> Strength:
     if unit == "m/s^2":
         return Strength(measure, period, STANDARD_GRAVITY, f"{name} [g]")
     return Strength(measure, period, 1.0, f"{name} [{unit}]")
+
+
+def slip_scale(units: str) -> tuple[float, str]:
+    """Return what a slip in metres is multiplied by along an axis, and its unit."""
+    return (1.0 / INCH, "in") if units == "us" else (1e3, "mm")
 
 
 def farthest(found: Opened) -> float:

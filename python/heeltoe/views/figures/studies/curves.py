@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
@@ -13,44 +15,45 @@ from heeltoe.study.fragility import Curve, observed
 from heeltoe.study.opened import Opened
 from heeltoe.study.walk import SHAKEN
 from heeltoe.units.write import length
-from heeltoe.views.figures.studies.common import LINES, Strength, farthest, headed, measured, strength_of
+from heeltoe.views.figures.studies.common import LINES, Strength, farthest, headed, measured, slip_scale, strength_of
 from heeltoe.views.figures.style import WIDTH, styled
+from heeltoe.views.words.studies import limit_of
 
 #: More curves than these are a cloud: evenly chosen ones stand for them.
 _CURVES = 200
 _SLIP = "residual_slip_m"
-_LIMITS = {"residual_slip": "residual slip", "peak_slip": "peak slip", "opening": "opening", "rotation": "rotation"}
 
 
 @styled
-def bands_figure(found: Opened) -> Figure | None:
+def bands_figure(found: Opened, units: str = "si") -> Figure | None:
     """Draw what 16, 50 and 84 % of the runs stay below, by the strength of the motion; of an incremental dynamic
     analysis each motion beside. None where no strength varies or nothing slides."""
     strength, largest = strength_of(found), farthest(found)
     by_model = found.bands(_SLIP, strength.measure, strength.period)
     if not largest > JOINT_METER_M or max(len(each["strength"]) for each in by_model.values()) < 2:
         return None
-    names = list(by_model)
+    names, (scale, unit) = list(by_model), slip_scale(units)
+    edge = scale * JOINT_METER_M / 2.0
     figure = Figure(figsize=(WIDTH, 4.2 if len(names) == 1 else 3.8), layout="constrained")
     panels = figure.subplots(1, len(names), sharex=True, sharey=True, squeeze=False)[0]
     thin = _single_curves(found, strength) if found.complete and (found.walk.strengths or 1) > 1 else None
     for name, axes in zip(names, panels, strict=True):
         which = found.walk.models.index(name)
         if thin is not None:
-            _thin(axes, thin[0][..., which], thin[1][..., which])
-        _band(axes, by_model[name], strength.scale)
+            _thin(axes, thin[0][..., which], np.maximum(scale * thin[1][..., which], edge))
+        _band(axes, by_model[name], strength.scale, lambda slip: np.maximum(scale * slip, edge))
         if not np.isfinite(by_model[name]["low"]).any():
             axes.text(0.5, 0.5, "no run has a slip", transform=axes.transAxes, ha="center")
         axes.set_title(f"{name} model", fontsize=9, loc="left")
         axes.set_xlabel(strength.label)
     axes = panels[0]
     axes.set_yscale("log")
-    axes.set_ylim(1e3 * JOINT_METER_M / 2.0, 2.0 * 1e3 * largest)
+    axes.set_ylim(edge, 2.0 * scale * largest)
     axes.set_xlim(0.0, None)
-    axes.set_ylabel("residual slip, either way [mm]")
+    axes.set_ylabel(f"residual slip, either way [{unit}]")
     panels[-1].legend(loc="lower right", fontsize=8)
     shown = "thin: one dam in one motion" if thin is not None else "over all that varies"
-    return headed(figure, found, shown, "slips below 0.05 mm stand on the lower edge")
+    return headed(figure, found, shown, f"slips below {length(JOINT_METER_M / 2.0, units)} stand on the lower edge")
 
 
 def _single_curves(found: Opened, strength: Strength) -> tuple[Floats, Floats]:
@@ -70,19 +73,17 @@ def _single_curves(found: Opened, strength: Strength) -> tuple[Floats, Floats]:
     return of.reshape(shape), slip.reshape(shape)
 
 
-def _thin(axes: Axes, strength: Floats, slip: Floats) -> None:
-    # What is less than a joint meter reads stands on the lower edge.
-    seen = 1e3 * np.maximum(slip, JOINT_METER_M / 2.0)
+def _thin(axes: Axes, strength: Floats, seen: Floats) -> None:
     order = np.argsort(strength, axis=1)
     lines = np.stack([np.take_along_axis(each, order, axis=1) for each in (strength, seen)], axis=-1)
     axes.add_collection(LineCollection(list(lines), colors="#999999", linewidths=0.5, alpha=0.6, zorder=1))
 
 
-def _band(axes: Axes, band: dict[str, list[float]], scale: float) -> None:
+def _band(axes: Axes, band: dict[str, list[float]], scale: float, seen: Callable[[Floats], Floats]) -> None:
     middle = np.array(band["strength"]) / scale
     low, median, high = (
         # Runs without a result count as infinitely far; the line ends there.
-        1e3 * np.where(np.isfinite(each), np.maximum(each, JOINT_METER_M / 2.0), np.nan)
+        seen(np.where(np.isfinite(each), each, np.nan))
         for each in (np.array(band[name]) for name in ("low", "median", "high"))
     )
     colour = LINES[0][0]
@@ -101,7 +102,7 @@ def _band(axes: Axes, band: dict[str, list[float]], scale: float) -> None:
 
 
 @styled
-def fragility_figure(found: Opened) -> Figure | None:
+def fragility_figure(found: Opened, units: str = "si") -> Figure | None:
     """Draw the fragility curves with what they lie within, and the shares of the runs that exceed; None without runs
     on which one could stand."""
     asked = found.told["study"]["fragility"]
@@ -110,15 +111,18 @@ def fragility_figure(found: Opened) -> Figure | None:
         return None
     strength = measured(asked["measure"], asked["period"])
     models = list(dict.fromkeys(name for name, _ in fitted))
+    limits = list(dict.fromkeys((limit, value) for _, limit, value in found.counted))
     figure = Figure(figsize=(WIDTH, 4.4), layout="constrained")
     panels = figure.subplots(1, len(models), sharex=True, sharey=True, squeeze=False)[0]
     strongest = max(tally.highest for tally in found.counted.values()) / strength.scale
     x = np.linspace(0.0, strongest, 241)[1:]
     for name, axes in zip(models, panels, strict=True):
-        for place, curve in enumerate(each for of, each in fitted if of == name):
+        for curve in (each for of, each in fitted if of == name):
+            look = LINES[limits.index((curve.limit, curve.value)) % len(LINES)]
             middle, shares = observed(found.counted[name, curve.limit, curve.value])
             points = (np.array(middle) / strength.scale, np.array(shares))
-            _curve(axes, curve, (x, strength.scale), points, LINES[place % len(LINES)])
+            label = limit_of(curve.limit, curve.value, units)
+            _curve(axes, curve, (x, strength.scale), points, (*look, label))
         axes.set_title(f"{name} model", fontsize=9, loc="left")
         axes.set_xlabel(strength.label)
         axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.16), fontsize=8, ncols=3 if len(models) == 1 else 1)
@@ -131,19 +135,11 @@ def fragility_figure(found: Opened) -> Figure | None:
 
 
 def _curve(
-    axes: Axes, curve: Curve, along: tuple[Floats, float], points: tuple[Floats, Floats], look: tuple[str, str]
+    axes: Axes, curve: Curve, along: tuple[Floats, float], points: tuple[Floats, Floats], look: tuple[str, str, str]
 ) -> None:
-    (x, scale), (colour, dash) = along, look
-    amount = f"{curve.value:.3g} rad" if curve.limit == "rotation" else length(curve.value, "si")
+    (x, scale), (colour, dash, label) = along, look
     strength = x * scale
-    axes.plot(
-        x,
-        curve.probability(strength),
-        color=colour,
-        linestyle=dash,
-        linewidth=1.8,
-        label=f"{_LIMITS[curve.limit]} {amount}",
-    )
+    axes.plot(x, curve.probability(strength), color=colour, linestyle=dash, linewidth=1.8, label=label)
     within = curve.within(strength)
     if within is not None:
         axes.fill_between(x, *within, color=colour, alpha=0.15, linewidth=0.0)

@@ -8,7 +8,8 @@ from matplotlib.figure import Figure
 from heeltoe.result.contract import JOINT_METER_M
 from heeltoe.study.answers import MODES, farther, modes
 from heeltoe.study.opened import Opened
-from heeltoe.views.figures.studies.common import LINES, farthest, headed, strength_of
+from heeltoe.units.write import length
+from heeltoe.views.figures.studies.common import LINES, farthest, headed, slip_scale, strength_of
 from heeltoe.views.figures.style import MODE_COLOURS, MODE_HATCHES, WIDTH, styled
 
 _KINDS = {"sliding": "slide", "slide_rocking": "slide-rock", "drifting": "drift"}
@@ -17,12 +18,13 @@ _POINTS = 400
 
 
 @styled
-def slips_figure(found: Opened) -> Figure | None:
+def slips_figure(found: Opened, units: str = "si") -> Figure | None:
     """Draw which share of the runs of each model slides farther than so much; None where nothing slides."""
     largest = farthest(found)
     if not largest > JOINT_METER_M:
         return None
     x = np.geomspace(JOINT_METER_M, largest, _POINTS)
+    scale, unit = slip_scale(units)
     beyond, known = farther(found.walk, x)
     figure = Figure(figsize=(WIDTH, 3.6), layout="constrained")
     axes = figure.subplots()
@@ -33,14 +35,14 @@ def slips_figure(found: Opened) -> Figure | None:
         colour, dash = LINES[place % len(LINES)]
         lost = each["runs"] - known[which]
         text = f"{each['model']} model" + (f", {lost:,} without a slip left out" if lost else "")
-        axes.plot(1e3 * x, beyond[which] / known[which], color=colour, linestyle=dash, linewidth=1.8, label=text)
+        axes.plot(scale * x, beyond[which] / known[which], color=colour, linestyle=dash, linewidth=1.8, label=text)
     axes.set_xscale("log")
     axes.set_ylim(0.0, None)
-    axes.set_xlim(1e3 * x[0], 1e3 * x[-1])
-    axes.set_xlabel("residual slip, either way [mm]")
+    axes.set_xlim(scale * x[0], scale * x[-1])
+    axes.set_xlabel(f"residual slip, either way [{unit}]")
     axes.set_ylabel("share of the runs that slide farther")
     axes.legend(loc="upper right")
-    return headed(figure, found, "farther than a joint meter's 0.1 mm")
+    return headed(figure, found, f"farther than a joint meter's {length(JOINT_METER_M, units)}")
 
 
 @styled

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from heeltoe.study.opened import Opened
-from heeltoe.views.figures.studies.common import headed
+from heeltoe.views.figures.studies.common import headed, slip_scale
 from heeltoe.views.figures.style import COLOURS, WIDTH, styled
 
 _HIGH, _LOW = COLOURS["rotation"], COLOURS["slip"]
@@ -42,20 +42,23 @@ def sobol_figure(found: Opened) -> Figure | None:
 
 
 @styled
-def tornado_figure(found: Opened) -> Figure | None:
+def tornado_figure(found: Opened, units: str = "si") -> Figure | None:
     """Draw what each field by itself makes of the slip; None where no motion gave a result for all dams."""
     by_model = {name: told for name, told in found.tornado().items() if told["fields"]}
     if not by_model:
         return None
     figure, panels = _panels(by_model, max(len(each["fields"]) for each in by_model.values()))
+    scale, unit = slip_scale(units)
     for axes, (name, told) in zip(panels, by_model.items(), strict=True):
         fields = told["fields"][::-1]
         for row, each in enumerate(fields):
-            _bar(axes, row, each["values"], told["base"])
-        axes.axvline(1e3 * told["base"], color="#444444", linewidth=0.8)
+            _bar(
+                axes, row, [(str(end["value"]), scale * end["demand"]) for end in each["values"]], scale * told["base"]
+            )
+        axes.axvline(scale * told["base"], color="#444444", linewidth=0.8)
         axes.margins(x=0.15)
         _rows(axes, [each["name"] for each in fields])
-        axes.set_xlabel("residual slip, either way, mean of the motions [mm]")
+        axes.set_xlabel(f"residual slip, either way, mean of the motions [{unit}]")
         axes.set_title(f"{name} model{_left_out(told['left_out'], 'motions')}", fontsize=9, loc="left")
     return headed(figure, found, "one field at a time; the line is the case as it is")
 
@@ -65,18 +68,16 @@ def _panels(by_model: Mapping[str, Any], rows: int) -> tuple[Figure, list[Axes]]
     return figure, list(figure.subplots(len(by_model), 1, sharex=True, squeeze=False)[:, 0])
 
 
-def _bar(axes: Axes, row: int, values: list[dict[str, Any]], base: float) -> None:
-    ends = sorted(values, key=lambda each: float(each["demand"]))
-    for end, colour, side in ((ends[0], _LOW, "right"), (ends[-1], _HIGH, "left")):
-        at = 1e3 * end["demand"]
-        outward = at >= 1e3 * base if side == "left" else at <= 1e3 * base
+def _bar(axes: Axes, row: int, values: list[tuple[str, float]], base: float) -> None:
+    """Draw how far the slip goes from that of the case, to either side, and at which values."""
+    ends = sorted(values, key=lambda each: each[1])
+    for (text, at), colour, side in ((ends[0], _LOW, "right"), (ends[-1], _HIGH, "left")):
+        outward = at >= base if side == "left" else at <= base
         if not outward:
             continue  # all values lie on the other side of the case
-        axes.barh(row, at - 1e3 * base, 0.6, left=1e3 * base, color=colour)
+        axes.barh(row, at - base, 0.6, left=base, color=colour)
         shift = (4.0 if side == "left" else -4.0, 0.0)
-        axes.annotate(
-            str(end["value"]), (at, row), shift, textcoords="offset points", ha=side, va="center", fontsize=8, zorder=5
-        )
+        axes.annotate(text, (at, row), shift, textcoords="offset points", ha=side, va="center", fontsize=8, zorder=5)
 
 
 def _rows(axes: Axes, names: list[str]) -> None:

@@ -1,0 +1,236 @@
+"""The answers of a study in its report: results, fragility, measures of strength, what the slip hangs on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from heeltoe.motion.intensity import MEASURES
+from heeltoe.result.contract import HEADLINES
+from heeltoe.study.answers import MODES
+from heeltoe.units.parse import STANDARD_GRAVITY
+from heeltoe.units.write import NOTHING, digits, length
+from heeltoe.views.report.content import Block, Code, Inline, Section, Strong, Table, paragraph
+from heeltoe.views.words.studies import TRAITS, limit_of
+
+if TYPE_CHECKING:
+    from heeltoe.views.report.study import StudySubject
+
+_SHARES = (("50%", "half stay below"), ("84%", "84 % stay below"), ("95%", "95 % stay below"), ("largest", "largest"))
+_A = {"residual_slip": "a", "peak_slip": "a", "opening": "an", "rotation": "a"}
+_SHOWN = ("residual_slip_m", "opening_upstream_m", "rocking_upstream_rad")
+
+
+def answer(subject: StudySubject) -> list[Block]:
+    """Return what the study says in a few sentences, model by model."""
+    found: list[Block] = []
+    for each in subject.found.summary:
+        slip = each["residual_slip_m"]
+        said = f"{_percent(each['share_that_slides'])} of {each['runs']:,} runs slide more than a joint meter reads"
+        if slip["50%"] is not None:
+            amounts = [length(slip[name], subject.units) if slip[name] else "0" for name in ("50%", "84%", "largest")]
+            said += f"; the residual slip, positive downstream, has the median {amounts[0]}, 84 % stay below "
+            said += f"{amounts[1]}, and the farthest run ends at {amounts[2]}"
+        said = f"{said}. " + " ".join(_exceeded(subject, each["model"]))
+        found.append(paragraph(Strong(f"Answer, {each['model']} model. "), said.strip()))
+    return found
+
+
+def _exceeded(subject: StudySubject, model: str) -> list[str]:
+    said = []
+    for each in subject.found.fragility if subject.study["fragility"] else ():
+        if each["model"] != model:
+            continue
+        what = f"{_A[each['limit']]} {limit_of(each['limit'], each['value'], subject.units, ' of')}"
+        if each["median"] is None:
+            said.append(f"Of {what}: {each['why']}.")
+            continue
+        middle, within = _strength(each["median"], each["measure"]), each["median_interval"]
+        ends = (
+            f" ({_strength(within[0], each['measure'])} to {_strength(within[1], each['measure'])})" if within else ""
+        )
+        guess = "" if each["reached"] else ", which no motion here has"
+        said.append(f"Half of the dams exceed {what} at a {_named(each)} of {middle}{ends}{guess}.")
+    return said
+
+
+def results(subject: StudySubject) -> Section:
+    """Return the section on how runs ended, how far they slide and by which mode."""
+    summary, n = subject.found.summary, subject.numbers
+    places = range(len(summary))
+    head = ("", *(each["model"] for each in summary))
+    align = "l" + "r" * len(summary)
+    outcomes = sorted({name for each in summary for name in each["outcomes"]})
+    ended: list[tuple[Inline, ...]] = [("all runs", *(f"{each['runs']:,}" for each in summary))]
+    ended += [(name, *(f"{each['outcomes'].get(name, 0):,}" for each in summary)) for name in outcomes]
+    labels = {each.key: each.label for each in HEADLINES}
+    rows: list[tuple[Inline, ...]] = [
+        ("that slide", *(_percent(each["share_that_slides"]) for each in summary)),
+        *(
+            (f"{labels[key]}: {what}", *(n(f"summary.{place}.{key}.{name}", _QUANTITIES[key]) for place in places))
+            for key in _SHOWN
+            for name, what in _SHARES
+        ),
+        *(
+            (f"most of the slip by {mode.replace('_', '-')}", *(_share(each, mode) for each in summary))
+            for mode in MODES
+            if any(each["dominant_mode"].get(mode) for each in summary)
+        ),
+    ]
+    return Section(
+        "Results",
+        (
+            Table(head, tuple(ended), "How the runs ended.", align),
+            Table(head, tuple(rows), "How the numbers are distributed; slip positive downstream.", align),
+            *subject.figure("bands", "slips", "modes"),
+        ),
+    )
+
+
+_QUANTITIES = {
+    "residual_slip_m": "displacement",
+    "opening_upstream_m": "displacement",
+    "rocking_upstream_rad": "rotation",
+}
+
+
+def _share(each: dict[str, Any], mode: str) -> str:
+    return _percent(each["dominant_mode"][mode]) if each["dominant_mode"] else NOTHING
+
+
+def fragility(subject: StudySubject) -> Section | None:
+    """Return the section with the fragility curves, where the study asks for some."""
+    asked = subject.study["fragility"]
+    if asked is None:
+        return None
+    curves = subject.found.fragility
+    rows: list[tuple[Inline, ...]] = []
+    for each in curves:
+        what = limit_of(each["limit"], each["value"], subject.units)
+        label = f"{what}, {each['model']}" if len(subject.found.walk.models) > 1 else what
+        exceeding = f"{each['exceeding']:,} of {each['runs']:,}"
+        if each["median"] is None:
+            rows.append((label, each["why"], "", "", "", exceeding))
+            continue
+        median = _strength(each["median"], each["measure"]) + ("" if each["reached"] else " *")
+        spread = f"{each['dispersion']:.2f}"
+        within, about = each["median_interval"], each["dispersion_interval"]
+        if within:
+            median += f" ({_strength(within[0], each['measure'])} to {_strength(within[1], each['measure'])})"
+            spread += f" ({about[0]:.2f} to {about[1]:.2f})"
+        rows.append((label, median, spread, *(_part(each[name]) for name in ("record", "other")), exceeding))
+    head = ("exceeded", f"median {_named(asked)}", "dispersion", "from event to event", "other", "runs that exceed")
+    text = (
+        f"Lognormal curves of greatest likelihood over {_named(asked)}. In brackets what median and dispersion lie "
+        f"within with {asked['confidence']:.0%}, from leaving out one event at a time. Dams that overturn, do not "
+        "stand or turn too far for small rotations exceed every limit."
+    )
+    if any(each["median"] is not None and not each["reached"] for each in curves):
+        text += " * stronger or weaker than any motion here: a guess."
+    unknown = max((each["unknown"] for each in curves), default=0)
+    if unknown:
+        text += f" {unknown:,} runs without a result are behind no curve."
+    table = Table(head, tuple(rows), "Fragility.", "llllrr", (3.0, 3.0, 2.6, 1.3, 1.0, 2.0))
+    return Section("Fragility", (paragraph(text), table, *subject.figure("fragility")))
+
+
+def measures_compared(subject: StudySubject) -> Section | None:
+    """Return the section that compares measures of the strength of motions, where there are several motions."""
+    if len({each["name"] for each in subject.found.told["motions"]}) < 2:
+        return None
+    blocks: list[Block] = []
+    for model, told in subject.found.compared().items():
+        if not told["measures"]:
+            continue
+        traits = [name for name in TRAITS if any(each["sufficiency"].get(name) for each in told["measures"])]
+        rows = tuple(
+            (each["measure"], f"{each['efficiency']:.2f}", *(_p(each["sufficiency"][name]) for name in traits))
+            for each in told["measures"]
+        )
+        left = f"{told['at_rest']:,} that slide no 0.1 mm and {told['unknown']:,} without a slip left out"
+        caption = f"Measures of strength, {model} model, over {told['runs']:,} runs; {left}."
+        head = ("measure", "scatter", *(f"p, {TRAITS[name]}" for name in traits))
+        blocks.append(Table(head, rows, caption, "l" + "r" * (len(head) - 1)))
+    if not blocks:
+        return None
+    text = (
+        "How well each measure foretells the residual slip: the scatter is the standard deviation of the logarithm of "
+        "the slip about a line over the logarithm of the measure; less is better. A small p says that what is left "
+        "over hangs on something else of the events; with few events a large one says little."
+    )
+    return Section("Measures of strength compared", (paragraph(text), *blocks))
+
+
+def hangs_on(subject: StudySubject) -> Section | None:
+    """Return the section on what the slip hangs on, where the study is made for it."""
+    method, found = subject.study["method"], subject.found
+    if method == "sensitivity":
+        blocks = [_sobol(model, told) for model, told in found.sensitivity().items()]
+    elif method == "one at a time":
+        blocks = [_tornado(model, told, subject.units) for model, told in found.tornado().items()]
+    else:
+        return None
+    return Section("What the slip hangs on", (*blocks, *subject.figure("sobol", "tornado")))
+
+
+def _sobol(model: str, told: dict[str, Any]) -> Block:
+    if not told["indices"]:
+        return paragraph(f"No indices of the {model} model: the slip does not vary.")
+    rows: tuple[tuple[Inline, ...], ...] = tuple(
+        (Code(each["name"]), *(_within(each[kind], each[f"{kind}_interval"]) for kind in ("first", "total")))
+        for each in told["indices"]
+    )
+    left = f"; {told['left_out']:,} left out with a run without a slip" if told["left_out"] else ""
+    caption = f"Sobol’s indices, {model} model, {told['confidence']:.0%} intervals, over {told['rows']:,} rows{left}."
+    return Table(("field", "by itself", "with all others"), rows, caption, "lrr")
+
+
+def _tornado(model: str, told: dict[str, Any], units: str) -> Block:
+    if told["base"] is None:
+        return paragraph(
+            f"No motion gave every dam of the {model} model a slip: nothing can be held against each other."
+        )
+    rows: list[tuple[Inline, ...]] = []
+    for each in told["fields"]:
+        ends = sorted(each["values"], key=lambda end: float(end["demand"]))
+        rows.append(
+            (Code(each["name"]), *(f"{_length(end['demand'], units)} ({end['value']})" for end in (ends[0], ends[-1])))
+        )
+    left = f"; {told['left_out']:,} left out" if told["left_out"] else ""
+    caption = (
+        f"Mean residual slip, {model} model, over {told['motions']:,} motions at their strengths{left}; "
+        f"{_length(told['base'], units)} as the case is."
+    )
+    return Table(("field", "from", "to"), tuple(rows), caption, "lrr")
+
+
+def _within(value: float, interval: Sequence[float]) -> str:
+    return f"{value:.2f} ({interval[0]:.2f} to {interval[1]:.2f})"
+
+
+def _length(value: float, units: str) -> str:
+    return length(value, units) if value else "0"
+
+
+def _p(line: dict[str, float] | None) -> str:
+    return NOTHING if line is None else f"{line['p']:.2f}"
+
+
+def _part(value: float | None) -> str:
+    return NOTHING if value is None else f"{value:.2f}"
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.1f} %"
+
+
+def _named(asked: dict[str, Any]) -> str:
+    period = asked.get("period")
+    name = str(asked["measure"])
+    name = name.upper() if name in ("pga", "pgv") else name
+    return f"{name} at {period}" if period else name
+
+
+def _strength(value: float, measure: str) -> str:
+    unit = MEASURES[measure][0] if measure in MEASURES else "m/s^2"
+    return f"{digits(value / STANDARD_GRAVITY, 3)} g" if unit == "m/s^2" else f"{digits(value, 3)} {unit}"
