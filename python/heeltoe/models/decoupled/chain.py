@@ -18,11 +18,11 @@ from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.kept import Kept
 from heeltoe.mechanics.block import Block, build_block
+from heeltoe.models.flexible.bonded import fingerprints
 from heeltoe.models.flexible.cost import Part, building, check_cost, parts_of
 from heeltoe.models.flexible.elastic import Sparse, dam, dofs, side_by_side
 from heeltoe.models.flexible.mesh.dam import BodyMesh, dam_mesh
 from heeltoe.models.flexible.modes import lowest
-from heeltoe.models.flexible.reduced import fingerprints
 
 #: Modes that are kept: the lowest, up to so many, and none with a shorter period [s]. Nothing in an accelerogram is as
 #: fast; faster modes move with the ground, as all that is left out does.

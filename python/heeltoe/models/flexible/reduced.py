@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass, replace
-from hashlib import sha256
 
 import numpy as np
 
@@ -15,12 +13,11 @@ from heeltoe.geometry.axes import along_and_across, places
 from heeltoe.geometry.section import CutSection
 from heeltoe.kept import Kept
 from heeltoe.kernel.dam import CrackedDam
-from heeltoe.models.flexible.cost import building, check_cost, part_of
+from heeltoe.models.flexible.bonded import NOT_OF_DAM, BondedDam, bonded_dam, told
 from heeltoe.models.flexible.damping import Damping, damping_of
-from heeltoe.models.flexible.elastic import Body, Dam, bonded_state, dam
+from heeltoe.models.flexible.elastic import Body
 from heeltoe.models.flexible.inside import CrackAnchor, FollowingWater, crack_anchors, following_water
-from heeltoe.models.flexible.mesh.dam import dam_mesh
-from heeltoe.models.flexible.modes import Modes, enough_modes, error_frequency, reduce, residual_error
+from heeltoe.models.flexible.modes import Modes
 from heeltoe.models.flexible.stance import elastic_give
 
 
@@ -77,15 +74,13 @@ class Start:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class FlexibleDam(Dam):
+class FlexibleDam(BondedDam):
     """A dam ready to be shaken: its elastic bodies in their modes.
 
     Attributes
     ----------
     section
         The part above the crack.
-    modes
-        Of each body.
     reduced
         The bodies in their modes, as the kernel takes them.
     kernel
@@ -98,9 +93,6 @@ class FlexibleDam(Dam):
         (2, k) forces on the upper body's crack nodes in it, along and across the crack [N].
     damping
         That of the concrete, with the periods of the intact dam.
-    basis_error
-        Largest error of the crack's flexibility by the modes left out, see
-        :func:`heeltoe.models.flexible.modes.error_frequency`; 0 where none is.
     water, anchors
         What acts in the crack beside contact: water whose pressure changes, anchors with stiffness.
     give
@@ -108,14 +100,12 @@ class FlexibleDam(Dam):
     """
 
     section: CutSection
-    modes: tuple[Modes, ...]
     reduced: tuple[ReducedBody, ...]
     kernel: CrackedDam
     start: Start
     static: tuple[Floats, ...]
     crack_force: Floats
     damping: Damping
-    basis_error: float
     water: FollowingWater | None
     anchors: tuple[CrackAnchor, ...]
     give: tuple[float, float]
@@ -143,70 +133,42 @@ def build_flexible_dam(case: Case) -> FlexibleDam:
         Where the case has no modulus, or a mesh cannot be made or used.
     """
     expect(case, Case, "not-a-case", "case")
-    # The earthquake plays no part, and files may change under their name.
-    key = (case.model_dump_json(exclude={"motion", "title", "analysis"}), *fingerprints(case))
-    return _KEPT.get(key, lambda: _build(case))
-
-
-def fingerprints(case: Case) -> list[str]:
-    """Return what the mesh files contain, as a hash; a missing one is the reader's to complain about."""
-    found = []
-    for name in (case.flexible.mesh_above, case.flexible.mesh_below):
-        path = case.base_directory / name if name else None
-        found.append(sha256(path.read_bytes()).hexdigest() if path and os.path.isfile(path) else "")
-    return found
+    return _KEPT.get(told(case, NOT_OF_DAM), lambda: _build(case))
 
 
 def _build(case: Case) -> FlexibleDam:
-    mesh = dam_mesh(case)
-    check_cost(case, building([part_of(case, each.crack.size, each.nodes.size) for each in mesh.parts]))
-    bonded = dam(case, mesh)
-    bodies = bonded.bodies
-    *bent, crack_force = bonded_state(bonded)
-    modes, errors = _modes(case, bonded)
+    bonded = bonded_dam(case)
+    bodies, modes = bonded.bodies, bonded.modes
     damping = damping_of(case, bonded, modes)
     reduced = tuple(
         _reduced(body, basis, still, damping, place, case.cut)
-        for place, (body, basis, still) in enumerate(zip(bodies, modes, bent, strict=False))
+        for place, (body, basis, still) in enumerate(zip(bodies, modes, bonded.bent, strict=True))
     )
     water, anchors = following_water(case, bodies), crack_anchors(case, bodies)
-    give = elastic_give(case, case.cut, crack_force)
+    give = elastic_give(case, case.cut, bonded.bonded_force)
     kernel = _cracked(case, reduced, water, anchors, give)
     # The penalty method begins with its crack bonded and its springs unloaded.
     exact = case.flexible.contact == "coulomb"
-    static, start = tuple(bent[: len(bodies)]), Start(not exact, 0.0, 0)
-    force = along_and_across(crack_force.reshape(-1, 2), case.cut).T
+    static, start = bonded.bent, Start(not exact, 0.0, 0)
+    force = along_and_across(bonded.bonded_force.reshape(-1, 2), case.cut).T
     rest = kernel.still() if exact else None
     if rest is not None:
         start = Start(True, rest.slip, rest.open_contacts)
         static = tuple(basis.shapes @ q for basis, q in zip(modes, rest.modes, strict=False))
         force = rest.force
     return FlexibleDam(
-        bodies=bodies,
-        tie=bonded.tie,
+        **vars(bonded),
         section=case.cut,
-        modes=modes,
         reduced=reduced,
         kernel=kernel,
         start=start,
         static=static,
         crack_force=force,
         damping=damping,
-        basis_error=max(errors),
         water=water,
         anchors=anchors,
         give=give,
     )
-
-
-def _modes(case: Case, bonded: Dam) -> tuple[tuple[Modes, ...], list[float]]:
-    """Return the modes of each body and the error that those left out make."""
-    if case.flexible.modes is None:
-        found = [enough_modes(body, bonded) for body in bonded.bodies]
-        return tuple(modes for modes, _ in found), [error for _, error in found]
-    modes = tuple(reduce(body, case.flexible.modes) for body in bonded.bodies)
-    circular = error_frequency(bonded)
-    return modes, [residual_error(body, basis, circular) for body, basis in zip(bonded.bodies, modes, strict=True)]
 
 
 def _cracked(

@@ -1,0 +1,107 @@
+"""What dams share that differ in friction, damping, or in what only their runs read: mesh, matrices, static loads with
+the crack bonded, and modes. Nearly all of the time that setting up takes goes into these."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from hashlib import sha256
+from typing import Any
+
+from heeltoe.arrays import Floats
+from heeltoe.case.model import Case
+from heeltoe.kept import Kept
+from heeltoe.models.flexible.cost import building, check_cost, part_of
+from heeltoe.models.flexible.elastic import Dam, bonded_state, dam
+from heeltoe.models.flexible.mesh.dam import dam_mesh
+from heeltoe.models.flexible.modes import Modes, enough_modes, error_frequency, reduce, residual_error
+
+# The earthquake plays no part in any dam, nor does what is asked of a run or read by other models.
+_OF_RUNS = ("time_step", "evidence", "theta", "penalty_factor", "newmark_gamma", "newmark_beta")
+_ANY: Any = dict.fromkeys(("title", "motion", "analysis", "limits", "statics", "decoupled"), True)
+#: What a dam that is ready to be shaken does not depend on.
+NOT_OF_DAM: Any = _ANY | {"crack": {"restitution"}, "flexible": set(_OF_RUNS)}
+#: What its modes do not depend on.
+NOT_OF_MODES: Any = _ANY | {
+    "crack": {"restitution", "friction", "static_friction", "kinetic_friction"},
+    "concrete": {"damping"},
+    "flexible": {*_OF_RUNS, "damping", "damping_on_water", "contact", "contactors"},
+}
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BondedDam(Dam):
+    """A dam with its crack bonded.
+
+    Attributes
+    ----------
+    bent
+        (2 n,) displacements of each body under the static loads [m].
+    bonded_force
+        (2 k,) forces on the upper body's crack nodes then, x and z in turn [N].
+    modes
+        Of each body.
+    basis_error
+        Largest error of the crack's flexibility by the modes left out, see
+        :func:`heeltoe.models.flexible.modes.error_frequency`; 0 where none is.
+    """
+
+    bent: tuple[Floats, ...]
+    bonded_force: Floats
+    modes: tuple[Modes, ...]
+    basis_error: float
+
+
+_KEPT: Kept[BondedDam] = Kept(4)
+
+
+def bonded_dam(case: Case) -> BondedDam:
+    """Mesh and assemble both parts of a case and find their modes; the last few are kept.
+
+    Raises
+    ------
+    InputError
+        Where the case has no modulus, or a mesh cannot be made or used.
+    """
+    return _KEPT.get(told(case, NOT_OF_MODES), lambda: _build(case))
+
+
+def told(case: Case, left_out: Any) -> tuple[str, ...]:
+    """Return a case without what is left out, with what its mesh files contain."""
+    return case.model_dump_json(exclude=left_out), *fingerprints(case)
+
+
+def fingerprints(case: Case) -> list[str]:
+    """Return what the mesh files contain, as a hash, since they may change under their name; a missing one is the
+    reader's to complain about."""
+    found = []
+    for name in (case.flexible.mesh_above, case.flexible.mesh_below):
+        path = case.base_directory / name if name else None
+        found.append(sha256(path.read_bytes()).hexdigest() if path and os.path.isfile(path) else "")
+    return found
+
+
+def _build(case: Case) -> BondedDam:
+    mesh = dam_mesh(case)
+    check_cost(case, building([part_of(case, each.crack.size, each.nodes.size) for each in mesh.parts]))
+    bonded = dam(case, mesh)
+    *bent, force = bonded_state(bonded)
+    modes, errors = _modes(case, bonded)
+    return BondedDam(
+        bodies=bonded.bodies,
+        tie=bonded.tie,
+        bent=tuple(bent[: len(bonded.bodies)]),
+        bonded_force=force,
+        modes=modes,
+        basis_error=max(errors),
+    )
+
+
+def _modes(case: Case, bonded: Dam) -> tuple[tuple[Modes, ...], list[float]]:
+    """Return the modes of each body and the error that those left out make."""
+    if case.flexible.modes is None:
+        found = [enough_modes(body, bonded) for body in bonded.bodies]
+        return tuple(modes for modes, _ in found), [error for _, error in found]
+    modes = tuple(reduce(body, case.flexible.modes) for body in bonded.bodies)
+    circular = error_frequency(bonded)
+    return modes, [residual_error(body, basis, circular) for body, basis in zip(bonded.bodies, modes, strict=True)]

@@ -1,0 +1,70 @@
+"""Dams share what they have in common: nothing else, and the same bits as if each were built by itself."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from heeltoe import InputError, build_flexible_dam, read_case
+from heeltoe.models.flexible import bonded, reduced
+from shared.dams import example
+from shared.every_field import leaves, pair
+
+BASE = ["flexible.elements_across=4"]
+
+
+@pytest.fixture(autouse=True)
+def forgotten(monkeypatch):
+    for module in (bonded, reduced):
+        monkeypatch.setattr(module, "_KEPT", type(module._KEPT)(4))
+
+
+def typical(*changes):
+    return example("typical-base", *BASE, *changes)
+
+
+@pytest.mark.parametrize("change", ["crack.friction=0.7", "concrete.damping=0.02", 'flexible.damping="stiffness"'])
+def test_dams_share_their_modes_and_are_those_built_alone(change, monkeypatch):
+    one, other = build_flexible_dam(typical()), build_flexible_dam(typical(change))
+    assert other is not one
+    assert other.modes is one.modes
+    monkeypatch.setattr(bonded, "_KEPT", type(bonded._KEPT)(4))
+    alone = reduced._build(typical(change))
+    assert alone.modes is not other.modes
+    ground, scales = np.tile([[3.0, 0.0], [-3.0, 0.0]], (200, 1)).repeat(20, axis=0), np.ones((1, 2))
+    runs = [each.kernel.run_many(ground, 2e-4, 0.52, scales, threads=1) for each in (other, alone)]
+    assert {name: values.tolist() for name, values in runs[0].items()} == {
+        name: values.tolist() for name, values in runs[1].items()
+    }
+
+
+@pytest.mark.parametrize("change", ["crack.restitution=0.1", "flexible.time_step='0.1 ms'", "limits.peak_slip='1 m'"])
+def test_what_plays_no_part_builds_nothing(change):
+    assert build_flexible_dam(typical(change)) is build_flexible_dam(typical())
+
+
+@pytest.mark.parametrize("change", ["reservoir.depth='90 m'", "concrete.modulus='30 GPa'", "uplift.pattern='none'"])
+def test_what_bends_a_dam_otherwise_is_built_anew(change):
+    assert build_flexible_dam(typical(change)).modes is not build_flexible_dam(typical()).modes
+
+
+def test_no_field_that_is_left_out_changes_the_modes():
+    seen = []
+    for path, field in leaves():
+        if path.startswith(("motion", "analysis")):
+            continue
+        before, after, _ = pair(path, field, {})
+        try:
+            cases = read_case(before), read_case(after)
+        except InputError:
+            continue
+        if len({bonded.told(case, bonded.NOT_OF_MODES) for case in cases}) == 1:
+            seen.append(path)
+            assert _numbers(cases[0]) == _numbers(cases[1]), path
+    assert {"crack.friction", "crack.static_friction", "concrete.damping", "flexible.contactors"} <= set(seen)
+
+
+def _numbers(case):
+    dam = bonded._build(case)
+    bodies = [(body.load.tobytes(), body.load_per_vertical.tobytes()) for body in dam.bodies]
+    return bodies, [modes.shapes.tobytes() for modes in dam.modes], dam.bonded_force.tobytes()
