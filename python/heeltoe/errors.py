@@ -273,13 +273,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "{value} is at the base: there is nothing below the crack to shake the part above it",
         "use --model rigid or flexible, or give an elevation above the base",
     ),
-    "vary-form": ("{value} varies nothing", "write PATH=VALUE,VALUE, for example crack.friction=0.8,1.0,1.2"),
-    "vary-twice": ("{value} is varied twice", "give all its values at once"),
-    "vary-many": (
-        "{value} runs are too many for a table",
-        "vary less: up to {most} runs, or write a study file for `heeltoe study`",
-    ),
-    "vary-option": ("goes with one run, not with a table of runs", "leave it out, or --vary"),
     # analysis and command line
     "motion-missing": (
         "is required and not there",

@@ -4,6 +4,15 @@ from __future__ import annotations
 
 # As in heeltoe.errors: code -> (what is wrong, what to do).
 OF_STUDIES: dict[str, tuple[str, str]] = {
+    # the option --vary
+    "vary-form": ("{value} varies nothing", "write PATH=VALUE,VALUE, for example crack.friction=0.8,1.0,1.2"),
+    "vary-twice": ("{value} is varied twice", "give all its values at once"),
+    "vary-many": (
+        "{value} runs are too many for a table",
+        "vary less: up to {most} runs, or write a study file for `heeltoe study`",
+    ),
+    "vary-option": ("goes with one run, not with a table of runs", "leave it out, or --vary"),
+    # study files and their directories
     "study-file-missing": ("there is no such file", "give the path of a study file; examples/ has some"),
     "distribution-incomplete": ("is required and not there", "the distribution {distribution} needs it"),
     "distribution-foreign": ("is no number of the distribution {distribution}", "that has {fields}"),

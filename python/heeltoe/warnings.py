@@ -36,7 +36,19 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "the usual loads open {length_m:.2f m} of the crack from its {corner}, {share:.2g %} of its width; the water "
         "that follows lifts with {lift_n:.4g kN/m} more than the uplift of the case, which this run keeps: {remedy}",
     ),
+    "slid-off": (
+        "grave",
+        "",
+        "the part above the crack slides {slip_m:.3g m}, farther than its crack of {width_m:.3g m} is wide: it has "
+        "left what it stood on, and the slip means failure, not a length",
+    ),
     # rigid model
+    "slid-far": (
+        "caution",
+        "",
+        "the block slides {share:.2g %} of the width of its crack: loads, contact and uplift are those of the place "
+        "where it began; heeltoe statics --slip judges where it ends",
+    ),
     "rigid-block": (
         "caution",
         "concrete.modulus",
@@ -78,18 +90,6 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "crack.restitution",
         "most of the slip, {slip_m:.4g mm}, happens in the air after blows that rebound by crack.restitution = "
         "{restitution:g}: compare with 0, which may leave a small part of it",
-    ),
-    "slid-off": (
-        "grave",
-        "",
-        "the block slides {slip_m:.3g m}, farther than its crack of {width_m:.3g m} is wide: it has left what it stood "
-        "on, and the slip means failure, not a length",
-    ),
-    "slid-far": (
-        "caution",
-        "",
-        "the block slides {share:.2g %} of the width of its crack: loads, contact and uplift are those of the place "
-        "where it began; heeltoe statics --slip judges where it ends",
     ),
     "anchor-overloaded": (
         "grave",

@@ -18,6 +18,7 @@ from heeltoe.models.statics.standing import standing_warnings
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.near import near
+from heeltoe.result.contract import TOO_FAR
 from heeltoe.result.limits import check_limits
 from heeltoe.result.response import Chosen, Response
 from heeltoe.warnings import Notice
@@ -264,9 +265,18 @@ def _completed(response: R, case: Case, models: Sequence[str]) -> R:
         return replace(response, warnings=warnings)
     return replace(
         response,
-        warnings=(*warnings, *standing_warnings(case, response.static)),
+        warnings=(*warnings, *_slid_off(case, response), *standing_warnings(case, response.static)),
         limits=check_limits(case.limits, response.summary, response.outcome),
     )
+
+
+def _slid_off(case: Case, response: Response) -> tuple[Notice, ...]:
+    """Say where nothing is left below the part above the crack."""
+    slip = max(abs(response.summary[name]) for name in ("peak_slip_downstream_m", "peak_slip_upstream_m"))
+    width = case.cut.crack_width
+    # Where it tips over the edge it turns too far for small rotations.
+    off = response.outcome in ("ok", TOO_FAR) and slip > width
+    return (Notice("slid-off", slip_m=slip, width_m=width),) if off else ()
 
 
 def _rigid(case: Case, earthquake: Earthquake, output_step: float | None) -> Response:

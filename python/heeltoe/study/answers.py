@@ -35,15 +35,17 @@ def summary(walk: Walk) -> list[dict[str, Any]]:
     total = np.zeros((places, len(keys)))
     known = np.zeros((places, len(keys)), dtype=np.int64)
     largest = np.zeros((places, len(keys)))
-    slid, most = np.zeros(places, dtype=np.int64), np.zeros((places, len(MODES)), dtype=np.int64)
+    slid, off = (np.zeros(places, dtype=np.int64) for _ in range(2))
+    most = np.zeros((places, len(MODES)), dtype=np.int64)
     outcomes: list[Counter[str]] = [Counter() for _ in models]
-    for runs in walk("model", "outcome", *keys, *(f"slip_{mode}_m" for mode in MODES)):
+    for runs in walk("model", "outcome", "slid_off", *keys, *(f"slip_{mode}_m" for mode in MODES)):
         model, (names, code) = runs.model, runs.words("outcome")
         slides, mode = sliding(runs), dominant(runs)
         for place in range(places):
             here = model == place
             ended = np.bincount(code[here], minlength=len(names)).tolist()
             outcomes[place].update({name: count for name, count in zip(names, ended, strict=True) if count})
+            off[place] += np.count_nonzero(runs.table["slid_off"].to_numpy() & here)
             slid[place] += np.count_nonzero(slides & here)
             most[place] += np.bincount(mode[slides & here], minlength=len(MODES))
             for column, key in enumerate(keys):
@@ -60,6 +62,7 @@ def summary(walk: Walk) -> list[dict[str, Any]]:
             "runs": outcomes[place].total(),
             "outcomes": dict(sorted(outcomes[place].items())),
             "share_that_slides": float(slid[place] / outcomes[place].total()),
+            "slid_off": int(off[place]),
             "dominant_mode": dict(zip(MODES, (most[place] / slid[place]).tolist(), strict=True)) if slid[place] else {},
             **{
                 key: _distribution(

@@ -58,6 +58,7 @@ class Found:
     def __init__(self, count: int) -> None:
         self.numbers = {name: np.full(count, np.nan) for name in NUMBERS}
         self.impacts = np.zeros(count, dtype=np.int64)
+        self.slid_off = np.zeros(count, dtype=bool)
         self.outcome = np.full(count, REFUSED, dtype=object)
         self.seconds: dict[str, float] = {}
 
@@ -68,8 +69,10 @@ class Found:
         yield
         self.seconds[what] = self.seconds.get(what, 0.0) + perf_counter() - began
 
-    def put(self, rows: Integers, table: Mapping[str, Floats], outcome: Words, named: Mapping[str, Floats]) -> None:
-        """Put what a kernel found into some rows; `named` are the headline numbers."""
+    def put(
+        self, rows: Integers, table: Mapping[str, Floats], outcome: Words, named: Mapping[str, Floats], width: Any
+    ) -> None:
+        """Put what a kernel found into some rows; `named` are the headline numbers, `width` that of the crack."""
         found = {
             **named,
             **{f"{name}_m": table[name] for name in _SLIPS},
@@ -81,6 +84,8 @@ class Found:
         fine = np.isin(outcome, _WITH_RESULT)
         for name, values in found.items():
             self.numbers[name][rows] = np.where(fine, values, np.nan)
+        peaks = np.maximum(named["peak_slip_downstream_m"], -named["peak_slip_upstream_m"])
+        self.slid_off[rows] = (fine | (outcome == TOO_FAR)) & (peaks > width)
         self.impacts[rows] = np.where(fine, table["impacts"], 0.0).astype(np.int64)
         self.outcome[rows] = outcome
 
@@ -137,7 +142,7 @@ def _rigid(plan: Plan, runs: Runs, rows: Integers, found: Found, threads: int) -
     outcome = np.array(OUTCOMES, dtype=object)[table["outcome"].astype(np.int64)]
     if plan.case.analysis.rotation != "finite":
         outcome = _not_too_far(table, outcome)
-    found.put(rows, table, outcome, named)
+    found.put(rows, table, outcome, named, width)
 
 
 def _blocks(
@@ -198,7 +203,7 @@ def _elastic(plan: Plan, runs: Runs, rows: Integers, found: Found, run: Callable
                     table, outcome, named = run(case, motion, runs.factor[here])
             except InputError:
                 continue
-            found.put(here, table, outcome, named)
+            found.put(here, table, outcome, named, case.cut.crack_width)
 
 
 def _flexible(plan: Plan, runs: Runs, rows: Integers, found: Found, threads: int) -> None:
@@ -288,4 +293,5 @@ def _table(plan: Plan, runs: Runs, found: Found) -> pa.Table:
     for name, values in found.numbers.items():
         columns[name] = pa.array(values, mask=np.isnan(values))
     columns["impacts"] = pa.array(found.impacts)
+    columns["slid_off"] = pa.array(found.slid_off)
     return pa.table(columns)

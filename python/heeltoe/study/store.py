@@ -23,7 +23,7 @@ from heeltoe.whole import check_directory, settle, write_text, written
 
 STUDY, RUNS = "study.json", "runs"
 #: Of the layout of a directory; another one cannot be read.
-_VERSION = 1
+_VERSION = 2
 
 
 @dataclass(frozen=True)

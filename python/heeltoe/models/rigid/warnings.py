@@ -108,9 +108,7 @@ def _about_the_slip(case: Case, block: Block, run: BlockRun) -> list[Notice]:
     in_the_air, sliding = abs(raw["slip_drifting"]), abs(raw["slip_sliding"]) + abs(raw["slip_slide_rocking"])
     if case.crack.restitution > 0.0 and in_the_air > max(sliding, _SLIP_TO_TALK_ABOUT):
         said.append(Notice("slip-in-the-air", slip_m=in_the_air, restitution=case.crack.restitution))
-    if run.outcome == "ok" and largest > block.width:
-        said.append(Notice("slid-off", slip_m=largest, width_m=block.width))
-    elif run.outcome == "ok" and largest > _SHARE_OF_WIDTH * block.width:
+    if run.outcome == "ok" and _SHARE_OF_WIDTH * block.width < largest <= block.width:
         said.append(Notice("slid-far", share=largest / block.width))
     return said
 

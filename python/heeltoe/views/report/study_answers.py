@@ -66,6 +66,7 @@ def results(subject: StudySubject) -> Section:
     labels = {each.key: each.label for each in HEADLINES}
     rows: list[tuple[Inline, ...]] = [
         ("that slide", *(_percent(each["share_that_slides"]) for each in summary)),
+        ("that slide farther than the crack is long", *(f"{each['slid_off']:,}" for each in summary)),
         *(
             (f"{labels[key]}: {what}", *(n(f"summary.{place}.{key}.{name}", _QUANTITIES[key]) for place in places))
             for key in _SHOWN

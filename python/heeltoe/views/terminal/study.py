@@ -65,6 +65,9 @@ def print_study(found: Opened, console: Console, units: str = "si") -> None:
         others = [f"{name} {count:,}" for name, count in each["outcomes"].items() if name != "ok"]
         if others:
             console.print(escape(f"{each['model']}, runs that ended otherwise: {', '.join(others)}"), highlight=False)
+        if each["slid_off"]:
+            said = f"{each['model']}: {counted(each['slid_off'], 'run')} slid farther than the crack is long"
+            console.print(f"[yellow]warning[/yellow]  {escape(said)}", highlight=False)
     if told["fragility"] is not None:
         _print_fragility(found.fragility, console, units)
     print_compared(found, console)

@@ -1,0 +1,45 @@
+"""A part that slides farther than its crack is wide has left what it stood on: all models say so, studies count it."""
+
+from __future__ import annotations
+
+import pytest
+
+from heeltoe import read_case, run, run_study
+from shared.dams import TYPICAL_SECTION
+from shared.studies import study_file
+
+PUSH = [["0 s", "-1 g"], ["3 s", "-1 g"], ["3 s", "0 g"], ["3.5 s", "0 g"]]
+DAM = {
+    "section": TYPICAL_SECTION,
+    "concrete": {"modulus": "20 GPa"},
+    "crack": {"elevation": "50 m", "friction": 0.3},
+    "reservoir": {"depth": "60 m"},
+    "motion": {"points": PUSH},
+    "analysis": {"silence": "0 s"},
+    "flexible": {"elements_across": 2, "evidence": "none"},
+}
+
+
+@pytest.mark.parametrize("model", ["rigid", "decoupled", "flexible"])
+def test_every_model_says_so(model):
+    case = read_case(DAM)
+    response = run(case, model)
+    assert response.outcome == "ok"
+    slid = response.peak_slip_downstream_m > case.cut.crack_width
+    assert slid
+    (said,) = [each for each in response.warnings if each.code == "slid-off"]
+    assert said.severity == "grave"
+    weaker = run(read_case(DAM, ["motion.pga=0.3 g"]), model)
+    assert not any(each.code == "slid-off" for each in weaker.warnings)
+
+
+def test_a_study_counts_them(tmp_path):
+    text = 'case = "case.toml"\n[vary]\n"crack.friction" = [0.3, 0.5]\n[motions]\nfolder = "quakes"\n'
+    file = study_file(tmp_path, text + 'scale = { measure = "pga", values = ["0.3 g", "60 g"] }\n')
+    found = run_study(file, tmp_path / "out")
+    table = found.to_table(["slid_off", "peak_slip_downstream_m", "peak_slip_upstream_m", "outcome"]).to_pylist()
+    known = [run for run in table if run["outcome"] == "ok"]
+    far = [max(run["peak_slip_downstream_m"], -run["peak_slip_upstream_m"]) > 4.0 for run in known]
+    assert [run["slid_off"] for run in known] == far
+    assert 0 < sum(far) < len(far)
+    assert found.summary[0]["slid_off"] == sum(run["slid_off"] for run in table)
