@@ -2,12 +2,14 @@
 
 use heeltoe::inside::{Anchor, Law};
 use heeltoe::rigid::varying::{self, Rotation, TurningBlock, TurningShaking, VaryingNumbers};
-use heeltoe::rigid::{exact, many, Block, BlockNumbers, Event, Moment, Options, Run, Shaking, Wanted};
+use heeltoe::rigid::{
+    exact, many, Block, BlockNumbers, Event, Moment, Options, Outcome, Run, Shaking, Wanted,
+};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
 use crate::tables::{named, pool, row, rows, slice, table, wrong, Numbers};
-use crate::watch::watched;
+use crate::watch::{prompt, watched};
 
 type Result<'py> = (
     Bound<'py, PyArray1<f64>>,
@@ -23,6 +25,10 @@ type VaryingResult<'py> = (
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray1<f64>>,
 );
+
+/// Runs of no more events, samples and moments that are wanted take a few milliseconds: nobody interrupts them.
+const EVENTS_AT_ONCE: u64 = 2000;
+const MOMENTS_AT_ONCE: usize = 50_000;
 
 /// How far a run has come (s).
 fn reached(run: &Run) -> Option<[f64; 2]> {
@@ -80,9 +86,24 @@ pub fn run_rigid<'py>(
         event_limit,
         jam,
     };
-    let run = walked(py, &output_times, |wanted| {
-        exact::simulate(&block, &shaking, start, options, wanted)
-    })?;
+    let walk =
+        |options: Options, wanted: Wanted<'_>| exact::simulate(&block, &shaking, start, options, wanted);
+    if time.len()? + output_times.len()? <= MOMENTS_AT_ONCE {
+        let few = Options {
+            event_limit: event_limit.min(EVENTS_AT_ONCE),
+            ..options
+        };
+        let wanted = Wanted {
+            times: output_times.as_slice()?,
+            events: true,
+            ..Wanted::default()
+        };
+        let run = prompt(py, || walk(few, wanted))?;
+        if run.summary.outcome != Outcome::EventLimit || few.event_limit == event_limit {
+            return Ok(arrays(py, &run));
+        }
+    }
+    let run = walked(py, &output_times, |wanted| walk(options, wanted))?;
     Ok(arrays(py, &run))
 }
 

@@ -1,6 +1,7 @@
 //! Work beside Python, which may interrupt it, and to which nothing but an exception ever comes.
 
 use std::any::Any;
+use std::panic::{catch_unwind, AssertUnwindSafe};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{channel, RecvTimeoutError};
 use std::sync::Mutex;
@@ -36,6 +37,15 @@ impl Ending {
 
 /// How long an interruption (Ctrl-C) may wait until it is seen.
 const OFTEN: Duration = Duration::from_millis(50);
+
+/// Let `work` run that is over before anybody could wait for it: a thread of its own would take longer to start.
+///
+/// # Errors
+/// A panic is an internal error.
+pub fn prompt<T: Send>(py: Python<'_>, work: impl FnOnce() -> T + Send) -> PyResult<T> {
+    py.detach(|| catch_unwind(AssertUnwindSafe(work)))
+        .map_err(internal)
+}
 
 /// Let `work` run on a thread of its own while this one, which alone hears of signals, listens for them.
 ///

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from functools import cache
 from typing import Any
 
 from heeltoe.case.fields import Fields
@@ -77,7 +78,7 @@ def unused_fields(case: Case, models: Sequence[str]) -> tuple[Notice, ...]:
         of them reads is read.
     """
     given = dict(_given(case))
-    foreign = [path for path in given if not _readers(path) & set(models)]
+    foreign = [path for path in given if not _readers(_plain(path)) & set(models)]
     said = []
     if "flexible" in models:
         # Rotations beyond small ones are asked for because they matter, and one of two models leaves them out.
@@ -115,11 +116,11 @@ def _given(block: Fields, above: str = "") -> Iterator[tuple[str, Any]]:
 
 def _plain(path: str) -> str:
     """Return a path without places in lists."""
-    return re.sub(r"\[\d+\]", "", path)
+    return re.sub(r"\[\d+\]", "", path) if "[" in path else path
 
 
+@cache
 def _readers(path: str) -> frozenset[str]:
-    path = _plain(path)
     while path:
         if path in READ_BY:
             return READ_BY[path]

@@ -11,5 +11,4 @@ from heeltoe.arrays import Floats
 
 def columns(names: Sequence[str], table: Floats) -> dict[str, Floats]:
     """Return the columns by name; none of a table that was not asked for."""
-    ordered = table.reshape(-1, len(names)).T
-    return {name: np.ascontiguousarray(column) for name, column in zip(names, ordered, strict=True)}
+    return dict(zip(names, np.ascontiguousarray(table.reshape(-1, len(names)).T), strict=True))

@@ -81,9 +81,9 @@ def run(
     *block, better = _until_the_same_end(names, case, shaking, output_step)
     if not block:
         return _alone(better, case, Chosen(model, why))
-    found = replace(_completed(better, case, names), chosen=Chosen(model, why))
+    found = _completed(better, case, names, Chosen(model, why))
     # The better model is judged.
-    simpler = replace(_completed(block[0], case, names), chosen=Chosen(model, _BESIDE), limits=())
+    simpler = replace(_completed(block[0], case, names, Chosen(model, _BESIDE)), limits=())
     return replace(found, beside=simpler)
 
 
@@ -246,26 +246,26 @@ def earthquake(
 def _alone(response: R, case: Case, chosen: Chosen | None = None) -> R:
     """Return a response with no better model beside it, which says what it leaves out; its model was asked for by name
     where nothing else is said."""
-    completed = _completed(response, case, (response.model,))
-    found = replace(completed, chosen=chosen or Chosen(response.model, _ASKED_FOR))
-    if not found.summary or found.elastic:
-        return found
-    left_out = omitted(case, found.motion) if found.model == "rigid" else (Notice("rigid-top"),)
-    return replace(found, warnings=(*found.warnings, *left_out))
+    return _completed(response, case, (response.model,), chosen or Chosen(response.model, _ASKED_FOR), alone=True)
 
 
-def _completed(response: R, case: Case, models: Sequence[str]) -> R:
-    """Add what every result has; a field that one of the `models` side by side reads is not said to change nothing. A
-    run that never started says why by itself."""
+def _completed(response: R, case: Case, models: Sequence[str], chosen: Chosen, *, alone: bool = False) -> R:
+    """Add what every result has, and to one that stands `alone` what it leaves out; a field that one of the `models`
+    side by side reads is not said to change nothing. A run that never started says why by itself."""
     unused = unused_fields(case, models)
     vertical = () if response.vertical is None else response.vertical.warnings
     end = about_the_end(response, asked="silence" in case.analysis.model_fields_set)
     warnings = (*case_warnings(case), *response.motion.warnings, *vertical, *response.warnings, *end, *unused)
     if not response.summary:
-        return replace(response, warnings=warnings)
+        return replace(response, chosen=chosen, warnings=warnings)
+    warnings = (*warnings, *_slid_off(case, response), *standing_warnings(case, response.static))
+    if alone and not response.elastic:
+        left_out = omitted(case, response.motion) if response.model == "rigid" else (Notice("rigid-top"),)
+        warnings = (*warnings, *left_out)
     return replace(
         response,
-        warnings=(*warnings, *_slid_off(case, response), *standing_warnings(case, response.static)),
+        chosen=chosen,
+        warnings=warnings,
         limits=check_limits(case.limits, response.summary, response.outcome),
     )
 

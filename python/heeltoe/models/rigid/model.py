@@ -62,7 +62,7 @@ def run_rigid(
         vertical=earthquake.vertical,
         gravity=case.gravity,
         histories=histories_of(case, block, shaking, moments, run) if started else {},
-        mode=tuple(_MODES[run.mode]) if started else (),
+        mode=tuple(_MODES.take(run.mode).tolist()) if started else (),
         event_log=events_of(run),
         static=static_state(block),
         references=references_of(case, block, run),
@@ -80,6 +80,8 @@ _SHORTEST_STEP, _LONGEST_STEP = 0.005, 0.02
 def _moments(earthquake: Earthquake, step: float | None) -> Floats:
     time = earthquake.shaking.time
     if step is None:
+        if not earthquake.silence and np.all(time[1:] > time[:-1]):
+            return time
         spacing = float(np.clip(earthquake.motion.dt, _SHORTEST_STEP, _LONGEST_STEP))
         after = np.arange(earthquake.end, earthquake.run_end, spacing)
         return np.unique(np.concatenate([time, after]))

@@ -9,12 +9,15 @@ import numpy as np
 
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
-from heeltoe.kernel.block import EVENT_KINDS, MODES, BlockRun
+from heeltoe.kernel.block import EVENT_KINDS, MODES, SUMMARY, BlockRun
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block
 from heeltoe.references import cited
-from heeltoe.result.contract import headlines
+from heeltoe.result.contract import HEADLINES, headlines
 from heeltoe.result.response import Energy
+
+#: What :func:`heeltoe.result.contract.headlines` reads of a kernel's table.
+_COLUMNS = tuple({each.column for each in HEADLINES} & set(SUMMARY))
 
 
 def opening(case: Case, width: Floats, rotation: Floats) -> Floats:
@@ -55,7 +58,7 @@ def references_of(case: Case, block: Block, run: BlockRun) -> tuple[str, ...]:
 def summary_of(case: Case, block: Block, run: BlockRun) -> dict[str, Any]:
     """Return the numbers of the contract."""
     raw = run.summary
-    table = {name: np.array([value]) for name, value in raw.items()}
+    table = {name: np.array([raw[name]]) for name in _COLUMNS}
     first = {
         name: float(value[0]) for name, value in with_openings(headlines(table), case, np.array([block.width])).items()
     }
@@ -139,7 +142,7 @@ def events_of(run: BlockRun) -> dict[str, Any]:
     column = run.events
 
     def named(field: str, names: tuple[str, ...]) -> list[str]:
-        return [names[int(k)] for k in column[field]]
+        return [names[k] for k in column[field].astype(np.intp).tolist()]
 
     return {
         "time_s": column["time"],

@@ -4,21 +4,35 @@ use super::super::block::{HEEL, SLIP, TOE};
 use super::super::event;
 use super::super::ledger::work;
 use super::super::mode::Mode;
-use super::super::reaction::CONE;
+use super::super::reaction::{Felt, CONE};
 use super::super::shaking::Shaking;
+use super::advance::Course;
 use super::walk::Exact;
 
 /// A normal force that is more than this part of its size is not zero: no rounding makes it so.
 const CLEAR: f64 = 1e-9;
 
 impl Exact<'_> {
-    /// While the block rests nothing moves: return the last sample before rest may end.
+    /// While the block rests nothing moves: return the last sample before rest may end, and keep the block at the moments
+    /// that are wanted until then.
     pub(super) fn rest_until(&mut self, shaking: &Shaking, from: usize) -> usize {
         let rest = self.reactions.of(Mode::Rest);
         let limits = [HEEL, TOE, CONE, CONE + 1].map(|i| rest.quantity(i));
         // The first sample is looked at too: right behind a jump it is new.
         let k = shaking.first_below(&limits, from).max(from + 1) - 1;
         self.walk.summary.time_by_mode[Mode::Rest.kind()] += shaking.time[k] - shaking.time[from];
+        if self.walk.observed() {
+            let mut felt = Felt::default();
+            for (piece, j) in shaking.pieces(from).zip(from..k) {
+                rest.on(&piece, &mut felt);
+                let course = Course {
+                    felt: &felt,
+                    motion: [[0.0; 2]; 3],
+                    piece: &piece,
+                };
+                self.record(&course, shaking.time[j + 1], shaking.time[j]);
+            }
+        }
         k
     }
 

@@ -57,10 +57,10 @@ impl Exact<'_> {
         // Whether the present mode was chosen by the state as it is now.
         let mut settled = false;
         while k + 1 < n {
-            if settled && !self.walk.observed() {
+            if settled {
                 k = match self.walk.mode {
                     Mode::Rest => self.rest_until(shaking, k),
-                    Mode::Slide(_) => self.slide_until(shaking, k),
+                    Mode::Slide(_) if !self.walk.observed() => self.slide_until(shaking, k),
                     _ => k,
                 };
                 if k + 1 >= n {
