@@ -252,13 +252,14 @@ def _alone(response: R, case: Case, chosen: Chosen | None = None) -> R:
 def _completed(response: R, case: Case, models: Sequence[str], chosen: Chosen, *, alone: bool = False) -> R:
     """Add what every result has, and to one that stands `alone` what it leaves out; a field that one of the `models`
     side by side reads is not said to change nothing. A run that never started says why by itself."""
+    slid_off = _slid_off(case, response) if response.summary else ()
     unused = unused_fields(case, models)
     vertical = () if response.vertical is None else response.vertical.warnings
     end = about_the_end(response, asked="silence" in case.analysis.model_fields_set)
     warnings = (*case_warnings(case), *response.motion.warnings, *vertical, *response.warnings, *end, *unused)
     if not response.summary:
         return replace(response, chosen=chosen, warnings=warnings)
-    warnings = (*warnings, *_slid_off(case, response), *standing_warnings(case, response.static))
+    warnings = (*warnings, *slid_off, *standing_warnings(case, response.static))
     if alone and not response.elastic:
         left_out = omitted(case, response.motion) if response.model == "rigid" else (Notice("rigid-top"),)
         warnings = (*warnings, *left_out)
