@@ -18,6 +18,7 @@ from measure import NothingMeasured
 #: Modules with a `report`, and the title of the section that each writes; each is meant to stay below five minutes.
 PARTS = {
     "rigid_ensemble": "Rigid ensemble",
+    "study_million": "A million runs",
     "rigid_peers": "Rigid peers",
     "rocking_peers": "Rotations of any size",
     "spectra_peers": "Response spectra",

@@ -237,7 +237,9 @@ def _refusing(field: str, place: object) -> Iterator[None]:
     try:
         yield
     except (OSError, UnicodeEncodeError) as error:
-        reason = (error.strerror if isinstance(error, OSError) else None) or str(error).strip().split("\n")[0]
+        # As the system says it, whatever a library has made of that.
+        number = error.errno if isinstance(error, OSError) else None
+        reason = os.strerror(number) if number else str(error).strip().split("\n")[0]
         raise InputError("cannot-write", field, place, reason=reason) from None
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import errno
 import json
 import os
 import pty
@@ -350,3 +351,22 @@ def test_motion_echo_and_list():
     assert echo.returncode == 0, echo.stderr
     assert "0.2808 g" in echo.stdout
     assert "El Centro" in echo.stdout
+
+
+def test_a_file_that_cannot_be_written_is_not_called_standard_output(monkeypatch):
+    def full(path):
+        raise OSError(errno.ENOSPC, "No space left on device", "/there/cache")
+
+    monkeypatch.setattr("heeltoe.study.file.read_study", full)
+    said = command("study", "study.toml")
+    assert said.returncode == 2
+    assert said.stderr.startswith("heeltoe: /there/cache: it cannot be written (No space left on device)")
+
+
+def test_what_the_system_refuses_otherwise_is_no_trouble_of_standard_output(monkeypatch):
+    def gone(path):
+        raise OSError(errno.ECHILD, "No child processes")
+
+    monkeypatch.setattr("heeltoe.study.file.read_study", gone)
+    with pytest.raises(OSError, match="No child processes"):
+        command("study", "study.toml")

@@ -245,6 +245,9 @@ def test_no_scheduler_and_no_package_are_said(tmp_path, monkeypatch):
     with pytest.raises(InputError) as refused:
         list(run_on_workers(plan, [(0, 0, 1)], "nowhere://1"))
     assert refused.value.code == "study-scheduler"
+    with pytest.raises(InputError, match="there is no scheduler at nowhere://1"):
+        run_study(tmp_path / "study.toml", tmp_path / "out", scheduler="nowhere://1")
+    assert not (tmp_path / "out").exists()
     monkeypatch.setattr("heeltoe.study.schedule.find_spec", lambda name: None)
     with pytest.raises(InputError) as refused:
         list(run_on_workers(plan, [(0, 0, 1)]))

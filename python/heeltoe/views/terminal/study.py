@@ -123,10 +123,19 @@ def _print_fragility(curves: list[dict[str, Any]], console: Console, units: str)
         exceeds = f"exceeds, {model}" if len(models) > 1 else "exceeds"
         for place, heading in enumerate((exceeds, f"median {measure}", "dispersion", "records", "other", "runs")):
             table.add_column(heading, no_wrap=True, justify="left" if place < 3 else "right")
-        for each in curves:
-            if each["model"] == model:
+        mine = [each for each in curves if each["model"] == model]
+        for each in mine:
+            if each["median"] is not None:
                 table.add_row(*_fragility(each, units))
-        console.print(table)
+        if table.row_count:
+            console.print(table)
+        of = f"{model}, " if len(models) > 1 else ""
+        for each in mine:
+            if each["median"] is None:
+                what = limit_of(each["limit"], each["value"], units)
+                console.print(f"{of}{what}: {each['why']} ({each['exceeding']:,} of {each['runs']:,})", highlight=False)
+    if all(each["median"] is None for each in curves):
+        return
     said = [
         f"below each number what it lies within with {curves[0]['confidence']:.0%}, leaving out one event at a time"
     ]
@@ -143,8 +152,6 @@ def _fragility(each: dict[str, Any], units: str) -> tuple[str, ...]:
     """Return what is said of a curve."""
     what = limit_of(each["limit"], each["value"], units)
     share = f"{each['exceeding'] / max(each['runs'], 1):.1%}"
-    if each["median"] is None:
-        return what, each["why"], "", "", "", share
     median = _with(each["median"], each["median_interval"], each["measure"], "" if each["reached"] else " *")
     dispersion = _with(each["dispersion"], each["dispersion_interval"])
     return what, median, dispersion, _part(each["record"]), _part(each["other"]), share

@@ -15,6 +15,8 @@ from heeltoe.views.figures.style import MODE_COLOURS, MODE_HATCHES, WIDTH, style
 _KINDS = {"sliding": "slide", "slide_rocking": "slide-rock", "drifting": "drift"}
 _LABELS = {"sliding": "sliding", "slide_rocking": "slide-rocking", "drifting": "drifting"}
 _POINTS = 400
+# Numbers from this one on are too long to stand beside each other above bars.
+_LONG = 100
 
 
 @styled
@@ -70,8 +72,9 @@ def modes_figure(found: Opened) -> Figure | None:
             axes.bar(np.arange(there.size), share, 0.85, bottom, label=_LABELS[mode], **look)
             bottom += share
         axes.set_xticks(np.arange(there.size), [f"{middle[k] / strength.scale:.2g}" for k in there], fontsize=8)
+        turned = 45 if total.max() >= _LONG else 0
         for at, k in enumerate(there.tolist()):
-            axes.text(at, 1.01, f"{total[k]:,}", ha="center", va="bottom", fontsize=7, rotation=45)
+            axes.text(at, 1.01, f"{total[k]:,}", ha="center", va="bottom", fontsize=7, rotation=turned)
         axes.set_title(f"{name} model: runs that slide", fontsize=9, loc="left", pad=26)
         axes.set_xlabel(strength.label)
         axes.grid(visible=False)

@@ -56,10 +56,16 @@ def tornado_figure(found: Opened, units: str = "si") -> Figure | None:
                 axes, row, [(str(end["value"]), scale * end["demand"]) for end in each["values"]], scale * told["base"]
             )
         axes.axvline(scale * told["base"], color="#444444", linewidth=0.8)
-        axes.margins(x=0.15)
+        axes.margins(x=0.2)
         _rows(axes, [each["name"] for each in fields])
         axes.set_xlabel(f"residual slip, either way, mean of the motions [{unit}]")
         axes.set_title(f"{name} model{_left_out(told['left_out'], 'motions')}", fontsize=9, loc="left")
+    # Room for the values beside the bars, but no slips below zero.
+    low, high = panels[-1].get_xlim()
+    ticks = [tick for tick in panels[-1].get_xticks() if max(low, 0.0) <= tick <= high]
+    for axes in panels:
+        axes.set_xticks(ticks)
+        axes.set_xlim(low, high)
     return headed(figure, found, "one field at a time; the line is the case as it is")
 
 
