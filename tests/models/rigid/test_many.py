@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from heeltoe import InputError, build_block, read_case, rigid, rigid_many
-from heeltoe.kernel.block import BLOCK, OUTCOMES, Limits
+from heeltoe.kernel.block import BLOCK, MODES, OUTCOMES, Limits, run_block, run_blocks
+from heeltoe.kernel.shaking import Shaking
 from heeltoe.motion.ground_motion import GroundMotion
 from shared.dams import SLENDER, example
 
@@ -97,3 +98,24 @@ def test_threads_and_a_bar_change_no_bit():
     tables = [rigid_many(blocks, [PUSH], scales=scales, threads=n, progress=n == 2) for n in (0, 1, 2)]
     assert all((each[name] == tables[0][name]).all() for each in tables for name in each)
     assert rigid_many([], [PUSH])["slip"].size == 0
+
+
+def test_what_is_seen_of_a_block_changes_no_bit_of_it():
+    """Rest and slides are passed over in stretches where nobody looks, rest with all that is seen of it where somebody
+    does."""
+    time = np.linspace(0.0, 20.0, 2001)
+    noise = np.random.default_rng(4).normal(size=time.size)
+    shaking = Shaking(time, 4.0 * np.exp(-(((time - 8.0) / 3.0) ** 2)) * noise, np.roll(noise, 100))
+    blocks = np.tile(DAM, (20, 1))
+    for name, ends in (("restitution", (0.0, 0.9)), ("friction_static", (0.8, 2.0)), ("friction_kinetic", (0.8, 2.0))):
+        blocks[:, BLOCK.index(name)] = np.linspace(*ends, 20)
+    together = run_blocks(blocks, [shaking], np.zeros(20, np.int64), np.ones((20, 2)))
+    assert 0.0 < together["time_rest"].min() < together["time_rest"].max() < 20.0
+    assert together["impacts"].max() > 0
+    for row, numbers in enumerate(blocks):
+        seen = run_block(numbers, shaking, time)
+        assert list(seen.summary.values()) == [column[row] for column in together.values()]
+        # Where it rests it holds: no force is missing, and nothing moves.
+        rests = seen.mode == MODES.index("rest")
+        assert seen.histories["normal_force_heel"][rests].min() >= 0.0
+        assert not seen.histories["slip_acceleration"][rests].any()
