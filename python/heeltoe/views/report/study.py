@@ -249,8 +249,14 @@ def _motions(subject: StudySubject) -> Section:
                     _seconds(traits["significant_duration_s"]),
                 )
             )
-    head = ("event", "motion", "PGA", "PGV", "mean period", "duration 5–95 %")
-    table = Table(head, tuple(rows), "Ground motions.", "llrrrr", (3.2, 3.8, 1.4, 1.7, 1.5, 1.7))
+    head = ("event", "motion", "PGA", "PGV", "mean period", "duration")
+    table = Table(
+        head,
+        tuple(rows),
+        "Ground motions; duration from 5 to 95 % of the Arias intensity.",
+        "llrrrr",
+        (3.2, 3.8, 1.4, 1.7, 1.5, 1.7),
+    )
     return Section("Ground motions", (paragraph(said), table))
 
 
