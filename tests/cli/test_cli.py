@@ -10,6 +10,7 @@ import pty
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import pyarrow.parquet as pq
 import pytest
@@ -361,6 +362,20 @@ def test_a_file_that_cannot_be_written_is_not_called_standard_output(monkeypatch
     said = command("study", "study.toml")
     assert said.returncode == 2
     assert said.stderr.startswith("heeltoe: /there/cache: it cannot be written (No space left on device)")
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device here is always full")
+def test_a_standard_output_that_is_full_is_called_that():
+    with Path("/dev/full").open("w") as full:
+        said = subprocess.run(
+            [sys.executable, "-m", "heeltoe", "run", str(BLOCK)],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+    assert said.returncode == 2
+    assert said.stderr.splitlines()[-1].startswith("heeltoe: standard output: it cannot be written (No space left")
 
 
 def test_what_the_system_refuses_otherwise_is_no_trouble_of_standard_output(monkeypatch):

@@ -11,7 +11,6 @@ import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
-from typing import TextIO
 
 from rich.console import Console
 
@@ -19,8 +18,11 @@ from heeltoe.errors import InputError
 
 #: Consoles that say to be narrower than this say nothing of use.
 _NARROWEST, _USUAL = 20, 80
-# What the system says of files that cannot be written.
-_NOT_WRITTEN = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.EACCES, errno.EPERM, errno.EIO)
+# What the system says of streams and files that cannot be written.
+_NOT_WRITTEN = (
+    *(errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF, errno.EPIPE, errno.EINVAL, errno.EAGAIN),
+    *(errno.EROFS, errno.EACCES, errno.EPERM, errno.ENXIO, errno.ENODEV, errno.ECONNRESET, errno.ETIMEDOUT),
+)
 
 
 def console(*, stderr: bool = False) -> Console:
@@ -54,12 +56,10 @@ def streams() -> Iterator[None]:
         finally:
             sys.stdout.flush()
     except OSError as error:
-        if _takes(sys.stdout):
-            # It was another file.
-            if error.errno not in _NOT_WRITTEN:
-                raise
-            place = str(error.filename or "a file of this command")
-            raise InputError("cannot-write", place, reason=error.strerror, value="it") from None
+        if error.errno not in _NOT_WRITTEN:
+            raise
+        if error.filename is not None:  # what fails on a stream has none
+            raise InputError("cannot-write", str(error.filename), reason=error.strerror, value="it") from None
         # What could not be written shall not be tried again at the end of the process.
         with suppress(OSError):
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -67,15 +67,6 @@ def streams() -> Iterator[None]:
     finally:
         if before is not None:
             signal.signal(signal.SIGPIPE, before)
-
-
-def _takes(stream: TextIO) -> bool:
-    """Whether a stream takes what has been written to it: what it could not take it still holds."""
-    try:
-        stream.flush()
-    except OSError:
-        return False
-    return True
 
 
 def _open() -> None:
