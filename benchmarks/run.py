@@ -23,6 +23,7 @@ PARTS = {
     "rocking_peers": "Rotations of any size",
     "spectra_peers": "Response spectra",
     "crack_dam": "Flexible dams",
+    "flexible_study": "Flexible studies",
     "crack_peers": "Elastic block beside peers",
 }
 TITLE = "# Measured results\n\nWritten by `python benchmarks/run.py`; what the numbers mean is in the README beside it."

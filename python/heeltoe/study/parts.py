@@ -199,8 +199,7 @@ def _elastic(plan: Plan, runs: Runs, rows: Integers, found: Found, run: Callable
         for motion in np.unique(runs.motion[mine]).tolist():
             here = mine[runs.motion[mine] == motion]
             try:
-                with found.timed("kernel"):
-                    table, outcome, named = run(case, motion, runs.factor[here])
+                table, outcome, named = run(case, motion, runs.factor[here])
             except InputError:
                 continue
             found.put(here, table, outcome, named, case.cut.crack_width)
@@ -213,12 +212,14 @@ def _flexible(plan: Plan, runs: Runs, rows: Integers, found: Found, threads: int
 
     def run(case: Case, motion: int, scales: Floats) -> Ran:
         case = plan.pilot.refined(case) if plan.pilot else case
-        dam = build_flexible_dam(case)
+        with found.timed("blocks"):
+            dam = build_flexible_dam(case)
         halvings = plan.pilot.halvings if plan.pilot else 0
 
         def shake(earthquake: Earthquake, scales: Floats) -> dict[str, Floats]:
-            shaken = ShakenDam(case, dam, earthquake.shaking)
-            return shaken.run_scaled(shaken.first_step() / 2.0**halvings, scales, threads=threads)
+            with found.timed("kernel"):
+                shaken = ShakenDam(case, dam, earthquake.shaking)
+                return shaken.run_scaled(shaken.first_step() / 2.0**halvings, scales, threads=threads)
 
         table = shake(plan.earthquakes[motion], scales)
         moves = (table["outcome"] == DAM_OUTCOMES.index("ok")) & (table["final_state"] != DAM_STATES.index("rest"))
@@ -238,17 +239,19 @@ def _decoupled(plan: Plan, runs: Runs, rows: Integers, found: Found, threads: in
     from heeltoe.models.decoupled.model import crack_earthquake
 
     def run(case: Case, motion: int, scales: Floats) -> Ran:
-        block = build_block(case)
-        # The part below is linear: its motion grows as the ground's does.
-        # The crack swings on while the ground stands still.
-        shaken = crack_earthquake(case, plan.earthquakes[motion].silent(case.analysis.silence))
+        with found.timed("blocks"):
+            block = build_block(case)
+            # The part below is linear: its motion grows as the ground's does.
+            # The crack swings on while the ground stands still.
+            shaken = crack_earthquake(case, plan.earthquakes[motion].silent(case.analysis.silence))
         many = Rows(
             np.tile(block.parameters(), (scales.size, 1)),
             [block] * scales.size if varies(case) else [],
             np.zeros(scales.size, dtype=np.int64),
             _both_ways(scales),
         )
-        table = run_rows(many, [shaken], replace(limits_of(case), silence=0.0), threads)
+        with found.timed("kernel"):
+            table = run_rows(many, [shaken], replace(limits_of(case), silence=0.0), threads)
         outcome = np.array(OUTCOMES, dtype=object)[table["outcome"].astype(np.int64)]
         if case.analysis.rotation != "finite":
             outcome = _not_too_far(table, outcome)

@@ -1,0 +1,202 @@
+"""What a run of the elastic dam costs in a study, beside the same run made alone; what engine and storage add."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import resource
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+# The workers of a study use one core each for their matrices; so must what they are compared with.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+import numpy as np
+from measure import heading, require, seconds, table
+
+from heeltoe import Case, GroundMotion, flexible, read_case, read_study, run_study
+from heeltoe.kept import Kept
+from heeltoe.kernel.build import PROFILE
+from heeltoe.kernel.dam import CrackedDam
+from heeltoe.models.flexible import bonded, reduced
+from heeltoe.study.opened import Opened
+from heeltoe.study.parts import run_part
+from heeltoe.study.plan import Pilot, Plan, plan_of
+from heeltoe.study.run import Outlook
+
+EXAMPLE = Path(__file__).parent.parent / "examples" / "typical-base.toml"
+#: Dams and strengths: with 42 motions 504 runs.
+FRICTIONS, STRENGTHS = (0.8, 1.0, 1.2), ("0.1 g", "0.2 g", "0.3 g", "0.4 g")
+#: Of the runs of the study, every so many is made alone, too; of its parts, every so many in this process.
+ALONE, HERE = 13, 6
+STUDY = """
+case = "{case}"
+model = "flexible"
+[vary]
+"crack.friction" = {frictions}
+[motions]
+folder = "{records}"
+pairs = true
+scale = {{ measure = "pga", values = {strengths} }}
+"""
+#: The records of the study: one folder of components of earthquakes within the records.
+RECORDS = "ensemble"
+
+
+@dataclass(frozen=True)
+class Alone:
+    """Processor time of runs that are made one by one, each [s], and how often each goes through the kernel."""
+
+    all: float
+    kernel: float
+    setup: float
+    passes: float
+
+
+def study_file(folder: Path, frictions: tuple[float, ...]) -> Path:
+    """Write the study."""
+    records = Path(os.environ.get("HEELTOE_RECORDS", "../shared/records")).resolve() / RECORDS
+    require(records.is_dir(), f"no records in $HEELTOE_RECORDS/{RECORDS}")
+    path = folder / "study.toml"
+    text = STUDY.format(case=EXAMPLE, records=records, frictions=list(frictions), strengths=json.dumps(STRENGTHS))
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def busy() -> float:
+    """Return the processor time of this process and of those it has waited for [s]."""
+    both = (resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    return sum(each.ru_utime + each.ru_stime for each in both)
+
+
+def forget() -> None:
+    """Let go of all dams that are kept."""
+    for module in (bonded, reduced):
+        module._KEPT = Kept(4)
+
+
+def alone(found: Opened, plan: Plan) -> Alone:
+    """Make some runs of a study by themselves, without evidence, at its mesh."""
+    case, pilot = read_case(EXAMPLE), plan.pilot
+    require(pilot is not None and pilot.halvings == 0, "the study halves its steps: a run alone would not")
+    assert pilot is not None
+    every = found.to_table().to_pylist()[::ALONE]
+    shakes = {shake.name: shake.horizontal for shake in plan.shakes}
+
+    def make(run: dict[str, float | str]) -> None:
+        forget()
+        dam = pilot.refined(case.with_({"crack.friction": run["crack.friction"], "motion": None}))
+        slip = timed_run(dam, shakes[str(run["motion"])].scaled(float(run["factor"])))
+        same = np.isclose(slip, float(run["residual_slip_m"]), rtol=1e-3, atol=1e-6)
+        require(bool(same), "a run of the study is not the one made alone")
+
+    spent: dict[str, list[float]] = {}
+    with counted(CrackedDam, "run", spent, "kernel"), counted(reduced, "_build", spent, "set-up"):
+        make(every[0])  # what is loaded at first use is not counted
+        spent.clear()
+        began = time.process_time()
+        for run in every:
+            make(run)
+        whole = time.process_time() - began
+    kernel, setup = (sum(spent[key]) / len(every) for key in ("kernel", "set-up"))
+    return Alone(whole / len(every), kernel, setup, len(spent["kernel"]) / len(every))
+
+
+def timed_run(case: Case, motion: GroundMotion) -> float:
+    """Run the flexible model and return the slip that stays [m]."""
+    return float(flexible(case, motion).residual_slip_m)
+
+
+class counted:
+    """Keeps the processor time of each call of a function, for a while."""
+
+    def __init__(self, owner: object, name: str, spent: dict[str, list[float]], key: str) -> None:
+        self._owner, self._name, self._spent, self._key = owner, name, spent, key
+        self._plain: Callable[..., object] = getattr(owner, name)
+
+    def __enter__(self) -> None:
+        def timed(*given: object, **named: object) -> object:
+            began = time.process_time()
+            found = self._plain(*given, **named)
+            self._spent.setdefault(self._key, []).append(time.process_time() - began)
+            return found
+
+        setattr(self._owner, self._name, timed)
+
+    def __exit__(self, *_: object) -> None:
+        setattr(self._owner, self._name, self._plain)
+
+
+def in_this_process(plan: Plan, size: int) -> float:
+    """Return the processor time of a run where parts of the study run one after the other in this process [s]."""
+    forget()
+    starts = range(0, plan.count, size * HERE)
+    run_part(plan, 0, 1)  # what is loaded at first use is not counted
+    began = time.process_time()
+    count = sum(run_part(plan, start, min(start + size, plan.count)).num_rows for start in starts)
+    return (time.process_time() - began) / count
+
+
+def measure(frictions: tuple[float, ...]) -> list[list[str]]:
+    """Run the study, and some of its runs alone, and return the rows of a table."""
+    with TemporaryDirectory() as folder:
+        file = study_file(Path(folder), frictions)
+        expected: list[float] = []
+        began, marks = time.perf_counter(), [busy()]
+
+        def before(told: Outlook) -> None:
+            expected.append(told.seconds)
+            marks.append(busy())
+
+        found = run_study(file, Path(folder) / "out", before=before)
+        wall = time.perf_counter() - began
+        marks.append(busy())
+        count = found.store.count
+        require(found.complete and found.all_ok, "some run has no result")
+        plan = replace(plan_of(read_study(file)), pilot=Pilot(**found.told["pilot"]))
+        here = in_this_process(plan, found.store.size)
+        single = alone(found, plan)
+    ahead, during = ((end - start) / count for start, end in pairwise(marks))
+    ready = single.kernel + single.setup
+    return [
+        ["runs of the study", f"{count} in parts of {found.store.size}, {seconds(wall)}"],
+        ["said beforehand", seconds(expected[0])],
+        ["a run of the study", seconds(during)],
+        ["the same in one process, without engine and storage", seconds(here)],
+        ["engine and storage add", f"{during / here - 1.0:.0%}"],
+        ["evidence of the first run and the tries, for each run", seconds(ahead)],
+        ["the same run alone: kernel", f"{seconds(single.kernel)}, in {single.passes:.1f} passes"],
+        ["set-up", seconds(single.setup)],
+        ["all of `heeltoe.flexible` without evidence", seconds(single.all)],
+        ["a run of the study over kernel and set-up of one alone", f"{during / ready:.2f}"],
+        ["over set-up and one pass of the kernel", f"{during / (single.kernel / single.passes + single.setup):.2f}"],
+    ]
+
+
+def report(frictions: tuple[float, ...] = FRICTIONS) -> str:
+    """Measure and return Markdown."""
+    require(PROFILE == "release", "the kernel is a debug build")
+    text = (
+        "The typical dam with three coefficients of friction, through all components of an ensemble of earthquakes at "
+        "four strengths, on the mesh that the evidence of the study's first run asks for. Processor time of all "
+        "processes together, the start of the workers and the writing included. A run alone goes through its motion "
+        "again, up to twice, where the dam still moves at its end by the strict measure of a result by itself."
+    )
+    return "\n\n".join(
+        [
+            heading("Flexible studies", ["heeltoe", "numpy", "scipy", "distributed"]),
+            text,
+            table(["", "measured"], measure(frictions)),
+        ]
+    )
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--frictions", type=int, default=len(FRICTIONS), help="how many of the three dams")
+    print(report(FRICTIONS[: parser.parse_args().frictions]))
