@@ -27,6 +27,11 @@ class Kept(Generic[T]):
         # From the one asked for longest ago to the newest.
         self._found: dict[Hashable, Future[T]] = {}
 
+    def clear(self) -> None:
+        """Forget all."""
+        with self._lock:
+            self._found.clear()
+
     def get(self, key: Hashable, build: Callable[[], T]) -> T:
         """Return what belongs to a key, built if it is not there."""
         with self._lock:

@@ -112,24 +112,27 @@ def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
     return (block, "flexible"), "the case gives concrete.modulus, so that the dam can vibrate as it does"
 
 
-def cost_of(case: Case, model: str = AUTO, output_step: float | None = None) -> Cost | None:
-    """Return what a run is estimated to take where it makes elastic parts; blocks take next to nothing."""
+def cost_of(case: Case, model: str = AUTO, output_step: float | None = None, spread: int = 0) -> Cost | None:
+    """Return what a run is estimated to take where it makes elastic parts, with so many runs for a spread; blocks take
+    next to nothing."""
     if "flexible" not in models_of(case, model)[0]:
         return None
+    return _cost(case, earthquake(case), output_step, spread)
+
+
+def _cost(case: Case, shaking: Earthquake, output_step: float | None, spread: int = 0) -> Cost:
     from heeltoe.models.flexible.expected import analysing, frame_step_of
 
-    end = earthquake(case).run_end
-    return analysing(case, end, frame_step_of(end, output_step))
+    end = shaking.run_end
+    return analysing(case, end, frame_step_of(end, output_step), silence=case.analysis.silence, spread=spread)
 
 
 def _check_costs(case: Case, names: Sequence[str], shaking: Earthquake, output_step: float | None) -> None:
     """Refuse what takes too much before the first of two models runs."""
     if len(names) > 1 and "flexible" in names:
         from heeltoe.models.flexible.cost import check_cost
-        from heeltoe.models.flexible.expected import analysing, frame_step_of
 
-        end = shaking.run_end
-        check_cost(case, analysing(case, end, frame_step_of(end, output_step)))
+        check_cost(case, _cost(case, shaking, output_step))
 
 
 def _until_the_same_end(

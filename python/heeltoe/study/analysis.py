@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Literal, TypeVar
 
 from heeltoe.case.model import Case
-from heeltoe.models.run import AUTO, run
+from heeltoe.models.run import AUTO, check_model, cost_of, run
 from heeltoe.result.response import Response
 
 R = TypeVar("R", bound=Response)
@@ -42,6 +42,8 @@ def analyse(
     InputError
         Where there is no such model, or something in the case cannot be used.
     """
+    if isinstance(spread, int):
+        _check_spread(case, model, output_step, spread)
     say("running" if model == AUTO else f"running {model}")
     result = run(case, model, output_step=output_step)
     if spread is None:
@@ -59,3 +61,14 @@ def analyse(
         return with_spread(response, case, RUNS if spread == "cheap" else spread, progress=progress)
 
     return result.with_responses(vary)
+
+
+def _check_spread(case: Case, model: str, output_step: float | None, runs: int) -> None:
+    """Refuse a spread that takes what a run by itself would not."""
+    check_model(model, "model")
+    alone, together = (cost_of(case, model, output_step, spread) for spread in (0, runs))
+    if alone is None or together is None or not alone.within(case):
+        return
+    from heeltoe.models.flexible.cost import check_cost
+
+    check_cost(case, together, "--spread")

@@ -7,11 +7,14 @@ from dataclasses import replace
 
 import pytest
 
+from heeltoe import InputError
+from heeltoe.models.flexible import bonded
 from heeltoe.models.flexible.cost import building, part_of, parts_of
-from heeltoe.models.flexible.expected import running
+from heeltoe.models.flexible.expected import analysing, running
 from heeltoe.models.flexible.reduced import _build
 from heeltoe.models.flexible.shaken import ShakenDam
-from heeltoe.models.run import earthquake
+from heeltoe.models.run import cost_of, earthquake
+from heeltoe.study.analysis import analyse
 from shared.dams import example
 
 
@@ -38,6 +41,7 @@ def test_the_parts_are_as_expected(name, across):
 def test_time(name, across):
     """Other work on the machine, and its make, are in the factor."""
     case = example(name, f"flexible.elements_across={across}", "motion.duration=6s", "flexible.evidence=none")
+    bonded._KEPT.clear()
     begun = time.process_time()
     dam = _build(case)
     built = time.process_time()
@@ -50,3 +54,23 @@ def test_time(name, across):
     ):
         print(f"{name}, {across} across, {said}: {measured:.2f} s, estimated {estimated:.2f} s")
         assert factor(measured, estimated) < 6.0
+
+
+def test_silence_and_spread_are_counted():
+    case = example("typical-base", "flexible.evidence=none", "motion.duration=20s")
+    alone = analysing(case, 20.0, 0.01).seconds - building(parts_of(case)).seconds
+    with_silence = analysing(case, 20.0, 0.01, silence=10.0).seconds - building(parts_of(case)).seconds
+    # To the end of the motion, through all of the silence, and the one that counts, which ends somewhere between.
+    assert with_silence == pytest.approx(alone * (20.0 + 30.0 + 22.5) / 20.0, rel=1e-6)
+    spread = analysing(case, 20.0, 0.01, spread=11).seconds - building(parts_of(case)).seconds
+    assert spread == pytest.approx(12.0 * alone, rel=1e-6)
+
+
+def test_a_spread_that_takes_too_long_is_refused_before_anything_runs(monkeypatch):
+    case = example("typical-base", "flexible.evidence=none", "flexible.elements_across=2", "motion.duration=1s")
+    few, many = (cost_of(case, "flexible", spread=runs).seconds for runs in (11, 1000))
+    limited = case.with_({"analysis.time_limit": f"{(few + many) / 2.0} s"})
+    monkeypatch.setattr("heeltoe.study.analysis.run", lambda *given, **named: pytest.fail("it ran"))
+    with pytest.raises(InputError) as refused:
+        analyse(limited, "flexible", spread=1000)
+    assert (refused.value.code, refused.value.field) == ("too-costly", "--spread")

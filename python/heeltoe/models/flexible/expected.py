@@ -10,6 +10,7 @@ import math
 from heeltoe.case.model import Case
 from heeltoe.models.flexible.cost import NUMBER, Cost, building, parts_of
 from heeltoe.models.flexible.shaken import usual_step
+from heeltoe.models.silence import STEP
 
 #: Frames kept: enough for an animation, few enough for memory.
 _FRAME_STEP = 0.01
@@ -53,10 +54,26 @@ def running(case: Case, end: float, frame_step: float, step: float | None = None
     return Cost(each * (_RUNS[case.flexible.evidence] if runs is None else runs), _GROUND * steps + frames)
 
 
-def analysing(case: Case, end: float, frame_step: float, step: float | None = None) -> Cost:
-    """Return what a result of the flexible model costs, without refinement."""
-    parts, runs = building(parts_of(case)), running(case, end, frame_step, step)
-    return Cost(parts.seconds + runs.seconds, parts.memory + runs.memory)
+def analysing(
+    case: Case, end: float, frame_step: float, step: float | None = None, *, silence: float = 0.0, spread: int = 0
+) -> Cost:
+    """Return what a result of the flexible model costs, without refinement.
+
+    Parameters
+    ----------
+    case, end, frame_step, step
+        As :func:`running` takes them.
+    silence
+        How long the run may go on through silence [s]. Most dams still move a little when the motion ends: there is a
+        run to its end, one through all of the silence, and only then the one that counts, with its evidence.
+    spread
+        How many runs with the shaking varied follow.
+    """
+    parts, counted = building(parts_of(case)), _RUNS[case.flexible.evidence] + spread
+    runs = [running(case, end + min(silence, STEP), frame_step, step, counted)]
+    if silence:
+        runs += [running(case, through, frame_step, step, 1.0) for through in (end, end + silence)]
+    return Cost(parts.seconds + sum(each.seconds for each in runs), parts.memory + max(each.memory for each in runs))
 
 
 def _step_of(case: Case) -> float:

@@ -49,7 +49,8 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
         )
     block = build_block(case)
     frame_step = frame_step_of(end, output_step)
-    check_cost(case, analysing(case, earthquake.run_end, frame_step))
+    silence = max(case.analysis.silence - earthquake.silence, 0.0)
+    check_cost(case, analysing(case, earthquake.run_end, frame_step, silence=silence))
     found, earthquake = _answer(case, block, earthquake, frame_step)
     shaken, run, evidence = found.shaken, found.run, found.evidence
     # Its mesh may be finer by now.
