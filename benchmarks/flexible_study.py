@@ -19,8 +19,7 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import numpy as np
 from measure import heading, require, seconds, table
 
-from heeltoe import Case, GroundMotion, flexible, read_case, read_study, run_study
-from heeltoe.kept import Kept
+from heeltoe import flexible, read_case, read_study, run_study
 from heeltoe.kernel.build import PROFILE
 from heeltoe.kernel.dam import CrackedDam
 from heeltoe.models.flexible import bonded, reduced
@@ -77,7 +76,7 @@ def busy() -> float:
 def forget() -> None:
     """Let go of all dams that are kept."""
     for module in (bonded, reduced):
-        module._KEPT = Kept(4)
+        module._KEPT.clear()
 
 
 def alone(found: Opened, plan: Plan) -> Alone:
@@ -91,7 +90,7 @@ def alone(found: Opened, plan: Plan) -> Alone:
     def make(run: dict[str, float | str]) -> None:
         forget()
         dam = pilot.refined(case.with_({"crack.friction": run["crack.friction"], "motion": None}))
-        slip = timed_run(dam, shakes[str(run["motion"])].scaled(float(run["factor"])))
+        slip = flexible(dam, shakes[str(run["motion"])].scaled(float(run["factor"]))).residual_slip_m
         same = np.isclose(slip, float(run["residual_slip_m"]), rtol=1e-3, atol=1e-6)
         require(bool(same), "a run of the study is not the one made alone")
 
@@ -105,11 +104,6 @@ def alone(found: Opened, plan: Plan) -> Alone:
         whole = time.process_time() - began
     kernel, setup = (sum(spent[key]) / len(every) for key in ("kernel", "set-up"))
     return Alone(whole / len(every), kernel, setup, len(spent["kernel"]) / len(every))
-
-
-def timed_run(case: Case, motion: GroundMotion) -> float:
-    """Run the flexible model and return the slip that stays [m]."""
-    return float(flexible(case, motion).residual_slip_m)
 
 
 class counted:
