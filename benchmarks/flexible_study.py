@@ -31,8 +31,6 @@ from heeltoe.study.run import Outlook
 EXAMPLE = Path(__file__).parent.parent / "examples" / "typical-base.toml"
 #: Dams and strengths: with 42 motions 504 runs.
 FRICTIONS, STRENGTHS = (0.8, 1.0, 1.2), ("0.1 g", "0.2 g", "0.3 g", "0.4 g")
-#: Of the runs of the study, every so many is made alone, too; of its parts, every so many in this process.
-ALONE, HERE = 13, 6
 STUDY = """
 case = "{case}"
 model = "flexible"
@@ -84,7 +82,8 @@ def alone(found: Opened, plan: Plan) -> Alone:
     case, pilot = read_case(EXAMPLE), plan.pilot
     require(pilot is not None and pilot.halvings == 0, "the study halves its steps: a run alone would not")
     assert pilot is not None
-    every = found.to_table().to_pylist()[::ALONE]
+    rows = found.to_table().sort_by("run").to_pylist()
+    every = [rows[start + place % (stop - start)] for place, (start, stop) in enumerate(stretches(plan))]
     shakes = {shake.name: shake.horizontal for shake in plan.shakes}
 
     def make(run: dict[str, float | str]) -> None:
@@ -126,13 +125,19 @@ class counted:
         setattr(self._owner, self._name, self._plain)
 
 
-def in_this_process(plan: Plan, size: int) -> float:
-    """Return the processor time of a run where parts of the study run one after the other in this process [s]."""
+def stretches(plan: Plan) -> list[tuple[int, int]]:
+    """Return the runs of each motion at all strengths, with the dams in turn: they stand for the whole study."""
+    dams, motions, strengths, _ = plan.sizes
+    starts = [(motion % dams * motions + motion) * strengths for motion in range(motions)]
+    return [(start, start + strengths) for start in starts]
+
+
+def in_this_process(plan: Plan) -> float:
+    """Return the processor time of a run where nothing hands it out or keeps it [s]."""
     forget()
-    starts = range(0, plan.count, size * HERE)
     run_part(plan, 0, 1)  # what is loaded at first use is not counted
     began = time.process_time()
-    count = sum(run_part(plan, start, min(start + size, plan.count)).num_rows for start in starts)
+    count = sum(run_part(plan, *stretch).num_rows for stretch in stretches(plan))
     return (time.process_time() - began) / count
 
 
@@ -153,7 +158,7 @@ def measure(frictions: tuple[float, ...]) -> list[list[str]]:
         count = found.store.count
         require(found.complete and found.all_ok, "some run has no result")
         plan = replace(plan_of(read_study(file)), pilot=Pilot(**found.told["pilot"]))
-        here = in_this_process(plan, found.store.size)
+        here = in_this_process(plan)
         single = alone(found, plan)
     ahead, during = ((end - start) / count for start, end in pairwise(marks))
     ready = single.kernel + single.setup
