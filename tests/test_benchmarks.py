@@ -28,7 +28,7 @@ def test_results_have_a_section_for_every_part(run):
 def test_one_section_is_renewed(run):
     text = (FOLDER / "results.md").read_text(encoding="utf-8")
     new = run.renewed(text, "## Flexible dams\n\nnew")
-    assert "## Flexible dams\n\nnew\n\n## Elastic block" in new
+    assert "## Flexible dams\n\nnew\n\n## Flexible studies" in new
     before, after = (body[: body.index("## Flexible dams")] for body in (text, new))
     assert before == after
     assert run.renewed("", "## Rigid peers\n\nx") == f"{run.TITLE}\n\n## Rigid peers\n\nx\n"
