@@ -54,7 +54,25 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "concrete.modulus",
         "a rigid block leaves out the vibration of the dam: with {moduli_pa:g GPa|to} it swings in about "
         "{periods_s:.2g s|to}, where this motion shakes it with {accelerations_g:.2g g|to}, {times:.2g|to} times its "
-        "peak{level}; it may slide and rock several times as far: {remedy}, and the dam is elastic",
+        "peak{level}",
+    ),
+    "rigid-slides": (
+        "caution",
+        "concrete.modulus",
+        "a dam of this stiffness slides {times:g|to} times as far as its block{chain} (as did {share:.2g %} of "
+        "{cases:d} studied cases): {remedy}, and the dam is elastic",
+    ),
+    "rigid-holds": (
+        "caution",
+        "concrete.modulus",
+        "its block slides less than {least_m:g mm}, but {shares:.2g %|to} of the dams like it slide more than "
+        "{far_m:g mm} ({cases:d} studied cases): {remedy}, and the dam is elastic",
+    ),
+    "rigid-unlike": (
+        "caution",
+        "concrete.modulus",
+        "a dam may slide and rock several times as far as its block, and none like this one was studied ({why}): "
+        "{remedy}, and the dam is elastic",
     ),
     "study-rigid": (
         "caution",

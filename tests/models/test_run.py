@@ -20,7 +20,7 @@ def test_python_and_the_command_line_warn_of_the_same():
     changes = [f"--set={change}" for change in OPENED]
     told = json.loads(command("run", str(BASE), "--model", "rigid", *changes, "--json", "-").stdout)
     response = heeltoe.rigid(read_case(BASE, OPENED))
-    assert [each.code for each in response.warnings] == ["fields-unused", "crack-opens", "rigid-block"]
+    assert [each.code for each in response.warnings] == ["fields-unused", "crack-opens", "rigid-block", "rigid-slides"]
     assert response.to_json() == told
 
 

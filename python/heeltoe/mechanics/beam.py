@@ -1,7 +1,8 @@
 """A dam as a beam: about how long it swings, and how far each level of it does, without building elastic parts.
 
 The whole section, uncracked, is a cantilever that bends and shears (Timoshenko), with the virtual water of a vertical
-face; its axis is taken for straight. Its first period is up to 12 % off that of the elastic parts.
+face; its axis is taken for straight. Its first period is up to 12 % off that of the elastic parts. What a motion does
+to it is what a rigid block of the dam leaves out.
 """
 
 from __future__ import annotations
@@ -12,11 +13,18 @@ import numpy as np
 
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
+from heeltoe.errors import InputError
+from heeltoe.kept import Kept
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.motion.measures import mean_period
+from heeltoe.motion.spectrum import response_spectrum
 
 _PIECES = 20
 #: Share of a rectangle's area that carries shear.
 _SHEAR = 5.0 / 6.0
 _MODES = 3
+#: No earthquake shakes what swings faster than this [s].
+STIFF_S = 0.02
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,6 +44,76 @@ class Beam:
     periods: Floats
     levels: Floats
     reached: Floats
+
+
+_Swung = tuple[Beam, Floats, Floats | None, float | None]
+_KEPT: Kept[_Swung] = Kept(8)
+
+
+@dataclass(frozen=True, eq=False)
+class Swing:
+    """A dam in a motion, for each of some moduli.
+
+    Attributes
+    ----------
+    periods
+        (k,) first periods [s].
+    peak
+        Peak acceleration of the ground [m/s2].
+    mean_period
+        Of the motion [s]; None where it jumps and so has no Fourier transform.
+    accelerations
+        (k,) pseudo-accelerations of the motion there, with the damping of the concrete [m/s2].
+    at_crack
+        (k,) peak accelerations at the level of the crack [m/s2]: the modes by the root of the sum of their squares, and
+        the ground itself.
+    """
+
+    periods: Floats
+    peak: float
+    mean_period: float | None
+    accelerations: Floats
+    at_crack: Floats
+
+
+def swing_of(case: Case, motion: GroundMotion, moduli: tuple[float, ...]) -> Swing | None:
+    """Return how a dam swings with each of these moduli [Pa]; nothing where it is too stiff for any
+    earthquake, or nothing moves."""
+    peak = motion.pga
+    if not peak:
+        return None
+    found, periods, felt, mean = _swung(case, motion, moduli)
+    if felt is None:
+        return None
+    reached = [np.interp(case.crack.elevation, found.levels, mode) for mode in found.reached.T]
+    at_crack = np.sqrt(peak**2 + np.sum((felt * np.array(reached)) ** 2, axis=1))
+    return Swing(periods[:, 0], peak, mean, felt[:, 0], at_crack)
+
+
+def _swung(case: Case, motion: GroundMotion, moduli: tuple[float, ...]) -> _Swung:
+    """Return the dam as a beam, for each modulus the periods of its modes and the pseudo-accelerations of the motion
+    there, and its mean period; None instead of the last two where the dam is too stiff to ask. Kept for cases that
+    differ elsewhere."""
+    water = case.reservoir and (case.reservoir.depth, case.reservoir.density)
+    concrete = case.concrete
+
+    def build() -> _Swung:
+        found = beam(case)
+        periods = found.periods / np.sqrt(np.array(moduli))[:, None]
+        if periods[:, 0].max() < STIFF_S:
+            return found, periods, None, None
+        spectrum = response_spectrum(motion, periods.ravel(), concrete.damping)
+        return found, periods, spectrum.pseudo_acceleration.reshape(periods.shape), _mean_period(motion)
+
+    key = (case.section, concrete.density, concrete.poisson, concrete.damping, water, motion, moduli)
+    return _KEPT.get(key, build)
+
+
+def _mean_period(motion: GroundMotion) -> float | None:
+    try:
+        return mean_period(motion)
+    except InputError:
+        return None
 
 
 def beam(case: Case) -> Beam:

@@ -264,7 +264,7 @@ def _completed(response: R, case: Case, models: Sequence[str], chosen: Chosen, *
         return replace(response, chosen=chosen, warnings=warnings)
     warnings = (*warnings, *slid_off, *standing_warnings(case, response.static))
     if alone and not response.elastic:
-        left_out = omitted(case, response.motion) if response.model == "rigid" else (Notice("rigid-top"),)
+        left_out = omitted(case, response) if response.model == "rigid" else (Notice("rigid-top"),)
         warnings = (*warnings, *left_out)
     return replace(
         response,

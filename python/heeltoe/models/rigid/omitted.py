@@ -1,85 +1,150 @@
-"""What a rigid block leaves out of a dam: the dam's own vibration, and what it makes of the ground's motion."""
+"""What a rigid block leaves out of a dam: the dam's own vibration, and how much farther it slides for it."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
-from heeltoe.kept import Kept
-from heeltoe.mechanics.beam import Beam, beam
-from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.motion.spectrum import response_spectrum
+from heeltoe.mechanics.beam import Swing, swing_of
+from heeltoe.models.rigid.criterion import FAR_M, LEAST_M, Fit, Likeness, fits
+from heeltoe.result.response import Response
 from heeltoe.units.sentences import Sentence
 from heeltoe.warnings import Notice
 
 #: Moduli that the concrete of dams usually has [Pa].
 USUAL_MODULI = (15e9, 35e9)
-#: Shaking that is amplified by less than this makes a block of the dam as good as a dam.
+#: Shaking that is amplified by less than this goes without a word where dams like it were not studied.
 _NOTICED = 1.1
-#: No earthquake shakes what swings faster than this [s].
-_STIFF_S = 0.02
 _SAME = 1.05
 
-_Swung = tuple[Beam, Floats, Floats | None]
-_KEPT: Kept[_Swung] = Kept(8)
+
+@dataclass(frozen=True)
+class _Dam:
+    """What a case and the run of its block say, before the dam is asked how it swings."""
+
+    block: Response
+    gravity: float
+    elevation: float
+    height: float
+    water: float
+    damping: float
+    friction: float
+    unlike: str | None
+    remedy: str
 
 
-def omitted(case: Case, motion: GroundMotion) -> tuple[Notice, ...]:
-    """Return what the dam's own vibration would do in a motion, for its modulus or for usual ones; nothing where the
-    dam is so stiff and low that the motion hardly feels it."""
-    if not motion.pga:
-        return ()
+def omitted(case: Case, response: Response) -> tuple[Notice, ...]:
+    """Return what the dam's own vibration would do in the motion of a block's run, for its modulus or for usual ones;
+    nothing where the dam is so stiff and low that the motion hardly feels it."""
     modulus = case.concrete.modulus
     moduli = USUAL_MODULI if modulus is None else (modulus,)
-    found, periods, felt = _swung(case, motion, moduli)
-    if felt is None:
+    corners = [z for _, z in case.section.vertices()]
+    dam = _Dam(
+        block=response,
+        gravity=case.gravity,
+        elevation=case.crack.elevation,
+        height=max(corners) - min(corners),
+        water=0.0 if case.reservoir is None else case.reservoir.depth,
+        damping=case.concrete.damping,
+        friction=case.crack.mu_static,
+        unlike=_unlike(case, response),
+        remedy="give concrete.modulus" if modulus is None else "run it with --model auto",
+    )
+    swing = swing_of(case, response.motion, moduli)
+    if swing is None:
         return ()
-    first = felt[:, 0]
-    # At the level of the crack, the modes by the root of the sum of their squares, and the ground itself.
-    reached = [np.interp(case.crack.elevation, found.levels, mode) for mode in found.reached.T]
-    there = np.sqrt(motion.pga**2 + np.sum((felt * np.array(reached)) ** 2, axis=1))
-    if max(first.max(), there.max()) <= _NOTICED * motion.pga:
+    like = _farther(dam, swing)
+    strongest = max(swing.accelerations.max(), swing.at_crack.max())
+    if like.code == "rigid-unlike" and strongest <= _NOTICED * swing.peak:
         return ()
+    return _swings(dam, swing, moduli), like
+
+
+def _swings(dam: _Dam, swing: Swing, moduli: tuple[float, ...]) -> Notice:
+    """Say how the dam swings."""
     level: Sentence | str = ""
-    if case.crack.elevation > 0.0:
+    if dam.elevation > 0.0:
         level = Sentence.of(
             "; at the crack, {elevation_m:g m} above the base, it shakes with about {peaks_g:.2g g|to}, {times:.2g|to} "
             "times the ground's peak",
-            elevation_m=case.crack.elevation,
-            peaks_g=_ends(there / case.gravity),
-            times=_ends(there / motion.pga),
+            elevation_m=dam.elevation,
+            peaks_g=_ends(swing.at_crack / dam.gravity),
+            times=_ends(swing.at_crack / swing.peak),
         )
-    remedy = "give concrete.modulus" if modulus is None else "run it with --model auto"
-    return (
-        Notice(
-            "rigid-block",
-            moduli_pa=moduli,
-            periods_s=_ends(periods[:, 0]),
-            accelerations_g=_ends(first / case.gravity),
-            times=_ends(first / motion.pga),
-            level=level,
-            remedy=remedy,
-        ),
+    return Notice(
+        "rigid-block",
+        moduli_pa=moduli,
+        periods_s=_ends(swing.periods),
+        accelerations_g=_ends(swing.accelerations / dam.gravity),
+        times=_ends(swing.accelerations / swing.peak),
+        level=level,
     )
 
 
-def _swung(case: Case, motion: GroundMotion, moduli: tuple[float, ...]) -> _Swung:
-    """Return the dam as a beam, and for each modulus the periods of its modes and the pseudo-accelerations of the
-    motion there; None instead of these where the dam is too stiff to ask. Kept for cases that differ elsewhere."""
-    water = case.reservoir and (case.reservoir.depth, case.reservoir.density)
-    concrete = case.concrete
+def _farther(dam: _Dam, swing: Swing) -> Notice:
+    """Say how much farther dams like it slide than their blocks."""
+    mean_period = swing.mean_period
+    why = dam.unlike or ("its motion jumps, and has no mean period" if mean_period is None else None)
+    if why is not None or mean_period is None:
+        return Notice("rigid-unlike", why=why, remedy=dam.remedy)
+    likes = [_likeness(dam, swing, mean_period, place) for place in range(swing.periods.size)]
+    regime = likes[0].regime
+    elastic, numbers = fits()["flexible"][regime], [each.numbers() for each in likes]
+    outside = next((found for each in numbers if (found := elastic.outside(each)) is not None), None)
+    if outside is not None:
+        return Notice("rigid-unlike", why=outside, remedy=dam.remedy)
+    if regime == "holds":
+        shares = [elastic.beyond(each, FAR_M / like.displacement) for each, like in zip(numbers, likes, strict=True)]
+        # No share of some hundred cases is known better than that.
+        told = _ends(np.clip(shares, 0.01, 0.99))
+        known: dict[str, Any] = {"least_m": LEAST_M, "far_m": FAR_M, "cases": elastic.cases}
+        return Notice("rigid-holds", shares=told, remedy=dam.remedy, **known)
+    chain: Sentence | str = ""
+    if dam.elevation > 0.0:
+        times = _band(fits()["decoupled"][regime], numbers)
+        chain = Sentence.of(", the decoupled chain {times:g|to} times", times=times)
+    share, cases = elastic.held_back["height" if dam.elevation > 0.0 else "base"]
+    times = _band(elastic, numbers)
+    return Notice("rigid-slides", times=times, chain=chain, share=share, cases=cases, remedy=dam.remedy)
 
-    def build() -> _Swung:
-        found = beam(case)
-        periods = found.periods / np.sqrt(np.array(moduli))[:, None]
-        if periods[:, 0].max() < _STIFF_S:
-            return found, periods, None
-        spectrum = response_spectrum(motion, periods.ravel(), concrete.damping)
-        return found, periods, spectrum.pseudo_acceleration.reshape(periods.shape)
 
-    key = (case.section, concrete.density, concrete.poisson, concrete.damping, water, motion, moduli)
-    return _KEPT.get(key, build)
+def _likeness(dam: _Dam, swing: Swing, mean_period: float, place: int) -> Likeness:
+    block = dam.block
+    return Likeness(
+        slip=abs(block.residual_slip_m),
+        rotation=max(block.rocking_downstream_rad, block.rocking_upstream_rad),
+        first_period=float(swing.periods[place]),
+        mean_period=mean_period,
+        peak=swing.peak,
+        spectral=float(swing.accelerations[place]),
+        crack=float(swing.at_crack[place]),
+        critical=block.static["critical_acceleration_g"]["sliding"] * dam.gravity,
+        level=dam.elevation / dam.height,
+        water=dam.water / dam.height,
+        damping=dam.damping,
+        friction=dam.friction,
+    )
+
+
+def _unlike(case: Case, response: Response) -> str | None:
+    """Say what of a case or its run is not in the study at all."""
+    reasons: dict[str, Any] = {
+        f"its block ended as {response.outcome}": response.outcome != "ok",
+        "the ground moves vertically, too": response.vertical is not None,
+        "it has anchors": case.anchors,
+        "its crack is inclined": case.crack.inclination,
+        "its uplift changes while it is shaken": case.uplift.during_shaking != "constant",
+    }
+    return next((why for why, there in reasons.items() if there), None)
+
+
+def _band(fit: Fit, numbers: list[dict[str, float]]) -> tuple[float, ...]:
+    """Return the least and the largest of the bands, to two digits."""
+    return tuple(float(f"{each:.2g}") for each in _ends(np.array([fit.band(each) for each in numbers])))
 
 
 def _ends(values: Floats) -> tuple[float, ...]:
