@@ -83,8 +83,9 @@ def text(asked: Asked, name: str) -> str:
 def actions() -> dict[str, Entry]:
     """Return all of them."""
     from heeltoe.app import answer, open_case
+    from heeltoe.app.case import actions as case
 
     found: dict[str, Entry] = {}
-    for module in (open_case, answer):
+    for module in (open_case, case, answer):
         found |= module.ACTIONS
     return found

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from heeltoe.app.actions import Asked, BadRequestError, Desk, Entry, text
 from heeltoe.app.examples import FIRST, example_path, examples
 from heeltoe.app.sessions import Session
-
-# Not as the server starts: the page is there before all that reads a case is loaded.
-if TYPE_CHECKING:
-    from heeltoe.case.model import Case
 
 
 def state(session: Session) -> dict[str, Any]:
@@ -42,19 +38,15 @@ def begin(session: Session) -> dict[str, Any]:
 
 
 def _open(session: Session, name: str) -> None:
-    session.case = _read(session, name)
-    session.example = name
-    session.changes, session.moved = {}, frozenset()
-    session.kept.clear()
-
-
-def _read(session: Session, name: str) -> Case:
-    from heeltoe.case.read import read_case
+    from heeltoe.app.case.draft import start
+    from heeltoe.case.read import read_fields
 
     path = example_path(name, session.folder)
     if path is None:
         raise BadRequestError(f"{name} is no example; the first one is {FIRST}")
-    return read_case(path)
+    start(session, read_fields(path))
+    session.example = name
+    session.kept.clear()
 
 
 async def open_example(desk: Desk, asked: Asked) -> dict[str, Any]:

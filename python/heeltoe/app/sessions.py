@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import secrets
 import shutil
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from time import monotonic
 from typing import TYPE_CHECKING, Any
@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 from heeltoe.app.settings import Settings
 
 if TYPE_CHECKING:
+    from heeltoe.app.case.draft import Draft
     from heeltoe.app.jobs import Job, Tell
     from heeltoe.case.model import Case
 
@@ -36,6 +37,10 @@ class Session:
         The sliders that were moved.
     units
         ``"si"`` or ``"us"``.
+    draft
+        The case as it was typed (`heeltoe.app.case.draft`), which is where a case is changed.
+    sent
+        Files that it has sent, by the names that they have in the case: the names that they have here.
     kept
         What else a page wants to find again, by names of its own.
     jobs
@@ -55,6 +60,8 @@ class Session:
     changes: dict[str, Any] = field(default_factory=dict)
     moved: frozenset[str] = frozenset()
     units: str = "si"
+    draft: Draft | None = None
+    sent: dict[str, str] = field(default_factory=dict)
     kept: dict[str, Any] = field(default_factory=dict)
     jobs: dict[int, Job] = field(default_factory=dict)
     uploads: int = 0
@@ -66,6 +73,16 @@ class Session:
         """Tell the tab, if there is one: a run goes on while its tab is closed or loaded anew."""
         if self.open and self.tell is not None:
             await self.tell(message)
+
+    def begin_as(self, other: Session) -> None:
+        """Begin with the case of another tab, and with copies of the files that it has sent."""
+        self.example, self.units, self.uploads = other.example, other.units, other.uploads
+        self.changes, self.moved = dict(other.changes), other.moved
+        self.case = other.case.based_in(self.folder) if other.case else None
+        self.draft = replace(other.draft, case=self.case, undo=[], redo=[]) if other.draft else None
+        for called, stored in other.sent.items():
+            shutil.copyfile(other.folder / stored, self.folder / stored)
+            self.sent[called] = stored
 
     def close(self) -> None:
         """End what runs for it, and remove its files."""
@@ -122,8 +139,7 @@ class Sessions:
         folder.mkdir(mode=0o700, parents=True)
         found = Session(name, folder)
         if like is not None:
-            found.case, found.example, found.units = like.case, like.example, like.units
-            found.changes, found.moved = dict(like.changes), like.moved
+            found.begin_as(like)
         self._found[name] = found
         self._forget()
         return found

@@ -17,7 +17,7 @@ from heeltoe.case.fields import Fields
 from heeltoe.case.motion import Motion
 from heeltoe.case.options import Analysis, Decoupled, Flexible, Limits, StaticsChoice
 from heeltoe.case.quantities import Gravity
-from heeltoe.case.sentences import collected, first_error
+from heeltoe.case.sentences import all_errors, collected, first_error
 from heeltoe.errors import InputError
 from heeltoe.geometry.levels import cut_levels
 from heeltoe.geometry.section import ON_LINE, CutSection, cut, outline
@@ -178,6 +178,19 @@ class Case(Shown, Fields):
         copy = self.model_copy()
         copy._base_directory = directory
         return copy
+
+
+def problems(fields: Mapping[str, Any]) -> tuple[Case | None, list[InputError]]:
+    """Return the case of some fields, as a file has them, and all that is wrong with them; None where anything is."""
+    try:
+        case = Case.model_validate(fields)
+    except ValidationError as found:
+        return None, all_errors(found, Case)
+    try:
+        wrong = [error() for is_so, error in misfits(case) if is_so]
+    except InputError as error:
+        wrong = [error]
+    return (None if wrong else case), wrong
 
 
 def misfits(case: Case) -> Iterator[tuple[bool, Callable[[], InputError]]]:

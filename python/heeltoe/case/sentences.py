@@ -64,13 +64,18 @@ def first_error(found: ValidationError, model: type[BaseModel]) -> InputError:
         A field that does not exist goes first, since a slip of the pen makes the field that was meant look
         missing.
     """
-    details = found.errors(include_url=False)
-    details.sort(key=lambda detail: detail["type"] != "extra_forbidden")
-    error = _translated(details[0], model)
-    more = len(details) - 1
+    error, *others = all_errors(found, model)
+    more = len(others)
     if more:
         error.remedy += f" (and {more} more problem{'s' if more > 1 else ''})"
     return error
+
+
+def all_errors(found: ValidationError, model: type[BaseModel]) -> list[InputError]:
+    """Return all problems that pydantic gathered, fields that do not exist first; see :func:`first_error`."""
+    details = found.errors(include_url=False)
+    details.sort(key=lambda detail: detail["type"] != "extra_forbidden")
+    return [_translated(detail, model) for detail in details]
 
 
 def _translated(detail: ErrorDetails, model: type[BaseModel]) -> InputError:

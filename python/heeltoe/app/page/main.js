@@ -1,5 +1,6 @@
 /** The start of the page: connection, tabs, and what stands above all of them. */
 import { answerPage } from "./answer.js";
+import { casePage } from "./case.js";
 import { byId, element } from "./dom.js";
 import { laterPage } from "./later.js";
 import { showTabs } from "./tabs.js";
@@ -9,7 +10,7 @@ import { followTheme } from "./theme.js";
 const talk = new Talk();
 const answer = answerPage(talk);
 const pages = [
-  laterPage("case", "Case", "Choose an example above; a case of your own is written and run by", "heeltoe new NAME"),
+  casePage(talk),
   laterPage("motion", "Motion", "A record is looked at by", "heeltoe motion FILE"),
   answer,
   laterPage("studies", "Studies", "Many dams through many earthquakes are run by", "heeltoe study STUDY.toml"),
@@ -30,6 +31,7 @@ units.addEventListener("change", () => talk.ask("units", { units: units.value })
 talk.on("state", (state) => {
   byId("case-title").textContent = state.case ? state.case.title || "untitled case" : "";
   example.replaceChildren(...state.examples.map((/** @type {string} */ name) => element("option", { value: name }, name)));
+  if (state.case && !state.case.example) example.prepend(element("option", { value: "" }, "changed"));
   example.value = state.case ? state.case.example : "";
   units.value = state.units;
 });

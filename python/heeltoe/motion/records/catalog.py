@@ -74,6 +74,11 @@ def available() -> list[tuple[str, str]]:
     return [*found, MADE_TO_ORDER]
 
 
+def names() -> list[str]:
+    """Return every name by which a record is found without a path."""
+    return list(_places())
+
+
 def is_record(path: Path) -> bool:
     """Whether a file is a record by its name."""
     return path.is_file() and path.suffix.lower() in _RECORD_ENDINGS and path.stem.lower() != "readme"

@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
+from heeltoe.geometry.beside import beside
 from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.loads import uplift_profile
 from heeltoe.units.systems import Units, unit_system
@@ -97,16 +98,16 @@ def _draw_bodies(canvas: Canvas, case: Case) -> None:
         if water is None or water.depth == 0.0:
             continue
         level = base + water.depth
-        canvas.fill(_beside(whole, level, far, side), facecolor=COLOURS["water"], linewidth=0.0, zorder=1)
+        canvas.fill(beside(whole, level, far, side), facecolor=COLOURS["water"], linewidth=0.0, zorder=1)
         _draw_surface(canvas, whole, level, side)
     if case.silt is not None and case.silt.depth > 0.0:
-        silt = _beside(whole, base + case.silt.depth, far, "left")
+        silt = beside(whole, base + case.silt.depth, far, "left")
         canvas.fill(silt, facecolor=COLOURS["silt"], edgecolor="#8A6D1B", hatch="...", linewidth=0.5, zorder=1.2)
         if canvas.length(base + 0.5 * case.silt.depth) > canvas.axes.get_ylim()[0]:
             place = [left - 0.25 * canvas.size, base + 0.5 * case.silt.depth]
             canvas.label("silt", place, "#6B5310", first=(0, 0))
     if case.ice is not None and case.reservoir is not None:
-        ice = _beside(whole, base + case.reservoir.depth, far, "left") - shapely.box(
+        ice = beside(whole, base + case.reservoir.depth, far, "left") - shapely.box(
             left - 3.0 * far, base - far, right + far, base + case.reservoir.depth - 2.0 * case.ice.depth
         )
         canvas.fill(ice, facecolor="white", edgecolor="#6A4C93", hatch="xxxx", linewidth=0.5, zorder=1.3)
@@ -118,17 +119,6 @@ def _draw_bodies(canvas: Canvas, case: Case) -> None:
     canvas.fill(section.polygon, facecolor=COLOURS["concrete"], **outline)
     for ring in (shapely.get_coordinates(whole.exterior), np.vstack([section.polygon, section.polygon[:1]])):
         canvas.keep_off(ring)
-
-
-def _beside(whole: shapely.Polygon, level: float, far: float, side: str) -> shapely.Geometry:
-    """Return what is beside the dam, up to a level."""
-    left, base, right, _ = whole.bounds
-    around = shapely.box(left - far, base, right + far, level)
-    edge = shapely.box(left - 2.0 * far, base, left - 0.5 * far, level)
-    if side == "right":
-        edge = shapely.box(right + 0.5 * far, base, right + 2.0 * far, level)
-    parts = [part for part in shapely.get_parts(around - whole) if part.intersects(edge)]
-    return shapely.union_all(parts)
 
 
 def _draw_surface(canvas: Canvas, whole: shapely.Polygon, level: float, side: str) -> None:

@@ -1,0 +1,250 @@
+"""Actions of the page of the case: show it, change it, drag in its drawing, open a file, save one, go back."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from pathlib import PurePath
+from typing import Any
+
+from heeltoe.app.actions import Asked, BadRequestError, Desk, Entry, number, text
+from heeltoe.app.sessions import Session
+from heeltoe.app.uploads import upload_path
+from heeltoe.errors import InputError
+from heeltoe.plain import plain
+
+# Letters of a case file that the page takes, and of a name of a file.
+_LARGEST_FILE, _LONGEST_NAME = 200_000, 120
+_MOST_CHANGES = 50
+# Blocks that are put in as a whole begin with these, or with a part of the height of the dam.
+_BEGIN: dict[str, dict[str, Any]] = {
+    "ice": {"force": "150 kN/m"},
+    "motion": {"file": "elcentro-1940-180-nga", "pga": "0.4 g"},
+    "motion.vertical": {"file": "elcentro-1940-up-nga"},
+}
+_PARTS = {"reservoir": 0.9, "tailwater": 0.1, "silt": 0.1}
+_PATTERNS: dict[str, dict[str, Any]] = {
+    "cut-off": {"uplift.extent": 0.5},
+    "drained": {"uplift.drain_position": 0.1, "uplift.drain_efficiency": 0.667},
+}
+
+
+async def show(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Return the case as it was typed, what is wrong with it, and its drawing."""
+    return await _done(desk, lambda: None)
+
+
+async def fields(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Return what a case can say."""
+    from heeltoe.app.case.fields import form
+
+    return {"of": "case fields", "blocks": await desk.workers.quick(form, desk.session.units)}
+
+
+async def edit(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Change fields, as they were typed."""
+    from heeltoe.app.case.draft import edit as change
+
+    changes, session = _changes(asked), desk.session
+    return await _done(desk, lambda: change(session, _typed(session, changes), asked.get("step")))
+
+
+async def put(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Put in a block that the case does not have, or take one away."""
+    from heeltoe.app.case.draft import edit as change
+    from heeltoe.app.case.fields import blocks
+
+    path, session = text(asked, "path"), desk.session
+    if path not in {each.path for each in blocks() if each.path}:
+        raise BadRequestError(f"{path} is no block of a case")
+    begin = _first(session, path) if asked.get("there") is True else None
+    return await _done(desk, lambda: change(session, {path: begin}))
+
+
+async def drag(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Move a handle of the drawing."""
+    from heeltoe.app.case.draft import case_of
+    from heeltoe.app.case.draft import edit as change
+    from heeltoe.app.case.handles import moved
+
+    session, name = desk.session, text(asked, "handle")
+    to, by = (_numbers(asked.get(key, {})) for key in ("to", "by"))
+
+    def dragged() -> None:
+        case = case_of(session)
+        if case is not None:
+            change(session, moved(case, session.units, name, to, by), asked.get("step"))
+
+    return await _done(desk, dragged)
+
+
+async def step(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Take back the last step, or take it again."""
+    from heeltoe.app.case.draft import back
+
+    return await _done(desk, lambda: back(desk.session, forward=asked.get("forward") is True))
+
+
+async def corners(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Say the section by its corners, in the place of its dimensions."""
+    from heeltoe.app.case.draft import case_of
+    from heeltoe.app.case.draft import edit as change
+    from heeltoe.app.case.handles import corners_of
+
+    session = desk.session
+
+    def said() -> None:
+        case = case_of(session)
+        if case is not None and case.section.polygon is None:
+            change(session, {"section": {"polygon": corners_of(case, session.units)}})
+
+    return await _done(desk, said)
+
+
+async def open_file(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Open a case file that was sent, with the files beside it that were sent, too."""
+    from heeltoe.app.case.draft import start
+    from heeltoe.case.read import read_fields
+
+    session, called = desk.session, _name(asked.get("called"))
+    path = upload_path(session, text(asked, "file"))
+    beside = {_name(each): stored for each, stored in _texts(asked.get("beside", {})).items()}
+    if path is None or any(upload_path(session, stored) is None for stored in beside.values()):
+        raise BadRequestError("there is no such file")
+
+    def opened() -> None:
+        try:
+            if path.stat().st_size > _LARGEST_FILE:
+                raise InputError("case-file-large", called, f"{_LARGEST_FILE // 1000} kB")
+            session.sent |= beside
+            start(session, read_fields(path))
+        except InputError as error:
+            # Not by the name that the file has here.
+            error.field = called
+            said.append(str(error))
+
+    said: list[str] = []
+    return {**await _done(desk, opened), "file": " ".join(said)}
+
+
+async def save(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Return the case file of what is in force, with the meaning of each field beside it."""
+    from heeltoe.app.case.draft import fields_in_force
+    from heeltoe.case.written import case_text
+
+    def written() -> dict[str, Any]:
+        found = fields_in_force(desk.session)
+        words = re.findall(r"[a-z0-9]+", str(found.get("title", "")).lower())
+        return {"of": "case file", "text": case_text(found), "name": f"{'-'.join(words)[:60] or 'case'}.toml"}
+
+    found: dict[str, Any] = await desk.workers.quick(written)
+    return found
+
+
+async def _done(desk: Desk, do: Callable[[], None]) -> dict[str, Any]:
+    """Do something with the case of a tab; where another one is in force then, all its pages hear of it."""
+    from heeltoe.app.open_case import state
+
+    session = desk.session
+
+    def done() -> tuple[dict[str, Any], dict[str, Any] | None]:
+        before, moved = session.case, session.moved
+        do()
+        changed = session.case is not before or session.moved != moved
+        return _told(session), state(session) if changed else None
+
+    told, changed = await desk.workers.quick(done)
+    if changed is not None:
+        await desk.tell(changed)
+    found: dict[str, Any] = told
+    return found
+
+
+def _told(session: Session) -> dict[str, Any]:
+    from heeltoe.app.case.draft import case_of, draft_of, fields_of, valued
+    from heeltoe.app.case.drawing import drawing
+    from heeltoe.app.case.handles import handles, told
+
+    given, errors = fields_of(session)
+    draft, case = draft_of(session), case_of(session)
+    found: dict[str, Any] = {
+        "of": "case",
+        "fields": given,
+        "errors": [
+            {"field": each.field, "problem": plain(each.problem), "remedy": plain(each.remedy), "code": each.code}
+            for each in errors
+        ],
+        "corners": valued(given, "section.polygon") is not None,
+        "undo": bool(draft.undo),
+        "redo": bool(draft.redo),
+    }
+    if case is not None:
+        seen = drawing(case, session.units)
+        found["drawing"] = {**seen, "handles": [told(each) for each in handles(case, session.units)]}
+    return found
+
+
+def _typed(session: Session, changes: Mapping[str, Any]) -> dict[str, Any]:
+    from heeltoe.app.case.fields import field_of
+    from heeltoe.app.case.typed import typed
+
+    found = {}
+    for path, value in changes.items():
+        field = field_of(path)
+        # What is no field can be taken away.
+        found[path] = typed(value, field, session.units) if field else None
+    pattern = found.get("uplift.pattern")
+    return found | _PATTERNS.get(pattern, {}) if isinstance(pattern, str) else found
+
+
+def _first(session: Session, path: str) -> Any:
+    """Return what a block begins with."""
+    case = session.case
+    if path in _PARTS and case is not None:
+        from heeltoe.app.case.handles import length_text
+
+        return {"depth": length_text(case, session.units, _PARTS[path])}
+    return dict(_BEGIN.get(path, {}))
+
+
+def _changes(asked: Asked) -> dict[str, Any]:
+    given = asked.get("changes")
+    if not isinstance(given, dict) or not 0 < len(given) <= _MOST_CHANGES or not all(map(_is_path, given)):
+        raise BadRequestError("changes are values by the paths of fields")
+    return given
+
+
+def _is_path(path: str) -> bool:
+    return all(part.strip() == part != "" for part in path.split(".")) and len(path) <= 200
+
+
+def _numbers(given: object) -> dict[str, float]:
+    if not isinstance(given, dict):
+        raise BadRequestError("a handle is put to x and z")
+    return {axis: number(given, axis) for axis in ("x", "z") if axis in given}
+
+
+def _texts(given: object) -> dict[str, str]:
+    if not isinstance(given, dict) or not all(isinstance(each, str) for each in given.values()):
+        raise BadRequestError("files are names by names")
+    return given
+
+
+def _name(given: object) -> str:
+    """Return what the sender of a file called it, without any directory."""
+    if not isinstance(given, str):
+        raise BadRequestError("a file has a name")
+    return plain(PurePath(given.replace("\\", "/")).name, _LONGEST_NAME) or "file"
+
+
+ACTIONS = {
+    "case": Entry(show, newest=True),
+    "case fields": Entry(fields),
+    "edit case": Entry(edit),
+    "put block": Entry(put),
+    "drag": Entry(drag),
+    "step case": Entry(step),
+    "corners": Entry(corners),
+    "open case": Entry(open_file),
+    "save case": Entry(save),
+}

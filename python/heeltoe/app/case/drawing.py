@@ -1,0 +1,111 @@
+"""The section of a case as shapes that the page draws: dam, crack, water, silt, ice, uplift, anchors. All in metres."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import shapely
+
+from heeltoe.case.model import Case
+from heeltoe.geometry.beside import beside
+from heeltoe.mechanics.loads import uplift_profile
+from heeltoe.units.systems import unit_system
+
+# How deep the diagram of the uplift hangs below the crack, as a part of the size of the dam.
+_UPLIFT = 0.16
+# Margins of the view, as parts of the size: left, right, above, below.
+_MARGINS = (0.42, 0.36, 0.12, 0.2)
+
+
+def drawing(case: Case, units: str) -> dict[str, Any]:
+    """Return the shapes of a case from the back to the front, what is written beside them, and what of the plane is
+    seen."""
+    left, base, right, crest = case.outline.bounds
+    size = max(right - left, crest - base)
+    west, east, above, below = (part * size for part in _MARGINS)
+    return {
+        "view": [left - west, base - below, right + east, crest + above],
+        "shapes": [{"kind": kind, "rings": rings} for kind, rings in _shapes(case, size)],
+        "lines": [{"kind": kind, "points": points} for kind, points in _lines(case, size)],
+        "notes": list(_notes(case, units)),
+    }
+
+
+def _shapes(case: Case, size: float) -> Iterator[tuple[str, list[Any]]]:
+    left, base, right, _ = case.outline.bounds
+    far = 2.0 * size
+    for water, side in ((case.reservoir, "left"), (case.tailwater, "right")):
+        if water is not None and water.depth:
+            yield "water", _rings(beside(case.outline, base + water.depth, far, side))
+    if case.silt is not None and case.silt.depth:
+        yield "silt", _rings(beside(case.outline, base + case.silt.depth, far, "left"))
+    if case.ice is not None and case.reservoir is not None:
+        level = base + case.reservoir.depth
+        cover = beside(case.outline, level, far, "left")
+        depth = max(2.0 * case.ice.depth, 0.008 * size)
+        yield "ice", _rings(cover - shapely.box(left - 3.0 * far, base - far, right + far, level - depth))
+    yield "ground", _rings(shapely.box(left - far, base - size, right + far, base))
+    yield "below", _rings(case.outline)
+    yield "above", [case.cut.polygon.tolist()]
+    uplift = _uplift(case, size)
+    if uplift:
+        yield "uplift", [uplift]
+
+
+def _rings(shape: shapely.Geometry) -> list[Any]:
+    return [
+        shapely.get_coordinates(part.exterior)[:-1].tolist() for part in shapely.get_parts(shape) if not part.is_empty
+    ]
+
+
+def _uplift(case: Case, size: float) -> list[list[float]]:
+    """Return the diagram of the uplift below the crack; nothing where there is none."""
+    profile = uplift_profile(case)
+    most = float(np.abs(profile[:, 1]).max())
+    if not most:
+        return []
+    section = case.cut
+    points = [(0.0, 0.0), *((at, -_UPLIFT * size * pressure / most) for at, pressure in profile.tolist())]
+    points.append((section.crack_width, 0.0))
+    corners = [section.from_crack_frame(along, across) for along, across in points]
+    return [[section.heel[0] + x, section.heel[1] + z] for x, z in corners]
+
+
+def _lines(case: Case, size: float) -> Iterator[tuple[str, list[list[float]]]]:
+    section = case.cut
+    yield "crack", [list(section.heel), list(section.toe)]
+    position = case.uplift.drain_position
+    if position is not None:
+        x, z = section.from_crack_frame(position * section.crack_width, 0.0)
+        foot = [section.heel[0] + x, section.heel[1] + z]
+        yield "drain", [foot, [foot[0], foot[1] + 0.3 * section.height]]
+    upper = shapely.Polygon(section.polygon)
+    for anchor in case.anchors:
+        start = np.array(section.heel) + section.from_crack_frame(anchor.distance, 0.0)
+        axis = np.array(section.from_crack_frame(math.sin(anchor.inclination), math.cos(anchor.inclination)))
+        inside = shapely.intersection(upper, shapely.LineString([start, start + 4.0 * size * axis]))
+        ends = shapely.get_coordinates(inside)
+        end = ends[np.argmax((ends - start) @ axis)] if len(ends) else start
+        yield "anchor", [(start - 0.15 * size * axis).tolist(), end.tolist()]
+
+
+def _notes(case: Case, units: str) -> Iterator[dict[str, Any]]:
+    """Walk what is written in the drawing: slopes of the downstream face, and heel and toe."""
+    section, length = case.cut, unit_system(units).scale("length")
+    yield {"at": list(section.heel), "text": "heel", "side": "left"}
+    yield {"at": list(section.toe), "text": "toe", "side": "right"}
+    _, base, _, crest = case.outline.bounds
+    for edges, side in ((section.upstream_edges, "left"), (section.downstream_edges, "right")):
+        for edge in edges:
+            rise = edge.z1 - edge.z0
+            if rise > 0.15 * (crest - base) and abs(edge.slope) > 1e-6:
+                at = [section.heel[0] + (edge.x0 + edge.x1) / 2.0, section.heel[1] + (edge.z0 + edge.z1) / 2.0]
+                yield {"at": at, "text": f"{abs(edge.slope):.3g} : 1", "side": side}
+    yield {
+        "at": list(section.centroid),
+        "text": f"{length(section.crack_width):.4g} {length.unit} wide at the crack",
+        "side": "middle",
+    }

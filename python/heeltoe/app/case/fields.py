@@ -1,0 +1,237 @@
+"""The fields of a case as a form shows them, from the schema of the case: meaning, kind, choices, default, units."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import asdict, dataclass, replace
+from functools import cache
+from typing import Any
+
+from heeltoe.case.read import case_schema
+from heeltoe.units.parse import DIMENSIONS, parse
+
+# What a plain number means, by the system of units that is chosen; both where there is one alone.
+_UNITS = {
+    "length": ("m", "ft"),
+    "density": ("kg/m^3", "lb/ft^3"),
+    "pressure": ("MPa", "psi"),
+    "acceleration": ("g", "g"),
+    "velocity": ("m/s", "ft/s"),
+    "angle": ("deg", "deg"),
+    "line force": ("kN/m", "kip/ft"),
+    "stiffness": ("MN/m/m", "kip/ft/ft"),
+    "memory": ("GB", "GB"),
+}
+_LABELS = {"pga": "Peak acceleration", "": "The case", "statics": "Static checks"}
+_CELLS = {
+    "section.polygon": ("x", "z"),
+    "uplift.points": ("Distance", "Head"),
+    "motion.points": ("Time", "Acceleration"),
+}
+_OF_LISTS = re.compile(r"\[\d+\]")
+
+Schema = Mapping[str, Any]
+
+
+@dataclass(frozen=True)
+class Field:
+    """One field.
+
+    Attributes
+    ----------
+    path
+        In the case; ``[]`` stands for the place in a list.
+    label, meaning
+        What people call it, and what it says.
+    kind
+        ``"quantity"``, ``"text"``, ``"whole"``, ``"truth"``, ``"choice"``, ``"pairs"`` (rows of two cells) or
+        ``"blocks"`` (a list of blocks).
+    quantity
+        A key of :data:`heeltoe.units.parse.DIMENSIONS`; empty where it holds none.
+    choices
+        Of a choice.
+    default, example
+        What holds where nothing is said, and what could be said.
+    needed
+        Whether something must be said.
+    inner
+        The two cells of a pair, or the fields of a block.
+    blocks
+        Of a list of blocks of several kinds: the fields by the kind, which stands in the first of them.
+    """
+
+    path: str
+    label: str
+    meaning: str
+    kind: str
+    quantity: str = ""
+    choices: tuple[str, ...] = ()
+    default: str = ""
+    example: str = ""
+    needed: bool = False
+    inner: tuple[Field, ...] = ()
+    blocks: tuple[tuple[str, tuple[Field, ...]], ...] = ()
+
+
+@dataclass(frozen=True)
+class Block:
+    """A block of fields; `optional` ones may be missing."""
+
+    path: str
+    label: str
+    meaning: str
+    optional: bool
+    fields: tuple[Field, ...]
+
+
+def unit_of(field: Field, units: str) -> str:
+    """Return the unit of a number without one; empty where there is none."""
+    if field.path == "gravity":
+        return "m/s^2" if units == "si" else "ft/s^2"
+    if field.quantity in _UNITS:
+        return _UNITS[field.quantity][units == "us"]
+    return DIMENSIONS[field.quantity].unit if field.quantity else ""
+
+
+def form(units: str) -> list[dict[str, Any]]:
+    """Return all blocks as the page shows them, with defaults and examples in the units that are chosen."""
+    shown = []
+    for block in blocks():
+        told = asdict(block)
+        told["fields"] = [_shown(field, units) for field in block.fields]
+        shown.append(told)
+    return shown
+
+
+def _shown(field: Field, units: str) -> dict[str, Any]:
+    told = asdict(field)
+    unit = unit_of(field, units)
+    told["unit"] = unit
+    for name in ("default", "example"):
+        if unit and told[name]:
+            told[name] = in_unit(parse(told[name], field.quantity, field.path), field, units)
+    told["inner"] = [_shown(each, units) for each in field.inner]
+    told["blocks"] = {name: [_shown(each, units) for each in fields] for name, fields in field.blocks}
+    return told
+
+
+def in_unit(value: float, field: Field, units: str) -> str:
+    """Return a value in SI as it is typed in the units that are chosen."""
+    unit = unit_of(field, units)
+    return f"{value / parse(f'1 {unit}', field.quantity, field.path):.4g} {unit}"
+
+
+def field_of(path: str) -> Field | None:
+    """Return the field at a path, with or without places in lists; None where there is none."""
+    return _by_path().get(_OF_LISTS.sub("[]", path))
+
+
+@cache
+def _by_path() -> dict[str, Field]:
+    return {each.path: each for block in blocks() for field in block.fields for each in _all(field)}
+
+
+def _all(field: Field) -> Iterator[Field]:
+    yield field
+    if field.kind == "blocks":
+        for each in (*field.inner, *(inner for _, fields in field.blocks for inner in fields)):
+            yield from _all(each)
+
+
+@cache
+def blocks() -> tuple[Block, ...]:
+    """Return the blocks of a case in their order, that of its own fields first."""
+    schema = case_schema()
+    return tuple(_walk(schema, schema, "", optional=False, meaning=""))
+
+
+def _walk(here: Schema, schema: Schema, path: str, *, optional: bool, meaning: str) -> Iterator[Block]:
+    own, others = [], []
+    for name, given in here["properties"].items():
+        at = f"{path}.{name}" if path else name
+        inner = _block_in(given, schema)
+        if inner is None:
+            own.append(_field(given, schema, at, needed=name in here.get("required", ())))
+        else:
+            may_miss = any(each.get("type") == "null" for each in given.get("anyOf", ()))
+            others.append(_walk(inner, schema, at, optional=may_miss, meaning=_said(given)))
+    alone = [field for field in own if field.kind == "blocks" and not path]
+    kept = tuple(field for field in own if field not in alone)
+    yield Block(path, _label(path), meaning, optional, kept)
+    for each in others:
+        yield from each
+    for field in alone:
+        yield Block(field.path, field.label, field.meaning, False, (field,))
+
+
+def _block_in(given: Schema, schema: Schema) -> Schema | None:
+    """Return the block that a field holds; None of one that holds a value."""
+    for each in (given, *given.get("anyOf", ())):
+        found: Schema = schema["$defs"][each["$ref"].rpartition("/")[2]] if "$ref" in each else {}
+        if "properties" in found:
+            return found
+    return None
+
+
+def _field(given: Schema, schema: Schema, path: str, *, needed: bool) -> Field:
+    meant = next((each for each in given.get("anyOf", ()) if each.get("type") != "null"), given)
+    kind, quantity = _kind(meant), str(meant.get("quantity", ""))
+    inner: tuple[Field, ...] = ()
+    kinds: tuple[tuple[str, tuple[Field, ...]], ...] = ()
+    if kind == "pairs":
+        labels = _CELLS.get(path.replace("motion.vertical", "motion"), ("First", "Second"))
+        inner = tuple(
+            replace(_field(each, schema, f"{path}[][{place}]", needed=True), label=label)
+            for place, (label, each) in enumerate(zip(labels, meant["items"]["prefixItems"], strict=True))
+        )
+    elif kind == "blocks" and "$ref" in meant["items"]:
+        inner = _fields_of(meant["items"]["$ref"], schema, path)
+    elif kind == "blocks":
+        mapping = meant["items"]["discriminator"]["mapping"]
+        kinds = tuple((name, _fields_of(reference, schema, path)) for name, reference in sorted(mapping.items()))
+    choices = tuple(map(str, meant.get("enum", (meant["const"],) if "const" in meant else ())))
+    default = given.get("default")
+    return Field(
+        path, _label(path), _said(given), kind, quantity, choices, _default(default, quantity),
+        str(next(iter(meant.get("examples", ())), "")), needed, inner, kinds,
+    )  # fmt: skip
+
+
+def _fields_of(reference: str, schema: Schema, path: str) -> tuple[Field, ...]:
+    block = schema["$defs"][reference.rpartition("/")[2]]
+    return tuple(
+        _field(given, schema, f"{path}[].{name}", needed=name in block.get("required", ()))
+        for name, given in block["properties"].items()
+    )
+
+
+def _kind(meant: Schema) -> str:
+    if "enum" in meant or "const" in meant:
+        return "choice"
+    if "quantity" in meant:
+        return "quantity"
+    if meant.get("type") == "array":
+        return "pairs" if "prefixItems" in meant["items"] else "blocks"
+    return {"boolean": "truth", "integer": "whole"}.get(str(meant.get("type")), "text")
+
+
+def _default(value: object, quantity: str) -> str:
+    if value is None or value == [] or value == "":
+        return ""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    # Without a unit it is of the SI.
+    unit = DIMENSIONS[quantity].unit if quantity else ""
+    return f"{value:.10g} {unit}".strip() if isinstance(value, int | float) else str(value)
+
+
+def _label(path: str) -> str:
+    name = path.rpartition(".")[2]
+    if path == "motion.vertical":
+        return "Vertical motion"
+    return _LABELS.get(name) or name.replace("_", " ").capitalize()
+
+
+def _said(given: Schema) -> str:
+    return " ".join(str(given.get("description", "")).replace("`", "").split())

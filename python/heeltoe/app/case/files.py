@@ -1,0 +1,66 @@
+"""The files that a case of a tab names: those that it has sent, and names of the catalogue; no other is looked for.
+
+In the case a file has the name that its sender gave it; in the folder of the tab it has one of ours."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterator
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+from heeltoe.errors import InputError
+from heeltoe.motion.records import catalog
+from heeltoe.motion.scenario import PREFIX
+
+if TYPE_CHECKING:
+    from heeltoe.app.sessions import Session
+
+_RECORDS = ("motion.file", "motion.vertical.file")
+_MESHES = ("flexible.mesh_above", "flexible.mesh_below")
+
+
+def unsent(session: Session, fields: dict[str, Any]) -> list[InputError]:
+    """Return an error at each field that names a file which this tab has not sent."""
+    found = []
+    for path, block, name in _named(fields):
+        known = path in _RECORDS and (block[name].startswith(PREFIX) or block[name] in _catalogue())
+        sent = block[name] in session.sent or block[name] in session.sent.values()
+        if block[name] and not known and not sent:
+            found.append(InputError("file-not-sent", path, block[name]))
+    return found
+
+
+def as_sent(session: Session, fields: dict[str, Any]) -> dict[str, Any]:
+    """Return the fields with the names that the senders of files gave them."""
+    return _renamed(fields, {stored: called for called, stored in session.sent.items()})
+
+
+def of_this_machine(session: Session, fields: dict[str, Any]) -> dict[str, Any]:
+    """Return the fields with the names that files have in the folder of the tab."""
+    return _renamed(fields, session.sent)
+
+
+def _renamed(fields: dict[str, Any], names: dict[str, str]) -> dict[str, Any]:
+    if not names:
+        return fields
+    own = copy.deepcopy(fields)
+    for _, block, name in _named(own):
+        block[name] = names.get(block[name], block[name])
+    return own
+
+
+def _named(fields: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any], str]]:
+    """Walk the fields that name files: path, block and name in it."""
+    for path in (*_RECORDS, *_MESHES):
+        *blocks, name = path.split(".")
+        here: Any = fields
+        for each in blocks:
+            here = here.get(each) if isinstance(here, dict) else None
+        if isinstance(here, dict) and isinstance(here.get(name), str):
+            yield path, here, name
+
+
+@cache
+def _catalogue() -> frozenset[str]:
+    return frozenset(catalog.names())

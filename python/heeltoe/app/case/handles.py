@@ -1,0 +1,252 @@
+"""The handles of the drawing: what of a section can be dragged, from where to where, and what that changes in the case.
+
+A handle is moved along x or z or both. What it stands for is said in the units that are chosen."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from heeltoe.case.model import Case
+from heeltoe.units.systems import Scale, unit_system
+
+# More corners than these are moved in their table.
+_MOST_CORNERS = 40
+# The handle of the crack, and that of its inclination: parts of its width from the heel.
+_CRACK_AT, _INCLINED_AT = 0.35, 0.8
+_STEEPEST_DEG = 30.0
+_NOWHERE: Mapping[str, float] = {}
+
+
+@dataclass(frozen=True)
+class Way:
+    """One direction in which a handle goes.
+
+    Attributes
+    ----------
+    axis
+        ``"x"`` or ``"z"`` of the drawing.
+    field
+        Which it changes.
+    value, least, most, step
+        In `unit`.
+    start, per_unit
+        Where zero stands [m], and metres for each unit.
+    unit
+        Empty where it has none.
+    """
+
+    axis: str
+    field: str
+    value: float
+    least: float
+    most: float
+    step: float
+    start: float
+    per_unit: float
+    unit: str = ""
+
+    def text(self, value: float) -> Any:
+        """Return what is written into the field where the handle is at `value`, which is kept within its ends."""
+        kept = min(max(round(value / self.step) * self.step, self.least), self.most)
+        return f"{kept:.10g} {self.unit}" if self.unit else float(f"{kept:.10g}")
+
+
+@dataclass(frozen=True)
+class Handle:
+    """What can be dragged; at `at` [m], in one or two directions."""
+
+    name: str
+    label: str
+    at: tuple[float, float]
+    ways: tuple[Way, ...]
+
+
+def handles(case: Case, units: str) -> list[Handle]:
+    """Return the handles of a case."""
+    found = [*(_corners(case, units) if case.section.polygon else _dimensions(case, units))]
+    return [*found, *_levels(case, units), *_along_crack(case, units)]
+
+
+def moved(
+    case: Case, units: str, name: str, to: Mapping[str, float] = _NOWHERE, by: Mapping[str, float] = _NOWHERE
+) -> dict[str, Any]:
+    """Return what changes in a case, by paths, where a handle is put to x and z [m], or moved by so many steps; nothing
+    where it is not there."""
+    handle = next((each for each in handles(case, units) if each.name == name), None)
+    if handle is None:
+        return {}
+    changes: dict[str, Any] = {}
+    for way in handle.ways:
+        if way.axis in to:
+            changes[way.field] = way.text(_value(case, way, to[way.axis]))
+        elif way.axis in by:
+            changes[way.field] = way.text(way.value + by[way.axis] * way.step)
+    return _in_lists(case, changes)
+
+
+def told(handle: Handle) -> dict[str, Any]:
+    """Return a handle as the page shows it."""
+    texts = [f"{each.value:.5g} {each.unit}".strip() for each in handle.ways]
+    text = f"x {texts[0]}, z {texts[1]}" if len(texts) > 1 else texts[0]
+    last = handle.ways[-1]
+    return {
+        "name": handle.name, "label": handle.label, "at": handle.at, "axes": [each.axis for each in handle.ways],
+        "text": text, "value": last.value, "least": last.least, "most": last.most,
+    }  # fmt: skip
+
+
+def _value(case: Case, way: Way, at: float) -> float:
+    if way.field == "crack.inclination":
+        run = _INCLINED_AT * (case.cut.toe[0] - case.cut.heel[0])
+        return math.degrees(math.atan2(at - case.cut.heel[1], run))
+    return (at - way.start) / way.per_unit
+
+
+def _in_lists(case: Case, changes: dict[str, Any]) -> dict[str, Any]:
+    """Return changes of corners and anchors as changes of the whole lists they stand in."""
+    if not any("[" in path for path in changes):
+        return changes
+    fields = case.model_dump(mode="json", exclude_unset=True)
+    polygon = [list(corner) for corner in fields["section"].get("polygon", ())]
+    anchors = [dict(anchor) for anchor in fields.get("anchors", ())]
+    for path, value in changes.items():
+        numbers = [int(part.rstrip("]")) for part in path.replace(".distance", "").split("[")[1:]]
+        if path.startswith("section"):
+            polygon[numbers[0]][numbers[1]] = value
+        else:
+            anchors[numbers[0]]["distance"] = value
+    return {"section.polygon": polygon} if next(iter(changes)).startswith("section") else {"anchors": anchors}
+
+
+def length_text(case: Case, units: str, part: float) -> str:
+    """Return a part of the height of a dam as it is typed."""
+    lengths = _Lengths(case, units)
+    return str(
+        lengths.way("z", "", part * lengths.height, (0.0, lengths.height)).text(part * lengths.height / lengths.metres)
+    )
+
+
+def corners_of(case: Case, units: str) -> list[list[str]]:
+    """Return the corners of a section as they are typed."""
+    metres, unit = _Lengths(case, units).metres, _Lengths(case, units).unit
+    return [[f"{each / metres:.8g} {unit}" for each in corner] for corner in case.section.vertices()]
+
+
+class _Lengths:
+    """Lengths of a case in the units that are chosen, with a step that fits its size."""
+
+    def __init__(self, case: Case, units: str) -> None:
+        scale: Scale = unit_system(units).scale("length")
+        self.unit, self.metres = scale.unit, 1.0 / scale.factor
+        self.left, self.base, self.right, self.crest = case.outline.bounds
+        self.height = self.crest - self.base
+        self.size = max(self.height, self.right - self.left)
+        rough = self.size / self.metres / 200.0
+        power = 10.0 ** math.floor(math.log10(rough))
+        self.step = next(each * power for each in (1.0, 2.0, 5.0, 10.0) if each * power >= rough * 0.999)
+
+    def way(self, axis: str, field: str, value: float, ends: tuple[float, float], start: float = 0.0) -> Way:
+        """Return a way whose field is a length: value and ends in metres."""
+        low, high = ends
+        m = self.metres
+        return Way(axis, field, value / m, min(low, value) / m, max(high, value) / m, self.step, start, m, self.unit)
+
+
+def _dimensions(case: Case, units: str) -> Iterator[Handle]:
+    section, lengths = case.section, _Lengths(case, units)
+    height, crest, base = section.height or 0.0, section.crest_width or 0.0, section.base_width or 0.0
+    neck = section.neck_height or 0.0
+    small, wide = lengths.step * lengths.metres, 3.0 * lengths.size
+    depths = [each.depth for each in (case.reservoir, case.tailwater, case.silt) if each is not None]
+    depths += [each for each in (case.statics.flood_depth, case.statics.flood_tailwater) if each is not None]
+    lowest = max(neck, case.crack.elevation + small, *depths, small)
+    yield Handle(
+        "crest",
+        "Crest",
+        (crest, height),
+        (
+            lengths.way("x", "section.crest_width", crest, (0.0, wide)),
+            lengths.way("z", "section.height", height, (lowest, wide)),
+        ),
+    )
+    if section.neck_width is not None and section.neck_height is not None:
+        yield Handle(
+            "neck",
+            "Neck",
+            (section.neck_width, neck),
+            (
+                lengths.way("x", "section.neck_width", section.neck_width, (small, wide)),
+                lengths.way("z", "section.neck_height", neck, (small, height - small)),
+            ),
+        )
+    yield Handle(
+        "base",
+        "Downstream end of the base",
+        (base, 0.0),
+        (lengths.way("x", "section.base_width", base, (small, wide)),),
+    )
+
+
+def _corners(case: Case, units: str) -> Iterator[Handle]:
+    lengths, corners = _Lengths(case, units), case.section.polygon or ()
+    if len(corners) > _MOST_CORNERS:
+        return
+    wide = 3.0 * lengths.size
+    for place, (x, z) in enumerate(corners):
+        ends = ((lengths.left - wide, lengths.right + wide), (lengths.base - wide, lengths.crest + wide))
+        yield Handle(
+            f"corner {place + 1}",
+            f"Corner {place + 1}",
+            (x, z),
+            (
+                lengths.way("x", f"section.polygon[{place}][0]", x, ends[0]),
+                lengths.way("z", f"section.polygon[{place}][1]", z, ends[1]),
+            ),
+        )
+
+
+def _levels(case: Case, units: str) -> Iterator[Handle]:
+    lengths = _Lengths(case, units)
+    bodies = (
+        ("reservoir", "Reservoir level", case.reservoir, lengths.left - 0.22 * lengths.size),
+        ("tailwater", "Tailwater level", case.tailwater, lengths.right + 0.18 * lengths.size),
+        ("silt", "Silt level", case.silt, lengths.left - 0.12 * lengths.size),
+    )
+    for name, label, body, x in bodies:
+        if body is not None:
+            way = lengths.way("z", f"{name}.depth", body.depth, (0.0, lengths.height), lengths.base)
+            yield Handle(name, label, (x, lengths.base + body.depth), (way,))
+
+
+def _along_crack(case: Case, units: str) -> Iterator[Handle]:
+    section, lengths = case.cut, _Lengths(case, units)
+    (left, low), (right, high) = section.heel, section.toe
+
+    def at(part: float) -> tuple[float, float]:
+        return left + part * (right - left), low + part * (high - low)
+
+    highest = lengths.height - lengths.step * lengths.metres
+    # Its handle stands on the crack, the elevation counts at the heel.
+    start = lengths.base + at(_CRACK_AT)[1] - low
+    level = lengths.way("z", "crack.elevation", case.crack.elevation, (0.0, highest), start)
+    yield Handle("crack", "Crack", at(_CRACK_AT), (level,))
+    slope = math.degrees(case.crack.inclination)
+    # It ends in the downstream face, not in the base.
+    falling = max(-_STEEPEST_DEG, -math.degrees(math.atan2(low - lengths.base, right - left)))
+    turn = Way("z", "crack.inclination", slope, min(slope, falling), _STEEPEST_DEG, 0.5, low, 1.0, "deg")
+    yield Handle("inclination", "Inclination of the crack", at(_INCLINED_AT), (turn,))
+    position = case.uplift.drain_position
+    if position is not None:
+        way = Way("x", "uplift.drain_position", position, 0.01, 0.99, 0.01, left, right - left)
+        yield Handle("drains", "Drains", at(position), (way,))
+    for place, anchor in enumerate(case.anchors):
+        part = anchor.distance / section.crack_width
+        way = Way(
+            "x", f"anchors[{place}].distance", anchor.distance / lengths.metres, 0.0,
+            section.crack_width / lengths.metres, lengths.step, left,
+            lengths.metres * (right - left) / section.crack_width, lengths.unit,
+        )  # fmt: skip
+        yield Handle(f"anchor {place + 1}", f"Anchor {place + 1}", at(part), (way,))

@@ -1,0 +1,179 @@
+/** The drawing of the section, with handles that are dragged by mouse and touch, or moved by keys. */
+import { element } from "./dom.js";
+
+/** @typedef {{name: string, label: string, at: [number, number], axes: string[], text: string, value: number, least: number, most: number}} Handle */
+
+const SPACE = "http://www.w3.org/2000/svg";
+const TALLEST = 560;
+const FAR = 10;
+
+/**
+ * @param {string} tag
+ * @param {Record<string, unknown>} attributes
+ * @param {...(Node | string)} content
+ */
+function svg(tag, attributes, ...content) {
+  const made = /** @type {SVGElement} */ (document.createElementNS(SPACE, tag));
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
+  made.append(...content);
+  return made;
+}
+
+export class CaseDrawing {
+  /**
+   * @param {import("./case-edits.js").Edits} edits
+   * @param {(name: string, what: "insert" | "remove") => void} corner Adds a corner after one, or takes it away.
+   */
+  constructor(edits, corner) {
+    this.edits = edits;
+    this.corner = corner;
+    this.back = svg("g", { "aria-hidden": "true" });
+    this.front = svg("g", {});
+    this.picture = svg("svg", { class: "section-drawing", role: "group", "aria-label": "Section of the dam with handles to drag" }, this.back, this.front);
+    this.hint = element("p", { class: "faint" }, "Drag a handle, or go to one with Tab and move it with the arrow keys (Page Up and Page Down: ten steps).");
+    this.said = element("p", { class: "said", "aria-hidden": "true" });
+    this.root = element("div", { class: "drawing" }, this.picture, this.said, this.hint);
+    /** @type {Map<string, {handle: Handle, root: SVGElement}>} */
+    this.handles = new Map();
+    /** @type {any} */
+    this.drawn = null;
+    this.dragged = "";
+    this.scale = 1;
+    /** What of the plane is seen; it stands still while a handle is dragged. @type {number[]} */
+    this.view = [0, 0, 1, 1];
+    new ResizeObserver(() => this.draw()).observe(this.root);
+  }
+
+  /** @param {any} drawing */
+  show(drawing) {
+    this.drawn = drawing;
+    if (!this.dragged) this.view = drawing.view;
+    this.draw();
+  }
+
+  /** @param {[number, number] | number[]} point */
+  at([x, z]) {
+    return [(x - this.view[0]) * this.scale, (this.view[3] - z) * this.scale];
+  }
+
+  draw() {
+    const width = this.root.clientWidth;
+    if (!this.drawn || !width) return;
+    const [left, low, right, high] = this.view;
+    this.scale = Math.min(width / (right - left), TALLEST / (high - low));
+    const wide = (right - left) * this.scale;
+    const tall = (high - low) * this.scale;
+    this.picture.setAttribute("width", String(wide));
+    this.picture.setAttribute("height", String(tall));
+    this.picture.setAttribute("viewBox", `0 0 ${wide} ${tall}`);
+    const ring = (/** @type {number[][]} */ points) => `M${points.map((each) => this.at(each).map((value) => value.toFixed(1)).join(",")).join("L")}`;
+    const shapes = this.drawn.shapes.map((/** @type {any} */ { kind, rings }) => svg("path", { class: `of-${kind}`, d: rings.map((/** @type {number[][]} */ each) => `${ring(each)}Z`).join("") }));
+    const lines = this.drawn.lines.map((/** @type {any} */ { kind, points }) => svg("path", { class: `line of-${kind}`, d: ring(points) }));
+    this.back.replaceChildren(...shapes, ...lines, ...this.notes(wide));
+    this.placeHandles();
+  }
+
+  /** @param {number} wide */
+  notes(wide) {
+    const anchors = /** @type {Record<string, [string, number, number]>} */ ({ left: ["end", -FAR, 16], right: ["start", FAR, 16], middle: ["middle", 0, 24], below: ["middle", 0, 16] });
+    return this.drawn.notes.filter((/** @type {any} */ note) => note.side !== "middle" || wide > 420).map((/** @type {any} */ { at, text, side }) => {
+      const [anchor, dx, dy] = anchors[side];
+      const [x, y] = this.at(at);
+      return svg("text", { x: x + dx, y: y + dy, "text-anchor": anchor, class: "note" }, text);
+    });
+  }
+
+  placeHandles() {
+    const names = new Set(this.drawn.handles.map((/** @type {Handle} */ each) => each.name));
+    for (const [name, { root }] of this.handles) {
+      if (names.has(name)) continue;
+      root.remove();
+      this.handles.delete(name);
+    }
+    for (const handle of /** @type {Handle[]} */ (this.drawn.handles)) {
+      let known = this.handles.get(handle.name);
+      if (!known) {
+        known = { handle, root: this.make(handle.name) };
+        this.handles.set(handle.name, known);
+        this.front.append(known.root);
+      }
+      known.handle = handle;
+      const [x, y] = this.at(handle.at);
+      const { root } = known;
+      root.setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
+      const both = handle.axes.length > 1;
+      root.setAttribute("class", `handle ${both ? "both" : handle.axes[0]}`);
+      root.setAttribute("aria-label", handle.label);
+      root.setAttribute("aria-orientation", handle.axes.at(-1) === "z" ? "vertical" : "horizontal");
+      root.setAttribute("aria-valuemin", String(handle.least));
+      root.setAttribute("aria-valuemax", String(handle.most));
+      root.setAttribute("aria-valuenow", String(handle.value));
+      root.setAttribute("aria-valuetext", handle.text);
+      if (this.dragged === handle.name || document.activeElement === /** @type {unknown} */ (root)) this.say(handle);
+    }
+  }
+
+  /** @param {Handle} handle */
+  say(handle) {
+    this.said.textContent = `${handle.label}: ${handle.text}`;
+  }
+
+  /** @param {string} name */
+  make(name) {
+    const marks = [svg("path", { class: "arrow z", d: "M0 -17l5 6h-10zM0 17l5 -6h-10z" }), svg("path", { class: "arrow x", d: "M-17 0l6 5v-10zM17 0l-6 5v-10z" })];
+    const root = svg("g", { role: "slider", tabindex: 0, "data-handle": name }, svg("circle", { class: "reach", r: 22 }), ...marks, svg("circle", { class: "knob", r: 7 }));
+    root.addEventListener("pointerdown", (event) => this.grab(root, name, /** @type {PointerEvent} */ (event)));
+    root.addEventListener("keydown", (event) => this.press(name, /** @type {KeyboardEvent} */ (event)));
+    root.addEventListener("focus", () => {
+      this.edits.begin();
+      const known = this.handles.get(name);
+      if (known) this.say(known.handle);
+    });
+    return root;
+  }
+
+  /** @param {SVGElement} root @param {string} name @param {PointerEvent} event */
+  grab(root, name, event) {
+    const known = this.handles.get(name);
+    if (!known || event.button !== 0) return;
+    event.preventDefault();
+    root.focus({ preventScroll: true });
+    root.setPointerCapture(event.pointerId);
+    this.edits.begin();
+    this.dragged = name;
+    const [x, y] = this.at(known.handle.at);
+    // The handle keeps its distance from the finger.
+    const off = [event.clientX - x, event.clientY - y];
+    const axes = known.handle.axes;
+    const move = (/** @type {Event} */ moved) => {
+      const { clientX, clientY } = /** @type {PointerEvent} */ (moved);
+      const to = { x: (clientX - off[0]) / this.scale + this.view[0], z: this.view[3] - (clientY - off[1]) / this.scale };
+      this.edits.drag(name, { to: Object.fromEntries(Object.entries(to).filter(([axis]) => axes.includes(axis))) });
+    };
+    const end = () => {
+      root.removeEventListener("pointermove", move);
+      this.dragged = "";
+      if (this.edits.idle && this.drawn) this.show(this.drawn);
+    };
+    root.addEventListener("pointermove", move);
+    root.addEventListener("lostpointercapture", end, { once: true });
+  }
+
+  /** @param {string} name @param {KeyboardEvent} event */
+  press(name, event) {
+    const known = this.handles.get(name);
+    if (!known || event.altKey || event.ctrlKey || event.metaKey) return;
+    const { axes } = known.handle;
+    if ((event.key === "Delete" || event.key === "Insert") && name.startsWith("corner")) {
+      event.preventDefault();
+      this.corner(name, event.key === "Delete" ? "remove" : "insert");
+      return;
+    }
+    const steps = /** @type {Record<string, [string, number]>} */ ({ ArrowUp: ["z", 1], ArrowDown: ["z", -1], ArrowRight: ["x", 1], ArrowLeft: ["x", -1], PageUp: ["z", 10], PageDown: ["z", -10] });
+    const step = steps[event.key];
+    if (!step) return;
+    event.preventDefault();
+    const axis = axes.includes(step[0]) ? step[0] : axes[0];
+    this.edits.drag(name, { by: { [axis]: step[1] } });
+  }
+}

@@ -1,0 +1,188 @@
+/** Fields that hold lists: rows of two numbers, as the corners of a section, and blocks, as anchors. */
+import { controlOf, fieldOf, idOf, shown, wrongLine } from "./case-field.js";
+import { element } from "./dom.js";
+
+/** @typedef {import("./case-field.js").FieldOf} FieldOf */
+/** @typedef {import("./case-field.js").Control} Control */
+
+/**
+ * @param {string} label
+ * @param {string} said
+ * @param {() => void} click
+ */
+const small = (label, said, click) => element("button", { type: "button", class: "small", "aria-label": said, title: said, onclick: click }, label);
+
+/** Halfway between two texts with the same unit; the first one where they have not. @param {string} a @param {string} b */
+function between(a, b) {
+  const parts = [a, b].map((each) => /^\s*([-+]?[\d.]+(?:e[-+]?\d+)?)\s*(.*?)\s*$/i.exec(each));
+  if (!parts[0] || !parts[1] || parts[0][2] !== parts[1][2]) return a;
+  return `${Number(((Number(parts[0][1]) + Number(parts[1][1])) / 2).toPrecision(8))} ${parts[0][2]}`.trim();
+}
+
+/** @param {any} value @returns {string[][]} */
+const rowsOf = (value) => (Array.isArray(value) ? value.map((row) => (Array.isArray(row) ? [shown(row[0]), shown(row[1])] : [shown(row), ""])) : []);
+
+/**
+ * A table of rows of two cells.
+ * @param {FieldOf} field
+ * @param {(rows: string[][]) => void} edit
+ * @returns {Control & {insert: (after: number) => void, remove: (place: number) => void}}
+ */
+export function tableOf(field, edit) {
+  /** @type {string[][]} */
+  let rows = [];
+  /** @type {{root: HTMLElement, cells: {control: HTMLElement, update: (value: any) => void}[]}[]} */
+  const made = [];
+  const body = element("tbody", {});
+  const heads = field.inner.map((each) => element("th", { scope: "col" }, each.label + (each.unit ? ` [${each.unit}]` : "")));
+  const table = element("table", { class: "rows", "aria-label": field.label }, element("thead", {}, element("tr", {}, element("th", { scope: "col" }, "No."), ...heads, element("td", {}))), body);
+  const more = element("button", { type: "button", onclick: () => insert(rows.length - 1) }, `Add a row to ${field.label.toLowerCase()}`);
+  const root = element(
+    "div", { class: "field wide", id: idOf(field.path), "data-path": field.path, tabindex: "-1" },
+    element("h3", {}, field.label), element("p", { class: "meaning" }, field.meaning), table, more, wrongLine(field.path),
+  );
+
+  function changed() {
+    show();
+    edit(rows.map((row) => [...row]));
+  }
+
+  /** @param {number} after */
+  function insert(after) {
+    const here = rows[after] || ["", ""];
+    const next = rows[(after + 1) % rows.length] || here;
+    rows.splice(after + 1, 0, [between(here[0], next[0]), between(here[1], next[1])]);
+    changed();
+    made[after + 1].cells[0].control.focus();
+  }
+
+  /** @param {number} place */
+  function remove(place) {
+    rows.splice(place, 1);
+    changed();
+    const next = made[Math.min(place, made.length - 1)];
+    (next ? next.cells[0].control : more).focus();
+  }
+
+  /** @param {number} place @param {number} by */
+  function move(place, by) {
+    const to = place + by;
+    if (to < 0 || to >= rows.length) return;
+    [rows[place], rows[to]] = [rows[to], rows[place]];
+    changed();
+  }
+
+  /** @param {number} place */
+  function make(place) {
+    const cells = field.inner.map((inner, column) => {
+      const path = `${field.path}[${place}][${column}]`;
+      return controlOf(inner, path, (text) => {
+        rows[place][column] = text;
+        edit(rows.map((row) => [...row]));
+      }, { "aria-label": `${inner.label}, row ${place + 1}` });
+    });
+    const buttons = [
+      small("+", `Insert a row after row ${place + 1}`, () => insert(place)),
+      small("↑", `Move row ${place + 1} up`, () => move(place, -1)),
+      small("↓", `Move row ${place + 1} down`, () => move(place, 1)),
+      small("×", `Remove row ${place + 1}`, () => remove(place)),
+    ];
+    const tr = element("tr", {}, element("th", { scope: "row" }, String(place + 1)), ...cells.map((each, column) => element("td", {}, each.control, wrongLine(`${field.path}[${place}][${column}]`))), element("td", { class: "buttons" }, ...buttons));
+    // A cell has no meaning of its own.
+    for (const { control } of cells) control.setAttribute("aria-describedby", `${control.id}-wrong`);
+    return { root: tr, cells };
+  }
+
+  function show() {
+    table.hidden = rows.length === 0;
+    while (made.length > rows.length) made.pop()?.root.remove();
+    while (made.length < rows.length) {
+      const row = make(made.length);
+      made.push(row);
+      body.append(row.root);
+    }
+    rows.forEach((row, place) => made[place].cells.forEach((cell, column) => cell.update(row[column])));
+  }
+
+  return {
+    root, insert, remove,
+    update(value) {
+      rows = rowsOf(value);
+      show();
+    },
+  };
+}
+
+/**
+ * A list of blocks of fields, of one kind or of several.
+ * @param {FieldOf} field
+ * @param {(list: any[]) => void} edit
+ * @returns {Control}
+ */
+export function blocksOf(field, edit) {
+  /** @type {any[]} */
+  let list = [];
+  /** @type {{kind: string, root: HTMLElement, parts: [string, Control][]}[]} */
+  let made = [];
+  const kinds = Object.keys(field.blocks);
+  const one = field.label.replace(/s$/, "").toLowerCase();
+  const places = element("div", { class: "items" });
+  const root = element("div", { class: "field wide", id: idOf(field.path), "data-path": field.path, tabindex: "-1" }, element("p", { class: "meaning" }, field.meaning), places, wrongLine(field.path));
+  const add = (kinds.length ? kinds : [""]).map((kind) => element("button", { type: "button", onclick: () => insert(kind) }, kind ? `Add ${kind}` : `Add an ${one}`));
+  root.append(element("div", { class: "row" }, ...add));
+
+  /** @param {string} kind */
+  const fieldsOf = (kind) => (kinds.length ? field.blocks[kind] || [] : field.inner);
+
+  /** @param {string} kind */
+  function insert(kind) {
+    const needed = fieldsOf(kind).filter((each) => each.needed && each.kind === "quantity");
+    const first = Object.fromEntries(needed.map((each) => [nameOf(each), each.example]));
+    list.push(kind ? { step: kind, ...first } : { distance: `1 ${field.inner[0]?.unit || ""}`, prestress: "1 MN/m" });
+    changed();
+    made[list.length - 1]?.root.querySelector("input, select")?.dispatchEvent(new Event("focus"));
+  }
+
+  function changed() {
+    show();
+    edit(structuredClone(list));
+  }
+
+  /** @param {FieldOf} each */
+  const nameOf = (each) => each.path.slice(each.path.lastIndexOf(".") + 1);
+
+  /** @param {number} place @param {string} kind */
+  function make(place, kind) {
+    /** @type {[string, Control][]} */
+    const parts = fieldsOf(kind).filter((each) => nameOf(each) !== "step").map((inner) => {
+      const name = nameOf(inner);
+      return [name, fieldOf(inner, `${field.path}[${place}].${name}`, (text) => {
+        if (text === "") delete list[place][name];
+        else list[place][name] = text;
+        edit(structuredClone(list));
+      })];
+    });
+    const remove = element("button", { type: "button", onclick: () => { list.splice(place, 1); made = []; changed(); } }, `Remove ${kind || one} ${place + 1}`);
+    const item = element("fieldset", { class: "item" }, element("legend", {}, `${kind || one} ${place + 1}`), ...parts.map(([, control]) => control.root), wrongLine(`${field.path}[${place}]`), remove);
+    return { kind, root: item, parts };
+  }
+
+  function show() {
+    const wanted = list.map((each) => (each && each.step) || "");
+    if (wanted.length !== made.length || wanted.some((kind, place) => kind !== made[place].kind)) {
+      made = wanted.map((kind, place) => make(place, String(kind)));
+      places.replaceChildren(...made.map((each) => each.root));
+    }
+    list.forEach((each, place) => {
+      for (const [name, control] of made[place].parts) control.update(each && each[name]);
+    });
+  }
+
+  return {
+    root,
+    update(value) {
+      list = Array.isArray(value) ? structuredClone(value).map((each) => (each && typeof each === "object" && !Array.isArray(each) ? each : {})) : [];
+      show();
+    },
+  };
+}

@@ -1,0 +1,28 @@
+"""What stands beside a section up to a level: water, silt."""
+
+from __future__ import annotations
+
+import shapely
+
+
+def beside(whole: shapely.Polygon, level: float, far: float, side: str) -> shapely.Geometry:
+    """Return what is beside a section, up to a level.
+
+    Parameters
+    ----------
+    whole
+        The section [m].
+    level
+        Of the surface [m].
+    far
+        How far it reaches from the section [m].
+    side
+        ``"left"`` or ``"right"``.
+    """
+    left, base, right, _ = whole.bounds
+    around = shapely.box(left - far, base, right + far, level)
+    edge = shapely.box(left - 2.0 * far, base, left - 0.5 * far, level)
+    if side == "right":
+        edge = shapely.box(right + 0.5 * far, base, right + 2.0 * far, level)
+    parts = [part for part in shapely.get_parts(around - whole) if part.intersects(edge)]
+    return shapely.union_all(parts)

@@ -1,0 +1,193 @@
+"""The page "Case" in a browser: typed, dragged, by keys alone, opened and saved; nothing typed is lost or run."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+
+import pytest
+
+pytest.importorskip("playwright")
+
+WATER = "[data-handle=reservoir]"
+DEPTH = "#field-reservoir-depth"
+FRICTION = "#field-crack-friction"
+VERDICT = ".verdict-line"
+
+
+@pytest.fixture
+def case(page):
+    """Show the page of the case."""
+    page.set_default_timeout(120_000)
+    page.click("#tab-case")
+    page.wait_for_selector(WATER)
+    page.wait_for_selector(DEPTH)
+    page.wait_for_function("at => document.querySelector(at).textContent.includes('slides')", arg=VERDICT)
+    return page
+
+
+def wait_for(page, selector, text):
+    page.wait_for_function(
+        "([at, text]) => document.querySelector(at).textContent.includes(text)", arg=[selector, text]
+    )
+
+
+def value_is(page, selector, value):
+    page.wait_for_function("([at, is]) => document.querySelector(at).value === is", arg=[selector, value])
+
+
+def test_what_is_typed_is_checked_at_its_field(case, picture):
+    picture(case, "case")
+    verdict = case.inner_text(VERDICT)
+    case.fill(FRICTION, "slippery")
+    wait_for(case, "#field-crack-friction-wrong", "slippery")
+    assert case.get_attribute(FRICTION, "aria-invalid") == "true"
+    wait_for(case, ".problems", "The last sound case stays in force")
+    assert case.inner_text(VERDICT) == verdict
+    case.fill(DEPTH, "95 m")
+    case.fill("#field-title", "Mine")
+    assert case.input_value(FRICTION) == "slippery"
+    picture(case, "case-wrong")
+    case.fill(FRICTION, "1.2")
+    wait_for(case, "#case-title", "Mine")
+    case.wait_for_function("([at, was]) => document.querySelector(at).textContent !== was", arg=[VERDICT, verdict])
+    assert case.inner_text(".problems") == ""
+    case.fill(DEPTH, "260")
+    case.select_option("#units", "us")
+    case.fill(DEPTH, "260")
+    case.focus(FRICTION)
+    value_is(case, DEPTH, "260 ft")
+
+
+def test_the_water_level_is_dragged_and_the_answer_follows(case):
+    verdict = case.inner_text(VERDICT)
+    box = case.locator(f"{WATER} .knob").bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    case.mouse.move(x, y)
+    case.mouse.down()
+    case.mouse.move(x, y + 30)
+    case.mouse.move(x, y + 80, steps=4)
+    case.mouse.up()
+    case.wait_for_function("at => parseFloat(document.querySelector(at).value) < 90", arg=DEPTH)
+    case.wait_for_function("([at, was]) => document.querySelector(at).textContent !== was", arg=[VERDICT, verdict])
+    depth = float(case.input_value(DEPTH).removesuffix(" m"))
+    assert case.get_attribute(WATER, "aria-valuetext") == case.input_value(DEPTH)
+    case.click("#tab-answer")
+    case.wait_for_function(
+        "([at, is]) => Number(document.querySelector(at).value) === is", arg=["#slider-reservoir-depth", depth]
+    )
+    # And back: what a slider changes stands in the form.
+    case.focus("#slider-crack-friction")
+    case.keyboard.press("ArrowRight")
+    wait_for(case, ".card[data-model=rigid]", "slides")
+    case.click("#tab-case")
+    value_is(case, FRICTION, "1.01")
+    case.click("text=Undo")
+    value_is(case, FRICTION, "1")
+    case.click("text=Undo")
+    value_is(case, DEPTH, "100 m")
+    case.click("text=Redo")
+    case.wait_for_function("at => parseFloat(document.querySelector(at).value) < 90", arg=DEPTH)
+
+
+def test_by_keys_alone(case):
+    case.focus("#tab-case")
+    for _ in range(40):
+        case.keyboard.press("Tab")
+        if case.evaluate("document.activeElement.dataset.handle") == "reservoir":
+            break
+    assert case.evaluate("document.activeElement.dataset.handle") == "reservoir"
+    assert case.evaluate("document.activeElement.getAttribute('role')") == "slider"
+    case.keyboard.press("ArrowDown")
+    case.keyboard.press("ArrowDown")
+    value_is(case, DEPTH, "99 m")
+    case.keyboard.press("PageDown")
+    value_is(case, DEPTH, "94 m")
+    assert case.evaluate("document.activeElement.dataset.handle") == "reservoir"
+    case.focus("text=Undo")
+    case.keyboard.press("Enter")
+    value_is(case, DEPTH, "100 m")
+
+
+def test_corners_and_blocks(case, picture):
+    case.click("text=Edit the section by its corners")
+    case.wait_for_selector("[data-handle='corner 1']")
+    rows = case.locator("#field-section-polygon tbody tr")
+    assert rows.count() == 5
+    case.focus("[data-handle='corner 2']")
+    case.keyboard.press("ArrowRight")
+    value_is(case, "#field-section-polygon-1-0-", "80.5 m")
+    case.click("[aria-label='Insert a row after row 2']")
+    case.wait_for_selector("[data-handle='corner 6']")
+    value_is(case, "#field-section-polygon-2-0-", "44.25 m")
+    case.focus("[data-handle='corner 6']")
+    case.keyboard.press("Delete")
+    case.wait_for_selector("[data-handle='corner 6']", state="detached")
+    case.click("[data-block=tailwater] summary")
+    case.click("text=Add tailwater")
+    case.wait_for_selector("[data-handle=tailwater]")
+    value_is(case, "#field-tailwater-depth", "10 m")
+    case.click("[data-block=anchors] summary")
+    case.click("text=Add an anchor")
+    case.wait_for_selector("[data-handle='anchor 1']")
+    case.fill("#field-anchors-0-prestress", "none")
+    wait_for(case, "#field-anchors-0-prestress-wrong", "none")
+    case.fill("#field-anchors-0-prestress", "2 MN/m")
+    case.wait_for_function("() => document.querySelector('.problems').textContent === ''")
+    picture(case, "case-corners")
+    case.click("text=Remove tailwater")
+    case.wait_for_selector("[data-handle=tailwater]", state="detached")
+
+
+def test_a_file_is_opened_and_saved(case, tmp_path):
+    path = tmp_path / "own.toml"
+    path.write_text(
+        'title = "<img src=x onerror=alert(1)>"\ncrak = 1\n'
+        '[section]\nheight = "50 ft"\ncrest_width = "5 ft"\nbase_width = "40 ft"\n'
+        '[crack]\nfriction = 0.9\n[motion]\nfile = "/etc/passwd"\n'
+    )
+    case.set_input_files("#case-file", path)
+    wait_for(case, ".problems", "crak")
+    assert "has not been sent" in case.text_content("#field-motion-file-wrong")
+    case.click("text=Take it away")
+    case.click("[data-block=motion] summary")
+    case.fill("#field-motion-file", "elcentro-1940-180-nga")
+    case.wait_for_function("() => document.querySelector('.problems').textContent === ''")
+    wait_for(case, "#case-title", "<img")
+    assert case.locator("img").count() == 0
+    with case.expect_download() as found:
+        case.click("text=Save the case file")
+    assert re.fullmatch(r"[a-z0-9-]+\.toml", found.value.suggested_filename)
+    saved = tomllib.loads(found.value.path().read_text())
+    assert saved["section"] == {"height": "50 ft", "crest_width": "5 ft", "base_width": "40 ft"}
+    assert saved["title"].startswith("<img")
+    broken = tmp_path / "broken.toml"
+    broken.write_text("[section\n")
+    case.set_input_files("#case-file", broken)
+    wait_for(case, ".seen > .wrong", "broken.toml")
+    assert case.input_value("#field-section-height") == "50 ft"
+
+
+def test_a_screen_reader_finds_its_way(case):
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright")
+    case.evaluate("document.querySelectorAll('details').forEach(each => { each.open = true; })")
+    case.fill(FRICTION, "x")
+    wait_for(case, "#field-crack-friction-wrong", "x")
+    found = axe.Axe().run(case).response["violations"]
+    grave = [each for each in found if each["impact"] in ("serious", "critical")]
+    assert not grave, [(each["id"], each["nodes"][0]["html"]) for each in grave]
+
+
+@pytest.mark.parametrize(
+    ("name", "width", "scheme"), [("dark", 1366, "dark"), ("telephone", 390, "light"), ("projector", 1920, "light")]
+)
+def test_looks(chromium, address, picture, name, width, scheme):
+    context = chromium.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)
+    tab = context.new_page()
+    tab.set_default_timeout(120_000)
+    tab.goto(f"{address}#case")
+    tab.wait_for_selector(WATER)
+    tab.wait_for_selector(DEPTH)
+    assert tab.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    picture(tab, f"case-{name}")
+    context.close()
