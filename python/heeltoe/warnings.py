@@ -65,8 +65,8 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
     "rigid-holds": (
         "caution",
         "concrete.modulus",
-        "its block slides less than {least_m:g mm}, but {shares:.2g %|to} of the dams like it slide more than "
-        "{far_m:g mm} ({cases:d} studied cases): {remedy}, and the dam is elastic",
+        "its block slides less than {least_m:.2g mm}, but {shares:.2g %|to} of the dams like it slide more than "
+        "{far_m:.2g mm} ({cases:d} studied cases): {remedy}, and the dam is elastic",
     ),
     "rigid-unlike": (
         "caution",
