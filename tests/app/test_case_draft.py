@@ -104,8 +104,18 @@ def test_a_file_that_was_sent_has_the_name_of_its_sender(session):
     assert not wrong(session)
     assert session.case.motion.file == "upload-1"
     assert 'file = "mine.at2"' in case_text(fields_in_force(session))
-    session.case = session.case.with_("crack.friction=0.8")  # by someone else
-    assert fields_of(session)[0]["motion"]["file"] == "mine.at2"
+
+
+def test_what_another_page_changes_is_taken_over(session):
+    session.sent = {"mine.at2": "upload-1"}
+    edit(session, {"reservoir.depth": "300 ft", "crack.friction": "x"})
+    session.case = session.case.with_("motion.file=upload-1", "tailwater.depth=5m")
+    fields, errors = fields_of(session)
+    assert fields["motion"]["file"] == "mine.at2"
+    assert (fields["reservoir"]["depth"], fields["tailwater"]["depth"]) == ("300 ft", "5.0 m")
+    assert [each.field for each in errors] == ["crack.friction"]
+    back(session)
+    assert "tailwater" not in fields_of(session)[0]
 
 
 def test_a_tab_that_is_doubled_has_the_same_case(tmp_path):
@@ -218,6 +228,17 @@ def test_each_dam_is_drawn(path):
     kinds = {each["kind"] for each in seen["shapes"]}
     assert {"below", "above"} <= kinds
     assert ("water" in kinds) == bool(case.reservoir and case.reservoir.depth)
+
+
+def test_what_was_typed_beside_what_moves_stays(session):
+    edit(session, {"section": {"polygon": [["0 ft", "0 m"], ["200 ft", "0 m"], ["5 m", "100 m"], ["0 m", "100 m"]]}})
+    edit(session, {"anchors": [{"distance": "9 ft", "prestress": "1 MN/m"}]})
+    fields = fields_in_force(session)
+    there = moved(session.case, "si", "corner 3", by={"x": 1.0}, fields=fields)
+    assert there == {"section.polygon": [["0 ft", "0 m"], ["200 ft", "0 m"], ["5.5 m", "100 m"], ["0 m", "100 m"]]}
+    assert fields["section"]["polygon"][2] == ["5 m", "100 m"]
+    there = moved(session.case, "si", "anchor 1", to={"x": 5.0}, fields=fields)
+    assert there == {"anchors": [{"distance": "5 m", "prestress": "1 MN/m"}]}
 
 
 def test_lengths_as_they_are_typed():

@@ -182,7 +182,7 @@ def test_a_screen_reader_finds_its_way(case):
     ("name", "width", "scheme"), [("dark", 1366, "dark"), ("telephone", 390, "light"), ("projector", 1920, "light")]
 )
 def test_looks(chromium, address, picture, name, width, scheme):
-    context = chromium.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)
+    context = chromium.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme, has_touch=True)
     tab = context.new_page()
     tab.set_default_timeout(120_000)
     tab.goto(f"{address}#case")
@@ -190,4 +190,10 @@ def test_looks(chromium, address, picture, name, width, scheme):
     tab.wait_for_selector(DEPTH)
     assert tab.evaluate("document.documentElement.scrollWidth <= innerWidth")
     picture(tab, f"case-{name}")
+    box = tab.locator(f"{WATER} .knob").bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    fingers = context.new_cdp_session(tab)
+    for kind, points in (("Start", [{"x": x, "y": y}]), ("Move", [{"x": x, "y": y + 50}]), ("End", [])):
+        fingers.send("Input.dispatchTouchEvent", {"type": f"touch{kind}", "touchPoints": points})
+    tab.wait_for_function("at => parseFloat(document.querySelector(at).value) < 95", arg=DEPTH)
     context.close()

@@ -63,7 +63,7 @@ async def put(desk: Desk, asked: Asked) -> dict[str, Any]:
 
 async def drag(desk: Desk, asked: Asked) -> dict[str, Any]:
     """Move a handle of the drawing."""
-    from heeltoe.app.case.draft import case_of
+    from heeltoe.app.case.draft import case_of, fields_in_force
     from heeltoe.app.case.draft import edit as change
     from heeltoe.app.case.handles import moved
 
@@ -73,7 +73,7 @@ async def drag(desk: Desk, asked: Asked) -> dict[str, Any]:
     def dragged() -> None:
         case = case_of(session)
         if case is not None:
-            change(session, moved(case, session.units, name, to, by), asked.get("step"))
+            change(session, moved(case, session.units, name, to, by, fields_in_force(session)), asked.get("step"))
 
     return await _done(desk, dragged)
 

@@ -52,14 +52,22 @@ class Draft:
 
 
 def draft_of(session: Session) -> Draft:
-    """Return the draft of a tab; where its case came from elsewhere, one with the fields of that."""
+    """Return the draft of a tab; where its case was changed elsewhere, with what is another there."""
     draft = session.draft
-    if draft is None or draft.case is not session.case:
-        fields = session.case.model_dump(mode="json", exclude_unset=True) if session.case else {}
-        fields = as_sent(session, fields)
-        past = [*draft.undo, draft.fields] if draft else []
-        draft = session.draft = Draft(fields, case=session.case, undo=past[-MOST_STEPS:])
+    if draft is None:
+        draft = session.draft = Draft(_said(session, session.case), case=session.case)
+    elif draft.case is not session.case:
+        before, now = _said(session, draft.case), _said(session, session.case)
+        fields = {name: value for name, value in draft.fields.items() if name in now or name not in before}
+        fields |= {name: value for name, value in now.items() if value != before.get(name)}
+        _remember(draft, None)
+        draft.fields, draft.case = fields, session.case
+        draft.errors = _read(session, fields)[1]
     return draft
+
+
+def _said(session: Session, case: Case | None) -> dict[str, Any]:
+    return as_sent(session, case.model_dump(mode="json", exclude_unset=True)) if case else {}
 
 
 def fields_of(session: Session) -> tuple[dict[str, Any], list[InputError]]:
@@ -87,8 +95,7 @@ def fields_in_force(session: Session) -> dict[str, Any]:
     fields, errors = fields_of(session)
     if not errors:
         return fields
-    case = case_of(session)
-    return as_sent(session, case.model_dump(mode="json", exclude_unset=True)) if case else fields
+    return _said(session, case_of(session))
 
 
 def start(session: Session, fields: Mapping[str, Any]) -> None:

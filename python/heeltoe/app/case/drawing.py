@@ -95,8 +95,8 @@ def _lines(case: Case, size: float) -> Iterator[tuple[str, list[list[float]]]]:
 def _notes(case: Case, units: str) -> Iterator[dict[str, Any]]:
     """Walk what is written in the drawing: slopes of the downstream face, and heel and toe."""
     section, length = case.cut, unit_system(units).scale("length")
-    yield {"at": list(section.heel), "text": "heel", "side": "left"}
-    yield {"at": list(section.toe), "text": "toe", "side": "right"}
+    yield {"at": list(section.heel), "text": "heel", "side": "heel"}
+    yield {"at": list(section.toe), "text": "toe", "side": "toe"}
     _, base, _, crest = case.outline.bounds
     for edges, side in ((section.upstream_edges, "left"), (section.downstream_edges, "right")):
         for edge in edges:

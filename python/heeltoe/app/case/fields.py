@@ -23,7 +23,13 @@ _UNITS = {
     "stiffness": ("MN/m/m", "kip/ft/ft"),
     "memory": ("GB", "GB"),
 }
-_LABELS = {"pga": "Peak acceleration", "": "The case", "statics": "Static checks"}
+_LABELS = {
+    "": "The case",
+    "pga": "Peak acceleration",
+    "statics": "Static checks",
+    "flexible": "Flexible model",
+    "decoupled": "Decoupled chain",
+}
 _CELLS = {
     "section.polygon": ("x", "z"),
     "uplift.points": ("Distance", "Head"),
@@ -119,7 +125,7 @@ def _shown(field: Field, units: str) -> dict[str, Any]:
 def in_unit(value: float, field: Field, units: str) -> str:
     """Return a value in SI as it is typed in the units that are chosen."""
     unit = unit_of(field, units)
-    return f"{value / parse(f'1 {unit}', field.quantity, field.path):.4g} {unit}"
+    return f"{value / parse(f'1 {unit}', field.quantity, field.path):.6g} {unit}"
 
 
 def field_of(path: str) -> Field | None:

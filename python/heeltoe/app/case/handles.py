@@ -4,6 +4,7 @@ A handle is moved along x or z or both. What it stands for is said in the units 
 
 from __future__ import annotations
 
+import copy
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
@@ -17,7 +18,7 @@ _MOST_CORNERS = 40
 # The handle of the crack, and that of its inclination: parts of its width from the heel.
 _CRACK_AT, _INCLINED_AT = 0.35, 0.8
 _STEEPEST_DEG = 30.0
-_NOWHERE: Mapping[str, float] = {}
+_NOTHING: Mapping[str, Any] = {}
 
 
 @dataclass(frozen=True)
@@ -71,10 +72,15 @@ def handles(case: Case, units: str) -> list[Handle]:
 
 
 def moved(
-    case: Case, units: str, name: str, to: Mapping[str, float] = _NOWHERE, by: Mapping[str, float] = _NOWHERE
+    case: Case,
+    units: str,
+    name: str,
+    to: Mapping[str, float] = _NOTHING,
+    by: Mapping[str, float] = _NOTHING,
+    fields: Mapping[str, Any] = _NOTHING,
 ) -> dict[str, Any]:
     """Return what changes in a case, by paths, where a handle is put to x and z [m], or moved by so many steps; nothing
-    where it is not there."""
+    where it is not there. `fields` are those of the case as they were typed."""
     handle = next((each for each in handles(case, units) if each.name == name), None)
     if handle is None:
         return {}
@@ -84,7 +90,9 @@ def moved(
             changes[way.field] = way.text(_value(case, way, to[way.axis]))
         elif way.axis in by:
             changes[way.field] = way.text(way.value + by[way.axis] * way.step)
-    return _in_lists(case, changes)
+    if any("[" in path for path in changes):
+        return _in_lists(fields or case.model_dump(mode="json", exclude_unset=True), changes)
+    return changes
 
 
 def told(handle: Handle) -> dict[str, Any]:
@@ -105,20 +113,23 @@ def _value(case: Case, way: Way, at: float) -> float:
     return (at - way.start) / way.per_unit
 
 
-def _in_lists(case: Case, changes: dict[str, Any]) -> dict[str, Any]:
+def _in_lists(fields: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """Return changes of corners and anchors as changes of the whole lists they stand in."""
-    if not any("[" in path for path in changes):
-        return changes
-    fields = case.model_dump(mode="json", exclude_unset=True)
-    polygon = [list(corner) for corner in fields["section"].get("polygon", ())]
-    anchors = [dict(anchor) for anchor in fields.get("anchors", ())]
+    found: dict[str, Any] = {}
     for path, value in changes.items():
-        numbers = [int(part.rstrip("]")) for part in path.replace(".distance", "").split("[")[1:]]
-        if path.startswith("section"):
-            polygon[numbers[0]][numbers[1]] = value
+        name, *places = path.replace("[", ".[").split(".[")
+        block: Any = fields
+        for each in name.split("."):
+            block = block[each]
+        kept = found.setdefault(name, copy.deepcopy(block))
+        place, _, last = places[0].partition("].")
+        if last:
+            kept[int(place)][last] = value
         else:
-            anchors[numbers[0]]["distance"] = value
-    return {"section.polygon": polygon} if next(iter(changes)).startswith("section") else {"anchors": anchors}
+            row = list(kept[int(place.rstrip("]"))])
+            row[int(places[1].rstrip("]"))] = value
+            kept[int(place.rstrip("]"))] = row
+    return found
 
 
 def length_text(case: Case, units: str, part: float) -> str:

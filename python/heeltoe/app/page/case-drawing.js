@@ -4,7 +4,7 @@ import { element } from "./dom.js";
 /** @typedef {{name: string, label: string, at: [number, number], axes: string[], text: string, value: number, least: number, most: number}} Handle */
 
 const SPACE = "http://www.w3.org/2000/svg";
-const TALLEST = 560;
+const TALLEST = 640;
 const FAR = 10;
 
 /**
@@ -75,7 +75,7 @@ export class CaseDrawing {
 
   /** @param {number} wide */
   notes(wide) {
-    const anchors = /** @type {Record<string, [string, number, number]>} */ ({ left: ["end", -FAR, 16], right: ["start", FAR, 16], middle: ["middle", 0, 24], below: ["middle", 0, 16] });
+    const anchors = /** @type {Record<string, [string, number, number]>} */ ({ left: ["end", -FAR, 0], right: ["start", FAR, 0], middle: ["middle", 0, 24], heel: ["end", -FAR, 18], toe: ["start", FAR, 18] });
     return this.drawn.notes.filter((/** @type {any} */ note) => note.side !== "middle" || wide > 420).map((/** @type {any} */ { at, text, side }) => {
       const [anchor, dx, dy] = anchors[side];
       const [x, y] = this.at(at);

@@ -1,0 +1,112 @@
+"""What a tab may ask of its case: files of its own alone, sizes within bounds, nothing that no page asks."""
+
+from __future__ import annotations
+
+import pytest
+
+pytest.importorskip("starlette")
+
+from starlette.testclient import TestClient
+
+from heeltoe.app.server import application
+from heeltoe.app.settings import Settings
+from shared.dams import BASE
+
+HOME = "http://127.0.0.1:8642"
+HEADERS = {"host": "127.0.0.1:8642", "origin": HOME}
+
+
+@pytest.fixture
+def server(tmp_path):
+    with TestClient(application(Settings("127.0.0.1", 8642, tmp_path)), base_url=HOME) as found:
+        yield found
+
+
+def enter(server):
+    return server.websocket_connect("/talk", headers=HEADERS)
+
+
+def heard(tab, of):
+    """Return the next message of a kind; the page lives with others between."""
+    while (told := tab.receive_json())["of"] != of:
+        assert told["of"] in ("hello", "state")
+    return told
+
+
+def sent(server, name, content):
+    return server.post("/upload", content=content, headers={**HEADERS, "x-session": name}).json()["name"]
+
+
+@pytest.mark.parametrize(
+    ("action", "fields"),
+    [
+        ("edit case", {}), ("edit case", {"changes": []}), ("edit case", {"changes": {"": 1}}),
+        ("edit case", {"changes": {"a..b": 1}}), ("edit case", {"changes": {f"a{n}": 1 for n in range(100)}}),
+        ("put block", {"path": "__class__", "there": True}), ("put block", {"path": ""}),
+        ("drag", {"handle": 1}),
+        ("drag", {"handle": "crest", "to": {"x": "1"}}), ("drag", {"handle": "crest", "to": 5}),
+        ("open case", {"file": "../secret", "called": "x"}), ("open case", {"file": "x"}),
+        ("open case", {"file": "x", "called": "y", "beside": {"z": 1}}),
+    ],
+)  # fmt: skip
+def test_what_no_page_asks_is_told(server, action, fields):
+    with enter(server) as tab:
+        heard(tab, "state")
+        tab.send_json({"do": action, **fields})
+        assert heard(tab, "bad request")
+        tab.send_json({"do": "case", "serial": 7})
+        told = heard(tab, "case")
+        assert (told["serial"], told["errors"]) == (7, [])
+
+
+def test_a_change_reaches_all_pages(server):
+    with enter(server) as tab:
+        heard(tab, "state")
+        tab.send_json({"do": "edit case", "changes": {"title": "Mine", "reservoir.depth": "70"}})
+        state = heard(tab, "state")
+        assert (state["case"]["title"], state["case"]["example"]) == ("Mine", "")
+        assert next(each["value"] for each in state["sliders"] if each["path"] == "reservoir.depth") == 70.0
+        assert heard(tab, "case")["fields"]["reservoir"]["depth"] == "70 m"
+        tab.send_json({"do": "drag", "handle": "reservoir", "by": {"z": -1e290}})
+        assert heard(tab, "case")["fields"]["reservoir"]["depth"] == "0 m"
+
+
+def test_files_of_another_tab_are_not_opened(server):
+    with enter(server) as one, enter(server) as other:
+        name, stranger = heard(one, "hello")["session"], heard(other, "hello")["session"]
+        file = sent(server, name, BASE.read_bytes())
+        other.send_json({"do": "open case", "file": file, "called": "a.toml"})
+        assert heard(other, "bad request")
+        other.send_json(
+            {"do": "open case", "file": sent(server, stranger, b"x = 1"), "called": "a", "beside": {"b": file}}
+        )
+        assert heard(other, "bad request")
+
+
+@pytest.mark.parametrize("content", [b"[", b"\xff\xfe\x00", b'{"section": ' + b"[" * 5000, b"#" * 300_000])
+def test_what_is_no_case_file_is_told_by_its_name(server, content):
+    with enter(server) as tab:
+        file = sent(server, heard(tab, "hello")["session"], content)
+        tab.send_json({"do": "open case", "file": file, "called": "../../\u202eevil.toml", "serial": 3})
+        told = heard(tab, "case")
+        assert told["file"].startswith("evil.toml: ")
+        assert file not in told["file"]
+        assert told["fields"]["title"] == "Typical dam cracked at its base"
+
+
+def test_a_case_and_its_record(server):
+    record = b"\n".join(b"%d %d" % (n, n % 3) for n in range(200))
+    with enter(server) as tab:
+        name = heard(tab, "hello")["session"]
+        text = BASE.read_text(encoding="utf-8").replace("elcentro-1940-180-nga", "mine.txt").encode()
+        file = sent(server, name, text)
+        tab.send_json({"do": "open case", "file": file, "called": "c.toml"})
+        told = heard(tab, "case")
+        assert [each["field"] for each in told["errors"]] == ["motion.file"]
+        beside = {"dir\\mine.txt": sent(server, name, record)}
+        tab.send_json({"do": "open case", "file": file, "called": "c.toml", "beside": beside})
+        assert heard(tab, "case")["errors"] == []
+        tab.send_json({"do": "save case"})
+        saved = heard(tab, "case file")
+        assert 'file = "mine.txt"' in saved["text"]
+        assert saved["name"] == "typical-dam-cracked-at-its-base.toml"
