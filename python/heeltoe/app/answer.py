@@ -65,12 +65,12 @@ async def flexible(desk: Desk, asked: Asked) -> dict[str, Any]:
     return start(desk, "flexible", work, session.case, changes, session.units)
 
 
-def start(desk: Desk, what: str, work: Work, *arguments: Any) -> dict[str, Any]:
-    """Start a long run of this tab, and return what is told of it."""
+def start(desk: Desk, what: str, work: Work, *arguments: Any, parent: bool = False) -> dict[str, Any]:
+    """Start a long run of this tab, and return what is told of it; see :class:`heeltoe.app.jobs.Job`."""
     session = desk.session
     if len(_RUNNING) >= desk.settings.most_jobs:
         return {"of": "job refused", "text": f"{len(_RUNNING)} long runs go on: cancel one, or wait for it."}
-    job = Job(what, work, *arguments)
+    job = Job(what, work, *arguments, parent=parent)
     session.jobs[job.number] = job
     task = asyncio.create_task(job.follow(session.say))
     _RUNNING.add(task)

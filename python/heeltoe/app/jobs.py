@@ -14,7 +14,7 @@ from typing import Any
 
 from heeltoe.errors import InputError
 
-#: What a job calls: it says what goes on, and returns what a page can draw.
+#: What a job calls: it says what goes on, with the share that is done where it knows, and returns what a page can draw.
 Work = Callable[..., dict[str, Any]]
 Tell = Callable[[dict[str, Any]], Awaitable[None]]
 
@@ -32,18 +32,22 @@ class Job:
         It is, in a word, for the page.
     work
         A function of a module, called in the process with a function that says what goes on and `arguments`.
+    parent
+        Whether its process may have processes of its own; they end with it.
     """
 
-    def __init__(self, what: str, work: Work, *arguments: Any) -> None:
+    def __init__(self, what: str, work: Work, *arguments: Any, parent: bool = False) -> None:
         self.number = next(_NUMBERS)
         self.what = what
         self.state = "running"
         self.said = "starting"
+        self.share: float | None = None
         self.result: dict[str, Any] | None = None
         self._began = monotonic()
+        self._ended: float | None = None
         context = multiprocessing.get_context("spawn")
         self._here, there = context.Pipe(duplex=False)
-        self._process = context.Process(target=_run, args=(there, work, arguments), daemon=True)
+        self._process = context.Process(target=_run, args=(there, work, arguments), daemon=not parent)
         self._process.start()
         there.close()
 
@@ -54,9 +58,9 @@ class Job:
 
     def told(self) -> dict[str, Any]:
         """Return what a page shows of it."""
-        seconds = monotonic() - self._began
+        seconds = (self._ended or monotonic()) - self._began
         told = {"of": "job", "number": self.number, "what": self.what, "state": self.state, "seconds": seconds}
-        return told | {"said": self.said, "result": self.result}
+        return told | {"said": self.said, "share": self.share, "result": self.result}
 
     def cancel(self) -> None:
         """End it, where it has not ended."""
@@ -80,6 +84,7 @@ class Job:
         if self._process.is_alive():
             self._process.kill()
         self._here.close()
+        self._ended = monotonic()
         if self.state == "running":
             self.state, self.said = "lost", _lost(self._process.exitcode)
         await tell(self.told())
@@ -89,7 +94,7 @@ class Job:
         if self.state != "running":
             return
         if kind == "says":
-            self.said = content
+            self.said, self.share = content
         else:
             self.state, self.said, self.result = kind, "" if kind == "done" else content, None
             if kind == "done":
@@ -111,7 +116,7 @@ def _run(there: Connection, work: Work, arguments: tuple[Any, ...]) -> None:
     """Run in the process of a job."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
-        there.send(("done", work(lambda text: there.send(("says", text)), *arguments)))
+        there.send(("done", work(lambda text, share=None: there.send(("says", (text, share))), *arguments)))
     except InputError as error:
         there.send(("refused", str(error)))
     except MemoryError:

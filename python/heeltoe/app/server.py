@@ -20,6 +20,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
 from heeltoe.app.actions import Desk, actions
 from heeltoe.app.conversation import Conversation
+from heeltoe.app.downloads import gone
 from heeltoe.app.guard import Guard
 from heeltoe.app.sessions import Session, Sessions
 from heeltoe.app.settings import Settings
@@ -46,15 +47,16 @@ def application(settings: Settings) -> Starlette:
 
     async def talk(socket: WebSocket) -> None:
         await socket.accept()
-        session = sessions.enter(socket.query_params.get("session", ""))
+        asked = socket.query_params
+        session = sessions.enter(asked.get("session", ""), again="again" in asked, closed=asked.get("closed", ""))
+        desk = Desk(session, workers, settings, _teller(socket))
+        session.tell = desk.tell
         try:
-            desk = Desk(session, workers, settings, _teller(socket))
-            session.tell = desk.tell
             await desk.tell({"of": "hello", "session": session.name})
             await _begin(desk)
             await Conversation(socket, desk, known).listen()
         finally:
-            sessions.leave(session)
+            sessions.leave(session, desk.tell)
 
     async def upload(request: Request) -> Response:
         session = sessions.get(request.headers.get("x-session", ""))
@@ -62,11 +64,17 @@ def application(settings: Settings) -> Starlette:
             return JSONResponse({"error": "This tab is not known any more: reload the page."}, status_code=403)
         return await take(request, session, settings)
 
+    async def download(request: Request) -> Response:
+        # What only looks at the head of a file shall not use up its link.
+        offer = sessions.take(request.path_params["key"]) if request.method == "GET" else None
+        return gone() if offer is None else offer.answer()
+
     return Starlette(
         routes=[
             Route("/", _index),
             Route("/plotly.js", _plotly),
             Route("/upload", upload, methods=["POST"]),
+            Route("/download/{key}", download),
             WebSocketRoute("/talk", talk),
             Mount("/page", StaticFiles(directory=_PAGE)),
         ],

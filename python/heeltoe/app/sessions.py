@@ -13,7 +13,9 @@ from heeltoe.app.settings import Settings
 
 if TYPE_CHECKING:
     from heeltoe.app.case.draft import Draft
+    from heeltoe.app.downloads import Offer
     from heeltoe.app.jobs import Job, Tell
+    from heeltoe.app.studies.actions import Made
     from heeltoe.case.model import Case
 
 
@@ -47,6 +49,12 @@ class Session:
         Long runs, by their number.
     uploads
         How many files it has sent.
+    offers
+        Files that it may fetch once, by the secret in their address.
+    kept_files
+        The folder of what it takes away, and the case that this is of.
+    studies
+        Its studies, by their number.
     open, tell
         Whether there is a tab, and what sends it a message.
     used
@@ -65,9 +73,17 @@ class Session:
     kept: dict[str, Any] = field(default_factory=dict)
     jobs: dict[int, Job] = field(default_factory=dict)
     uploads: int = 0
+    offers: dict[str, Offer] = field(default_factory=dict)
+    kept_files: tuple[Path, str] | None = None
+    studies: dict[int, Made] = field(default_factory=dict)
     open: bool = False
     tell: Tell | None = None
     used: float = field(default_factory=monotonic)
+
+    @property
+    def runs(self) -> bool:
+        """Whether something runs for it."""
+        return any(job.state == "running" for job in self.jobs.values())
 
     async def say(self, message: dict[str, Any]) -> None:
         """Tell the tab, if there is one: a run goes on while its tab is closed or loaded anew."""
@@ -112,20 +128,31 @@ class Sessions:
             found.used = monotonic()
         return found
 
-    def enter(self, name: str) -> Session:
-        """Return the session of a tab that comes: the one it had, else a new one.
+    def enter(self, name: str, *, again: bool = False, closed: str = "") -> Session:
+        """Return the session of a tab that comes: the one it had, else that of the tab which this browser had closed
+        last, else a new one.
 
-        A tab that was doubled has the name of one that is open, and begins with its case."""
+        A tab that was doubled has the name of one that is open, and begins with its case; one that is loaded `again`
+        goes on, though the server may not have seen yet that it was left."""
         found = self.get(name)
-        if found is None or found.open:
+        if found is None and not name:
+            left = self.get(closed)
+            found = None if left is None or left.open else left
+        if found is None or (found.open and not again):
             found = self._new(found)
         found.open = True
         return found
 
-    def leave(self, session: Session) -> None:
-        """Note that a tab is closed; it may come back."""
-        session.open = False
+    def leave(self, session: Session, tell: Tell | None = None) -> None:
+        """Note that a tab is closed, unless it has come back and is told what goes on in another way than `tell`."""
         session.used = monotonic()
+        if tell is not None and session.tell is not tell:
+            return
+        session.open = False
+
+    def take(self, key: str) -> Offer | None:
+        """Return what is behind a link, once."""
+        return next((each.offers.pop(key) for each in self._found.values() if key in each.offers), None)
 
     def close(self) -> None:
         """Forget all."""
@@ -146,7 +173,11 @@ class Sessions:
 
     def _forget(self) -> None:
         now = monotonic()
-        closed = sorted((each for each in self._found.values() if not each.open), key=lambda each: each.used)
+        closed = sorted((each for each in self._found.values() if not (each.open or each.runs)), key=_used)
         for each in closed:
             if len(self._found) > self._settings.most_sessions or now - each.used > self._settings.idle_s:
                 self._found.pop(each.name).close()
+
+
+def _used(session: Session) -> float:
+    return session.used

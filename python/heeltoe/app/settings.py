@@ -33,6 +33,8 @@ class Settings:
         Files of one tab.
     most_jobs
         Long runs at once, of all tabs.
+    most_studies, most_runs
+        Studies that a tab keeps, and runs of each.
     """
 
     host: str
@@ -45,6 +47,8 @@ class Settings:
     largest_upload: int = 20_000_000
     most_uploads: int = 40
     most_jobs: int = 2
+    most_studies: int = 12
+    most_runs: int = 1_000_000
 
     @property
     def is_public(self) -> bool:

@@ -20,11 +20,12 @@ class WorkerLostError(Exception):
 
 
 class Workers:
-    """Threads, and a process beside them."""
+    """Threads, and processes beside them: one for what follows the sliders, one for what people wait for anyway."""
 
     def __init__(self) -> None:
         self._threads = ThreadPoolExecutor(THREADS, thread_name_prefix="heeltoe")
-        self._process = _process()
+        # An executor starts its process when it is first asked.
+        self._processes = {name: _process() for name in ("live", "aside")}
 
     async def quick(self, compute: Callable[..., Any], *arguments: Any) -> Any:
         """Compute on a thread."""
@@ -38,21 +39,29 @@ class Workers:
         WorkerLostError
             Where the process was lost on the way; the next one has a new one.
         """
-        process = self._process
+        return await self._in("live", compute, *arguments)
+
+    async def aside(self, compute: Callable[..., Any], *arguments: Any) -> Any:
+        """Compute, as :meth:`beside`, what takes seconds and nobody moves a slider for."""
+        return await self._in("aside", compute, *arguments)
+
+    async def _in(self, name: str, compute: Callable[..., Any], *arguments: Any) -> Any:
+        process = self._processes[name]
         try:
             return await asyncio.get_running_loop().run_in_executor(process, compute, *arguments)
         except BrokenProcessPool:
-            if self._process is process:
-                self._process = _process()
+            if self._processes[name] is process:
+                self._processes[name] = _process()
                 process.shutdown(wait=False)
             raise WorkerLostError from None
 
     def close(self) -> None:
         """End all."""
         self._threads.shutdown(wait=False, cancel_futures=True)
-        for each in (self._process._processes or {}).values():
-            each.terminate()
-        self._process.shutdown(wait=False, cancel_futures=True)
+        for process in self._processes.values():
+            for each in (process._processes or {}).values():
+                each.terminate()
+            process.shutdown(wait=False, cancel_futures=True)
 
 
 def _process() -> ProcessPoolExecutor:

@@ -27,7 +27,12 @@ def case_text(fields: Mapping[str, Any]) -> str:
     fields
         As a file has them; they need not be those of a sound case. What is None is left out.
     """
-    return "\n".join([_HEAD, "", *_block(fields, Case, "")]).rstrip("\n") + "\n"
+    return toml_text(fields, Case, _HEAD)
+
+
+def toml_text(fields: Mapping[str, Any], model: type[BaseModel], head: str) -> str:
+    """Return fields as a file in TOML below a head, each with what a model says of it."""
+    return "\n".join([head, "", *_block(fields, model, "")]).rstrip("\n") + "\n"
 
 
 def _block(fields: Mapping[str, Any], model: type[BaseModel] | None, path: str) -> Iterator[str]:

@@ -111,15 +111,13 @@ def _bar() -> Iterator[Callable[[Progress], None]]:
     from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
     from rich.progress import Progress as Bar
 
-    from heeltoe.views.terminal.study import duration
+    from heeltoe.views.terminal.study import progress_text
 
     columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
     with Bar(*columns, console=console(stderr=True), transient=True) as bar:
         task = bar.add_task("running", total=None)
 
         def told(progress: Progress) -> None:
-            failed = f", {progress.failed} without a result" if progress.failed else ""
-            said = f"{progress.rate:,.0f} runs/s, {duration(progress.left)} left{failed}"
-            bar.update(task, description=said, completed=progress.done, total=progress.of)
+            bar.update(task, description=progress_text(progress), completed=progress.done, total=progress.of)
 
         yield told

@@ -23,7 +23,7 @@ _MESHES = ("flexible.mesh_above", "flexible.mesh_below")
 def unsent(session: Session, fields: dict[str, Any]) -> list[InputError]:
     """Return an error at each field that names a file which this tab has not sent."""
     found = []
-    for path, block, name in _named(fields):
+    for path, block, name in named(fields):
         known = path in _RECORDS and (block[name].startswith(PREFIX) or block[name] in _catalogue())
         sent = block[name] in session.sent or block[name] in session.sent.values()
         if block[name] and not known and not sent:
@@ -45,12 +45,12 @@ def _renamed(fields: dict[str, Any], names: dict[str, str]) -> dict[str, Any]:
     if not names:
         return fields
     own = copy.deepcopy(fields)
-    for _, block, name in _named(own):
+    for _, block, name in named(own):
         block[name] = names.get(block[name], block[name])
     return own
 
 
-def _named(fields: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any], str]]:
+def named(fields: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any], str]]:
     """Walk the fields that name files: path, block and name in it."""
     for path in (*_RECORDS, *_MESHES):
         *blocks, name = path.split(".")

@@ -1,8 +1,10 @@
 /** The start of the page: connection, tabs, and what stands above all of them. */
 import { answerPage } from "./answer.js";
 import { casePage } from "./case.js";
+import { awayPage } from "./away/page.js";
 import { byId, element } from "./dom.js";
 import { laterPage } from "./later.js";
+import { studiesPage } from "./studies/page.js";
 import { showTabs } from "./tabs.js";
 import { Talk } from "./talk.js";
 import { followTheme } from "./theme.js";
@@ -13,8 +15,8 @@ const pages = [
   casePage(talk),
   laterPage("motion", "Motion", "A record is looked at by", "heeltoe motion FILE"),
   answer,
-  laterPage("studies", "Studies", "Many dams through many earthquakes are run by", "heeltoe study STUDY.toml"),
-  laterPage("take-away", "Take away", "A report of a case is written by", "heeltoe run CASE.toml --report"),
+  studiesPage(talk),
+  awayPage(talk),
 ];
 
 /** @param {string} text Nothing hides it. */

@@ -1,6 +1,8 @@
 /** The conversation with the server: questions with a number, answers by what they are of. */
 
 const KEY = "heeltoe-session";
+/** Of the tab of this browser that was there last; a new tab goes on with it where it is closed. */
+const LAST = "heeltoe-last-session";
 const LONGEST_WAIT_MS = 8000;
 
 export class Talk {
@@ -8,13 +10,20 @@ export class Talk {
     /** @type {Map<string, ((message: any) => void)[]>} */
     this.listeners = new Map();
     this.serial = 0;
+    /** Who waits for the answer to a question of this number. @type {Map<number, (message: any) => void>} */
+    this.waiting = new Map();
     this.wait = 250;
     /** @type {WebSocket | null} */
     this.socket = null;
     this.session = sessionStorage.getItem(KEY) || "";
+    const [entry] = /** @type {PerformanceNavigationTiming[]} */ (performance.getEntriesByType("navigation"));
+    /** Whether the session is surely of this tab: a tab that was doubled has the same name. */
+    this.again = Boolean(entry && entry.type === "reload");
     this.on("hello", ({ session }) => {
       this.session = session;
+      this.again = true;
       sessionStorage.setItem(KEY, session);
+      localStorage.setItem(LAST, session);
     });
   }
 
@@ -22,10 +31,15 @@ export class Talk {
     const address = new URL("/talk", location.href);
     address.protocol = "ws:";
     address.searchParams.set("session", this.session);
+    address.searchParams.set("closed", localStorage.getItem(LAST) || "");
+    if (this.again) address.searchParams.set("again", "");
     const socket = new WebSocket(address);
     this.socket = socket;
     socket.addEventListener("message", ({ data }) => {
       const message = JSON.parse(data);
+      const waits = this.waiting.get(message.serial);
+      this.waiting.delete(message.serial);
+      if (waits) waits(message);
       for (const hear of this.listeners.get(message.of) || []) hear(message);
     });
     socket.addEventListener("open", () => {
@@ -64,6 +78,19 @@ export class Talk {
       this.socket.send(JSON.stringify({ do: what, serial: this.serial, ...fields }));
     }
     return this.serial;
+  }
+
+  /**
+   * Hear the answer to a question, and to no other.
+   * @param {string} what
+   * @param {object} fields
+   * @returns {Promise<any>}
+   */
+  answer(what, fields = {}) {
+    return new Promise((done) => {
+      const serial = this.ask(what, fields);
+      this.waiting.set(serial, done);
+    });
   }
 
   /**

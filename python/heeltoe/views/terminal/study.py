@@ -9,7 +9,7 @@ from rich.markup import escape
 
 from heeltoe.motion.intensity import MEASURES
 from heeltoe.study.opened import Opened
-from heeltoe.study.run import Outlook
+from heeltoe.study.run import Outlook, Progress
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.write import length
 from heeltoe.views.terminal.common import print_title, print_warnings, quiet_table
@@ -27,7 +27,7 @@ def duration(seconds: float) -> str:
     return f"{seconds / 86400.0:,.0f} days"
 
 
-def print_outlook(expected: Outlook, console: Console) -> None:
+def outlook_text(expected: Outlook) -> str:
     """Say what a study will be."""
     plan = expected.plan
     dams, motions, strengths, models = plan.sizes
@@ -40,8 +40,18 @@ def print_outlook(expected: Outlook, console: Console) -> None:
     times = " x ".join(parts)
     how_long = duration(expected.seconds)
     about = how_long if how_long.startswith("less") else f"about {how_long}"
-    text = f"{plan.count:,} runs ({times}{drawn}), {about} on {expected.cores} cores"
-    console.print(escape(text), soft_wrap=True, highlight=False)
+    return f"{plan.count:,} runs ({times}{drawn}), {about} on {expected.cores} cores"
+
+
+def print_outlook(expected: Outlook, console: Console) -> None:
+    """Print what a study will be."""
+    console.print(escape(outlook_text(expected)), soft_wrap=True, highlight=False)
+
+
+def progress_text(progress: Progress) -> str:
+    """Say how far a study is, but for its share."""
+    failed = f", {progress.failed:,} without a result" if progress.failed else ""
+    return f"{progress.rate:,.0f} runs/s, {duration(progress.left)} left{failed}"
 
 
 def print_study(found: Opened, console: Console, units: str = "si") -> None:

@@ -1,0 +1,214 @@
+/** The form of a study: what varies and how, which earthquakes, which limits. It only gathers; the server judges. */
+import { element } from "../dom.js";
+import { check, field, select } from "./fields.js";
+import { VaryRows } from "./vary.js";
+
+const METHODS = /** @type {Record<string, string>} */ ({
+  grid: "grid: every combination of the values",
+  "one at a time": "one at a time: each value by itself",
+  "latin hypercube": "Latin hypercube: dams drawn evenly over each field",
+  sobol: "Sobol’s sequence: the same, a power of two of them",
+  sensitivity: "sensitivity: what Sobol’s indices need",
+});
+const MODELS = /** @type {Record<string, string>} */ ({ rigid: "rigid block", decoupled: "rigid block on an elastic part", flexible: "elastic dam" });
+const LIMITS = /** @type {Record<string, string>} */ ({ residual_slip: "Residual slip", peak_slip: "Peak slip", opening: "Opening", rotation: "Rotation" });
+const DRAWN = ["latin hypercube", "sobol", "sensitivity"];
+/** What people begin with. @type {Record<string, Record<string, any>>} */
+const BEGIN = {
+  Grid: { method: "grid", source: "case", "scale.measure": "", vary: [{ path: "crack.friction", kind: "list", values: "0.8, 1.0, 1.2" }, { path: "reservoir.depth", kind: "uniform", from: "80 %", to: "100 %", count: "3" }] },
+  "Stronger and stronger (IDA)": { method: "grid", source: "case", "scale.measure": "pga", "scale.kind": "list", "scale.values": "0.1 g, 0.2 g, 0.3 g, 0.4 g, 0.5 g, 0.6 g, 0.8 g, 1.0 g", both_signs: true, vary: [] },
+  Fragility: { method: "latin hypercube", samples: "1000", source: "records", "scale.measure": "pga", "scale.kind": "drawn", "scale.from": "0.1 g", "scale.to": "1.2 g", both_signs: true, "fragility.measure": "pga", "limit.residual_slip": "10 mm, 150 mm", vary: [{ path: "crack.friction", kind: "lognormal", median: "now", dispersion: "0.15" }] },
+};
+
+export class StudyForm {
+  /** @param {() => void} changed Called whenever the study is another one. */
+  constructor(changed) {
+    this.changed = changed;
+    /** @type {Record<string, HTMLInputElement | HTMLSelectElement>} */
+    this.inputs = {};
+    this.vary = new VaryRows(changed);
+    this.root = element("form", { class: "study-form", "aria-label": "A study", onsubmit: (/** @type {Event} */ event) => event.preventDefault() });
+    this.root.addEventListener("input", () => {
+      this.arrange();
+      changed();
+    });
+  }
+
+  /** Draw it anew with what can be chosen, what was typed kept. @param {any} choices */
+  show(choices) {
+    const before = this.root.hasChildNodes() ? this.read() : null;
+    this.choices = choices;
+    this.vary.fields = choices.fields;
+    this.root.replaceChildren(this._begin(), this._what(choices), this.vary.root, this._motions(choices), this._fragility(choices));
+    this.write(before || BEGIN.Grid);
+  }
+
+  _begin() {
+    const buttons = Object.entries(BEGIN).map(([name, given]) => element("button", { type: "button", onclick: () => this.write(given, true) }, name));
+    return element("fieldset", { class: "begin" }, element("legend", {}, "Begin with"), ...buttons);
+  }
+
+  /** @param {any} choices */
+  _what(choices) {
+    const models = choices.models.map((/** @type {string} */ name) => this._tick(`model.${name}`, MODELS[name] || name, name !== "rigid" && !choices.elastic));
+    return element(
+      "fieldset",
+      {},
+      element("legend", {}, "Study"),
+      this._field("title", "Title", "that of the case where it is empty"),
+      element("div", { role: "group", "aria-label": "Models", class: "ticks", "data-field": "model" }, ...models),
+      ...(choices.elastic ? [] : [element("p", { class: "faint" }, "The case gives no concrete.modulus: the dam can only be a rigid block.")]),
+      this._select("method", "Method", choices.methods.map((/** @type {string} */ name) => [name, METHODS[name] || name])),
+      element("div", { class: "pair" }, this._field("samples", "Samples", "dams that are drawn", "1000"), this._field("seed", "Seed", "the same seed, the same runs", "1")),
+    );
+  }
+
+  /** @param {any} choices */
+  _motions(choices) {
+    const groups = choices.records.map((/** @type {any} */ group) => element("div", { class: "ticks", role: "group", "aria-label": group.event }, ...group.records.map((/** @type {any} */ each) => this._tick(`record.${each.name}`, each.vertical ? `${each.name} (vertical)` : each.name))));
+    const own = choices.own ? `that of the case: ${choices.own}` : "that of the case, which has none";
+    return element(
+      "fieldset",
+      { "data-field": "motions" },
+      element("legend", {}, "Earthquakes"),
+      this._select("source", "Which", [["case", own], ["records", "records that are chosen here"]]),
+      element(
+        "div",
+        { class: "of-records" },
+        element("div", { class: "records", tabindex: "0", role: "group", "aria-label": "Records" }, ...groups),
+        element("p", { class: "faint" }, "A record of yours is added on the page Motion; records whose names differ in their last part alone are of one event."),
+        this._field("ordered", "Made to order", "as synthetic:M6.5,20km,seed=1; several with ; between them"),
+        element("div", { class: "ticks" }, this._tick("pairs", "horizontal components in pairs"), this._tick("vertical", "with vertical components"), this._tick("every", "every dam meets every motion")),
+      ),
+      element("div", { class: "ticks" }, this._tick("both_signs", "each motion both ways round")),
+      this._select("scale.measure", "Strength", [["", "as it is"], ...choices.scales.map((/** @type {string} */ name) => [name, name === "factor" ? "a factor" : name])], "motions.scale.measure"),
+      element(
+        "div",
+        { class: "of-scale" },
+        this._select("scale.kind", "Its values", [["list", "a list"], ["drawn", "drawn evenly between two"]]),
+        this._field("scale.values", "Strengths", "one after the other", "0.1 g, 0.2 g, 0.4 g", "motions.scale.values"),
+        element("div", { class: "pair" }, this._field("scale.from", "From", "", "0.1 g", "motions.scale.values.from"), this._field("scale.to", "To", "", "1.2 g", "motions.scale.values.to")),
+        this._field("scale.period", "Period", "of sa", "0.3 s", "motions.scale.period"),
+      ),
+    );
+  }
+
+  /** @param {any} choices */
+  _fragility(choices) {
+    const limits = choices.limits.map((/** @type {string} */ name) => this._field(`limit.${name}`, LIMITS[name] || name, "", name === "rotation" ? "0.001" : "10 mm, 150 mm", `fragility.limits.${name}`));
+    return element(
+      "fieldset",
+      { "data-field": "fragility" },
+      element("legend", {}, "Fragility"),
+      element("p", { class: "faint" }, "Limits, of which each has a curve; none without."),
+      element("div", { class: "pair" }, ...limits),
+      this._select("fragility.measure", "Over", choices.measures.map((/** @type {string} */ name) => [name, name])),
+      this._field("fragility.period", "Period", "of sa", "0.3 s"),
+    );
+  }
+
+  /** @param {string} name @param {string} label @param {string} said @param {string} example @param {string} at */
+  _field(name, label, said, example = "", at = name) {
+    const made = field({ id: `study-${name.replaceAll(".", "-")}`, label, said, example, at });
+    this.inputs[name] = made.input;
+    return made.root;
+  }
+
+  /** @param {string} name @param {string} label @param {[string, string][]} options @param {string} at */
+  _select(name, label, options, at = name) {
+    const made = select({ id: `study-${name.replaceAll(".", "-")}`, label, options, at });
+    this.inputs[name] = made.input;
+    return made.root;
+  }
+
+  /** @param {string} name @param {string} label */
+  _tick(name, label, disabled = false) {
+    const made = check(label, disabled);
+    this.inputs[name] = made.input;
+    return made.root;
+  }
+
+  /** @param {string} name */
+  _row(name) {
+    return /** @type {HTMLElement} */ (this.inputs[name].closest(".field"));
+  }
+
+  /** Show what the choices make sense of. */
+  arrange() {
+    const at = (/** @type {string} */ name) => this.inputs[name].value;
+    const drawn = DRAWN.includes(at("method"));
+    this._row("samples").hidden = !drawn;
+    this._row("seed").hidden = !drawn;
+    const find = (/** @type {string} */ name) => /** @type {HTMLElement} */ (this.root.querySelector(name));
+    find(".of-records").hidden = at("source") !== "records";
+    find(".of-scale").hidden = at("scale.measure") === "";
+    if (!drawn) this.inputs["scale.kind"].value = "list";
+    this._row("scale.kind").hidden = !drawn;
+    const list = at("scale.kind") === "list";
+    this._row("scale.values").hidden = !list;
+    /** @type {HTMLElement} */ (this._row("scale.from").parentElement).hidden = list;
+    this._row("scale.period").hidden = at("scale.measure") !== "sa";
+    this._row("fragility.period").hidden = at("fragility.measure") !== "sa";
+    /** @type {HTMLElement} */ (this.inputs.every.closest("label")).hidden = !drawn;
+    this.vary.arrange(drawn);
+  }
+
+  /** @returns {Record<string, any>} What the server takes; what is hidden says nothing. */
+  read() {
+    /** @type {Record<string, any>} */
+    const found = { models: [], records: [], vary: this.vary.read() };
+    for (const [name, input] of Object.entries(this.inputs)) {
+      const row = input.closest(".field, label");
+      const [kind, ...rest] = name.split(".");
+      const hidden = row && /** @type {HTMLElement} */ (row).hidden;
+      const ticked = input instanceof HTMLInputElement && input.type === "checkbox" ? input.checked : null;
+      if (kind === "model" || kind === "record") {
+        if (ticked) found[`${kind}s`].push(rest.join("."));
+      } else if (ticked !== null) found[name] = ticked && !hidden;
+      else found[name] = hidden ? "" : input.value;
+    }
+    return found;
+  }
+
+  /** @param {Record<string, any>} given @param {boolean} anew Whether what it does not name is emptied. */
+  write(given, anew = false) {
+    const models = given.models || ["rigid"];
+    for (const [name, input] of Object.entries(this.inputs)) {
+      const [kind, ...rest] = name.split(".");
+      if (input instanceof HTMLInputElement && input.type === "checkbox") {
+        if (kind === "model") input.checked = models.includes(rest.join(".")) && !input.disabled;
+        else if (kind === "record") input.checked = (given.records || this._some()).includes(rest.join("."));
+        else input.checked = Boolean(given[name]);
+      } else if (name in given) input.value = given[name];
+      else if (anew && name !== "title") input.value = input instanceof HTMLSelectElement ? input.options[0].value : "";
+    }
+    this.vary.write(given.vary || []);
+    this.arrange();
+    this.changed();
+  }
+
+  /** Records to begin with: the horizontal ones of the first events that have two. */
+  _some() {
+    const pairs = this.choices.records.map((/** @type {any} */ group) => group.records.filter((/** @type {any} */ each) => !each.vertical)).filter((/** @type {any[]} */ group) => group.length === 2);
+    return pairs.slice(0, 4).flat().map((/** @type {any} */ each) => each.name);
+  }
+
+  /** Say what is wrong at its field; return whether there is such a place. @param {{field: string, problem: string, remedy: string} | null} error */
+  fault(error) {
+    for (const place of this.root.querySelectorAll(".wrong")) if (place.textContent) place.textContent = "";
+    for (const input of this.root.querySelectorAll("[aria-invalid]")) input.removeAttribute("aria-invalid");
+    if (!error) return true;
+    const places = [.../** @type {NodeListOf<HTMLElement>} */ (this.root.querySelectorAll("[data-field]"))].filter((each) => error.field.startsWith(each.dataset.field || "?") && each.checkVisibility());
+    const best = places.sort((a, b) => (b.dataset.field || "").length - (a.dataset.field || "").length)[0];
+    if (!best) return false;
+    let wrong = best.querySelector(":scope > .wrong");
+    if (!wrong) {
+      wrong = element("p", { class: "wrong", role: "status" });
+      best.append(wrong);
+    }
+    wrong.textContent = `${error.problem}; ${error.remedy}`;
+    const input = best.matches(".field") ? best.querySelector("input, select") : null;
+    if (input) input.setAttribute("aria-invalid", "true");
+    return true;
+  }
+}

@@ -1,0 +1,165 @@
+/** The page "Studies": a form, the studies of this tab with how far they are, and what one of them says. */
+import { element } from "../dom.js";
+import { save } from "../save.js";
+import { documentOf } from "./document.js";
+import { StudyForm } from "./form.js";
+
+const TAKE = /** @type {[string, string][]} */ ([["study", "All of it (zip)"], ["csv", "Runs (CSV)"], ["pdf", "Report (PDF)"], ["html", "Report (HTML)"], ["file", "study.toml"]]);
+const PATIENCE_MS = 250;
+
+/** @param {import("../talk.js").Talk} talk */
+export function studiesPage(talk) {
+  /** @type {Map<number, {number: number, title: string, job: any, root: HTMLElement}>} */
+  const studies = new Map();
+  let looking = 0;
+  let wanted = true;
+  let visible = false;
+  const outlook = element("p", { class: "outlook", role: "status" });
+  const start = element("button", { type: "button", class: "main", disabled: true, onclick: () => run({ study: form.read() }) }, "Run the study");
+  const refused = element("p", { class: "wrong", role: "alert" });
+  const list = element("ul", { class: "studies" });
+  const none = element("p", { class: "faint" }, "None yet. They stay as long as the app runs, also while the page is closed.");
+  const said = element("div", { class: "said-of", tabindex: "-1" });
+  const form = new StudyForm(() => {
+    clearTimeout(looking);
+    looking = setTimeout(look, PATIENCE_MS);
+  });
+
+  function look() {
+    outlook.textContent = "counting the runs";
+    talk.ask("study look", { study: form.read() });
+  }
+
+  /** @param {object} what */
+  function run(what) {
+    refused.textContent = "";
+    talk.ask("study run", what);
+  }
+
+  function ask() {
+    wanted = false;
+    talk.ask("study form");
+  }
+
+  /** @param {any[]} found */
+  function show(found) {
+    const kept = new Set(found.map((each) => each.number));
+    for (const [number, study] of studies) {
+      if (kept.has(number)) continue;
+      study.root.remove();
+      studies.delete(number);
+      if (said.dataset.study === String(number)) said.replaceChildren();
+    }
+    for (const each of found) {
+      const known = studies.get(each.number);
+      if (known) known.job = each.job;
+      else {
+        const root = element("li", { "data-study": each.number });
+        studies.set(each.number, { ...each, root });
+        list.prepend(root);
+      }
+      line(each.number);
+    }
+    none.hidden = studies.size > 0;
+  }
+
+  /** Draw a study of the list. @param {number} number */
+  function line(number) {
+    const study = studies.get(number);
+    if (!study) return;
+    const { job, root, title } = study;
+    const running = job.state === "running";
+    const seconds = Math.round(job.seconds);
+    const done = job.state === "done";
+    const state = running ? `${job.said} (${seconds} s)` : done ? `done in ${seconds} s` : job.said;
+    if (root.dataset.state === job.state && running) {
+      /** @type {HTMLElement} */ (root.querySelector(".state")).textContent = state;
+      progress(/** @type {HTMLProgressElement} */ (root.querySelector("progress")), job);
+      return;
+    }
+    root.dataset.state = job.state;
+    const act = (/** @type {string} */ label, /** @type {() => void} */ does) => element("button", { type: "button", "aria-label": `${label}: ${title}`, onclick: does }, label);
+    const actions = running
+      ? [act("Cancel", () => talk.ask("cancel", { number: study.job.number }))]
+      : [act("Show", () => answers(number)), ...(done ? [] : [act("Go on", () => run({ number }))]), act("Remove", () => talk.ask("study remove", { number }))];
+    const bar = /** @type {HTMLProgressElement} */ (element("progress", { "aria-label": `${title} runs`, hidden: !running }));
+    progress(bar, job);
+    root.replaceChildren(element("strong", {}, title), element("span", { class: "state", role: "status" }, state), bar, element("div", { class: "actions" }, ...actions));
+  }
+
+  /** @param {HTMLProgressElement} bar @param {any} job */
+  function progress(bar, job) {
+    if (job.share === null) bar.removeAttribute("value");
+    else bar.value = job.share;
+  }
+
+  /** @param {number} number */
+  function answers(number) {
+    said.dataset.study = String(number);
+    said.replaceChildren(element("p", { role: "status" }, "drawing what the study says"));
+    talk.ask("study answers", { number });
+  }
+
+  talk.on("study answers", (told) => {
+    if (said.dataset.study !== String(told.number)) return;
+    if (told.error) {
+      said.replaceChildren(element("p", { class: "wrong", role: "alert" }, told.error.text));
+      return;
+    }
+    const take = TAKE.map(([what, label]) => element("button", { type: "button", onclick: () => fetchOf(told.number, what) }, label));
+    said.replaceChildren(element("div", { class: "actions", role: "group", "aria-label": "Take away" }, ...take), documentOf(told));
+  });
+
+  /** @param {number} number @param {string} what */
+  async function fetchOf(number, what) {
+    refused.textContent = "";
+    const told = await talk.answer("study download", { number, what });
+    if (told.of === "download") save(told);
+  }
+
+  talk.on("study form", (told) => {
+    form.show(told.choices);
+    show(told.studies);
+  });
+  talk.on("studies", ({ studies: found }) => show(found));
+  talk.on("study refused", ({ text }) => {
+    refused.textContent = text;
+  });
+  talk.on("job refused", ({ text }) => {
+    refused.textContent = text;
+  });
+  talk.on("study look", (told) => {
+    const found = form.fault(told.error || null);
+    start.toggleAttribute("disabled", Boolean(told.error));
+    outlook.textContent = told.outlook || (found ? "Something above cannot be used." : told.error.text);
+    outlook.classList.toggle("wrong", Boolean(told.error) && !found);
+  });
+  talk.on("job", (job) => {
+    const number = Number((/^study (\d+)$/.exec(job.what) || [])[1]);
+    const study = studies.get(number);
+    if (!study || job.number < study.job.number) return;
+    const before = study.job.state;
+    study.job = job;
+    line(number);
+    if (before === "running" && job.state === "done" && (!said.hasChildNodes() || said.dataset.study === String(number))) answers(number);
+  });
+  talk.on("state", () => {
+    wanted = true;
+    if (visible) ask();
+    if (said.hasChildNodes() && said.dataset.study) answers(Number(said.dataset.study));
+  });
+
+  return {
+    name: "studies",
+    label: "Studies",
+    /** @param {HTMLElement} root */
+    mount(root) {
+      const made = element("section", { "aria-label": "Studies of this tab" }, element("h2", {}, "Studies"), none, list, said);
+      root.append(element("div", { class: "two" }, element("div", {}, element("h2", {}, "A new study of this case"), form.root, outlook, refused, start), made));
+      new IntersectionObserver(([entry]) => {
+        visible = entry.isIntersecting;
+        if (visible && wanted) ask();
+      }).observe(root);
+    },
+  };
+}

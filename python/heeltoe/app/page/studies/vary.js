@@ -1,0 +1,140 @@
+/** What varies in a study: fields of the case, each with a list of values or a distribution. */
+import { element } from "../dom.js";
+import { field, select } from "./fields.js";
+
+const KINDS = /** @type {Record<string, [string, string[]]>} */ ({
+  list: ["a list of values", ["values"]],
+  uniform: ["evenly between two", ["from", "to"]],
+  triangular: ["triangular", ["from", "mode", "to"]],
+  normal: ["normal", ["mean", "std", "lower", "upper"]],
+  lognormal: ["lognormal", ["median", "dispersion", "lower", "upper"]],
+});
+const LABELS = /** @type {Record<string, string>} */ ({ values: "Values", from: "From", to: "To", mode: "Most likely", mean: "Mean", std: "Standard deviation", median: "Median", dispersion: "Dispersion", lower: "Not below", upper: "Not above", count: "How many" });
+
+export class VaryRows {
+  /** @param {() => void} changed */
+  constructor(changed) {
+    this.changed = changed;
+    /** @type {any[]} */
+    this.fields = [];
+    /** @type {VaryRow[]} */
+    this.rows = [];
+    this.list = element("div", { class: "varied" });
+    this.none = element("p", { class: "faint" }, "No field of the case varies.");
+    const add = element("button", { type: "button", onclick: () => this.add() }, "Add a field");
+    this.root = element("fieldset", { "data-field": "vary" }, element("legend", {}, "What varies"), this.none, this.list, add);
+  }
+
+  add() {
+    const taken = new Set(this.rows.map((row) => row.path.value));
+    const next = this.fields.find((each) => each.drawn && !taken.has(each.path) && ["crack.friction", "reservoir.depth", "uplift.intensity", "crack.restitution"].includes(each.path));
+    const row = this._make({ path: (next || this.fields.find((each) => !taken.has(each.path))).path, kind: "list" });
+    this.changed();
+    row.path.focus();
+  }
+
+  /** @param {Record<string, string>} given */
+  _make(given) {
+    const row = new VaryRow(this.fields, given, () => {
+      this.rows = this.rows.filter((each) => each !== row);
+      row.root.remove();
+      this.none.hidden = this.rows.length > 0;
+      this.changed();
+    });
+    this.rows.push(row);
+    this.list.append(row.root);
+    this.none.hidden = true;
+    row.arrange(this.drawn);
+    return row;
+  }
+
+  /** @param {Record<string, string>[]} given */
+  write(given) {
+    this.rows = [];
+    this.list.replaceChildren();
+    this.none.hidden = false;
+    for (const each of given) if (this.fields.some((known) => known.path === each.path)) this._make(each);
+  }
+
+  /** @param {boolean} drawn Whether dams are drawn: then nobody counts values. */
+  arrange(drawn) {
+    this.drawn = drawn;
+    for (const row of this.rows) row.arrange(drawn);
+  }
+
+  read() {
+    return this.rows.map((row) => row.read());
+  }
+}
+
+class VaryRow {
+  /** @param {any[]} fields @param {Record<string, string>} given @param {() => void} remove */
+  constructor(fields, given, remove) {
+    this.fields = fields;
+    const path = select({ label: "Field", options: [] });
+    const kind = select({ label: "How", options: Object.entries(KINDS).map(([name, [label]]) => [name, label]) });
+    this.path = path.input;
+    this.kind = kind.input;
+    /** @type {Record<string, HTMLOptGroupElement>} */
+    const groups = {};
+    for (const each of fields) {
+      groups[each.block] ||= /** @type {HTMLOptGroupElement} */ (element("optgroup", { label: each.block }));
+      groups[each.block].append(element("option", { value: each.path }, each.label));
+    }
+    this.path.append(...Object.values(groups));
+    this.path.value = given.path;
+    this.kind.value = given.kind || "list";
+    this.meaning = element("p", { class: "faint" });
+    /** @type {Record<string, {root: HTMLElement, input: HTMLInputElement, said: HTMLElement}>} */
+    this.inputs = {};
+    for (const name of Object.keys(LABELS)) {
+      this.inputs[name] = field({ label: LABELS[name] });
+      this.inputs[name].input.value = this._begin(given[name] || "");
+    }
+    const off = element("button", { type: "button", onclick: remove }, "Remove");
+    const places = element("div", { class: "places" }, ...Object.values(this.inputs).map(({ root }) => root));
+    this.off = off;
+    this.root = element("div", { class: "row", role: "group" }, element("div", { class: "places" }, path.root, kind.root, off), this.meaning, places, element("p", { class: "wrong", role: "status" }));
+    this.root.addEventListener("input", () => this.arrange(this.drawn));
+  }
+
+  get field() {
+    return this.fields.find((each) => each.path === this.path.value);
+  }
+
+  /** A value to begin with: "now" is that of the case, a share is of that. @param {string} text */
+  _begin(text) {
+    const share = text === "now" ? 100 : text.endsWith(" %") ? parseFloat(text) : 0;
+    if (!share) return text;
+    const [number, ...unit] = this.field.now.split(" ");
+    const value = Number(number) * (share / 100);
+    return Number.isFinite(value) && number ? [String(Number(value.toPrecision(4))), ...unit].join(" ") : "";
+  }
+
+  /** @param {boolean | undefined} drawn */
+  arrange(drawn) {
+    this.drawn = drawn;
+    const known = this.field;
+    for (const option of this.kind.options) option.disabled = option.value !== "list" && !known.drawn;
+    if (!known.drawn) this.kind.value = "list";
+    const [, names] = KINDS[this.kind.value];
+    for (const [name, { root }] of Object.entries(this.inputs)) root.hidden = !(names.includes(name) || (name === "count" && !drawn && this.kind.value !== "list"));
+    this.meaning.textContent = `${known.meaning}${known.now ? ` Now ${known.now}.` : ""}`;
+    const said = known.choices.length ? `of ${known.choices.join(", ")}` : known.unit ? `in ${known.unit}, or with a unit` : "with commas between them";
+    this.inputs.values.said.textContent = said;
+    this.inputs.values.input.placeholder = known.choices.slice(0, 2).join(", ");
+    const at = `vary.${known.path}`;
+    this.root.dataset.field = at;
+    this.root.setAttribute("aria-label", known.label);
+    this.off.setAttribute("aria-label", `Remove ${known.label}`);
+    for (const [name, { root }] of Object.entries(this.inputs)) root.dataset.field = name === "values" ? `${at}[` : `${at}.${name}`;
+  }
+
+  read() {
+    const [, names] = KINDS[this.kind.value];
+    /** @type {Record<string, string>} */
+    const found = { path: this.path.value, kind: this.kind.value };
+    for (const [name, { root, input }] of Object.entries(this.inputs)) found[name] = !root.hidden && (names.includes(name) || name === "count") ? input.value : "";
+    return found;
+  }
+}

@@ -1,0 +1,266 @@
+"""What the form of a study says, as a study file would have it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, get_args
+
+from heeltoe.app.actions import BadRequestError
+from heeltoe.app.bundle import sent_files
+from heeltoe.app.case.draft import case_of, fields_in_force
+from heeltoe.app.case.fields import blocks, field_of, in_unit, unit_of
+from heeltoe.app.case.typed import typed
+from heeltoe.case.paths import value_of
+from heeltoe.errors import InputError
+from heeltoe.motion.records.catalog import MADE_TO_ORDER, available
+from heeltoe.motion.scenario import PREFIX
+from heeltoe.study.file import Distribution, Measure, Method, Model, Scale
+
+if TYPE_CHECKING:
+    from heeltoe.app.case.fields import Field
+    from heeltoe.app.sessions import Session
+    from heeltoe.case.model import Case
+
+#: Fields, values of each, and records of a study.
+MOST_FIELDS, MOST_VALUES, MOST_RECORDS = 30, 1000, 400
+_KINDS = tuple(get_args(Distribution.model_fields["distribution"].annotation))
+_LIMITS = ("residual_slip", "peak_slip", "opening", "rotation")
+# What tells components of one event in the catalogue apart stands before these.
+_SOURCE = re.compile(r"-nga2?$")
+_VERTICAL = re.compile(r"up|down|ud|ver|vert|vertical", re.IGNORECASE)
+_LAST = re.compile(r"(.+)[-_ .]([^-_ .]+)")
+
+
+def choices(session: Session) -> dict[str, Any]:
+    """Return what can be chosen in the form."""
+    case = case_of(session)
+    return {
+        "fields": [_shown(field, block.label, case, session.units) for block, field in _fields()],
+        "methods": list(get_args(Method)),
+        "models": list(get_args(Model)),
+        "kinds": list(_KINDS),
+        "scales": list(get_args(Scale.model_fields["measure"].annotation)),
+        "measures": list(get_args(Measure)),
+        "limits": list(_LIMITS),
+        "records": _records(session),
+        "elastic": case is not None and case.concrete.modulus is not None,
+        "own": (case is not None and case.motion is not None and case.motion.told()) or "",
+    }
+
+
+def _fields() -> list[tuple[Any, Field]]:
+    """Return the fields that can vary, with their blocks: what holds one number or one of several words."""
+    return [
+        (block, field)
+        for block in blocks()
+        for field in block.fields
+        if field.kind in ("quantity", "choice", "whole", "truth") and not field.path.startswith("motion")
+    ]
+
+
+def _shown(field: Field, block: str, case: Case | None, units: str) -> dict[str, Any]:
+    value = None if case is None else value_of(case, field.path)
+    now = "" if value is None else str(value)
+    if field.quantity and isinstance(value, float):
+        now = in_unit(value, field, units).strip()
+    told = {"path": field.path, "block": block or "Case", "label": field.label, "meaning": field.meaning, "now": now}
+    return told | {"unit": unit_of(field, units), "choices": list(field.choices), "drawn": bool(field.quantity)}
+
+
+def _records(session: Session) -> list[dict[str, Any]]:
+    """Return the records there are, in groups of one event each."""
+    names = [*session.sent, *(name for name, _ in available() if (name, _) != MADE_TO_ORDER)]
+    groups: dict[str, list[str]] = {}
+    for name in dict.fromkeys(names):
+        groups.setdefault(_parts(name)[0], []).append(name)
+    return [
+        {"event": event, "records": [{"name": name, "vertical": _is_vertical(name)} for name in each]}
+        for event, each in groups.items()
+    ]
+
+
+def _parts(name: str) -> tuple[str, str]:
+    found = _LAST.fullmatch(_SOURCE.sub("", name.rpartition(".")[0] if name.count(".") == 1 else name))
+    return (found[1], found[2]) if found else (name, "")
+
+
+def _is_vertical(name: str) -> bool:
+    return bool(_VERTICAL.fullmatch(_parts(name)[1]))
+
+
+def study_asked(asked: object, session: Session) -> tuple[dict[str, Any], dict[str, Any], dict[str, Path]]:
+    """Return the case of a tab and the study of its form, both as files have them, and the files that it has sent.
+
+    Raises
+    ------
+    BadRequestError
+        Where the form of the page says no such thing.
+    InputError
+        Where something cannot be taken into a study.
+    """
+    form = _mapping(asked)
+    found: dict[str, Any] = {"title": _text(form, "title").strip(), "case": "case.toml"}
+    found["model"] = _words(form, "models")
+    found["method"] = _text(form, "method")
+    for name in ("samples", "seed"):
+        given = _text(form, name).strip()
+        if given:
+            found[name] = _whole(given)
+    found["vary"] = _vary(_list(form, "vary", MOST_FIELDS), session.units)
+    motions = _motions(form, session)
+    if motions:
+        found["motions"] = motions
+    limits = {name: _split(_text(form, f"limit.{name}")) for name in _LIMITS}
+    if any(limits.values()):
+        found["fragility"] = {
+            "limits": {name: values for name, values in limits.items() if values},
+            "measure": _text(form, "fragility.measure") or "pga",
+            **_given(form, "fragility.period", "period"),
+        }
+    study = {name: value for name, value in found.items() if value not in ("", {})}
+    return fields_in_force(session), study, sent_files(session)
+
+
+def _vary(rows: list[Any], units: str) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for row in map(_mapping, rows):
+        path = _text(row, "path")
+        field = field_of(path)
+        if field is None or path.startswith("motion"):
+            raise BadRequestError("path is a field that can vary")
+        if path in found:
+            raise InputError("study-twice", f"vary.{path}", path)
+        kind = _text(row, "kind")
+        if kind == "list":
+            found[path] = [typed(each, field, units) for each in _split(_text(row, "values"))]
+        elif kind in _KINDS:
+            told = {name: typed(_text(row, name), field, units) for name in _numbers()}
+            told |= {"count": _whole(_text(row, "count").strip())} if _text(row, "count").strip() else {}
+            found[path] = {"distribution": kind} | {name: each for name, each in told.items() if each is not None}
+        else:
+            raise BadRequestError("kind is a list or a distribution")
+    return found
+
+
+def _numbers() -> tuple[str, ...]:
+    return tuple(
+        field.alias or name
+        for name, field in Distribution.model_fields.items()
+        if name not in ("distribution", "count")
+    )
+
+
+def _motions(form: Mapping[str, Any], session: Session) -> dict[str, Any]:
+    scale = _scale(form)
+    chosen = _words(form, "records", MOST_RECORDS)
+    if _text(form, "source") == "case":
+        if not scale and not form.get("both_signs"):
+            return {}
+        events, chosen = _own(session)
+    else:
+        chosen += [each.strip() for each in _text(form, "ordered").split(";") if each.strip()]
+        events = _events(chosen, vertical=bool(form.get("vertical")))
+    known = {name for name, _ in available()} | session.sent.keys()
+    for name in chosen:
+        if name not in known and not name.startswith(PREFIX):
+            raise InputError("record-not-found", "motions", name, hint="choose one of those shown;")
+    told: dict[str, Any] = {"events": events}
+    told |= {name: True for name in ("pairs", "vertical", "both_signs") if form.get(name)}
+    if form.get("every"):
+        told["every"] = True
+    if scale:
+        told["scale"] = scale
+    return told
+
+
+def _own(session: Session) -> tuple[list[dict[str, Any]], list[str]]:
+    """Return the motion of the case as the event of a study."""
+    case = case_of(session)
+    motion = None if case is None else case.motion
+    if motion is None or motion.file is None:
+        raise InputError("study-motions", "motions")
+    called = {stored: name for name, stored in session.sent.items()}
+    event: dict[str, Any] = {"horizontal": [called.get(motion.file, motion.file)]}
+    names = list(event["horizontal"])
+    if motion.vertical is not None and motion.vertical.file is not None:
+        event["vertical"] = called.get(motion.vertical.file, motion.vertical.file)
+        names.append(event["vertical"])
+    return [event], names
+
+
+def _events(names: list[str], *, vertical: bool) -> list[dict[str, Any]]:
+    events: dict[str, dict[str, Any]] = {}
+    for name in names:
+        event = events.setdefault(_parts(name)[0], {"name": _parts(name)[0], "horizontal": []})
+        if _is_vertical(name):
+            if vertical:
+                event["vertical"] = name
+        else:
+            event["horizontal"].append(name)
+    return list(events.values())
+
+
+def _scale(form: Mapping[str, Any]) -> dict[str, Any]:
+    measure = _text(form, "scale.measure")
+    if not measure:
+        return {}
+    low, high = _text(form, "scale.from").strip(), _text(form, "scale.to").strip()
+    drawn = {"from": _numeric(low), "to": _numeric(high)} if _text(form, "scale.kind") == "drawn" else None
+    values = drawn or [_numeric(each) for each in _split(_text(form, "scale.values"))]
+    return {"measure": measure, "values": values, **_given(form, "scale.period", "period")}
+
+
+def _given(form: Mapping[str, Any], name: str, called: str) -> dict[str, str]:
+    text = _text(form, name).strip()
+    return {called: text} if text else {}
+
+
+def _numeric(text: str) -> str | float:
+    """Return a number where it has no unit."""
+    try:
+        return float(text)
+    except ValueError:
+        return text
+
+
+def _whole(text: str) -> int | str:
+    digits = text.replace(",", "").replace("_", "")
+    return int(digits) if digits.isdecimal() and len(digits) < 16 else text
+
+
+def _split(text: str) -> list[str]:
+    found = [each.strip() for each in text.split(",") if each.strip()]
+    if len(found) > MOST_VALUES:
+        raise InputError("study-many", "vary", len(found), most=MOST_VALUES)
+    return found
+
+
+def _mapping(given: object) -> Mapping[str, Any]:
+    if not isinstance(given, Mapping):
+        raise BadRequestError("study is what its form says")
+    return given
+
+
+def _list(form: Mapping[str, Any], name: str, most: int) -> list[Any]:
+    given = form.get(name, [])
+    if not isinstance(given, list):
+        raise BadRequestError(f"{name} is a list")
+    if len(given) > most:
+        raise InputError("study-many", name, len(given), most=most)
+    return given
+
+
+def _words(form: Mapping[str, Any], name: str, most: int = 10) -> list[str]:
+    given = _list(form, name, most)
+    if not all(isinstance(each, str) for each in given):
+        raise BadRequestError(f"{name} are texts")
+    return list(given)
+
+
+def _text(form: Mapping[str, Any], name: str) -> str:
+    given = form.get(name, "")
+    if not isinstance(given, str) or len(given) > 20_000:
+        raise BadRequestError(f"{name} is a text")
+    return given
