@@ -114,18 +114,18 @@ def _shown(field: Field, units: str) -> dict[str, Any]:
     told = asdict(field)
     unit = unit_of(field, units)
     told["unit"] = unit
-    for name in ("default", "example"):
+    for name, digits in (("default", 6), ("example", 3)):
         if unit and told[name]:
-            told[name] = in_unit(parse(told[name], field.quantity, field.path), field, units)
+            told[name] = in_unit(parse(told[name], field.quantity, field.path), field, units, digits)
     told["inner"] = [_shown(each, units) for each in field.inner]
     told["blocks"] = {name: [_shown(each, units) for each in fields] for name, fields in field.blocks}
     return told
 
 
-def in_unit(value: float, field: Field, units: str) -> str:
+def in_unit(value: float, field: Field, units: str, digits: int) -> str:
     """Return a value in SI as it is typed in the units that are chosen."""
     unit = unit_of(field, units)
-    return f"{value / parse(f'1 {unit}', field.quantity, field.path):.6g} {unit}"
+    return f"{value / parse(f'1 {unit}', field.quantity, field.path):.{digits}g} {unit}"
 
 
 def field_of(path: str) -> Field | None:

@@ -30,7 +30,8 @@ export class CaseDrawing {
     this.back = svg("g", { "aria-hidden": "true" });
     this.front = svg("g", {});
     this.picture = svg("svg", { class: "section-drawing", role: "group", "aria-label": "Section of the dam with handles to drag" }, this.back, this.front);
-    this.hint = element("p", { class: "faint" }, "Drag a handle, or go to one with Tab and move it with the arrow keys (Page Up and Page Down: ten steps).");
+    this.ofCorners = element("span", { hidden: true }, " At a corner, Insert adds one after it and Delete takes it away.");
+    this.hint = element("p", { class: "faint" }, "Drag a handle, or go to one with Tab and move it with the arrow keys (Page Up and Page Down: ten steps).", this.ofCorners);
     this.said = element("p", { class: "said", "aria-hidden": "true" });
     this.root = element("div", { class: "drawing" }, this.picture, this.said, this.hint);
     /** @type {Map<string, {handle: Handle, root: SVGElement}>} */
@@ -48,6 +49,7 @@ export class CaseDrawing {
   show(drawing) {
     this.drawn = drawing;
     if (!this.dragged) this.view = drawing.view;
+    this.ofCorners.hidden = !drawing.handles.some((/** @type {Handle} */ { name }) => name.startsWith("corner"));
     this.draw();
   }
 
