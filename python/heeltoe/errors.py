@@ -323,10 +323,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "animation-nothing": ('has no histories (outcome "{value}")', "show a run that has started"),
     "animation-package": ("videos need the package imageio-ffmpeg", "pip install heeltoe[animation]"),
     "no-such-validation": ("{value} is no reference case", "choose one of {names}"),
-    "file-not-sent": (
-        "{value} has not been sent to this page",
-        "send it together with the case file, or take a record of the catalogue",
-    ),
+    "file-not-sent": ("{value} has not been sent", "send it with the case file, or name a record of the catalogue"),
     "record-missing": ("is required and not there", "give a file or a name, or --list"),
     "file-exists": ("is there already", "give another name, or remove it first"),
     "no-directory": ("is not there", "make it first, or give another path"),

@@ -68,7 +68,11 @@ def test_the_water_level_is_dragged_and_the_answer_follows(case):
     case.mouse.move(x, y + 30)
     case.mouse.move(x, y + 80, steps=4)
     case.mouse.up()
-    case.wait_for_function("at => parseFloat(document.querySelector(at).value) < 90", arg=DEPTH)
+    height = case.locator("[data-handle=base] .knob").bounding_box()["y"] - box["y"]  # of 100 m
+    case.wait_for_function(
+        "([at, is]) => Math.abs(parseFloat(document.querySelector(at).value) - is) < 0.6",
+        arg=[DEPTH, 100.0 - 80.0 * 100.0 / height],
+    )
     case.wait_for_function("([at, was]) => document.querySelector(at).textContent !== was", arg=[VERDICT, verdict])
     depth = float(case.input_value(DEPTH).removesuffix(" m"))
     assert case.get_attribute(WATER, "aria-valuetext") == case.input_value(DEPTH)

@@ -122,7 +122,7 @@ def _shown(field: Field, units: str) -> dict[str, Any]:
     return told
 
 
-def in_unit(value: float, field: Field, units: str, digits: int) -> str:
+def in_unit(value: float, field: Field, units: str, digits: int = 6) -> str:
     """Return a value in SI as it is typed in the units that are chosen."""
     unit = unit_of(field, units)
     return f"{value / parse(f'1 {unit}', field.quantity, field.path):.{digits}g} {unit}"

@@ -3,6 +3,7 @@ import { CaseDrawing } from "./case-drawing.js";
 import { Edits } from "./case-edits.js";
 import { CaseForm } from "./case-form.js";
 import { element } from "./dom.js";
+import { save } from "./save.js";
 
 /** @param {import("./talk.js").Talk} talk */
 export function casePage(talk) {
@@ -75,9 +76,9 @@ export function casePage(talk) {
 
   talk.on("case fields", ({ blocks }) => form.build(blocks));
   talk.on("case file", ({ text, name }) => {
-    const link = /** @type {HTMLAnchorElement} */ (element("a", { download: name, href: URL.createObjectURL(new Blob([text], { type: "application/toml" })) }));
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+    const address = URL.createObjectURL(new Blob([text], { type: "application/toml" }));
+    save({ address, name });
+    setTimeout(() => URL.revokeObjectURL(address), 10_000);
   });
   talk.on("state", (state) => {
     if (units !== state.units) talk.ask("case fields");
@@ -99,8 +100,8 @@ export function casePage(talk) {
     label: "Case",
     /** @param {HTMLElement} root */
     mount(root) {
-      const save = button("Save the case file", () => talk.ask("save case"));
-      const tools = element("div", { class: "tools" }, file, fileLabel, save, undo, redo, corners);
+      const keep = button("Save the case file", () => talk.ask("save case"));
+      const tools = element("div", { class: "tools" }, file, fileLabel, keep, undo, redo, corners);
       const seen = element("div", { class: "seen" }, tools, said, problems, drawing.root, element("p", { class: "faint" }, "The rigid block:"), verdict);
       root.append(element("div", { class: "case" }, seen, form.root));
       new IntersectionObserver((entries) => { visible = entries.some((each) => each.isIntersecting); refresh(); }).observe(root);
