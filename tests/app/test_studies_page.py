@@ -53,3 +53,91 @@ def test_a_study_is_counted_run_and_taken_away(studies, picture):
     parts = {name.split("/", 1)[1] for name in names}
     assert {"case.toml", "study.toml", "study/study.json", "study/runs/part-00000000.parquet"} <= parts
     assert any(name.startswith("study/figures/") for name in parts)
+
+
+def test_what_is_wrong_is_said_at_its_field(studies):
+    place = "[data-field='vary.crack.friction[']"
+    studies.fill(f"{place} input", "0.9, -1")
+    studies.wait_for_selector("[data-field='vary.crack.friction'] >> text=out of range")
+    assert studies.is_disabled("text=Run the study")
+    studies.fill(f"{place} input", "0.9")
+    studies.wait_for_function(LOOKED)
+    assert not studies.is_visible("text=out of range")
+    studies.select_option("#study-method", "sobol")
+    studies.fill("#study-samples", "3")
+    studies.wait_for_selector("[data-field=samples] >> text=give 2 or 4")
+    studies.fill("#study-samples", "9999999999")
+    studies.wait_for_selector("text=/too many|no power/")
+    studies.click("button:text-is('Fragility')")
+    studies.wait_for_function("() => /^1,000 runs/.test(document.querySelector('.outlook').textContent)")
+
+
+def test_a_study_is_cancelled_found_again_and_gone_on_with(studies, address):
+    studies.click("button:text-is('Fragility')")
+    studies.fill("#study-title", "<img src=x onerror=alert(1)>")
+    studies.fill("#study-samples", "200000")
+    studies.wait_for_function("() => /^200,000 runs/.test(document.querySelector('.outlook').textContent)")
+    studies.click("text=Run the study")
+    studies.wait_for_selector(".studies .state >> text=/of 200,000 runs/", timeout=120_000)
+    studies.reload()
+    studies.click(".studies button:text-is('Cancel')")
+    studies.wait_for_selector(".studies .state >> text=cancelled")
+    assert studies.inner_text(".studies strong") == "<img src=x onerror=alert(1)>"
+    other = studies.context.new_page()
+    other.goto(f"{address}#studies")
+    other.wait_for_selector(".study-form fieldset")
+    assert not other.is_visible(".studies li")  # that of the tab which is open
+    other.close()
+    studies.click(".studies button:text-is('Go on')")
+    studies.wait_for_selector(".studies .state >> text=done", timeout=300_000)
+    studies.wait_for_selector(".document figure img", timeout=120_000)
+    assert studies.inner_text(".document h2") == "<img src=x onerror=alert(1)>"
+    assert "200,000 runs" in studies.inner_text(".document")
+
+
+def test_a_page_that_was_closed_comes_back(chromium, address):
+    context = chromium.new_context()
+    page = context.new_page()
+    page.goto(f"{address}#studies")
+    page.wait_for_function(LOOKED, timeout=60_000)
+    page.click("text=Run the study")
+    page.wait_for_selector(".studies li")
+    page.close()
+    page = context.new_page()
+    page.goto(f"{address}#studies")
+    page.wait_for_selector(".studies .state >> text=done", timeout=120_000)
+    page.click(".studies button:text-is('Show')")
+    page.wait_for_selector(".document figure img", timeout=60_000)
+    page.click(".studies button:text-is('Remove')")
+    page.wait_for_selector(".studies li", state="detached")
+    context.close()
+
+
+@pytest.mark.parametrize(("name", "width", "scheme"), [("telephone", 390, "dark"), ("projector", 1920, "light")])
+def test_looks(chromium, address, picture, name, width, scheme):
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright")
+    context = chromium.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)
+    page = context.new_page()
+    page.goto(f"{address}#studies")
+    page.wait_for_function(LOOKED, timeout=60_000)
+    ran(page)
+    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+    picture(page, f"studies-{name}")
+    found = axe.Axe().run(page).response["violations"]
+    grave = [each for each in found if each["impact"] in ("serious", "critical")]
+    assert not grave, [(each["id"], each["nodes"][0]["html"]) for each in grave]
+    context.close()
+
+
+def test_keys_alone_make_a_study(studies):
+    studies.focus("#study-title")
+    studies.keyboard.type("by keys")
+    studies.focus("button:text-is('Add a field')")
+    studies.keyboard.press("Enter")
+    assert studies.evaluate("document.activeElement.tagName") == "SELECT"
+    studies.focus(".varied .row:last-child button")
+    studies.keyboard.press("Enter")
+    studies.wait_for_function("() => !document.querySelector('button.main:disabled')")
+    studies.focus("text=Run the study")
+    studies.keyboard.press("Enter")
+    studies.wait_for_selector(".studies li >> text=by keys")

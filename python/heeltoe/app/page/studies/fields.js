@@ -9,7 +9,7 @@ export function field({ id, label, said = "", example = "", at = "" }) {
   const own = id || `field-${made}`;
   const input = /** @type {HTMLInputElement} */ (element("input", { type: "text", id: own, placeholder: example, autocomplete: "off", spellcheck: "false", "aria-describedby": `${own}-said` }));
   const beside = element("span", { class: "said", id: `${own}-said` }, said);
-  const root = element("div", { class: "field", "data-field": at }, element("label", { for: own }, label), input, beside, element("p", { class: "wrong", role: "status" }));
+  const root = element("div", { class: "entry", "data-field": at }, element("label", { for: own }, label), input, beside, element("p", { class: "wrong", role: "status" }));
   return { root, input, said: beside };
 }
 
@@ -18,7 +18,7 @@ export function select({ id, label, options, at = "" }) {
   made += 1;
   const own = id || `field-${made}`;
   const input = /** @type {HTMLSelectElement} */ (element("select", { id: own }, ...options.map(([value, text]) => element("option", { value }, text))));
-  const root = element("div", { class: "field", "data-field": at }, element("label", { for: own }, label), input, element("p", { class: "wrong", role: "status" }));
+  const root = element("div", { class: "entry", "data-field": at }, element("label", { for: own }, label), input, element("p", { class: "wrong", role: "status" }));
   return { root, input };
 }
 

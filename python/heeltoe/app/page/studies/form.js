@@ -130,7 +130,7 @@ export class StudyForm {
 
   /** @param {string} name */
   _row(name) {
-    return /** @type {HTMLElement} */ (this.inputs[name].closest(".field"));
+    return /** @type {HTMLElement} */ (this.inputs[name].closest(".entry"));
   }
 
   /** Show what the choices make sense of. */
@@ -158,7 +158,7 @@ export class StudyForm {
     /** @type {Record<string, any>} */
     const found = { models: [], records: [], vary: this.vary.read() };
     for (const [name, input] of Object.entries(this.inputs)) {
-      const row = input.closest(".field, label");
+      const row = input.closest(".entry, label");
       const [kind, ...rest] = name.split(".");
       const hidden = row && /** @type {HTMLElement} */ (row).hidden;
       const ticked = input instanceof HTMLInputElement && input.type === "checkbox" ? input.checked : null;
@@ -207,7 +207,7 @@ export class StudyForm {
       best.append(wrong);
     }
     wrong.textContent = `${error.problem}; ${error.remedy}`;
-    const input = best.matches(".field") ? best.querySelector("input, select") : null;
+    const input = best.matches(".entry") ? best.querySelector("input, select") : null;
     if (input) input.setAttribute("aria-invalid", "true");
     return true;
   }
