@@ -185,6 +185,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "order-filter": ("a filter of order {value} is not to be had", "give one from 1 to 10"),
     "order-share": ("{value} is no such share", "give one {bounds}"),
     "order-shares": ("{value} does not come before end, {end}", "give shares in order, from 0 to 1"),
+    "order-window": ("{value} does not come before the end, {end}", "give moments in order, within the record"),
     "order-target": ("{value} cannot be scaled to", "give a value above 0"),
     "order-time-factor": ("a stretch of {value} is out of range", "give one from 0.01 to 100"),
     "order-time": (

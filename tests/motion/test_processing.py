@@ -27,6 +27,7 @@ from heeltoe.motion.processing import (
     band_pass,
     baseline,
     cut_significant,
+    cut_to_window,
     process,
     scale_time,
     scale_to_arias,
@@ -162,6 +163,18 @@ def test_taper():
     assert taper(flat, 0.1, "start").acceleration[[0, 50, 1000]] == pytest.approx([0.0, 0.5, 1.0])
 
 
+def test_cut_to_a_window():
+    cut = cut_to_window(RAMP, 1.0, 2.5)
+    assert (cut.time[0], cut.duration) == (0.0, 1.5)
+    assert cut.acceleration == pytest.approx([1.0, 2.5])
+    assert cut.is_cut
+    rest = cut_to_window(RAMP, 1.0)
+    assert rest.duration == 2.0
+    assert not rest.is_cut
+    # The value after a jump is that with which the motion begins.
+    assert cut_to_window(BOX, 1.0).acceleration[:2] == pytest.approx([2.0, 2.0])
+
+
 def test_cut_to_the_significant_duration():
     cut = cut_significant(RAMP)
     assert cut.duration == pytest.approx(significant_duration(RAMP), rel=1e-14)
@@ -198,6 +211,7 @@ ZERO = points((0.0, 0.0), (1.0, 0.0))
         (lambda: taper(sine(), 0.6), "order-share"),
         (lambda: cut_significant(sine(), 0.9, 0.1), "order-shares"),
         (lambda: cut_significant(ZERO), "order-zero"),
+        (lambda: cut_to_window(sine(), 3.0, 2.0), "order-window"),
         (lambda: scale_to_arias(ZERO, 1.0), "order-zero"),
         (lambda: scale_to_arias(RAMP, 0.0), "order-target"),
         (lambda: scale_to_spectrum(ZERO, 1.0, 1.0), "order-zero"),

@@ -23,6 +23,7 @@ STEPS: dict[str, Fields] = {
     "band-pass": {"low": "0.5 Hz", "high": "4 Hz"},
     "taper": {},
     "cut": {},
+    "window": {"start": "0.05 s", "end": "0.35 s"},
     "scale-to-arias": {"intensity": "2 m/s"},
     "scale-to-spectrum": {"period": "0.2 s", "acceleration": "1 g"},
     "scale-time": {"factor": 1.2, "allow": True},

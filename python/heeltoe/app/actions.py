@@ -82,12 +82,13 @@ def text(asked: Asked, name: str) -> str:
 
 def actions() -> dict[str, Entry]:
     """Return all of them."""
-    from heeltoe.app import answer, open_case
+    from heeltoe.app import answer, checks, open_case
     from heeltoe.app.away import actions as away
     from heeltoe.app.case import actions as case
+    from heeltoe.app.motion import actions as motion
     from heeltoe.app.studies import actions as studies
 
     found: dict[str, Entry] = {}
-    for module in (open_case, case, answer, studies, away):
+    for module in (open_case, case, motion, answer, checks, studies, away):
         found |= module.ACTIONS
     return found

@@ -6,12 +6,14 @@ from collections.abc import Callable, Mapping
 from time import perf_counter
 from typing import Any
 
+from heeltoe.app.dam import dam
 from heeltoe.app.drawn import drawn
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.kept import Kept
 from heeltoe.models.run import cost_of, earthquake, live
 from heeltoe.motion.earthquake import Earthquake
+from heeltoe.result.beside import meaning
 
 _KEPT: Kept[Earthquake] = Kept(16)
 
@@ -28,7 +30,7 @@ def answer(case: Case, changes: Mapping[str, Any], model: str, units: str) -> di
         found = live(changed, model, _earthquake(changed))
     except InputError as error:
         return refused(error)
-    return drawn(found, units) | {"computed_s": perf_counter() - began}
+    return drawn(found, units) | {"dam": dam(changed, found), "computed_s": perf_counter() - began}
 
 
 def _earthquake(case: Case) -> Earthquake:
@@ -47,10 +49,12 @@ def refused(error: InputError) -> dict[str, Any]:
 
 
 def flexible(say: Callable[[str], None], case: Case, changes: Mapping[str, Any], units: str) -> dict[str, Any]:
-    """Return what the elastic dam does; it takes seconds to minutes."""
-    from heeltoe.models.run import flexible as run_flexible
+    """Return what the elastic dam does, and what the block beside it means; it takes seconds to minutes."""
+    from heeltoe.models.run import AUTO, run
 
     changed = case.with_(changes) if changes else case
     cost = cost_of(changed, "flexible")
     say("running the flexible model" + ("" if cost is None else f", about {max(1.0, cost.seconds):.0f} s"))
-    return drawn(run_flexible(changed), units)
+    found = run(changed, AUTO)
+    beside = "" if found.beside is None else meaning(found, found.beside, units)
+    return drawn(found, units) | {"dam": dam(changed, found), "beside": beside}

@@ -43,6 +43,8 @@ class Session:
         The case as it was typed (`heeltoe.app.case.draft`), which is where a case is changed.
     sent
         Files that it has sent, by the names that they have in the case: the names that they have here.
+    records
+        What is in those of them that are records, by the same names.
     kept
         What else a page wants to find again, by names of its own.
     jobs
@@ -70,6 +72,7 @@ class Session:
     units: str = "si"
     draft: Draft | None = None
     sent: dict[str, str] = field(default_factory=dict)
+    records: dict[str, Any] = field(default_factory=dict)
     kept: dict[str, Any] = field(default_factory=dict)
     jobs: dict[int, Job] = field(default_factory=dict)
     uploads: int = 0
@@ -99,6 +102,7 @@ class Session:
         for called, stored in other.sent.items():
             shutil.copyfile(other.folder / stored, self.folder / stored)
             self.sent[called] = stored
+        self.records = dict(other.records)
 
     def close(self) -> None:
         """End what runs for it, and remove its files."""

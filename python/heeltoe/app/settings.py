@@ -31,6 +31,8 @@ class Settings:
         Of what a browser sends [bytes].
     most_uploads
         Files of one tab.
+    longest_reading_s
+        That a file may take to be read [s].
     most_jobs
         Long runs at once, of all tabs.
     most_studies, most_runs
@@ -46,6 +48,7 @@ class Settings:
     largest_message: int = 1_000_000
     largest_upload: int = 20_000_000
     most_uploads: int = 40
+    longest_reading_s: float = 30.0
     most_jobs: int = 2
     most_studies: int = 12
     most_runs: int = 1_000_000

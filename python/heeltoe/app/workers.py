@@ -26,6 +26,8 @@ class Workers:
         self._threads = ThreadPoolExecutor(THREADS, thread_name_prefix="heeltoe")
         # An executor starts its process when it is first asked.
         self._processes = {name: _process() for name in ("live", "aside")}
+        self._reader = _process()
+        self._reading = asyncio.Lock()
 
     async def quick(self, compute: Callable[..., Any], *arguments: Any) -> Any:
         """Compute on a thread."""
@@ -55,13 +57,35 @@ class Workers:
                 process.shutdown(wait=False)
             raise WorkerLostError from None
 
+    async def read(self, seconds: float, compute: Callable[..., Any], *arguments: Any) -> Any:
+        """Compute what reads files of strangers, one after the other in a process for that, which is ended where it
+        takes longer than `seconds`.
+
+        Raises
+        ------
+        WorkerLostError
+            Where it did, or the process was lost.
+        """
+        async with self._reading:
+            reading = asyncio.get_running_loop().run_in_executor(self._reader, compute, *arguments)
+            try:
+                return await asyncio.wait_for(reading, seconds)
+            except (TimeoutError, BrokenProcessPool):
+                _end(self._reader)
+                self._reader = _process()
+                raise WorkerLostError from None
+
     def close(self) -> None:
         """End all."""
         self._threads.shutdown(wait=False, cancel_futures=True)
-        for process in self._processes.values():
-            for each in (process._processes or {}).values():
-                each.terminate()
-            process.shutdown(wait=False, cancel_futures=True)
+        for each in (*self._processes.values(), self._reader):
+            _end(each)
+
+
+def _end(pool: ProcessPoolExecutor) -> None:
+    for each in (pool._processes or {}).values():
+        each.terminate()
+    pool.shutdown(wait=False, cancel_futures=True)
 
 
 def _process() -> ProcessPoolExecutor:

@@ -16,6 +16,7 @@ from heeltoe.motion.processing import (
     band_pass,
     baseline,
     cut_significant,
+    cut_to_window,
     scale_time,
     scale_to_arias,
     scale_to_spectrum,
@@ -88,6 +89,21 @@ class CutSignificant(Fields):
         return cut_significant(motion, self.start, self.end)
 
 
+class CutToWindow(Fields):
+    """Keep what lies between two moments."""
+
+    step: Literal["window"]
+    """Which step this is."""
+    start: Annotated[Duration, Field(ge=0.0)] = 0.0
+    """Where the motion begins, from the begin of the record."""
+    end: Annotated[Duration, Field(gt=0.0)] | None = None
+    """Where it ends, from the begin of the record; at its end where it is not given."""
+
+    def apply(self, motion: GroundMotion, gravity: float) -> GroundMotion:
+        """Return the processed motion."""
+        return cut_to_window(motion, self.start, self.end)
+
+
 class ScaleToArias(Fields):
     """Scale to an Arias intensity."""
 
@@ -134,7 +150,7 @@ class ScaleTime(Fields):
 
 
 ProcessingStep = Annotated[
-    Baseline | BandPass | Taper | CutSignificant | ScaleToArias | ScaleToSpectrum | ScaleTime,
+    Baseline | BandPass | Taper | CutSignificant | CutToWindow | ScaleToArias | ScaleToSpectrum | ScaleTime,
     Field(discriminator="step"),
 ]
 """Any step, told by its field ``step``."""

@@ -24,6 +24,7 @@ __all__ = [
     "band_pass",
     "baseline",
     "cut_significant",
+    "cut_to_window",
     "fourier_amplitudes",
     "measures",
     "process",
@@ -194,6 +195,23 @@ def cut_significant(motion: GroundMotion, start: float = 0.05, end: float = 0.95
         motion,
         time=np.concatenate([[first], motion.time[inside], [last]]) - first,
         acceleration=np.concatenate([edges[:1], motion.acceleration[inside], edges[1:]]),
+        processing=(*motion.processing, said),
+    )
+
+
+def cut_to_window(motion: GroundMotion, start: float = 0.0, end: float | None = None) -> GroundMotion:
+    """Keep what lies between two moments [s], with samples right at the cuts; without an `end`, all after `start`."""
+    last = motion.duration if end is None else min(end, motion.duration)
+    if not 0.0 <= start < last:
+        raise InputError("order-window", "start", f"{start:g} s", end=f"{last:g} s")
+    left = motion.cut(last)
+    inside = left.time > start
+    edge = np.interp(start, left.time, left.acceleration)
+    said = f"cut to {start:g} s to {last:g} s" if last < motion.duration else f"without its first {start:g} s"
+    return replace(
+        left,
+        time=np.concatenate([[0.0], left.time[inside] - start]),
+        acceleration=np.concatenate([[edge], left.acceleration[inside]]),
         processing=(*motion.processing, said),
     )
 

@@ -1,8 +1,10 @@
 /** The page "Answer": sliders, and what the models make of them. */
 import { Card } from "./card.js";
+import { Spread, StaticChecks } from "./checks.js";
+import { DamInMotion } from "./dam.js";
 import { byId, element } from "./dom.js";
 import { FlexibleRun } from "./flexible.js";
-import { draw, loadPlotly } from "./plot.js";
+import { cursor, draw, loadPlotly, onMoment } from "./plot.js";
 import { showSliders } from "./sliders.js";
 
 const LIVE = ["rigid", "decoupled"];
@@ -30,8 +32,12 @@ export function answerPage(talk) {
   const plot = element("div", { class: "plot", role: "figure", "aria-label": "Ground acceleration, slip, rotation and modes of motion over time" });
   const flexible = new FlexibleRun(talk, () => values, (answer) => {
     answers.flexible = answer;
+    if (flexible.isNew()) lead("flexible");
     redraw();
   });
+  const dam = new DamInMotion((time) => cursor(plot, time));
+  const spread = new Spread(talk, () => values);
+  const statics = new StaticChecks(talk, () => values);
   const ready = loadPlotly();
 
   /** @param {number} time */
@@ -43,6 +49,18 @@ export function answerPage(talk) {
     }
     began.set(newest.rigid, time);
     flexible.moved();
+    spread.moved();
+    statics.follow();
+    lead("");
+  }
+
+  /** The verdict of the better model leads, as long as it is of the sliders as they stand. @param {string} model */
+  function lead(model) {
+    const order = model === "flexible" ? [flexible.card, cards.rigid, cards.decoupled] : [cards.rigid, cards.decoupled, flexible.card];
+    for (const part of /** @type {const} */ (["root", "details"])) {
+      const place = order[0][part].parentElement;
+      if (place && place.firstElementChild !== order[0][part]) place.append(...order.map((each) => each[part]));
+    }
   }
 
   /** @param {any} answer */
@@ -93,8 +111,12 @@ export function answerPage(talk) {
       .filter((model) => answers[model] && answers[model].curves)
       .map((model) => ({ model, stale: Boolean(answers[model].stale), answer: answers[model] }));
     plot.hidden = shown.length === 0;
-    if (shown.length && plot.clientWidth) await draw(plot, shown);
+    if (shown.length && plot.clientWidth) {
+      await draw(plot, shown);
+      onMoment(plot, (time) => dam.goTo(time));
+    }
     measure();
+    dam.show(shown);
     drawing = false;
     if (wanted) redraw();
   }
@@ -115,6 +137,7 @@ export function answerPage(talk) {
       showSliders(controls, state.sliders, state.drained, values, ask);
       controls.append(flexible.root);
       flexible.begin(state.elastic);
+      spread.begin(state.elastic ? ["rigid", "decoupled", "flexible"] : ["rigid"]);
       ask(performance.now());
     }
   });
@@ -134,7 +157,7 @@ export function answerPage(talk) {
       const all = [cards.rigid, cards.decoupled, flexible.card];
       const verdicts = element("div", { class: "cards" }, ...all.map((each) => each.root));
       const details = element("div", { class: "cards" }, ...all.map((each) => each.details));
-      root.append(element("div", { class: "answer" }, controls, element("div", {}, verdicts, plot, element("p", { class: "key" }, "Modes of motion:", ...key), details)));
+      root.append(element("div", { class: "answer" }, controls, element("div", {}, verdicts, plot, element("p", { class: "key" }, "Modes of motion:", ...key), dam.root, details, element("div", { class: "cards" }, spread.root, statics.root))));
       return redraw;
     },
   };

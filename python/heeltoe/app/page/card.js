@@ -52,7 +52,7 @@ export class Card {
     const count = answer.warnings ? answer.warnings.length : 0;
     const caveat = count ? [element("p", { class: "caveat" }, `${count} warning${count > 1 ? "s" : ""} below`)] : [];
     this.verdict.replaceChildren(element("p", { class: kind }, said), ...caveat);
-    this.content.replaceChildren(...(answer.numbers ? [numbers(answer), slips(answer)] : []), ...(answer.warnings ? warnings(answer) : []));
+    this.content.replaceChildren(...(answer.numbers ? [numbers(answer), slips(answer)] : []), ...(answer.beside ? [element("p", {}, answer.beside)] : []), ...(answer.warnings ? warnings(answer) : []));
     this.hide(false);
   }
 

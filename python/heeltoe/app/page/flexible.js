@@ -46,6 +46,11 @@ export class FlexibleRun {
     if (!this.card.root.hidden) this.card.mark("of the sliders as they were");
   }
 
+  /** Whether its result is of the sliders as they stand. */
+  isNew() {
+    return this.asked === this.position;
+  }
+
   /** @param {any} job */
   take(job) {
     if (job.what !== "flexible" || job.number < this.number) return;
@@ -56,7 +61,7 @@ export class FlexibleRun {
     this.said.textContent = running ? `${job.said} (${Math.round(job.seconds)} s)` : job.said;
     if (job.state !== "done") return;
     this.card.show(job.result);
-    this.card.mark(this.asked === this.position ? "" : "of the sliders as they were");
+    this.card.mark(this.isNew() ? "" : "of the sliders as they were");
     this.done(job.result);
   }
 }

@@ -3,7 +3,7 @@ import { answerPage } from "./answer.js";
 import { casePage } from "./case.js";
 import { awayPage } from "./away/page.js";
 import { byId, element } from "./dom.js";
-import { laterPage } from "./later.js";
+import { motionPage } from "./motion.js";
 import { studiesPage } from "./studies/page.js";
 import { showTabs } from "./tabs.js";
 import { Talk } from "./talk.js";
@@ -11,9 +11,10 @@ import { followTheme } from "./theme.js";
 
 const talk = new Talk();
 const answer = answerPage(talk);
+const motion = motionPage(talk);
 const pages = [
   casePage(talk),
-  laterPage("motion", "Motion", "A record is looked at by", "heeltoe motion FILE"),
+  motion,
   answer,
   studiesPage(talk),
   awayPage(talk),
@@ -42,6 +43,9 @@ talk.on("lost", () => notice("The app is not running any more, or cannot be reac
 talk.on("bad request", ({ text }) => notice(`The page has asked for something that the app does not know: ${text}. Reload it.`));
 talk.on("refused", ({ text }) => notice(text));
 
-followTheme(() => answer.redraw());
+followTheme(() => {
+  answer.redraw();
+  motion.redraw();
+});
 showTabs(pages, "answer");
 talk.open();

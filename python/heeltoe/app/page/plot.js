@@ -91,13 +91,51 @@ export async function draw(place, shown) {
   await plotly.react(place, traces(shown), layout(shown, narrow), { responsive: true, displaylogo: false, displayModeBar: narrow ? false : "hover", modeBarButtonsToRemove: ["select2d", "lasso2d", "toImage"] });
 }
 
+/**
+ * Mark a moment in the plot.
+ * @param {HTMLElement} place
+ * @param {number} time
+ */
+export function cursor(place, time) {
+  const made = /** @type {any} */ (place)._fullLayout;
+  if (!made || !made.xaxis) return;
+  let line = /** @type {HTMLElement | null} */ (place.querySelector(".cursor"));
+  if (!line) {
+    line = document.createElement("div");
+    line.className = "cursor";
+    place.append(line);
+  }
+  const { xaxis, _size: size } = made;
+  const x = xaxis.l2p(time);
+  line.hidden = x < 0 || x > xaxis._length;
+  line.style.left = `${xaxis._offset + x}px`;
+  line.style.top = `${size.t}px`;
+  line.style.height = `${size.h}px`;
+}
+
+/**
+ * Hear of a click on a curve, and of a change of the axes.
+ * @param {HTMLElement} place
+ * @param {(time: number) => void} clicked
+ */
+export function onMoment(place, clicked) {
+  const plot = /** @type {any} */ (place);
+  if (plot.dataset.heard) return;
+  plot.dataset.heard = "yes";
+  plot.on("plotly_click", (/** @type {any} */ event) => clicked(event.points[0].x));
+}
+
+/** @type {Promise<undefined> | null} */
+let loading = null;
+
 /** Load the library that draws, once; the page is there before. */
 export function loadPlotly() {
-  return new Promise((done, failed) => {
+  loading = loading || new Promise((done, failed) => {
     const script = document.createElement("script");
     script.src = "/plotly.js";
     script.addEventListener("load", () => done(undefined));
     script.addEventListener("error", failed);
     document.head.append(script);
   });
+  return loading;
 }

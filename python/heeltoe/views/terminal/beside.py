@@ -12,9 +12,10 @@ from heeltoe.result.contract import HEADLINES, Quantity
 from heeltoe.result.response import Response
 from heeltoe.result.verdict import verdict
 from heeltoe.units.write import length, speed
-from heeltoe.views.terminal.common import headline, label_lines, print_warnings, quiet_table
+from heeltoe.views.terminal.common import label_lines, print_warnings, quiet_table
 from heeltoe.views.terminal.decoupled import crack_lines
 from heeltoe.views.terminal.response import in_the_end, print_head, print_verdicts
+from heeltoe.views.words.numbers import headline
 from heeltoe.views.words.warnings import listed
 
 

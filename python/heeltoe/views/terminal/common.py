@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 
 from rich import box
@@ -10,9 +9,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.plain import plain
-from heeltoe.units.write import angle, length
 
 
 def print_title(title: str, what: str, console: Console) -> None:
@@ -42,21 +39,9 @@ def label_lines(lines: Iterable[tuple[str, str]]) -> Table:
     return grid
 
 
-def headline(value: float | None, kind: str, units: str) -> str:
-    """Write a headline number; a dash where there is none, or nothing happens."""
-    if not value or not math.isfinite(value):
-        return "-"
-    return angle(value) if kind == "rotation" else length(value, units)
-
-
 def print_warnings(warnings: Iterable[str], console: Console) -> None:
     """Print warnings below what they are about."""
     for place, warning in enumerate(warnings):
         if not place:
             console.print()
         console.print(f"[yellow]warning[/yellow]  {escape(warning)}")
-
-
-def sampling(motion: GroundMotion) -> str:
-    """Say how a motion is sampled."""
-    return f"every {motion.dt:.5g} s" if motion.is_uniform else "in unequal steps"

@@ -10,23 +10,23 @@ from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.plain import plain
-from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.result.verdict import verdict
 from heeltoe.units.sentences import written
 from heeltoe.units.write import length
 from heeltoe.views.terminal.common import (
-    headline,
     label_grid,
     label_lines,
     print_title,
     print_warnings,
     quiet_table,
-    sampling,
 )
 from heeltoe.views.terminal.decoupled import crack_lines
 from heeltoe.views.terminal.elastic import elastic_lines
+from heeltoe.views.words.motion import sampling
+from heeltoe.views.words.numbers import headline
+from heeltoe.views.words.spread import COLUMNS, spread_rows, spread_said
 from heeltoe.views.words.starts import of_what, starts
 from heeltoe.views.words.warnings import listed
 
@@ -178,27 +178,12 @@ def _strikes(response: Response, units: str) -> str:
 
 def _spread_table(response: Response, units: str) -> Table:
     """Value and spread, side by side, of all that is not next to nothing."""
-    spread = response.spread
-    assert spread is not None
     table = quiet_table()
     table.add_column("")
-    for name in ("this run", "mean", "std. dev.", "least", "most"):
+    for name in COLUMNS:
         table.add_column(name, justify="right")
-    for each in HEADLINES:
-        found = spread[each.key]
-        if found is None:
-            continue
-        values = [response.summary[each.key], found["mean"], found["std"], found["min"], found["max"]]
-        if max(map(abs, values)) < each.least:
-            continue
-        if each.way < 0:
-            values = [-values[0], -values[1], values[2], -values[4], -values[3]]
-        table.add_row(each.label, *(headline(value, each.kind, units) for value in values))
-    step = written(", at a step of {time_step_s:.3g ms}", units, **spread) if "time_step_s" in spread else ""
-    failed = f", {spread['failed']} of them without a result" if spread["failed"] else ""
-    table.caption = (
-        f"spread over {spread['runs']} runs with the shaking scaled by {spread['scales'][0]:g} to "
-        f"{spread['scales'][-1]:g}{step}{failed}"
-    )
+    for row in spread_rows(response, units):
+        table.add_row(*row)
+    table.caption = spread_said(response, units)
     table.caption_justify = "left"
     return table

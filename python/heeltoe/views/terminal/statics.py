@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 
 from rich.console import Console
@@ -12,8 +11,9 @@ from rich.table import Table
 from heeltoe.models.statics.checks import Check
 from heeltoe.models.statics.load_case import LoadCase
 from heeltoe.models.statics.model import Statics
-from heeltoe.units.sentences import numbers, quantity
+from heeltoe.units.sentences import numbers
 from heeltoe.views.terminal.common import label_grid, label_lines, print_title, print_warnings, quiet_table
+from heeltoe.views.words.statics import basis, check_cells, failed, verdict_of
 
 # Label, how numbers are written (in SI, without a minus before zero), what they are; or words without a form.
 _ROWS: tuple[tuple[str, str, Callable[[LoadCase], float | str | None]], ...] = (
@@ -41,7 +41,7 @@ def print_statics(found: Statics, console: Console, units: str = "si") -> None:
     """Print what the checks rest on, the load cases, the checks, warnings and verdict."""
     print_title(found.title, "statics", console)
     console.print()
-    console.print(label_lines((label, escape(text)) for label, text in _head(found, units)))
+    console.print(label_lines((label, escape(text)) for label, text in basis(found, units)))
     console.print()
     console.print(_cases(found, units))
     console.print()
@@ -57,35 +57,11 @@ def print_statics(found: Statics, console: Console, units: str = "si") -> None:
             console.print(label_lines((label, escape(text)) for label, text in lines))
     print_warnings([warning.text(units) for warning in found.warnings], console)
     console.print()
-    failed = [check for check in found.checks if not check.met]
     verdict = label_grid()
-    count = (
-        f"all {len(found.checks)} checks are met" if found.ok else f"{len(failed)} of {len(found.checks)} checks fail"
-    )
-    verdict.add_row(f"[{'bold' if found.ok else 'bold red'}]Verdict[/]", f"{count} ({found.criteria})")
-    for check in failed:
-        verdict.add_row("", f"[red]{escape(check.sentence.text(units))}[/red]")
+    verdict.add_row(f"[{'bold' if found.ok else 'bold red'}]Verdict[/]", verdict_of(found))
+    for text in failed(found, units):
+        verdict.add_row("", f"[red]{escape(text)}[/red]")
     console.print(verdict)
-
-
-def _head(found: Statics, units: str) -> list[tuple[str, str]]:
-    critical, water = found.critical_acceleration_g, found.critical_water_level_m
-    lines = [("criteria", f"{found.criteria}, {found.structure} structure, {found.site_information} site information")]
-    for kind in ("sliding", "rocking"):
-        down, up = critical[f"{kind}_downstream"], critical[f"{kind}_upstream"]
-        lines.append((f"{kind} starts at", f"{_acceleration(down)} downstream, {_acceleration(up)} upstream"))
-    for key, label in (
-        ("sliding", "sliding factor 1 at"),
-        ("sliding_required", "sliding factor required at"),
-        ("overturning", "overturns at"),
-        ("flotation", "floats at"),
-    ):
-        level = water[key]
-        depth = "none up to the crest" if level is None else f"{quantity(level, '.2f m', units)} of water"
-        lines.append((label, depth))
-    if found.slip_m is not None:
-        lines.append(("residual slip", f"{quantity(found.slip_m, '.4f m', units)}: {found.slip_source}"))
-    return lines
 
 
 def _assumptions(cases: tuple[LoadCase, ...], units: str) -> list[tuple[str, str]]:
@@ -129,14 +105,8 @@ def _checks(checks: tuple[Check, ...]) -> Table:
     table.add_column("by", justify="right")
     numbers = _sources(checks)
     for check in checks:
-        bound = "-"
-        if check.required is not None:
-            bound = f"{'≥' if check.at_least else '≤'} {_value(check, check.required)}"
         table.add_row(
-            check.load_case,
-            check.name,
-            _value(check, check.value),
-            bound,
+            *check_cells(check),
             "met" if check.met else "[bold red]fails[/]",
             str(numbers.get(check.source, "")),
         )
@@ -156,14 +126,3 @@ def _notes(checks: tuple[Check, ...], numbers: dict[str, int]) -> dict[str, list
         for text in filter(None, check.note.split("; ")):
             notes.setdefault(text, set()).add(numbers[check.source])
     return {text: sorted(of) for text, of in notes.items()}
-
-
-def _value(check: Check, value: float | None) -> str:
-    if value is None:
-        return "-"
-    of = {"resultant": " B", "compression": " f"}.get(check.name, "")
-    return f"{value:.3f}{of}" if of else f"{value:.2f}"
-
-
-def _acceleration(value: float) -> str:
-    return f"{value:.4f} g" if math.isfinite(value) else "no acceleration"

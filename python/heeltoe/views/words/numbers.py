@@ -132,3 +132,10 @@ def kind(key: str) -> str:
     if last.isdigit() or last in ("mean", "std", "min", "max"):
         last = key.split(".")[-2]
     return next((meaning for ending, meaning in _ENDINGS.items() if last.endswith(ending)), "number")
+
+
+def headline(value: float | None, kind: str, units: str) -> str:
+    """Write a headline number; a dash where there is none, or nothing happens."""
+    if not value or not math.isfinite(value):
+        return "-"
+    return angle(value) if kind == "rotation" else length(value, units)

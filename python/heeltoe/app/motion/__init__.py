@@ -1,0 +1,1 @@
+"""The page of the ground motion: what a record holds, and the motion that a case is shaken by."""

@@ -1,0 +1,129 @@
+"""Actions of the page of the ground motion: take a record, look at what would shake the dam, use it in the case."""
+
+from __future__ import annotations
+
+from pathlib import PurePath
+from typing import Any
+
+from heeltoe.app.actions import Asked, BadRequestError, Desk, Entry, text
+from heeltoe.app.sessions import Session
+from heeltoe.app.uploads import upload_path
+from heeltoe.app.workers import WorkerLostError
+from heeltoe.errors import InputError
+from heeltoe.plain import plain
+
+_LONGEST_NAME = 80
+_SLOW = "Reading takes too long, or more memory than there is: it has been ended. Send the part that matters, in a \
+common format."
+
+
+async def begin(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Return what the page begins with: what can be chosen, and what the case has."""
+    return {"of": "motion", **await desk.workers.quick(_begin, desk.session)}
+
+
+def _begin(session: Session) -> dict[str, Any]:
+    from heeltoe.app.motion.draft import form_of
+
+    return {"form": form_of(session), "records": _records(session), "catalogue": _catalogue()}
+
+
+def _records(session: Session) -> list[dict[str, Any]]:
+    """Return the records that a tab has sent; of a file that another page has taken nothing is known yet."""
+    return [{"name": name, "channels": session.records.get(name, [{"channel": ""}])} for name in session.sent]
+
+
+def _catalogue() -> list[str]:
+    from heeltoe.motion.records.catalog import MADE_TO_ORDER, available
+
+    return list(dict.fromkeys(name for name, where in available() if (name, where) != MADE_TO_ORDER))
+
+
+async def record(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Read a file that was sent as a record; what is none is thrown away."""
+    from heeltoe.app.motion.look import channels
+
+    session, called = desk.session, text(asked, "called")
+    path = upload_path(session, text(asked, "file"))
+    if path is None or path.name in session.sent.values():
+        raise BadRequestError("there is no such file")
+    name = await desk.workers.quick(_free_name, session, called)
+    try:
+        found = await desk.workers.read(desk.settings.longest_reading_s, channels, path, name)
+    except WorkerLostError:
+        found = {"error": {"field": name, "text": f"{name}: {_SLOW}", "problem": _SLOW, "remedy": ""}}
+    if "error" in found:
+        path.unlink(missing_ok=True)
+        session.uploads -= 1
+        return {"of": "record", "called": name, **found}
+    session.sent[name], session.records[name] = path.name, found["channels"]
+    return {"of": "record", "called": name, "records": _records(session), **found}
+
+
+def _free_name(session: Session, called: str) -> str:
+    """Return what a file is called in the case: as its sender calls it, unless that means something else there."""
+    from heeltoe.motion.scenario import PREFIX
+
+    bare = plain(PurePath(called.replace("\\", "/")).name, _LONGEST_NAME).replace(":", "-")
+    path = PurePath(bare if bare.strip(". ") else "record")
+    taken = {*session.sent, *session.sent.values(), *_catalogue()}
+    count, name = 1, path.name
+    while name in taken or name.startswith((PREFIX, "upload-")) or PurePath(name).stem in taken:
+        count += 1
+        name = f"record-{count}{path.suffix}" if name.startswith("upload-") else f"{path.stem}-{count}{path.suffix}"
+    return name
+
+
+async def look(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Return what would shake the dam."""
+    from heeltoe.app.motion.look import look as seen
+
+    return {"of": "motion look", **await _read(desk, asked, seen, desk.session.units)}
+
+
+async def use(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Shake the case of the tab by what stands on the page."""
+    from heeltoe.app.motion.look import shaken
+    from heeltoe.app.open_case import state
+
+    session = desk.session
+    found = await _read(desk, asked, shaken)
+    if "case" not in found:
+        return {"of": "motion used", **found}
+    session.case, session.example = found["case"], ""
+    # The sliders of the motion stand where it is now.
+    session.changes = {path: each for path, each in session.changes.items() if not path.startswith("motion.")}
+    session.moved = frozenset(path for path in session.moved if not path.startswith("motion."))
+    told = await desk.workers.quick(state, session)
+    await desk.tell(told)
+    return {"of": "motion used"}
+
+
+async def _read(desk: Desk, asked: Asked, compute: Any, *arguments: Any) -> dict[str, Any]:
+    """Compute with the case, the motion that the page asks for, and the names of files, where files are read."""
+    from heeltoe.app.live import refused
+    from heeltoe.app.motion.draft import motion_fields, read_form
+
+    session, form = desk.session, read_form(asked.get("form"))
+    if form is None or session.case is None:
+        raise BadRequestError("a motion is chosen by the fields of its page")
+    called = {stored: name for name, stored in session.sent.items()}
+    try:
+        fields = motion_fields(form, session.case, session.sent)
+    except InputError as error:
+        return {"usable": False, "motions": [], **refused(error)}
+    read, most = desk.workers.read, desk.settings.longest_reading_s
+    try:
+        found: dict[str, Any] = await read(most, compute, session.case, fields, session.folder, called, *arguments)
+    except WorkerLostError:
+        said = {"field": "motion", "text": _SLOW, "problem": _SLOW, "remedy": ""}
+        return {"usable": False, "motions": [], "error": said}
+    return found
+
+
+ACTIONS = {
+    "motion": Entry(begin, newest=True),
+    "record": Entry(record),
+    "motion look": Entry(look, newest=True),
+    "use motion": Entry(use),
+}

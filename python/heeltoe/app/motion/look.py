@@ -1,0 +1,176 @@
+"""What is in a motion, as the page shows it. It is read in a process of its own, which has a limited time."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from heeltoe.app.live import refused
+from heeltoe.app.thinned import thinned
+from heeltoe.case.model import Case
+from heeltoe.case.motion import Source
+from heeltoe.case.shaking import resolve
+from heeltoe.errors import InputError
+from heeltoe.motion.check import check_record
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.motion.measures import husid, velocity_displacement
+from heeltoe.motion.records import read_channels, read_record
+from heeltoe.motion.records.catalog import find
+from heeltoe.motion.scenario import PREFIX, synthetic
+from heeltoe.motion.spectrum import response_spectrum
+from heeltoe.plain import plain
+from heeltoe.units.parse import STANDARD_GRAVITY
+from heeltoe.units.systems import unit_system
+from heeltoe.views.animation.page import packed
+from heeltoe.views.words.motion import about_motion, suspicions
+
+_BINS = 400
+# What a file does not state is told beside it.
+_MENDED_BY = {"record-unit-missing": "unit", "record-step-missing": "time_step"}
+#: A file of more has its first channels listed; each has a number, by which a case names it.
+MOST_CHANNELS = 60
+
+
+def channels(path: Path, called: str) -> dict[str, Any]:
+    """Return the channels of a file that was sent, as a page lists them, or why it cannot be read as a record."""
+    try:
+        found = read_channels(path)
+    except InputError as error:
+        return refused(_renamed(error, {str(path): called, path.name: called}))
+    listed = [
+        {
+            "channel": each.channel if len(found) > 1 else "",
+            "component": plain(each.component),
+            "vertical": _is_vertical(replace(each, name=called)),
+            "pga": f"{each.pga / STANDARD_GRAVITY:.3g} g",
+            "duration": f"{each.duration:.4g} s",
+            "format": each.format,
+        }
+        for each in found[:MOST_CHANNELS]
+    ]
+    return {"channels": listed}
+
+
+def _is_vertical(motion: GroundMotion) -> bool:
+    try:
+        return any(each.code == "component-vertical" for each in check_record(motion, STANDARD_GRAVITY, upward=False))
+    except InputError:
+        return False
+
+
+def shaken(case: Case, motion: Mapping[str, Any], folder: Path, called: Mapping[str, str]) -> dict[str, Any]:
+    """Return a case with another motion, which has been read once as an analysis reads it, or why it cannot be used."""
+    try:
+        found = _with_motion(case, motion, folder)
+        assert found.motion is not None
+        resolve(found.motion, found.gravity, found.base_directory)
+    except InputError as error:
+        return refused(_placed(error, motion, called))
+    return {"case": found}
+
+
+def _with_motion(case: Case, motion: Mapping[str, Any], folder: Path) -> Case:
+    fields = case.model_dump(mode="json", exclude_unset=True)
+    return Case.of({**fields, "motion": dict(motion)}).based_in(folder)
+
+
+def look(case: Case, motion: Mapping[str, Any], folder: Path, called: Mapping[str, str], units: str) -> dict[str, Any]:
+    """Return what would shake a case: as an analysis takes it, or, where that cannot be, each record as it was read and
+    why it cannot be used."""
+    try:
+        found = _with_motion(case, motion, folder)
+        assert found.motion is not None
+        pair = resolve(found.motion, found.gravity, found.base_directory)
+    except InputError as error:
+        said = refused(_placed(error, motion, called))
+        seen = [_as_read(source, case.gravity, folder) for source in (motion, motion.get("vertical"))]
+        return {**said, "usable": False, "motions": _shown(seen, case.gravity, called, units, doubts=True)}
+    return {"usable": True, "motions": _shown(list(pair), case.gravity, called, units, doubts=False)}
+
+
+def _as_read(source: Mapping[str, Any] | None, gravity: float, folder: Path) -> GroundMotion | None:
+    """Return a record with the likeliest unit and step where nobody says them; None where it cannot be read at all."""
+    if source is None:
+        return None
+    try:
+        own = Source.model_validate({key: source[key] for key in ("file", "channel", "points") if key in source})
+        if own.file is None:
+            return None
+        if own.file.startswith(PREFIX):
+            return synthetic(own.file, gravity=gravity)
+        path = find(own.file, folder)
+        try:
+            unit, step = source.get("unit"), source.get("time_step")
+            told = Source.model_validate({"file": own.file, **({"time_step": step} if step else {})}).time_step
+            return read_record(path, own.channel, unit=unit, time_step=told, gravity=gravity, assume=True)
+        except (InputError, ValueError):
+            return read_record(path, own.channel, gravity=gravity, assume=True)
+    except (InputError, ValueError):
+        return None
+
+
+def _shown(
+    motions: list[GroundMotion | None], gravity: float, called: Mapping[str, str], units: str, *, doubts: bool
+) -> list[dict[str, Any]]:
+    ways = ("horizontal", "vertical")
+    return [
+        {"way": way, **drawn_motion(motion, gravity, called, units, doubts=doubts)}
+        for way, motion in zip(ways, motions, strict=True)
+        if motion is not None
+    ]
+
+
+def drawn_motion(
+    motion: GroundMotion, gravity: float, called: Mapping[str, str], units: str, *, doubts: bool
+) -> dict[str, Any]:
+    """Return facts, warnings and curves of a motion; with `doubts`, also what an analysis would say about it."""
+    warnings = [each.text(units) for each in motion.warnings]
+    if doubts:
+        warnings += suspicions(motion, units, gravity)
+    facts = about_motion(motion, units, gravity)
+    for stored, name in called.items():
+        warnings = [each.replace(stored, name) for each in warnings]
+        facts = tuple((label, text.replace(stored, name)) for label, text in facts)
+    velocity, displacement = velocity_displacement(motion)
+    intensity = husid(motion)
+    share = 100.0 * intensity / intensity[-1] if intensity[-1] > 0.0 else intensity
+    kept = thinned([motion.acceleration, velocity, displacement], _BINS)
+    system = unit_system(units)
+    speed, length = system.scale("velocity"), system.scale("length")
+    spectrum = response_spectrum(motion)
+    curves = {
+        "time": (motion.time[kept], "s"),
+        "acceleration": (motion.acceleration[kept] / gravity, "g"),
+        "velocity": (speed(velocity[kept]), speed.unit),
+        "displacement": (length(displacement[kept]), length.unit),
+        "husid": (share[kept], "%"),
+        "period": (spectrum.period, "s"),
+        "spectrum": (spectrum.pseudo_acceleration / gravity, "g"),
+    }
+    return {
+        "facts": [(label, plain(text)) for label, text in facts],
+        "warnings": [plain(each, 500) for each in warnings],
+        "end": motion.duration,
+        "curves": {
+            name: {"unit": unit, "values": packed(values, "float32")} for name, (values, unit) in curves.items()
+        },
+    }
+
+
+def _placed(error: InputError, motion: Mapping[str, Any], called: Mapping[str, str]) -> InputError:
+    """Return an error about a file at the field that can mend it."""
+    for field, source in (("motion", motion), ("motion.vertical", motion.get("vertical") or {})):
+        if error.field and error.field == Path(str(source.get("file", ""))).name:
+            error.field = f"{field}.{_MENDED_BY.get(error.code, 'file')}"
+            break
+    return _renamed(error, called)
+
+
+def _renamed(error: InputError, called: Mapping[str, str]) -> InputError:
+    """Return an error that calls files as their sender does."""
+    for stored, name in called.items():
+        for part in ("field", "problem", "remedy"):
+            setattr(error, part, getattr(error, part).replace(stored, plain(name)))
+    return error

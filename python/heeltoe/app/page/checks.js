@@ -1,0 +1,101 @@
+/** Beside the answer: the static checks of the same dam, and how much its result hangs on the shaking. */
+import { element } from "./dom.js";
+
+const MODELS = /** @type {Record<string, string>} */ ({ rigid: "rigid block", decoupled: "rigid block on an elastic part", flexible: "elastic dam" });
+
+/** @param {string} label @param {string[]} columns @param {Node[]} rows */
+function table(label, columns, rows) {
+  const heads = columns.map((each) => element("th", { scope: "col" }, each));
+  return element("div", { class: "table", tabindex: 0, role: "region", "aria-label": label }, element("table", { class: "numbers wide", "aria-label": label }, element("thead", {}, element("tr", {}, ...heads)), element("tbody", {}, ...rows)));
+}
+
+/** @param {string[]} texts */
+const items = (texts) => (texts.length ? [element("ul", { class: "warnings" }, ...texts.map((each) => element("li", {}, each)))] : []);
+
+/** Static checks: while they are open they follow the sliders. */
+export class StaticChecks {
+  /** @param {import("./talk.js").Talk} talk @param {() => Record<string, number>} values */
+  constructor(talk, values) {
+    this.talk = talk;
+    this.values = values;
+    this.content = element("div", { class: "content" }, element("p", { class: "faint" }, "computing"));
+    this.root = /** @type {HTMLDetailsElement} */ (element("details", { class: "card more", "data-checks": "statics", ontoggle: () => this.follow() }, element("summary", {}, "Static checks of the same case"), this.content));
+    talk.on("statics", (found) => this.show(found));
+  }
+
+  /** The sliders have moved, or it was opened. */
+  follow() {
+    if (!this.root.open) return;
+    this.root.classList.add("stale");
+    this.asked = this.talk.ask("statics", { values: this.values() });
+  }
+
+  /** @param {any} found */
+  show(found) {
+    this.root.classList.toggle("stale", found.serial !== this.asked);
+    if (found.error) {
+      this.content.replaceChildren(element("p", { class: "bad" }, found.error.text));
+      return;
+    }
+    const rows = found.checks.map((/** @type {any} */ { cells, met }) => element("tr", {}, ...cells.map((/** @type {string} */ each) => element("td", {}, each)), element("td", { class: met ? "" : "bad" }, met ? "met" : "fails")));
+    const basis = found.basis.map((/** @type {[string, string]} */ [label, text]) => element("tr", {}, element("th", { scope: "row" }, label), element("td", {}, text)));
+    this.content.replaceChildren(
+      element("p", { class: found.ok ? "" : "bad" }, found.verdict, found.failed.length ? ": " : "", found.failed.join("; ")),
+      table("Checks", ["load case", "check", "is", "required", ""], rows),
+      element("table", { class: "numbers facts", "aria-label": "What the checks rest on" }, element("tbody", {}, ...basis)),
+      ...items(found.warnings),
+    );
+  }
+}
+
+/** The same run with a little weaker and a little stronger shaking, on a button. */
+export class Spread {
+  /** @param {import("./talk.js").Talk} talk @param {() => Record<string, number>} values */
+  constructor(talk, values) {
+    this.talk = talk;
+    this.number = 0;
+    this.model = /** @type {HTMLSelectElement} */ (element("select", { id: "spread-model" }));
+    this.start = element("button", { type: "button", onclick: () => talk.ask("spread", { values: values(), model: this.model.value }) }, "Run the spread");
+    this.cancel = element("button", { type: "button", hidden: true, onclick: () => talk.ask("cancel", { number: this.number }) }, "Cancel the spread");
+    this.bar = /** @type {HTMLProgressElement} */ (element("progress", { hidden: true, "aria-label": "The spread is computed" }));
+    this.said = element("p", { class: "faint", role: "status" });
+    this.content = element("div", { class: "content" });
+    this.root = element("details", { class: "card more", "data-checks": "spread" }, element("summary", {}, "Spread: the same with a little weaker and stronger shaking"), element("div", { class: "row" }, element("label", { for: "spread-model" }, "of the"), this.model, this.start, this.cancel), this.bar, this.said, this.content);
+    talk.on("job", (job) => this.take(job));
+    talk.on("job refused", ({ text }) => {
+      if (!this.root.hasAttribute("open")) return;
+      this.said.textContent = text;
+    });
+  }
+
+  /** @param {string[]} models Those that the case has the data for. */
+  begin(models) {
+    this.content.replaceChildren();
+    this.said.textContent = "";
+    this.model.replaceChildren(...models.map((each) => element("option", { value: each }, MODELS[each])));
+  }
+
+  /** The sliders have moved: the result, if there is one, is of where they were. */
+  moved() {
+    if (this.content.hasChildNodes()) {
+      this.root.classList.add("stale");
+      this.said.textContent = "of the sliders as they were";
+    }
+  }
+
+  /** @param {any} job */
+  take(job) {
+    if (job.what !== "spread" || job.number < this.number) return;
+    this.number = job.number;
+    const running = job.state === "running";
+    this.cancel.hidden = this.bar.hidden = !running;
+    this.start.toggleAttribute("disabled", running);
+    this.said.textContent = running ? `${job.said} (${Math.round(job.seconds)} s)` : job.said;
+    if (job.state !== "done") return;
+    const { rows, columns, said, warnings } = job.result;
+    this.root.classList.remove("stale");
+    this.said.textContent = `${MODELS[job.result.model]}: ${said}`;
+    const lines = rows.map((/** @type {string[]} */ [label, ...cells]) => element("tr", {}, element("th", { scope: "row" }, label), ...cells.map((each) => element("td", {}, each))));
+    this.content.replaceChildren(...(rows.length ? [table("Spread", ["", ...columns], lines)] : []), ...items(warnings));
+  }
+}

@@ -1,0 +1,169 @@
+/** The dam in motion: its two parts as a model moves them, with play, a time to drag, speed and magnification. */
+import { element } from "./dom.js";
+import { unpack } from "./unpack.js";
+
+const SVG = "http://www.w3.org/2000/svg";
+const NAMES = /** @type {Record<string, string>} */ ({ rigid: "rigid block", decoupled: "rigid block on an elastic part", flexible: "elastic dam: its top as a block" });
+const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5];
+const MAGNIFICATIONS = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
+/** Who wants less motion sees a picture now and then [ms]. */
+const CALM_MS = 500;
+const calm = matchMedia("(prefers-reduced-motion: reduce)");
+
+/** @param {string} name @param {Record<string, unknown>} attributes */
+function drawn(name, attributes = {}) {
+  const made = document.createElementNS(SVG, name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, String(value));
+  return made;
+}
+
+/** @param {number[][]} points */
+const path = (points) => (points.length ? `M${points.map(([x, z]) => `${x.toFixed(3)} ${(-z).toFixed(3)}`).join("L")}Z` : "");
+
+export class DamInMotion {
+  /** @param {(time: number) => void} moved Called with the moment that is shown. */
+  constructor(moved) {
+    this.moved = moved;
+    /** @type {any[]} */
+    this.shown = [];
+    this.time = 0;
+    this.end = 0;
+    this.playing = false;
+    this.last = 0;
+    this.touched = false;
+    this.parts = Object.fromEntries(["water", "tailwater", "lower", "still", "upper"].map((name) => [name, drawn("path", { class: `dam-${name}` })]));
+    this.svg = drawn("svg", { role: "img", "aria-label": "Section of the dam" });
+    this.svg.append(...Object.values(this.parts));
+    this.play = element("button", { type: "button", onclick: () => this.run(!this.playing) }, "Play");
+    this.scrub = /** @type {HTMLInputElement} */ (element("input", { type: "range", min: 0, step: 0.01, value: 0, "aria-label": "Moment shown", oninput: () => this.goTo(Number(this.scrub.value)) }));
+    this.model = this.choice("Shown", () => this.draw());
+    this.speed = this.choice("Speed", () => {});
+    this.speed.replaceChildren(...SPEEDS.map((each) => element("option", { value: each, selected: each === 1 }, `${each} ×`)));
+    this.size = this.choice("Displacements drawn", () => this.draw());
+    this.size.replaceChildren(element("option", { value: "" }, "as fits"), ...MAGNIFICATIONS.map((each) => element("option", { value: each }, each === 1 ? "to scale" : `× ${each}`)));
+    this.says = element("p", { class: "faint", id: "dam-says" });
+    const labelled = (/** @type {HTMLElement} */ select) => element("label", {}, `${select.getAttribute("data-label")} `, select);
+    this.root = element("section", { class: "card moving", "aria-label": "The dam in motion" }, element("h2", {}, "The dam in motion"), this.svg, element("div", { class: "row" }, this.play, ...[this.model, this.speed, this.size].map(labelled)), this.scrub, this.says);
+    this.root.hidden = true;
+  }
+
+  /** @param {string} label @param {() => void} changed */
+  choice(label, changed) {
+    return /** @type {HTMLSelectElement} */ (element("select", { "data-label": label, onchange: changed }));
+  }
+
+  /** @param {{model: string, answer: any}[]} shown Models with what they have said last, the better ones last. */
+  show(shown) {
+    const there = shown.filter(({ answer }) => answer.dam);
+    this.root.hidden = there.length === 0;
+    this.shown = there;
+    if (!there.length) return;
+    const names = there.map(({ model }) => model);
+    if (names.join() !== [...this.model.options].map((each) => each.value).join()) {
+      const before = this.model.value;
+      this.model.replaceChildren(...names.map((name) => element("option", { value: name }, NAMES[name])));
+      this.model.value = names.includes(before) ? before : names[0];
+    }
+    this.end = Math.max(...there.map(({ answer }) => answer.curves.end));
+    this.scrub.max = String(this.end);
+    // Until somebody has chosen a moment it is the end: what the earthquake leaves.
+    if (!this.touched || this.time > this.end) this.time = this.end;
+    this.draw();
+  }
+
+  /** @param {number} time */
+  goTo(time) {
+    this.touched = true;
+    this.time = Math.min(this.end, Math.max(0, time));
+    this.draw();
+  }
+
+  /** @param {boolean} wanted */
+  run(wanted) {
+    if (wanted && this.time >= this.end) this.time = 0;
+    this.touched = true;
+    this.playing = wanted;
+    this.last = performance.now();
+    this.play.textContent = wanted ? "Pause" : "Play";
+    if (wanted) this.next();
+  }
+
+  next() {
+    if (!this.playing) return;
+    const now = performance.now();
+    this.time += ((now - this.last) / 1000) * Number(this.speed.value);
+    this.last = now;
+    if (this.time >= this.end) {
+      this.time = this.end;
+      this.run(false);
+    }
+    this.draw();
+    if (calm.matches) setTimeout(() => this.next(), CALM_MS);
+    else requestAnimationFrame(() => this.next());
+  }
+
+  draw() {
+    const { answer, model } = this.shown.find((each) => each.model === this.model.value) || {};
+    if (!answer) return;
+    const dam = unpacked(answer);
+    const times = Number(this.size.value) || dam.exaggeration;
+    const [along, across, shrink, turn] = at(dam, this.time);
+    const upper = dam.upper.map(([x, z]) => {
+      const [a, b] = [x - dam.heel[0], z - dam.heel[1]];
+      return [
+        x + times * (along * dam.e[0] + across * dam.n[0] + shrink * a - turn * b),
+        z + times * (along * dam.e[1] + across * dam.n[1] + shrink * b + turn * a),
+      ];
+    });
+    this.view(dam);
+    this.parts.upper.setAttribute("d", path(upper));
+    this.parts.still.setAttribute("d", path(dam.upper));
+    this.parts.lower.setAttribute("d", path(dam.lower));
+    const kind = (answer.ribbon.find((/** @type {any} */ each) => each.start <= this.time && this.time <= each.end) || {}).kind || "rest";
+    this.scrub.value = String(this.time);
+    const now = `${this.time.toFixed(2)} s`;
+    this.scrub.setAttribute("aria-valuetext", `${now}, ${kind}`);
+    const size = times === 1 ? "displacements drawn to scale" : `displacements drawn × ${times}`;
+    const text = `${now}: ${kind}; ${size}, relative to the part below the crack${model === "flexible" ? ", without what the concrete itself gives" : ""}`;
+    if (this.says.textContent !== text) this.says.textContent = text;
+    this.moved(this.time);
+  }
+
+  /** @param {any} dam */
+  view(dam) {
+    const all = [...dam.upper, ...dam.lower];
+    const xs = all.map(([x]) => x);
+    const zs = all.map(([, z]) => z);
+    const [left, right, base, top] = [Math.min(...xs), Math.max(...xs), Math.min(dam.base, ...zs), Math.max(...zs)];
+    const size = Math.max(top - base, right - left);
+    const margin = 0.14 * size;
+    this.svg.setAttribute("viewBox", `${left - 2.4 * margin} ${-top - 0.6 * margin} ${right - left + 4.8 * margin} ${top - base + 1.2 * margin}`);
+    this.svg.style.strokeWidth = String(size / 260);
+    const bath = (/** @type {number | null} */ level, /** @type {number} */ from, /** @type {number} */ to) => (level === null || level <= base ? "" : path([[from, base], [to, base], [to, level], [from, level]]));
+    this.parts.water.setAttribute("d", bath(dam.water, left - 2.4 * margin, left + 0.5 * (right - left)));
+    this.parts.tailwater.setAttribute("d", bath(dam.tailwater, left + 0.5 * (right - left), right + 2.4 * margin));
+  }
+}
+
+/** @type {WeakMap<object, any>} */
+const known = new WeakMap();
+
+/** @param {any} answer */
+function unpacked(answer) {
+  const found = known.get(answer.dam) || { ...answer.dam, time: unpack(answer.dam.time), motion: unpack(answer.dam.motion) };
+  known.set(answer.dam, found);
+  return found;
+}
+
+/** The four amplitudes of the upper part at a moment, straight between those that were sent. @param {any} dam @param {number} time */
+function at(dam, time) {
+  const { time: times, motion } = dam;
+  let [low, high] = [0, times.length - 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= time) low = middle;
+    else high = middle;
+  }
+  const share = times[high] > times[low] ? Math.min(1, Math.max(0, (time - times[low]) / (times[high] - times[low]))) : 1;
+  return [0, 1, 2, 3].map((k) => (1 - share) * motion[4 * low + k] + share * motion[4 * high + k]);
+}
