@@ -35,8 +35,15 @@ MOST_CHANNELS = 60
 
 def channels(path: Path, called: str) -> dict[str, Any]:
     """Return the channels of a file that was sent, as a page lists them, or why it cannot be read as a record."""
+    known = True
     try:
-        found = read_channels(path)
+        try:
+            found = read_channels(path)
+        except InputError as error:
+            if error.code != "record-unit-missing":
+                raise
+            # It is asked for where the record is used.
+            found, known = read_channels(path, unit="m/s^2"), False
     except InputError as error:
         return refused(_renamed(error, {str(path): called, path.name: called}))
     listed = [
@@ -44,7 +51,7 @@ def channels(path: Path, called: str) -> dict[str, Any]:
             "channel": each.channel if len(found) > 1 else "",
             "component": plain(each.component),
             "vertical": _is_vertical(replace(each, name=called)),
-            "pga": f"{each.pga / STANDARD_GRAVITY:.3g} g",
+            "pga": f"{each.pga / STANDARD_GRAVITY:.3g} g" if known else "in a unit that it does not state",
             "duration": f"{each.duration:.4g} s",
             "format": each.format,
         }

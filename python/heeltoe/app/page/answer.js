@@ -48,6 +48,7 @@ export function answerPage(talk) {
       positions.set(newest[model], position);
     }
     began.set(newest.rigid, time);
+    if (answers.flexible) answers.flexible.stale = true;
     flexible.moved();
     spread.moved();
     statics.follow();
@@ -56,6 +57,7 @@ export function answerPage(talk) {
 
   /** The verdict of the better model leads, as long as it is of the sliders as they stand. @param {string} model */
   function lead(model) {
+    dam.prefer(model);
     const order = model === "flexible" ? [flexible.card, cards.rigid, cards.decoupled] : [cards.rigid, cards.decoupled, flexible.card];
     for (const part of /** @type {const} */ (["root", "details"])) {
       const place = order[0][part].parentElement;
@@ -157,7 +159,9 @@ export function answerPage(talk) {
       const all = [cards.rigid, cards.decoupled, flexible.card];
       const verdicts = element("div", { class: "cards" }, ...all.map((each) => each.root));
       const details = element("div", { class: "cards" }, ...all.map((each) => each.details));
-      root.append(element("div", { class: "answer" }, controls, element("div", {}, verdicts, plot, element("p", { class: "key" }, "Modes of motion:", ...key), dam.root, details, element("div", { class: "cards" }, spread.root, statics.root))));
+      const over = element("div", {}, plot, element("p", { class: "key" }, "Modes of motion:", ...key));
+      const more = element("div", { class: "cards" }, spread.root, statics.root);
+      root.append(element("div", { class: "answer" }, controls, element("div", {}, verdicts, element("div", { class: "over-time" }, over, dam.root), details, more)));
       return redraw;
     },
   };

@@ -31,7 +31,8 @@ export class DamInMotion {
     this.playing = false;
     this.last = 0;
     this.touched = false;
-    this.parts = Object.fromEntries(["water", "tailwater", "lower", "still", "upper"].map((name) => [name, drawn("path", { class: `dam-${name}` })]));
+    this.wanted = "";
+    this.parts = Object.fromEntries(["water", "tailwater", "still", "lower", "upper"].map((name) => [name, drawn("path", { class: `dam-${name}` })]));
     this.svg = drawn("svg", { role: "img", "aria-label": "Section of the dam" });
     this.svg.append(...Object.values(this.parts));
     this.play = element("button", { type: "button", onclick: () => this.run(!this.playing) }, "Play");
@@ -64,11 +65,21 @@ export class DamInMotion {
       this.model.replaceChildren(...names.map((name) => element("option", { value: name }, NAMES[name])));
       this.model.value = names.includes(before) ? before : names[0];
     }
+    if (this.wanted && names.includes(this.wanted)) {
+      this.model.value = this.wanted;
+      this.wanted = "";
+    }
     this.end = Math.max(...there.map(({ answer }) => answer.curves.end));
     this.scrub.max = String(this.end);
     // Until somebody has chosen a moment it is the end: what the earthquake leaves.
     if (!this.touched || this.time > this.end) this.time = this.end;
     this.draw();
+  }
+
+  /** Show the elastic dam as soon as it is there, and no longer than it is of the sliders as they stand. @param {string} model */
+  prefer(model) {
+    this.wanted = model;
+    if (!model && this.model.value === "flexible") this.model.selectedIndex = 0;
   }
 
   /** @param {number} time */
@@ -139,9 +150,11 @@ export class DamInMotion {
     const margin = 0.14 * size;
     this.svg.setAttribute("viewBox", `${left - 2.4 * margin} ${-top - 0.6 * margin} ${right - left + 4.8 * margin} ${top - base + 1.2 * margin}`);
     this.svg.style.strokeWidth = String(size / 260);
+    // Behind the section, which covers what of it reaches below a batter.
+    const crest = all.filter(([, z]) => z >= top - 1e-6 * size).map(([x]) => x).sort((one, other) => one - other);
     const bath = (/** @type {number | null} */ level, /** @type {number} */ from, /** @type {number} */ to) => (level === null || level <= base ? "" : path([[from, base], [to, base], [to, level], [from, level]]));
-    this.parts.water.setAttribute("d", bath(dam.water, left - 2.4 * margin, left + 0.5 * (right - left)));
-    this.parts.tailwater.setAttribute("d", bath(dam.tailwater, left + 0.5 * (right - left), right + 2.4 * margin));
+    this.parts.water.setAttribute("d", bath(dam.water, left - 2.4 * margin, crest[0]));
+    this.parts.tailwater.setAttribute("d", bath(dam.tailwater, crest[crest.length - 1], right + 2.4 * margin));
   }
 }
 

@@ -34,7 +34,7 @@ export function motionPage(talk) {
 
   /** @param {string} id @param {string} label */
   function input(id, label) {
-    return /** @type {HTMLInputElement} */ (element("input", { type: "text", id, "aria-label": `Part of the motion, ${label}`, size: 7, oninput: changed }));
+    return /** @type {HTMLInputElement} */ (element("input", { type: "text", id, "aria-label": `Part of the motion, ${label}`, size: 5, oninput: changed }));
   }
 
   function form() {

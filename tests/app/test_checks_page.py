@@ -1,0 +1,113 @@
+"""The page "Answer" beside its numbers: the dam in motion, spread, static checks, the elastic dam that leads."""
+
+from __future__ import annotations
+
+import pytest
+
+pytest.importorskip("playwright")
+
+SLIP = ".card[data-details=rigid] tr[data-key=residual_slip_m] td"
+UPPER = ".moving .dam-upper"
+
+
+@pytest.fixture
+def answer(page):
+    page.wait_for_selector(SLIP)
+    page.wait_for_selector(".plot .main-svg")
+    page.wait_for_selector(UPPER, state="attached")
+    return page
+
+
+def place(page):
+    return page.get_attribute(UPPER, "d")
+
+
+def moment(page):
+    return float(page.input_value(".moving input[type=range]"))
+
+
+def test_the_dam_follows_its_slider_and_the_sliders_of_the_case(answer, picture):
+    at_end = place(answer)
+    assert at_end != answer.get_attribute(".moving .dam-still", "d")
+    answer.focus(".moving input[type=range]")
+    answer.keyboard.press("Home")
+    answer.wait_for_function(
+        "(was) => document.querySelector('.moving .dam-upper').getAttribute('d') !== was", arg=at_end
+    )
+    assert place(answer) == answer.get_attribute(".moving .dam-still", "d")
+    assert "0.00 s: rest" in answer.inner_text("#dam-says")
+    assert answer.evaluate("parseFloat(document.querySelector('.plot .cursor').style.left)") > 0
+    answer.keyboard.press("End")
+    answer.select_option(".moving select[data-label='Displacements drawn']", "100")
+    assert "× 100" in answer.inner_text("#dam-says")
+    before = place(answer)
+    answer.fill("[aria-label='Friction coefficient, exactly']", "1.3")
+    answer.wait_for_function(
+        "(was) => document.querySelector('.moving .dam-upper').getAttribute('d') !== was", arg=before
+    )
+    picture(answer, "answer-moving")
+
+
+def test_plays_and_pauses(answer):
+    answer.select_option(".moving select[data-label=Speed]", "5")
+    answer.click(".moving >> text=Play")
+    answer.wait_for_function(
+        "() => { const t = Number(document.querySelector('.moving input[type=range]').value); return t > 1 && t < 29; }"
+    )
+    answer.click(".moving >> text=Pause")
+    then = moment(answer)
+    answer.evaluate("() => new Promise((done) => setTimeout(done, 300))")
+    assert moment(answer) == then
+
+
+def test_static_checks_follow_while_they_are_open(answer, picture):
+    answer.click("text=Static checks of the same case")
+    answer.wait_for_selector("[data-checks=statics] >> text=sliding factor")
+    before = answer.inner_text("[data-checks=statics] .content")
+    answer.fill("[aria-label='Friction coefficient, exactly']", "1.5")
+    answer.wait_for_function(
+        "(was) => document.querySelector('[data-checks=statics] .content').innerText !== was", arg=before
+    )
+    answer.wait_for_selector("[data-checks=statics]:not(.stale)")
+    picture(answer, "answer-statics")
+
+
+def test_spread(answer, picture):
+    answer.click("text=Spread: the same")
+    answer.click("text=Run the spread")
+    answer.wait_for_selector("[data-checks=spread] table >> text=residual slip", timeout=60_000)
+    assert "11 runs" in answer.inner_text("[data-checks=spread]")
+    answer.fill("[aria-label='Friction coefficient, exactly']", "1.5")
+    answer.wait_for_selector("[data-checks=spread].stale >> text=of the sliders as they were")
+    picture(answer, "answer-spread")
+
+
+def test_a_spread_is_cancelled(answer):
+    answer.click("text=Spread: the same")
+    answer.select_option("#spread-model", "flexible")
+    answer.click("text=Run the spread")
+    answer.click("text=Cancel the spread")
+    answer.wait_for_selector("[data-checks=spread] >> text=cancelled")
+    assert answer.is_enabled("text=Run the spread")
+
+
+def test_the_elastic_dam_leads_until_a_slider_moves(answer, picture):
+    answer.fill("[aria-label='Friction coefficient, exactly']", "1.2")
+    answer.click("text=Run the elastic dam")
+    answer.wait_for_selector(".card[data-model=flexible] .verdict", timeout=300_000)
+    first = "document.querySelector('#page-answer .cards .card').dataset.model"
+    answer.wait_for_function(f"() => {first} === 'flexible'")
+    assert "flexible" in answer.inner_text(".card[data-details=flexible]").lower()
+    picture(answer, "answer-elastic")
+    answer.fill("[aria-label='Friction coefficient, exactly']", "1.3")
+    answer.wait_for_function(f"() => {first} === 'rigid'")
+
+
+def test_a_screen_reader_finds_its_way(answer):
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright")
+    answer.click("text=Spread: the same")
+    answer.click("text=Static checks of the same case")
+    answer.wait_for_selector("[data-checks=statics] table")
+    found = axe.Axe().run(answer).response["violations"]
+    grave = [each for each in found if each["impact"] in ("serious", "critical")]
+    assert not grave, [(each["id"], each["nodes"][0]["html"]) for each in grave]
