@@ -31,7 +31,8 @@ def address():
         assert app.wait(20) == 0
 
 
-@pytest.fixture(scope="session")
+# Not longer: what drives the browser has a loop of its own, beside which other tests cannot have theirs.
+@pytest.fixture(scope="module")
 def chromium():
     """Start the browser of this machine."""
     found = next((each for each in map(shutil.which, _BROWSERS) if each), None)
