@@ -78,3 +78,16 @@ def test_a_killed_process_beside_is_replaced():
         asyncio.run(lose())
     finally:
         workers.close()
+
+
+def test_what_reads_too_long_is_ended_and_the_next_is_read():
+    async def read():
+        workers = Workers()
+        try:
+            with pytest.raises(WorkerLostError):
+                await workers.read(0.5, time.sleep, 600)
+            return await workers.read(60.0, abs, -3)
+        finally:
+            workers.close()
+
+    assert asyncio.run(read()) == 3

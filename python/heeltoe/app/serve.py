@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import secrets
+import signal
 import socket
 import tempfile
 import webbrowser
@@ -53,6 +54,9 @@ def serve(host: str, port: int | None, *, public: bool, browser: bool, say: Call
         settings = Settings(host, listening.getsockname()[1], Path(folder), token)
         address = _address(settings)
         say(address)
+        # A tab or a worker that closes its end while something is sent to it must not end the server.
+        if hasattr(signal, "SIGPIPE"):
+            signal.signal(signal.SIGPIPE, signal.SIG_IGN)
         with contextlib.suppress(KeyboardInterrupt):
             asyncio.run(_run(settings, listening, address if browser else ""))
 

@@ -70,9 +70,12 @@ class Workers:
             reading = asyncio.get_running_loop().run_in_executor(self._reader, compute, *arguments)
             try:
                 return await asyncio.wait_for(reading, seconds)
-            except (TimeoutError, BrokenProcessPool):
+            except (TimeoutError, BrokenProcessPool, asyncio.CancelledError) as error:
+                # Whoever reads next shall not wait for it.
                 _end(self._reader)
                 self._reader = _process()
+                if isinstance(error, asyncio.CancelledError):
+                    raise
                 raise WorkerLostError from None
 
     def close(self) -> None:
