@@ -159,20 +159,28 @@ def _motions(form: Mapping[str, Any], session: Session) -> dict[str, Any]:
         if not scale and not form.get("both_signs"):
             return {}
         events, chosen = _own(session)
+        case = case_of(session)
+        motion = None if case is None else case.motion
+        read = {"unit": motion.unit if motion else None, "time_step": _seconds(motion.time_step if motion else None)}
     else:
+        read = {name: _text(form, f"motions.{name}").strip() for name in ("unit", "time_step")}
         chosen += [each.strip() for each in _text(form, "ordered").split(";") if each.strip()]
         events = _events(chosen, vertical=bool(form.get("vertical")))
     known = {name for name, _ in available()} | session.sent.keys()
     for name in chosen:
         if name not in known and not name.startswith(PREFIX):
             raise InputError("record-not-found", "motions", name, hint="choose one of those shown;")
-    told: dict[str, Any] = {"events": events}
+    told: dict[str, Any] = {"events": events, **{name: each for name, each in read.items() if each}}
     told |= {name: True for name in ("pairs", "vertical", "both_signs") if form.get(name)}
     if form.get("every"):
         told["every"] = True
     if scale:
         told["scale"] = scale
     return told
+
+
+def _seconds(time_step: float | None) -> str | None:
+    return None if time_step is None else f"{time_step!r} s"
 
 
 def _own(session: Session) -> tuple[list[dict[str, Any]], list[str]]:

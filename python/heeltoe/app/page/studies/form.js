@@ -78,6 +78,7 @@ export class StudyForm {
         element("div", { class: "records", tabindex: "0", role: "group", "aria-label": "Records" }, ...groups),
         element("p", { class: "faint" }, "A record of yours is added on the page Motion; records whose names differ in their last part alone are of one event."),
         this._field("ordered", "Made to order", "as synthetic:M6.5,20km,seed=1; several with ; between them"),
+        element("div", { class: "pair" }, this._field("motions.unit", "Unit", "of files that do not state it", "g"), this._field("motions.time_step", "Time step", "of files that do not state it", "0.01 s")),
         element("div", { class: "ticks" }, this._tick("pairs", "horizontal components in pairs"), this._tick("vertical", "with vertical components"), this._tick("every", "every dam meets every motion")),
       ),
       element("div", { class: "ticks" }, this._tick("both_signs", "each motion both ways round")),

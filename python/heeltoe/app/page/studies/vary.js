@@ -3,8 +3,8 @@ import { element } from "../dom.js";
 import { field, select } from "./fields.js";
 
 const KINDS = /** @type {Record<string, [string, string[]]>} */ ({
-  list: ["a list of values", ["values"]],
-  uniform: ["evenly between two", ["from", "to"]],
+  list: ["list", ["values"]],
+  uniform: ["uniform", ["from", "to"]],
   triangular: ["triangular", ["from", "mode", "to"]],
   normal: ["normal", ["mean", "std", "lower", "upper"]],
   lognormal: ["lognormal", ["median", "dispersion", "lower", "upper"]],

@@ -1,0 +1,103 @@
+"""What the form of a study says becomes a study file; what no form says is refused."""
+
+from __future__ import annotations
+
+import pickle
+import tomllib
+
+import numpy as np
+import pytest
+
+from heeltoe.app.actions import BadRequestError
+from heeltoe.app.open_case import begin
+from heeltoe.app.sessions import Session
+from heeltoe.app.studies.draft import choices, study_asked
+from heeltoe.app.studies.work import look
+from heeltoe.errors import InputError
+
+EVIL = "../../evil <script>'\".dat"
+FORM = {"models": ["rigid"], "method": "grid", "source": "case", "vary": []}
+
+
+@pytest.fixture
+def session(tmp_path):
+    folder = tmp_path / "tab"
+    folder.mkdir()
+    found = Session("x", folder)
+    begin(found)
+    time = np.arange(400) * 0.01
+    np.savetxt(folder / "upload-1", np.column_stack([time, np.sin(9.0 * time)]))
+    found.sent[EVIL] = "upload-1"
+    return found
+
+
+def test_a_record_that_was_sent_goes_with_the_study_under_a_harmless_name(session, tmp_path):
+    form = {**FORM, "source": "records", "records": [EVIL], "motions.unit": "m/s^2"}
+    form |= {"scale.measure": "pga", "scale.values": "0.1 g, 0.2 g"}
+    told = look(study_asked(form, session), session.folder / "study-1", 100)
+    assert "2 runs" in told["outlook"]
+    files = {path.name for path in (session.folder / "study-1").iterdir()}
+    assert files == {"case.toml", "study.toml", "evil-script-.dat"}
+    assert {path.name for path in tmp_path.iterdir()} == {"tab"}
+    study = tomllib.loads((session.folder / "study-1" / "study.toml").read_text())
+    assert study["motions"]["events"][0]["horizontal"] == ["evil-script-.dat"]
+
+
+@pytest.mark.parametrize("name", ["/etc/passwd", "../upload-1", "upload-1", "nothing", "~/x"])
+def test_no_other_file_is_looked_for(session, name):
+    for form in ({"records": [name]}, {"ordered": name}):
+        with pytest.raises(InputError, match="motions"):
+            study_asked({**FORM, "source": "records", **form}, session)
+
+
+@pytest.mark.parametrize(
+    "form",
+    [None, [], {"models": "rigid"}, {"title": 3}, {"vary": [3]}, {"vary": [{"path": "__class__"}]}, {"records": [1]},
+     {"vary": [{"path": "motion.file", "kind": "list", "values": "/etc/passwd"}]}, {"title": "x" * 30_000},
+     {"vary": [{"path": "crack.friction", "kind": "__import__"}]}],
+)  # fmt: skip
+def test_what_no_form_says_is_refused(session, form):
+    with pytest.raises(BadRequestError):
+        study_asked({**FORM, **form} if isinstance(form, dict) else form, session)
+
+
+@pytest.mark.parametrize(
+    ("form", "field"),
+    [({"samples": "9", "method": "sobol"}, "samples"),
+     ({"method": "latin hypercube", "samples": "1000000000"}, "study"),
+     ({"vary": [{"path": "crack.friction", "kind": "normal", "mean": "1"}]}, "vary.crack.friction.std"),
+     ({"vary": [{"path": "crack.friction", "kind": "list", "values": ""}]}, "vary.crack.friction"),
+     ({"limit.opening": "10"}, "fragility.limits.opening[0]"),
+     ({"scale.measure": "sa", "scale.values": "0.1 g"}, "motions.scale.period")],
+)  # fmt: skip
+def test_errors_are_told_at_their_fields(session, form, field):
+    told = look(study_asked({**FORM, **form}, session), session.folder / "study-2", 10_000)
+    assert told["error"]["field"] == field
+
+
+def test_plain_numbers_are_in_the_units_that_are_chosen(session):
+    session.units = "us"
+    row = {"path": "reservoir.depth", "kind": "list", "values": "300, 90 m"}
+    _, study, _ = study_asked({**FORM, "vary": [row]}, session)
+    assert study["vary"] == {"reservoir.depth": ["300 ft", "90 m"]}
+
+
+def test_the_motion_of_the_case_takes_strengths(session):
+    form = {**FORM, "scale.measure": "pga", "scale.values": "0.2 g", "both_signs": True}
+    _, study, _ = study_asked(form, session)
+    assert study["motions"]["events"] == [{"horizontal": ["elcentro-1940-180-nga"]}]
+    assert study["motions"]["both_signs"]
+
+
+def test_every_choice_is_a_field_of_a_study(session):
+    found = choices(session)
+    assert {"crack.friction", "reservoir.depth", "uplift.pattern"} <= {each["path"] for each in found["fields"]}
+    assert all(each["meaning"] for each in found["fields"])
+    assert EVIL in [each["name"] for group in found["records"] for each in group["records"]]
+
+
+def test_errors_come_back_from_other_processes():
+    error = InputError("study-many", "samples", 3, most=2)
+    error.field = "study"
+    back = pickle.loads(pickle.dumps(error))
+    assert (str(back), back.args, back.code) == (str(error), error.args, "study-many")
