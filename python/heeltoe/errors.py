@@ -9,7 +9,6 @@ is about, the value that was found, and the remedy, and renders as one line:
 from __future__ import annotations
 
 import json
-from typing import Any
 
 from heeltoe.errors_of_studies import OF_STUDIES
 from heeltoe.plain import plain
@@ -396,6 +395,6 @@ class InputError(HeeltoeError):
     def __str__(self) -> str:
         return plain(f"{self.field}: {self.problem}; {self.remedy}", _LONGEST)
 
-    def __reduce__(self) -> tuple[Any, ...]:
+    def __reduce__(self) -> tuple[object, ...]:
         """Come back from another process as the same error: Python would make it anew of its text alone."""
         return InputError.__new__, (InputError, *self.args), self.__dict__
