@@ -12,7 +12,7 @@ export PYO3_PYTHON := $(abspath $(BIN)/python)
 WASM := wasm32-unknown-unknown
 ELAPSED = echo "$@: done in $$(( $$(date +%s) - $$(cat $(VENV)/.started) )) s"
 
-.PHONY: demo test test-slow test-pythons audit lint format validate bench clean help check
+.PHONY: demo test test-slow test-pythons audit browser lint format validate bench clean help check
 .DEFAULT_GOAL := help
 
 help:
@@ -21,6 +21,7 @@ help:
 	@echo "make test-slow  the long ones"
 	@echo "make test-pythons  the tests under every Python of 3.11 to 3.13 that is installed"
 	@echo "make audit      known weaknesses of all that is installed or built from; needs a network"
+	@echo "make browser    install the browser that the tests of the app need; Debian's, needs a network"
 	@echo "make lint       formatting, lints, types and directions of imports"
 	@echo "make validate   the reference cases as tables"
 	@echo "make bench      ours against named peers; writes benchmarks/results.md (PART=crack_dam for one part)"
@@ -65,6 +66,12 @@ test-pythons: check $(VENV)/.built
 
 audit: check
 	PYTHON=$(PYTHON) .ci/audit
+
+# As the administrator only where somebody else asks.
+SUDO := $(shell [ "$$(id -u)" = 0 ] || echo sudo)
+
+browser:
+	@command -v chromium >/dev/null || { $(SUDO) apt-get update && $(SUDO) apt-get install -y --no-install-recommends chromium; }
 
 lint: check $(VENV)/.built
 	cargo fmt --check

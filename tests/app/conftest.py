@@ -15,8 +15,13 @@ from shared.dams import ROOT
 
 # Screenshots of every page, to be looked at.
 PICTURES = ROOT / "out" / "app"
-# Where Debian has it, and what others call it.
-_BROWSERS = ("/usr/bin/chromium", "chromium", "chromium-browser", "google-chrome")
+# What Debian calls it, and others.
+_BROWSERS = ("chromium", "chromium-browser", "google-chrome")
+# Where the tests in a browser must not be left out, what they need is missed at once.
+_REQUIRED = os.environ.get("HEELTOE_BROWSER") == "required"
+if _REQUIRED:
+    import axe_playwright_python  # noqa: F401
+    import playwright  # noqa: F401
 
 
 @pytest.fixture(scope="session")
@@ -37,7 +42,8 @@ def chromium():
     """Start the browser of this machine."""
     found = next((each for each in map(shutil.which, _BROWSERS) if each), None)
     if found is None:
-        pytest.skip("no browser: install chromium (apt-get install chromium) to run these tests")
+        leave = pytest.fail if _REQUIRED else pytest.skip
+        leave("no browser: install chromium (make browser) to run these tests")
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as tools:
