@@ -40,6 +40,11 @@ def test_own_names(ask, host):
 )
 def test_foreign_names_are_refused(ask, host):
     assert ask.get("/", headers={"host": host}).status_code == 403
+    with (
+        pytest.raises(WebSocketDisconnect),
+        ask.websocket_connect("/talk", headers={"host": host, "origin": f"http://{host}"}),
+    ):
+        pass
 
 
 @pytest.mark.parametrize("origin", ["http://evil.example", "http://127.0.0.1:1", "https://127.0.0.1:8642", "null"])
@@ -78,11 +83,19 @@ def test_a_public_address_needs_its_token(settings):
         assert client.get("/").status_code == 403
         assert client.get("/?token=wrong").status_code == 403
         assert client.get("/", headers={"host": "evil.example:8642"}).status_code == 403
+        own = {"host": "192.0.2.7:8642", "origin": "http://192.0.2.7:8642"}
+        assert client.post("/upload?token=secret", headers=own, content=b"1").status_code == 403
+        for query in ("", "?token=wrong", "?token=secret"):
+            with pytest.raises(WebSocketDisconnect), client.websocket_connect(f"/talk{query}", headers=own):
+                pass
         told = client.get("/?token=secret")
         assert (told.status_code, told.headers["location"]) == (303, "/")
         assert "HttpOnly" in told.headers["set-cookie"]
         assert "SameSite=strict" in told.headers["set-cookie"]
         assert client.get("/").status_code == 200
+        shown = {**own, "cookie": told.headers["set-cookie"].split(";")[0]}
+        with client.websocket_connect("/talk", headers=shown) as tab:
+            assert tab.receive_json()["of"] == "hello"
 
 
 def enter(ask):

@@ -62,7 +62,7 @@ def application(settings: Settings) -> Starlette:
         session = sessions.get(request.headers.get("x-session", ""))
         if session is None:
             return JSONResponse({"error": "This tab is not known any more: reload the page."}, status_code=403)
-        return await take(request, session, settings)
+        return await take(request, session, sessions, settings)
 
     async def download(request: Request) -> Response:
         # What only looks at the head of a file shall not use up its link.

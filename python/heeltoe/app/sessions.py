@@ -49,8 +49,8 @@ class Session:
         What else a page wants to find again, by names of its own.
     jobs
         Long runs, by their number.
-    uploads
-        How many files it has sent.
+    uploads, uploaded
+        How many files it has sent, and how much [bytes].
     offers
         Files that it may fetch once, by the secret in their address.
     kept_files
@@ -76,6 +76,7 @@ class Session:
     kept: dict[str, Any] = field(default_factory=dict)
     jobs: dict[int, Job] = field(default_factory=dict)
     uploads: int = 0
+    uploaded: int = 0
     offers: dict[str, Offer] = field(default_factory=dict)
     kept_files: tuple[Path, str] | None = None
     studies: dict[int, Made] = field(default_factory=dict)
@@ -94,13 +95,15 @@ class Session:
             await self.tell(message)
 
     def begin_as(self, other: Session) -> None:
-        """Begin with the case of another tab, and with copies of the files that it has sent."""
-        self.example, self.units, self.uploads = other.example, other.units, other.uploads
+        """Begin with the case of another tab, and with the files that it has sent."""
+        self.example, self.units = other.example, other.units
+        self.uploads, self.uploaded = other.uploads, other.uploaded
         self.changes, self.moved = dict(other.changes), other.moved
         self.case = other.case.based_in(self.folder) if other.case else None
         self.draft = replace(other.draft, case=self.case, undo=[], redo=[]) if other.draft else None
         for called, stored in other.sent.items():
-            shutil.copyfile(other.folder / stored, self.folder / stored)
+            # Nothing changes such a file: a second name of it takes no room.
+            (self.folder / stored).hardlink_to(other.folder / stored)
             self.sent[called] = stored
         self.records = dict(other.records)
 
@@ -157,6 +160,11 @@ class Sessions:
     def take(self, key: str) -> Offer | None:
         """Return what is behind a link, once."""
         return next((each.offers.pop(key) for each in self._found.values() if key in each.offers), None)
+
+    @property
+    def uploaded(self) -> int:
+        """How much all tabs have sent [bytes]."""
+        return sum(each.uploaded for each in self._found.values())
 
     def close(self) -> None:
         """Forget all."""

@@ -33,6 +33,8 @@ class Settings:
         Files of one tab.
     longest_reading_s
         That a file may take to be read [s].
+    largest_total
+        Of the files of all tabs together [bytes].
     most_jobs
         Long runs at once, of all tabs.
     most_studies, most_runs
@@ -49,6 +51,7 @@ class Settings:
     largest_upload: int = 20_000_000
     most_uploads: int = 40
     longest_reading_s: float = 30.0
+    largest_total: int = 1_000_000_000
     most_jobs: int = 2
     most_studies: int = 12
     most_runs: int = 1_000_000

@@ -5,32 +5,50 @@ from __future__ import annotations
 import secrets
 from pathlib import Path
 
-from starlette.requests import Request
+from starlette.requests import ClientDisconnect, Request
 from starlette.responses import JSONResponse, Response
 
-from heeltoe.app.sessions import Session
+from heeltoe.app.sessions import Session, Sessions
 from heeltoe.app.settings import Settings
 
 
-async def take(request: Request, session: Session, settings: Settings) -> Response:
+async def take(request: Request, session: Session, sessions: Sessions, settings: Settings) -> Response:
     """Keep the body of a request as a file of a tab, and answer with the name that it has here."""
     if session.uploads >= settings.most_uploads:
-        return _refused(413, f"A tab keeps up to {settings.most_uploads} files: reload the page to start anew.")
+        return _refused(413, f"A tab keeps up to {settings.most_uploads} files: open a new tab to start anew.")
     session.uploads += 1
     path = session.folder / f"upload-{secrets.token_hex(8)}"
-    size = 0
+    size, refusal = 0, ""
     try:
         with path.open("xb") as file:
             async for piece in request.stream():
                 size += len(piece)
+                session.uploaded += len(piece)
                 if size > settings.largest_upload:
-                    raise OverflowError
+                    refusal = f"The file has more than {settings.largest_upload // 10**6} MB."
+                elif sessions.uploaded > settings.largest_total:
+                    refusal = f"All tabs together keep up to {settings.largest_total // 10**6} MB: start the app anew."
+                if refusal:
+                    break
                 file.write(piece)
-    except OverflowError:
-        path.unlink(missing_ok=True)
-        session.uploads -= 1
-        return _refused(413, f"The file has more than {settings.largest_upload // 10**6} MB.")
-    return JSONResponse({"name": path.name, "bytes": size})
+        if not refusal:
+            return JSONResponse({"name": path.name, "bytes": size})
+    except ClientDisconnect:
+        refusal = "The file has not come as a whole."
+    _forget(session, path, size)
+    return _refused(413, refusal)
+
+
+def _forget(session: Session, path: Path, size: int) -> None:
+    path.unlink(missing_ok=True)
+    session.uploads -= 1
+    session.uploaded -= size
+
+
+def forget(session: Session, path: Path) -> None:
+    """Remove a file that a tab has sent, so that another one has its place."""
+    if path.is_file():
+        _forget(session, path, path.stat().st_size)
 
 
 def upload_path(session: Session, name: str) -> Path | None:

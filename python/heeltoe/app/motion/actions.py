@@ -7,7 +7,7 @@ from typing import Any
 
 from heeltoe.app.actions import Asked, BadRequestError, Desk, Entry, text
 from heeltoe.app.sessions import Session
-from heeltoe.app.uploads import upload_path
+from heeltoe.app.uploads import forget, upload_path
 from heeltoe.app.workers import WorkerLostError
 from heeltoe.errors import InputError
 from heeltoe.plain import plain
@@ -53,8 +53,7 @@ async def record(desk: Desk, asked: Asked) -> dict[str, Any]:
     except WorkerLostError:
         found = {"error": {"field": name, "text": f"{name}: {_SLOW}", "problem": _SLOW, "remedy": ""}}
     if "error" in found:
-        path.unlink(missing_ok=True)
-        session.uploads -= 1
+        forget(session, path)
         return {"of": "record", "called": name, **found}
     session.sent[name], session.records[name] = path.name, found["channels"]
     return {"of": "record", "called": name, "records": _records(session), **found}
