@@ -188,8 +188,9 @@ def opened():
 def ways_to(secret: Path) -> list[str]:
     """Return names by which a careless server would find a file."""
     up = f"../../{secret.parent.name}/{secret.name}"
-    return [str(secret), up, up.replace("/", "%2f"), up.replace("/", "\\"), f"file://{secret}", f"./{up}", f"~/{up}", f"//{secret}",
-            f"upload-0/../{up}", f"{secret}\x00.csv", up.replace(".", "%2e").replace("/", "%2F")]  # fmt: skip
+    return [str(secret), up, up.replace("/", "%2f"), up.replace("/", "\\"), f"file://{secret}", f"./{up}", f"~/{up}",
+            f"upload-0/../{up}", f"{secret}\x00.csv", f"//{secret}",
+            up.replace(".", "%2e").replace("/", "%2F")]  # fmt: skip
 
 
 def test_a_case_names_no_file_that_was_not_sent(folder, secret, opened):
