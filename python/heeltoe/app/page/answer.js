@@ -113,12 +113,14 @@ export function answerPage(talk) {
       .filter((model) => answers[model] && answers[model].curves)
       .map((model) => ({ model, stale: Boolean(answers[model].stale), answer: answers[model] }));
     plot.hidden = shown.length === 0;
+    // First, as it takes some of the room.
+    dam.show(shown);
     if (shown.length && plot.clientWidth) {
       await draw(plot, shown);
+      cursor(plot, dam.time);
       onMoment(plot, (time) => dam.goTo(time));
     }
     measure();
-    dam.show(shown);
     drawing = false;
     if (wanted) redraw();
   }

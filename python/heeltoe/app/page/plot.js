@@ -88,6 +88,8 @@ function layout(shown, narrow) {
 export async function draw(place, shown) {
   const plotly = /** @type {any} */ (window).Plotly;
   const narrow = place.clientWidth < 600;
+  const before = /** @type {any} */ (place)._fullLayout;
+  if (before && before.width !== place.clientWidth) await plotly.Plots.resize(place);
   await plotly.react(place, traces(shown), layout(shown, narrow), { responsive: true, displaylogo: false, displayModeBar: narrow ? false : "hover", modeBarButtonsToRemove: ["select2d", "lasso2d", "toImage"] });
 }
 
