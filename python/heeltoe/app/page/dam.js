@@ -44,7 +44,7 @@ export class DamInMotion {
     this.size.replaceChildren(element("option", { value: "" }, "as fits"), ...MAGNIFICATIONS.map((each) => element("option", { value: each }, each === 1 ? "to scale" : `× ${each}`)));
     this.says = element("p", { class: "faint", id: "dam-says" });
     const labelled = (/** @type {HTMLElement} */ select) => element("label", {}, `${select.getAttribute("data-label")} `, select);
-    this.root = element("section", { class: "card moving", "aria-label": "The dam in motion" }, element("h2", {}, "The dam in motion"), this.svg, element("div", { class: "row" }, this.play, ...[this.model, this.speed, this.size].map(labelled)), this.scrub, this.says);
+    this.root = element("section", { class: "card moving", "aria-label": "The dam in motion" }, element("h2", {}, "The dam in motion"), this.svg, element("div", { class: "in-line" }, this.play, ...[this.model, this.speed, this.size].map(labelled)), this.scrub, this.says);
     this.root.hidden = true;
   }
 

@@ -27,7 +27,7 @@ export class Way {
       const id = `${name}-${key}`;
       const made = /** @type {HTMLInputElement} */ (element("input", { type: "text", id, value, size: 9, oninput: changed }));
       this.inputs[key] = made;
-      return element("div", { class: "row" }, element("label", { for: id }, label), made);
+      return element("div", { class: "in-line" }, element("label", { for: id }, label), made);
     };
     this.source = /** @type {HTMLSelectElement} */ (element("select", { id: `${name}-source`, "aria-label": `${TITLES[name]}: source`, onchange: () => {
       this.clear();

@@ -25,7 +25,7 @@ export function motionPage(talk) {
     element("p", { class: "wrong", "data-of": "motion.duration", role: "status" }),
     element("p", { class: "wrong", "data-of": "", role: "status" }),
   ];
-  const cut = element("fieldset", {}, element("legend", {}, "Part of it"), element("div", { class: "row" }, element("label", { for: "motion-start" }, "from"), start, element("label", { for: "motion-end" }, "to"), end), element("p", { class: "faint" }, "Seconds; empty for the whole record."), wrong[0], wrong[1]);
+  const cut = element("fieldset", {}, element("legend", {}, "Part of it"), element("div", { class: "in-line" }, element("label", { for: "motion-start" }, "from"), start, element("label", { for: "motion-end" }, "to"), end), element("p", { class: "faint" }, "Seconds; empty for the whole record."), wrong[0], wrong[1]);
   const use = element("button", { type: "button", class: "main", onclick: () => talk.ask("use motion", { form: form() }) }, "Use in this case");
   const used = element("p", { class: "faint", role: "status", id: "motion-used" });
   const shown = element("div", { class: "cards" });
