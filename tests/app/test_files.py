@@ -61,11 +61,11 @@ def folder(tmp_path):
 
 @pytest.fixture
 def secret(tmp_path):
-    """Lay a file beside the folder of the app that is a motion, a mesh and a case."""
+    """Lay a record beside the folder of the app."""
     place = tmp_path / "secret"
     place.mkdir()
     path = place / "record.csv"
-    path.write_text("".join(f"{0.01 * i} {SECRET}\n" for i in range(200)))
+    path.write_text("".join(f"{0.01 * i:.2f} {(-1) ** (i // 20)}e-1\n" for i in range(400)) + f"4.00 {SECRET}\n")
     return path
 
 
@@ -206,6 +206,20 @@ def test_a_case_names_no_file_that_was_not_sent(folder, secret, opened):
                 tab.ask("step case")
             for asked in ({"file": way, "called": "a"}, {"file": "x", "called": "a", "beside": {"a": way}}):
                 assert tab.ask("open case", **asked)[0]["of"] == "bad request"
+            for source in ("name", "record", "case", "pulse", "synthetic", "file"):
+                form = {"horizontal": {"source": f"{source}:{way}"}, "vertical": {"source": f"{source}:{way}"}}
+                form["horizontal"] |= {"unit": "g", "magnitude": way}
+                for action in ("motion look", "use motion"):
+                    told, texts = tab.ask(action, form=form)
+                    assert SECRET not in texts
+                    assert "error" in told or source == "case", (source, told)
+                    if source in ("name", "record"):
+                        assert told["error"]["problem"].startswith("there is no record")
+            assert tab.ask("record", file=way, called="a")[0]["of"] == "bad request"
+            study = {"models": ["rigid"], "method": "grid", "vary": [], "source": "records", "records": [way]}
+            told, texts = tab.ask("study look", study=study)
+            assert SECRET not in texts
+            assert told["of"] == "bad request" or told["error"]
             assert tab.ask("open example", name=way)[0]["of"] == "bad request"
     assert not [name for name in opened if Path(name).name == secret.name]
 

@@ -24,7 +24,7 @@ def unsent(session: Session, fields: dict[str, Any]) -> list[InputError]:
     """Return an error at each field that names a file which this tab has not sent."""
     found = []
     for path, block, name in named(fields):
-        known = path in _RECORDS and (block[name].startswith(PREFIX) or block[name] in _catalogue())
+        known = path in _RECORDS and (block[name].startswith(PREFIX) or is_catalogued(block[name]))
         sent = block[name] in session.sent or block[name] in session.sent.values()
         if block[name] and not known and not sent:
             found.append(InputError("file-not-sent", path, block[name]))
@@ -59,6 +59,11 @@ def named(fields: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any], str]]:
             here = here.get(each) if isinstance(here, dict) else None
         if isinstance(here, dict) and isinstance(here.get(name), str):
             yield path, here, name
+
+
+def is_catalogued(name: str) -> bool:
+    """Whether a record is found by this name, wherever one is."""
+    return name in _catalogue()
 
 
 @cache

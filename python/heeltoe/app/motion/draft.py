@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
+from heeltoe.app.case.files import is_catalogued
 from heeltoe.app.motion.pulses import KINDS, pulse_points
 from heeltoe.errors import InputError
 from heeltoe.motion.scenario import PREFIX
@@ -119,6 +120,8 @@ def _source(way: Form, own: Form, sent: Mapping[str, str], field: str) -> dict[s
             raise InputError("record-not-found", f"{field}.file", name, hint="this tab has not sent it:")
         found = {"file": sent[name]}
     elif source == "name":
+        if not is_catalogued(name):
+            raise InputError("record-not-found", f"{field}.file", name, hint="the catalogue does not have it:")
         found = {"file": name}
     elif source == "synthetic":
         distance = _with_unit(way["distance"], "km").replace(" ", "")
