@@ -25,6 +25,7 @@ PARTS = {
     "crack_dam": "Flexible dams",
     "flexible_study": "Flexible studies",
     "crack_peers": "Elastic block beside peers",
+    "app_redraw": "The app in a browser",
 }
 TITLE = "# Measured results\n\nWritten by `python benchmarks/run.py`; what the numbers mean is in the README beside it."
 TARGET = Path(__file__).with_name("results.md")

@@ -56,6 +56,8 @@ def chromium():
 def page(chromium, address):
     """Open the app in a tab that must not complain, and asks nobody else for anything."""
     context = chromium.new_context(viewport={"width": 1366, "height": 900})
+    # Machines are busy: what must come may come late.
+    context.set_default_timeout(120_000)
     tab = context.new_page()
     said, foreign = [], []
     tab.on("console", lambda message: said.append(message.text) if message.type == "error" else None)
