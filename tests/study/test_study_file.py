@@ -75,6 +75,7 @@ REFUSED = {
     ),
     "an empty folder": (changed(GRID, '"quakes"', '"."'), "motions.folder", "no records"),
     "no folder": (changed(GRID, '"quakes"', '"nowhere"'), "motions.folder", "no directory"),
+    "a folder of too long a name": (changed(GRID, '"quakes"', f'"{"y" * 300}"'), "motions.folder", "no directory"),
     "no motions": (changed(GRID, 'folder = "quakes"', ""), "motions.folder", "files"),
     "motions twice": (changed(GRID, 'folder = "quakes"', 'folder = "quakes"\nfiles = ["x"]'), "folder", "keep one"),
     "components that do not pair": (

@@ -153,7 +153,8 @@ def _folder(name: str, directory: Path) -> list[str]:
     """Return the records of a folder, in the order of their names."""
     # Unlike that of paths, it leaves the home of nobody as it is.
     root = directory / os.path.expanduser(name)
-    if not root.is_dir():
+    # A name that is too long for any file is no folder, either: Path.is_dir raises.
+    if not os.path.isdir(root):
         raise InputError("study-folder", "motions.folder", shown(name))
     found = [str(path.resolve()) for path in sorted(root.iterdir()) if is_record(path)]
     if not found:
