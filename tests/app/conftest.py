@@ -33,7 +33,11 @@ def address():
         assert "heeltoe app at http://" in said
         yield said.split()[3]
         app.send_signal(signal.SIGINT)
-        assert app.wait(20) == 0
+        try:
+            assert app.wait(20) == 0
+        finally:
+            # One that is started where Ctrl-C is ignored would be waited for without an end.
+            app.kill()
 
 
 # Not longer: what drives the browser has a loop of its own, beside which other tests cannot have theirs.
