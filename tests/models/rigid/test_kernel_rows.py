@@ -32,6 +32,20 @@ def test_the_last_row_of_a_block_at_rest_holds_the_push():
     assert found.histories["friction_force"] == pytest.approx(MASS * np.array([0.0, 1.5, 3.0]), rel=1e-13)
 
 
+def test_a_hair_before_a_jump_a_block_at_rest_has_forces():
+    """Behind an event the piece before the jump ends there to rounding only: either side of the jump is right."""
+    rng, block = np.random.default_rng(7), rectangle(2.0, 1.0, 0.8)
+    for start, length in rng.uniform(0.5, 3.0, (200, 2)):
+        jump = start + length
+        time, hair = [start, jump, jump, jump + 1.0], np.nextafter(jump, 0.0)
+        # It comes to rest on the way.
+        coasts = [[0.0, 0.0, 0.0], [0.5, 0.0, 0.0]]
+        found = run(block, time, [1.0, 1.0, 2.0, 2.0], start=coasts, at=[hair, jump])
+        assert found.modes == ["rest"] * 2
+        sides = found.histories["friction_force"] / MASS
+        assert np.minimum(abs(sides - 1.0), abs(sides - 2.0)).max() < 1e-13
+
+
 @pytest.mark.parametrize("slip", [0.0, 2.0])
 def test_a_blow_that_brings_a_block_to_lie_has_its_impulse(slip):
     # Too slow to bounce: both corners are stopped by the momentum of the fall, shared between them.

@@ -23,7 +23,9 @@ impl Exact<'_> {
         self.walk.summary.time_by_mode[Mode::Rest.kind()] += shaking.time[k] - shaking.time[from];
         if self.walk.observed() {
             let mut felt = Felt::default();
-            for (piece, j) in shaking.pieces(from).zip(from..k) {
+            // What is wanted at a jump is kept at the start of the piece behind it: the jump itself has no rates.
+            let pieces = shaking.pieces(from).zip(from..k);
+            for (piece, j) in pieces.filter(|(piece, _)| piece.left > 0.0) {
                 rest.on(&piece, &mut felt);
                 let course = Course {
                     felt: &felt,
