@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 import typer
 
+from heeltoe.app import serve
 from heeltoe.cli.main import app
 from shared.attacked import Attack
 from shared.dams import BASE, BLOCK, COARSE, SLENDER
@@ -28,6 +29,7 @@ USUAL: dict[str, list[str | Path]] = {
     "study": ["study.json", "--dry-run"],
     "validate": [],
     "new": [],
+    "app": ["--no-browser", "--public"],
 }
 RECORD = "# units: time [s], acceleration [g]\n" + "".join(f"{0.01 * k:.2f} {(-1) ** k * 0.2}\n" for k in range(50))
 # A run of one dam.
@@ -73,6 +75,16 @@ def attack(name: str, place: Path, every: int, record_property: Any) -> None:
         found.strike(f"{name} {arguments[-1] if len(arguments) > 1 else arguments!r}", name, *arguments, cwd=cwd)
         shutil.rmtree(cwd)
     found.told(record_property)
+
+
+@pytest.fixture(autouse=True)
+def nobody_comes(monkeypatch):
+    """The app listens, says where, and ends."""
+
+    async def over(*_: Any) -> None:
+        pass
+
+    monkeypatch.setattr(serve, "_run", over)
 
 
 def test_all_commands_are_attacked():

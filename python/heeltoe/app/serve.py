@@ -89,7 +89,8 @@ def _listen(host: str, port: int | None) -> socket.socket:
         try:
             listening.bind((host, tried))
             listening.listen()
-        except (OSError, OverflowError) as error:
+        except (OSError, OverflowError, TypeError, ValueError) as error:
+            # The last two for names that no network can know.
             listening.close()
             if port is not None or tried == 0:
                 reason = getattr(error, "strerror", None) or error
