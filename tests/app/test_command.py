@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import socket
 import subprocess
 import sys
@@ -47,3 +48,20 @@ def test_other_commands_load_nothing_of_it(arguments):
     )
     found = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=60, check=True)
     assert found.stdout.splitlines()[-1] == "[]"
+
+
+def test_ctrl_c_ends_it_at_once_even_where_it_was_ignored():
+    words = [sys.executable, "-m", "heeltoe", "app", "--no-browser", "--port", "0"]
+    ignored = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        app = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    finally:
+        signal.signal(signal.SIGINT, ignored)
+    app.stdout.readline()
+    app.send_signal(signal.SIGINT)
+    try:
+        said = app.communicate(timeout=60)
+    finally:
+        app.kill()
+    assert app.returncode == 0
+    assert said == ("", "")

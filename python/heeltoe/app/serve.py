@@ -53,11 +53,13 @@ def serve(host: str, port: int | None, *, public: bool, browser: bool, say: Call
         token = "" if is_loopback(host) else secrets.token_urlsafe(24)
         settings = Settings(host, listening.getsockname()[1], Path(folder), token)
         address = _address(settings)
-        say(address)
         # A tab or a worker that closes its end while something is sent to it must not end the server.
         if hasattr(signal, "SIGPIPE"):
             signal.signal(signal.SIGPIPE, signal.SIG_IGN)
+        # Ctrl-C ends it, as is said, from the first moment and where what started it had that ignored.
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         with contextlib.suppress(KeyboardInterrupt):
+            say(address)
             asyncio.run(_run(settings, listening, address if browser else ""))
 
 
