@@ -40,6 +40,7 @@ _HOME = {
     "run": "models.run",
     "run_study": "study.run",
     "statics": "models.statics.model",
+    "statics_of_sections": "models.statics.joints",
     "stochastic_motion": "motion.stochastic",
     "synthetic": "motion.scenario",
     "verdict": "result.verdict",
@@ -65,6 +66,7 @@ if TYPE_CHECKING:
     from heeltoe.models.run import flexible as flexible
     from heeltoe.models.run import rigid as rigid
     from heeltoe.models.run import run as run
+    from heeltoe.models.statics.joints import statics_of_sections as statics_of_sections
     from heeltoe.models.statics.model import Statics as Statics
     from heeltoe.models.statics.model import statics as statics
     from heeltoe.motion.ground_motion import GroundMotion as GroundMotion

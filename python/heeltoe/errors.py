@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 
+from heeltoe.errors_of_statics import OF_STATICS
 from heeltoe.errors_of_studies import OF_STUDIES
 from heeltoe.plain import plain
 
@@ -55,8 +56,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "fields-conflict": ('cannot stand beside "{other}"', "keep one of them"),
     "needs-other": ("has no meaning without {other}", "give that, or remove this"),
     "contradiction": ("{value} contradicts {other}", "keep one of them"),
-    "ice-depth": ("{value} is not within the {depth} of water", "give a depth below the surface, up to there"),
-    "silt-above-crest": ("{value} is above the crest at {height}", "give a depth between 0 m and {height}"),
     "anchor-outside": ("{value} is beyond the toe: the crack is {width} wide", "give a distance from 0 m to {width}"),
     "section-incomplete": ("is required and not there", "give {fields}, or a polygon"),
     "neck-above-crest": ("{value} is above the crest at {height}", "give a height up to {height}"),
@@ -86,7 +85,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "crack-no-width": ("the section has no width at {value}", "give an elevation where it has one"),
     "friction-missing": ("is required and not there", "give friction, or both static_friction and kinetic_friction"),
     "friction-order": ("{value} is below kinetic_friction, {kinetic}", "give a static_friction of at least {kinetic}"),
-    "water-above-crest": ("{value} is above the crest at {height}", "give a depth between 0 m and {height}"),
     "uplift-option-foreign": (
         'does not belong to the pattern "{pattern}"',
         'remove it or choose the pattern "{owner}"',
@@ -338,6 +336,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
         "set TMPDIR to a place with room",
     ),
     "cannot-write": ("{value} cannot be written ({reason})", "give a place where you may write"),
+    **OF_STATICS,
     **OF_STUDIES,
 }
 

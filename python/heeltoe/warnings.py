@@ -260,6 +260,11 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "anchors",
         "{field}: the static checks count their prestress, not what opening and slip would add",
     ),
+    "sections-apart": (
+        "note",
+        "statics.sections",
+        "{field}: these checks are of the crack alone; heeltoe.statics_of_sections judges the {count:d} listed",
+    ),
 }
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from heeltoe import InputError, read_case, run, statics
+from heeltoe import InputError, read_case, run, statics_of_sections
 from heeltoe.case.use import READ_BY, unused_fields
 from heeltoe.warnings import Notice
 from shared.every_field import GONE, Fields, leaves, pair
@@ -69,7 +69,7 @@ def outcome(model: str, written: str) -> tuple[Any, list[str], list[str]]:
     """Return the numbers of a run of a case in JSON, all that it warns of, and which fields it says have no effect."""
     try:
         case = read_case(json.loads(written))
-        found = statics(case) if model == "statics" else run(case, model)
+        found = statics_of_sections(case).joints[0].statics if model == "statics" else run(case, model)
     except InputError as error:
         return str(error), [str(error)], []
     numbers = json.loads(json.dumps(found.to_json()))

@@ -112,6 +112,9 @@ HELPED: dict[str, tuple[Fields, Any]] = {
     "decoupled.vertical": ({"motion.vertical": GONE}, None),
     "statics.tensile_strength": ({"statics.bonded": 1.0, "statics.tensile_strength": "0.01 MPa"}, "0.05 MPa"),
 }
+JOINT = {"elevation": "10 m", "friction": 0.65, "bonded": 0.4, "cohesion": "0.4 MPa", "tensile_strength": "0.01 MPa"}
+# A joint that the usual loads would open.
+HELPED |= {f"statics.sections[0].{name}": ({"statics.sections": [JOINT]}, None) for name in JOINT}
 _NUMBER = re.compile(r"-?\d+(?:\.\d*)?(?:e[+-]?\d+)?")
 
 

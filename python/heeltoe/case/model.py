@@ -20,7 +20,7 @@ from heeltoe.case.quantities import Gravity
 from heeltoe.case.sentences import all_errors, collected, first_error
 from heeltoe.errors import InputError
 from heeltoe.geometry.levels import cut_levels
-from heeltoe.geometry.section import ON_LINE, CutSection, cut, outline
+from heeltoe.geometry.section import ON_LINE, CutSection, cut, outline, outside
 from heeltoe.plain import plain
 from heeltoe.shown import Shown
 
@@ -209,9 +209,16 @@ def misfits(case: Case) -> Iterator[tuple[bool, Callable[[], InputError]]]:
     for field, depth in surfaces.items():
         if depth is not None:
             yield depth > height * (1.0 + ON_LINE), partial(_above_crest, field, depth, height)
+    for place, joint in enumerate(choice.sections):
+        field = f"statics.sections[{place}].elevation"
+        yield outside(case.outline, joint.elevation), partial(_outside, field, joint.elevation, height)
     for place, anchor in enumerate(case.anchors):
         far = partial(_beyond_toe, f"anchors[{place}].distance", anchor.distance, section.crack_width)
         yield anchor.distance > section.crack_width * (1.0 + ON_LINE), far
+
+
+def _outside(field: str, elevation: float, height: float) -> InputError:
+    return InputError("crack-outside", field, f"{elevation:g} m", height=f"{height:g} m")
 
 
 def _above_crest(field: str, depth: float, height: float) -> InputError:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, Self, get_args
 
-from pydantic import Field, model_validator
+from pydantic import BeforeValidator, Field, model_validator
 
 from heeltoe.case.fields import Count, Fields, Fraction, FrictionCoefficient, Head, TimeSpan, Truth
 from heeltoe.case.quantities import DimensionlessNumber, Duration, Length, MemorySize, Pressure
@@ -121,6 +121,26 @@ class Limits(Fields):
     """Opening of the crack at the downstream face."""
 
 
+class StaticsSection(Fields):
+    """A lift joint that the static checks judge beside the crack; what it does not say is as at the crack."""
+
+    elevation: Annotated[Length, Field(ge=0.0)]
+    """Height of the joint, which is level, above the lowest point of the section."""
+    friction: FrictionCoefficient | None = None
+    """Coefficient of friction."""
+    bonded: Fraction | None = None
+    """Part of its width, from the toe, that is not cracked."""
+    cohesion: Annotated[Pressure, Field(ge=0.0, le=1e8)] | None = None
+    """Cohesion of the bonded part."""
+    tensile_strength: Annotated[Pressure, Field(ge=0.0, le=1e8)] | None = None
+    """Tensile strength of the bonded part."""
+
+
+def _section_of(given: object) -> object:
+    """Return the fields of a section of which only the elevation is said."""
+    return given if isinstance(given, dict | StaticsSection) else {"elevation": given}
+
+
 class StaticsChoice(Fields):
     """Strength and load cases of the static checks before, during and after the earthquake."""
 
@@ -154,6 +174,8 @@ class StaticsChoice(Fields):
     """Slip after the earthquake; that of an analysis where it is not given."""
     drain_diameter: Annotated[Length, Field(gt=0.0, le=10.0)] | None = None
     """Of the drains of a `drained` uplift: slip closes them in proportion, and wholly from one diameter on."""
+    sections: tuple[Annotated[StaticsSection, BeforeValidator(_section_of)], ...] = ()
+    """Lift joints to judge, the base among them where it is listed: elevations, or tables with what differs there."""
 
     @model_validator(mode="after")
     @collected
@@ -167,6 +189,10 @@ class StaticsChoice(Fields):
             raise InputError("needs-other", "vertical_seismic_coefficient", other="seismic_coefficient")
         if self.flood_rarity == "extreme" and self.flood_depth is None:
             raise InputError("needs-other", "flood_rarity", other="flood_depth")
+        elevations = [section.elevation for section in self.sections]
+        twice = next((each for each in elevations if elevations.count(each) > 1), None)
+        if twice is not None:
+            raise InputError("sections-twice", "sections", f"{twice:g} m")
         if self.criteria == "USACE" and self.site_information == "limited" and self.structure == "critical":
             # USACE has no factors for these: the site must be explored.
             other = 'structure = "critical" under USACE'

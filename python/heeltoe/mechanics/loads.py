@@ -32,6 +32,8 @@ class Resultant:
     virial
         Sum of the forces times their places from the heel: where the places turn by a small angle about the heel and
         the forces keep their directions, the moment falls by that angle times this [N m/m].
+    lift_moment
+        What the vertical forces add to the moment; the horizontal ones add the rest [N m/m].
     """
 
     name: str
@@ -39,6 +41,13 @@ class Resultant:
     vertical: float
     moment: float
     virial: float = 0.0
+    lift_moment: float = 0.0
+
+    @classmethod
+    def at(cls, name: str, forces: tuple[float, float], place: tuple[float, float]) -> Resultant:
+        """Return the force of a horizontal and a vertical part that act at one place (x, z) from the heel."""
+        (across, up), (x, z) = forces, place
+        return cls(name, across, up, x * up - z * across, x * across + z * up, x * up)
 
     def moment_about(self, x: float, z: float) -> float:
         """Return the moment [N m/m] about a point `x` downstream of the heel and `z` above the crack [m]."""
@@ -54,6 +63,7 @@ def total(name: str, forces: Iterable[Resultant]) -> Resultant:
         sum((force.vertical for force in forces), 0.0),
         sum((force.moment for force in forces), 0.0),
         sum((force.virial for force in forces), 0.0),
+        sum((force.lift_moment for force in forces), 0.0),
     )
 
 
@@ -82,7 +92,7 @@ def weight(case: Case) -> Resultant:
     force = -concrete_mass(case) * case.gravity
     section = case.cut
     x, z = section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1]
-    return Resultant("weight", 0.0, force, force * x, force * z)
+    return Resultant("weight", 0.0, force, force * x, force * z, force * x)
 
 
 def reservoir_pressure(case: Case) -> Resultant:
@@ -120,11 +130,9 @@ def prestress(case: Case) -> Resultant:
     for anchor in case.anchors:
         along, across = -math.sin(anchor.inclination), -math.cos(anchor.inclination)
         x, z = case.cut.from_crack_frame(along, across)
-        forces.append(
-            Resultant(
-                "anchors", anchor.prestress * x, anchor.prestress * z, anchor.prestress * across * anchor.distance
-            )
-        )
+        pull, turning = anchor.prestress, anchor.prestress * across * anchor.distance
+        lift = pull * z * case.cut.from_crack_frame(anchor.distance, 0.0)[0]
+        forces.append(Resultant("anchors", pull * x, pull * z, turning, lift_moment=lift))
     return total("anchors", forces)
 
 
@@ -171,8 +179,15 @@ def uplift(case: Case) -> Resultant:
     for (x0, p0), (x1, p1) in pairwise(_uplift_points(case)):
         force += (x1 - x0) * (p0 + p1) / 2.0
         moment += (x1 - x0) * _mean_product(x0, x1, p0, p1)
-    horizontal, vertical = case.cut.from_crack_frame(0.0, force)
-    return Resultant("uplift", horizontal, vertical, moment)
+    return in_crack(case.cut, force, moment)
+
+
+def in_crack(section: CutSection, force: float, moment: float) -> Resultant:
+    """Return the force of water in the crack, which is normal to it, of its size and its moment about the heel."""
+    horizontal, vertical = section.from_crack_frame(0.0, force)
+    # What is at a distance along the crack is downstream of the heel by its cosine.
+    cosine, _ = section.from_crack_frame(1.0, 0.0)
+    return Resultant("uplift", horizontal, vertical, moment, lift_moment=moment * cosine * cosine)
 
 
 def water_above_crack(case: Case, water: Water | None, *, toe: bool = False) -> float:
@@ -202,7 +217,7 @@ def _face_fluid(name: str, case: Case, depth: float, densities: tuple[float, flo
     edges, side = (section.upstream_edges, 1.0) if upstream else (section.downstream_edges, -1.0)
     # Counted from the heel, also where the toe is lower.
     surface = section.base_elevation + depth - section.crack_elevation
-    horizontal = vertical = moment = virial = 0.0
+    horizontal = vertical = moment = virial = lifting = 0.0
     for edge in edges:
         # The wet part; along it the pressure is linear.
         z0, z1 = smaller(edge.z0, surface), smaller(edge.z1, surface)
@@ -214,9 +229,10 @@ def _face_fluid(name: str, case: Case, depth: float, densities: tuple[float, flo
         horizontal += mean * across
         vertical -= mean * down
         moment -= mean_x * down + mean_z * across
+        lifting -= mean_x * down
         virial += mean_x * across - mean_z * down
     weight = case.gravity * side
-    return Resultant(name, weight * horizontal, weight * vertical, weight * moment, weight * virial)
+    return Resultant(name, weight * horizontal, weight * vertical, weight * moment, weight * virial, weight * lifting)
 
 
 def face_at(section: CutSection, height: float) -> float:

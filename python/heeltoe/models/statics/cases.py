@@ -13,6 +13,7 @@ from heeltoe.models.statics.checks import check_case
 from heeltoe.models.statics.contact import Contact
 from heeltoe.models.statics.criteria import UPLIFT_IN_EARTHQUAKE, Loads
 from heeltoe.models.statics.load_case import Given, Solved, solve_case
+from heeltoe.models.statics.sheet import sources_of, sources_of_inertia
 from heeltoe.models.statics.water import still_water, water_in_earthquake
 from heeltoe.units.sentences import Sentence
 
@@ -71,8 +72,9 @@ def pseudo_static(case: Case, before: Solved) -> tuple[Solved, ...]:
             if vertical:
                 way_up = "down" if up > 0.0 else "up"
                 said.append(Sentence(f"vertical coefficient {way_up}ward on the block"))
+            sources = sources_of(case) | sources_of_inertia(case, sign * horizontal, up * vertical)
             given = Given(
-                f"pseudo-static {way}", "earthquake", case.crack.mu_static, case.statics.cohesion, tuple(said)
+                f"pseudo-static {way}", "earthquake", case.crack.mu_static, case.statics.cohesion, tuple(said), sources
             )
             tried.append(solve_case(given, case.cut, forces, contact, water))
         found += _worse(case, tried)
@@ -133,7 +135,7 @@ def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
     start, end = (0.0, width - size) if slip >= 0.0 else (size, width)
     contact = Contact(start, end, bonded_from=end)
     water = still_water(case, start, end)
-    given = Given("post-seismic", "post-earthquake", friction, 0.0, tuple(said))
+    given = Given("post-seismic", "post-earthquake", friction, 0.0, tuple(said), sources_of(case))
     return solve_case(given, case.cut, _dry(case), contact, water)
 
 
@@ -159,8 +161,8 @@ def _inertia(case: Case, horizontal: float, vertical: float) -> tuple[Resultant,
     push, lift = -mass * g * horizontal, -mass * g * vertical
     water = -moved.mass * g * horizontal
     forces = [
-        Resultant("inertia", push, lift, x * lift - z * push),
-        Resultant("hydrodynamic", water, 0.0, -moved.height * water),
+        Resultant.at("inertia", (push, lift), (x, z)),
+        Resultant.at("hydrodynamic", (water, 0.0), (0.0, moved.height)),
     ]
     for force, side in zip(static_forces(case)[1:3], (case.reservoir, case.tailwater), strict=True):
         if side is not None and side.follows_vertical_motion and vertical:
@@ -170,6 +172,7 @@ def _inertia(case: Case, horizontal: float, vertical: float) -> tuple[Resultant,
                     vertical * force.horizontal,
                     vertical * force.vertical,
                     vertical * force.moment,
+                    lift_moment=vertical * force.lift_moment,
                 )
             )
     return tuple(forces)
@@ -179,7 +182,7 @@ def _still(name: str, loads: Loads, case: Case, said: tuple[Sentence, ...]) -> S
     """Return a case of still water on the crack as it is before the earthquake."""
     contact = _contact(case)
     water = still_water(case, contact.start, contact.end)
-    given = Given(name, loads, case.crack.mu_static, case.statics.cohesion, said)
+    given = Given(name, loads, case.crack.mu_static, case.statics.cohesion, said, sources_of(case))
     return solve_case(given, case.cut, _dry(case), contact, water)
 
 

@@ -50,9 +50,20 @@ class Check:
     note: str
     sentence: Sentence
 
+    @property
+    def margin(self) -> float | None:
+        """What is there over what is asked for, capacity over demand: 1 just meets it, 0 where the block does not
+        stand; None where there is nothing to compare."""
+        if self.value is None or self.required is None:
+            return None if self.met else 0.0
+        if self.at_least:
+            return self.value / self.required
+        # What is far inside leaves a margin as large as numbers of a table may be.
+        return self.required / max(self.value, self.required * 1e-3)
+
     def to_json(self) -> dict[str, Any]:
         """Return plain numbers and strings."""
-        return {**vars(self), "sentence": str(self.sentence)}
+        return {**vars(self), "margin": self.margin, "sentence": str(self.sentence)}
 
 
 def check_case(found: LoadCase, choice: StaticsChoice) -> tuple[Check, ...]:

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import asdict, dataclass
+from collections.abc import Iterable, Mapping
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
-from heeltoe.arrays import Floats
 from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.block import ROUNDING_OF_FORCES, across_crack
-from heeltoe.mechanics.loads import Resultant, total
+from heeltoe.mechanics.loads import Resultant, in_crack, total
 from heeltoe.models.statics.contact import Contact, Settled, settle
 from heeltoe.models.statics.criteria import Loads
+from heeltoe.models.statics.sheet import Sheet, sheet
 from heeltoe.models.statics.water import StillWater, force_and_moment
 from heeltoe.units.sentences import Sentence
 
@@ -62,6 +62,10 @@ class LoadCase:
         Of the search for the cracked length.
     assumptions
         What was taken for granted, a sentence each.
+    sources
+        Where the forces come from, by their names.
+    ends_m
+        Ends of the contact, each downstream of the heel of the crack and above it: its heel and its toe.
     """
 
     name: str
@@ -87,6 +91,12 @@ class LoadCase:
     compressed_length_m: float
     iterations: int
     assumptions: tuple[Sentence, ...]
+    sources: Mapping[str, Sentence]
+    ends_m: tuple[tuple[float, float], tuple[float, float]]
+
+    def sheet(self, about: str = "heel") -> Sheet:
+        """Return the forces one by one with arms, moments and sum about the "heel" or the "toe" of the contact."""
+        return sheet(self.forces, self.sources, about, self.ends_m[("heel", "toe").index(about)])
 
     @property
     def contact_width_m(self) -> float:
@@ -102,17 +112,25 @@ class LoadCase:
 
     def to_json(self) -> dict[str, Any]:
         """Return plain numbers, strings and lists."""
-        forces = [
+        written = asdict(self)
+        for name in ("sources", "ends_m"):
+            del written[name]
+        from_heel = sheet(self.forces, self.sources, "heel", (0.0, 0.0))
+        written["forces"] = [
             {
                 "name": force.name,
                 "horizontal_n": force.horizontal,
+                "height_m": line.height_m,
                 "vertical_n": force.vertical,
+                "distance_m": line.distance_m,
                 "moment_about_heel_nm": force.moment,
+                "moment_about_toe_nm": turned.moment_nm,
+                "source": str(line.source),
             }
-            for force in self.forces
+            for force, line, turned in zip(self.forces, from_heel.lines, self.sheet("toe").lines, strict=True)
         ]
         extra = {"contact_width_m": self.contact_width_m, "eccentricity_m": self.eccentricity_m}
-        return {**asdict(self), "forces": forces, **extra, "assumptions": [str(each) for each in self.assumptions]}
+        return {**written, **extra, "assumptions": [str(each) for each in self.assumptions]}
 
 
 @dataclass(frozen=True, eq=False)
@@ -132,6 +150,7 @@ class Given:
     friction: float
     cohesion: float
     assumptions: tuple[Sentence, ...]
+    sources: Mapping[str, Sentence] = field(default_factory=dict)
 
 
 def solve_case(
@@ -151,7 +170,7 @@ def solve_case(
         Where the block can stand, and the water there.
     """
     settled = settle(contact, across_crack(total(given.name, forces), section), water)
-    forces = (*forces, _uplift(settled.profile, section))
+    forces = (*forces, in_crack(section, *force_and_moment(settled.profile)))
     across = [across_crack(force, section) for force in forces]
     shear = math.fsum(force.horizontal for force in across)
     if abs(shear) <= ROUNDING_OF_FORCES * math.fsum(abs(force.horizontal) + abs(force.vertical) for force in across):
@@ -187,13 +206,10 @@ def solve_case(
         compressed_length_m=max(0.0, pressed[1] - pressed[0]),
         iterations=settled.iterations,
         assumptions=given.assumptions,
+        sources=given.sources,
+        ends_m=(section.from_crack_frame(contact.start, 0.0), section.from_crack_frame(contact.end, 0.0)),
     )
     return Solved(load_case, settled)
-
-
-def _uplift(profile: Floats, section: CutSection) -> Resultant:
-    force, moment = force_and_moment(profile)
-    return Resultant("uplift", *section.from_crack_frame(0.0, force), moment)
 
 
 def _in_compression(closed: tuple[float, float], settled: Settled) -> tuple[float, float]:

@@ -183,6 +183,8 @@ def statics(
         warnings.append(Notice("residual-friction-high"))
     if any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors):
         warnings.append(Notice("anchors-as-prestress"))
+    if choice.sections:
+        warnings.append(Notice("sections-apart", count=len(choice.sections)))
     references = dict.fromkeys(check.source for check in checks if check.required is not None)
     if choice.seismic_coefficient is not None and water_above_crack(case, case.reservoir):
         references[REFERENCES["water"]] = None

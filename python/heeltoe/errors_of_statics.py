@@ -1,0 +1,14 @@
+"""What can be wrong with still loads and static checks: a part of the catalogue of errors (:mod:`heeltoe.errors`)."""
+
+from __future__ import annotations
+
+# As in heeltoe.errors: code -> (what is wrong, what to do).
+OF_STATICS: dict[str, tuple[str, str]] = {
+    # water, ice and silt
+    "ice-depth": ("{value} is not within the {depth} of water", "give a depth below the surface, up to there"),
+    "silt-above-crest": ("{value} is above the crest at {height}", "give a depth between 0 m and {height}"),
+    "water-above-crest": ("{value} is above the crest at {height}", "give a depth between 0 m and {height}"),
+    # sections
+    "section-misfit": ("at {value} the case does not fit: {reason}", "change that, or leave this section out"),
+    "sections-twice": ("{value} stands twice", "name each elevation once"),
+}

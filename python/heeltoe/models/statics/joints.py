@@ -1,0 +1,173 @@
+"""The static checks at many sections: the crack of the case and its lift joints, the governing one first."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from heeltoe.case.model import Case, misfits
+from heeltoe.case.options import StaticsSection
+from heeltoe.errors import InputError, expect
+from heeltoe.models.statics.checks import Check
+from heeltoe.models.statics.model import Statics, statics
+from heeltoe.result.write import build_info
+from heeltoe.warnings import Notice
+
+
+@dataclass(frozen=True)
+class Joint:
+    """A section and its checks.
+
+    Attributes
+    ----------
+    elevation_m
+        Of its upstream end above the lowest point of the dam.
+    case
+        The dam with its crack there.
+    statics
+        The checks.
+    """
+
+    elevation_m: float
+    case: Case
+    statics: Statics
+
+    @property
+    def governing(self) -> Check | None:
+        """The check with the smallest margin of capacity over demand; None where nothing is asked for."""
+        return min(self._with_margin(), key=_margin, default=None)
+
+    def governing_of(self, check: str) -> Check | None:
+        """Return the check of a name with the smallest margin over the load cases; None where there is none."""
+        return min((each for each in self._with_margin() if each.name == check), key=_margin, default=None)
+
+    def _with_margin(self) -> list[Check]:
+        return [check for check in self.statics.checks if check.margin is not None]
+
+
+@dataclass(frozen=True)
+class Joints:
+    """Static checks at many sections.
+
+    Attributes
+    ----------
+    title
+        Of the case.
+    joints
+        In the order in which the case lists them.
+    """
+
+    title: str
+    joints: tuple[Joint, ...]
+
+    @property
+    def ranked(self) -> tuple[Joint, ...]:
+        """The joints, that with the smallest margin first."""
+        return tuple(sorted(self.joints, key=lambda joint: _margin(joint.governing)))
+
+    @property
+    def governing(self) -> Joint:
+        """The joint with the smallest margin."""
+        return self.ranked[0]
+
+    @property
+    def checks(self) -> tuple[str, ...]:
+        """Names of the checks that have a margin anywhere."""
+        found = [check.name for joint in self.joints for check in joint.statics.checks if check.margin is not None]
+        return tuple(dict.fromkeys(found))
+
+    @property
+    def warnings(self) -> tuple[Notice, ...]:
+        """What a reader must know, once where joints share it."""
+        return tuple(dict.fromkeys(notice for joint in self.joints for notice in joint.statics.warnings))
+
+    @property
+    def ok(self) -> bool:
+        """Whether every check is met everywhere."""
+        return all(joint.statics.ok for joint in self.joints)
+
+    def governing_of(self, check: str) -> tuple[Joint, Check] | None:
+        """Return the joint at which a check has its smallest margin, and that check."""
+        found = [(joint, worst) for joint in self.joints if (worst := joint.governing_of(check))]
+        return min(found, key=lambda each: _margin(each[1]), default=None)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain numbers, strings and lists; of each joint what its checks say by themselves."""
+        return {
+            "model": "statics at many sections",
+            "title": self.title,
+            "ok": self.ok,
+            "governing_elevation_m": self.governing.elevation_m,
+            "governing": {
+                name: {"elevation_m": found[0].elevation_m, **found[1].to_json()}
+                for name in self.checks
+                if (found := self.governing_of(name))
+            },
+            "sections": [
+                {"elevation_m": joint.elevation_m, "statics": joint.statics.to_json()} for joint in self.ranked
+            ],
+            "build": build_info(),
+        }
+
+
+def statics_of_sections(case: Case, judge: Callable[[Case], Statics] = statics) -> Joints:
+    """Judge the stability of a dam at each of its ``statics.sections``, or at its crack where it lists none.
+
+    Parameters
+    ----------
+    case
+        Dam, water and the choices of ``[statics]``.
+    judge
+        Makes the checks of a section; one that runs an earthquake first gives each its own slip.
+
+    Raises
+    ------
+    InputError
+        Where a section does not cut the dam in two, or something of the case has no place there.
+    """
+    expect(case, Case, "not-a-case", "case")
+    listed = case.statics.sections
+    if not listed:
+        return Joints(case.title, (Joint(case.crack.elevation, case, judge(case)),))
+    return Joints(case.title, tuple(_joint(case, place, judge) for place in range(len(listed))))
+
+
+def at_section(case: Case, section: StaticsSection, field: str = "statics.sections") -> Case:
+    """Return the case with its crack at a lift joint, which is level unless it is the crack itself.
+
+    Raises
+    ------
+    InputError
+        Of the field, where the joint does not cut the section in two, or something of the case has no place there.
+    """
+    crack: dict[str, Any] = {"elevation": section.elevation}
+    if section.elevation != case.crack.elevation:
+        crack["inclination"] = 0.0
+    if section.friction is not None:
+        crack |= {"friction": section.friction, "static_friction": None, "kinetic_friction": None}
+    choice = {
+        name: value
+        for name in ("bonded", "cohesion", "tensile_strength")
+        if (value := getattr(section, name)) is not None
+    }
+    moved = case.model_copy(
+        update={
+            "crack": case.crack.model_copy(update=crack),
+            "statics": case.statics.model_copy(update={**choice, "sections": ()}),
+        }
+    )
+    for wrong, error in misfits(moved):
+        if wrong:
+            raise InputError("section-misfit", field, f"{section.elevation:g} m", reason=error())
+    return moved
+
+
+def _joint(case: Case, place: int, judge: Callable[[Case], Statics]) -> Joint:
+    section = case.statics.sections[place]
+    moved = at_section(case, section, f"statics.sections[{place}]")
+    return Joint(section.elevation, moved, judge(moved))
+
+
+def _margin(check: Check | None) -> float:
+    return float("inf") if check is None or check.margin is None else check.margin

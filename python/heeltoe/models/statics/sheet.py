@@ -1,0 +1,171 @@
+"""The calculation sheet of a load case: force by force with its arms, so that a checker can follow it by hand.
+
+    moment about a point = arm of the vertical part x vertical part - height of the horizontal part x horizontal part
+
+with arms counted from that point, downstream and up, counter-clockwise positive.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from heeltoe.case.dam import Water
+from heeltoe.case.model import Case
+from heeltoe.mechanics.loads import Resultant, concrete_mass, total, water_above_crack
+from heeltoe.units.sentences import Sentence
+
+# A part of a force that is so small beside the others is rounding, and has no arm.
+_ROUNDING = 1e-12
+
+
+@dataclass(frozen=True)
+class ForceLine:
+    """A line of the sheet. Per metre of dam, SI.
+
+    Attributes
+    ----------
+    name
+        What exerts the force.
+    horizontal_n, vertical_n
+        Downstream and upward.
+    height_m
+        At which the horizontal part acts, above the point of the moments; None where there is none, or where its
+        pieces are a couple.
+    distance_m
+        At which the vertical part acts, downstream of that point; None as above.
+    moment_nm
+        About the point, counter-clockwise.
+    source
+        Where the force comes from.
+    """
+
+    name: str
+    horizontal_n: float
+    height_m: float | None
+    vertical_n: float
+    distance_m: float | None
+    moment_nm: float
+    source: Sentence
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain numbers and strings."""
+        return {**vars(self), "source": str(self.source)}
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """The forces of a load case about one point.
+
+    Attributes
+    ----------
+    about
+        "heel" or "toe": the end of the contact that moments are about.
+    point_m
+        Where it is, downstream of the heel of the crack and above it.
+    lines
+        Force by force, the uplift with the crack open as far as found.
+    sum
+        Of all lines.
+    """
+
+    about: str
+    point_m: tuple[float, float]
+    lines: tuple[ForceLine, ...]
+    sum: ForceLine
+
+
+def sheet(
+    forces: Sequence[Resultant], sources: Mapping[str, Sentence], about: str, point: tuple[float, float]
+) -> Sheet:
+    """Return the sheet of some forces about a point.
+
+    Parameters
+    ----------
+    forces
+        With moments about the heel of the crack.
+    sources
+        Where they come from, by their names.
+    about
+        What the point is called.
+    point
+        Downstream of the heel of the crack and above it [m].
+    """
+    size = sum(abs(force.horizontal) + abs(force.vertical) for force in forces)
+    lines = tuple(_line(force, point, size, sources.get(force.name, Sentence(""))) for force in forces)
+    return Sheet(about, point, lines, _line(total("sum", forces), point, size, Sentence("")))
+
+
+def _line(force: Resultant, point: tuple[float, float], size: float, source: Sentence) -> ForceLine:
+    across, up = force.horizontal, force.vertical
+    pushes, lifts = abs(across) > _ROUNDING * size, abs(up) > _ROUNDING * size
+    return ForceLine(
+        name=force.name,
+        horizontal_n=across,
+        height_m=(force.lift_moment - force.moment) / across - point[1] if pushes else None,
+        vertical_n=up,
+        distance_m=force.lift_moment / up - point[0] if lifts else None,
+        moment_nm=force.moment_about(*point),
+        source=source,
+    )
+
+
+def sources_of(case: Case) -> dict[str, Sentence]:
+    """Say where the forces of a case of loads come from, by their names."""
+    said = {
+        "weight": Sentence.of(
+            "{area_m2:.4g} m² of concrete of {density:.5g kg/m³}, at its centroid",
+            area_m2=case.cut.area,
+            density=case.concrete.density,
+        ),
+        "reservoir": _water(case, case.reservoir, "heel"),
+        "tailwater": _water(case, case.tailwater, "toe"),
+        "uplift": Sentence.of('pattern "{pattern}", intensity {intensity:g}', **_uplift(case)),
+    }
+    if case.ice is not None:
+        said["ice"] = Sentence.of("{push_n:g kN/m}, {depth_m:g m} below the surface", **_ice(case))
+    if case.silt is not None:
+        text = "silt {depth_m:g m} deep as a fluid of {sideways:g kg/m³} sideways, {down:g kg/m³} in its weight"
+        said["silt"] = Sentence.of(
+            text, depth_m=case.silt.depth, sideways=case.silt.horizontal_density, down=case.silt.vertical_density
+        )
+    if case.anchors:
+        said["anchors"] = Sentence("prestress along their axes, where they cross the crack")
+    return said
+
+
+def sources_of_inertia(case: Case, horizontal: float, vertical: float) -> dict[str, Sentence]:
+    """Say where the forces of a ground acceleration in g, downstream and upward, come from."""
+    said = {
+        "inertia": Sentence.of(
+            "{mass:.5g t/m} times {horizontal:g} g and {vertical:g} g of the ground, at the centroid",
+            mass=concrete_mass(case),
+            horizontal=horizontal,
+            vertical=vertical,
+        ),
+        "hydrodynamic": Sentence.of("virtual water times {horizontal:g} g of the ground", horizontal=horizontal),
+    }
+    for name in ("reservoir", "tailwater"):
+        said[f"{name} in vertical motion"] = Sentence.of(
+            "{vertical:g} times the pressure of the {name}", vertical=vertical, name=name
+        )
+    return said
+
+
+def _water(case: Case, water: Water | None, end: str) -> Sentence:
+    if water is None:
+        return Sentence("none")
+    head = water_above_crack(case, water, toe=end == "toe")
+    return Sentence.of(
+        "water {head_m:.4g m} above the {end}, {density:g kg/m³}", head_m=head, end=end, density=water.density
+    )
+
+
+def _uplift(case: Case) -> dict[str, Any]:
+    return {"pattern": case.uplift.pattern, "intensity": case.uplift.intensity}
+
+
+def _ice(case: Case) -> dict[str, float]:
+    assert case.ice is not None
+    return {"push_n": case.ice.force, "depth_m": case.ice.depth}

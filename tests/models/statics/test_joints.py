@@ -1,0 +1,102 @@
+"""Many sections from one case: each as by itself, the governing one first."""
+
+from __future__ import annotations
+
+import json
+
+import pytest
+
+import heeltoe
+from heeltoe import InputError
+from heeltoe.models.statics.joints import at_section
+from shared.statics import dam
+
+LISTED = {"sections": ["0 m", {"elevation": "20 m", "friction": 1.2}, "60 m"]}
+
+
+def test_each_section_is_judged_as_by_itself():
+    case = dam(statics=LISTED)
+    found = heeltoe.statics_of_sections(case)
+    assert [joint.elevation_m for joint in found.joints] == [0.0, 20.0, 60.0]
+    for joint, crack in zip(
+        found.joints,
+        ({"friction": 0.9}, {"friction": 1.2, "elevation": "20 m"}, {"friction": 0.9, "elevation": "60 m"}),
+        strict=True,
+    ):
+        alone = heeltoe.statics(dam(crack=crack))
+        assert [check.value for check in joint.statics.checks] == [check.value for check in alone.checks]
+    assert json.loads(json.dumps(found.to_json()))["governing_elevation_m"] == found.governing.elevation_m
+
+
+def test_the_smallest_margin_governs():
+    # mu (W - U) / P at 0, 20 and 60 m, z = 100 - elevation: 0.9, 1.2, 0.9 times (9.6 z^2 - 4 z h) / 5 h^2
+    found = heeltoe.statics_of_sections(dam(statics=LISTED))
+    factors = [
+        mu * (9.6e-3 * z**2 - 4e-3 * z * h) / (5e-3 * h**2)
+        for mu, z, h in ((0.9, 100, 90), (1.2, 80, 70), (0.9, 40, 30))
+    ]
+    joint, check = found.governing_of("sliding factor")
+    assert (joint.elevation_m, check.margin) == (0.0, pytest.approx(min(factors) / 2.0))
+    assert [each.elevation_m for each in found.ranked] == [0.0, 20.0, 60.0]
+    assert found.governing is found.joints[0]
+    assert not found.ok
+    # What leaves the middle third least far inside.
+    joint, check = found.governing_of("resultant")
+    assert check.margin == min(each.governing_of("resultant").margin for each in found.joints)
+    assert found.governing_of("compression") is None
+
+
+def test_without_a_list_it_is_the_crack():
+    case = dam(crack={"friction": 0.9, "elevation": "10 m"})
+    found = heeltoe.statics_of_sections(case)
+    assert [joint.elevation_m for joint in found.joints] == [10.0]
+    assert found.governing.statics.checks == heeltoe.statics(case).checks
+
+
+def test_a_lift_joint_is_level_and_the_crack_keeps_its_slope():
+    case = dam(
+        crack={"friction": 0.9, "elevation": "10 m", "inclination": "5 deg"}, statics={"sections": ["10m", "20m"]}
+    )
+    slopes = [joint.case.crack.inclination for joint in heeltoe.statics_of_sections(case).joints]
+    assert slopes == [pytest.approx(0.0872665), 0.0]
+
+
+def test_a_joint_may_be_judged_by_a_run_of_its_own():
+    seen = []
+
+    def judge(case):
+        seen.append(case.crack.elevation)
+        return heeltoe.statics(case, 0.01 * len(seen))
+
+    found = heeltoe.statics_of_sections(dam(statics=LISTED), judge)
+    assert seen == [0.0, 20.0, 60.0]
+    assert [joint.statics.slip_m for joint in found.joints] == [0.01, 0.02, 0.03]
+
+
+@pytest.mark.parametrize(
+    ("statics", "said"),
+    [
+        (
+            {"sections": ["0 m", "100 m"]},
+            "statics.sections[1].elevation: 100 m is outside the section; give an elevation from 0 m to below 100 m",
+        ),
+        ({"sections": ["5 m", "5 m"]}, "statics.sections: 5 m stands twice; name each elevation once"),
+        ({"sections": [5]}, 'statics.sections[0].elevation: 5 has no unit; write for example "5 m"'),
+    ],
+)
+def test_sections_that_cannot_be(statics, said):
+    with pytest.raises(InputError) as error:
+        dam(statics=statics)
+    assert str(error.value) == said
+
+
+def test_what_has_no_place_at_a_section_is_refused_there():
+    case = dam(anchors=[{"distance": "70 m", "prestress": "1 MN/m"}], statics={"sections": ["0 m", "50 m"]})
+    with pytest.raises(InputError, match=r"^statics\.sections\[1\]: at 50 m the case does not fit: anchors\[0\]"):
+        heeltoe.statics_of_sections(case)
+
+
+def test_checks_of_the_crack_alone_say_so():
+    said = [str(each) for each in heeltoe.statics(dam(statics=LISTED)).warnings]
+    assert any("statics.sections: these checks are of the crack alone" in each for each in said)
+    assert at_section(dam(statics=LISTED), dam(statics=LISTED).statics.sections[0]).statics.sections == ()
