@@ -95,7 +95,7 @@ def _html(thing: object) -> str:
     return html(thing)
 
 
-def _plot(thing: object, name: str | None, path: Any, units: str) -> Any:
+def _plot(thing: object, name: str | None, path: Any, units: str | None) -> Any:
     from heeltoe.views.plot import plot
 
     return plot(thing, name, path, units)

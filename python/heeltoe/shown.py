@@ -21,7 +21,9 @@ if TYPE_CHECKING:
 class Plot(Protocol):
     """Draws a thing."""
 
-    def __call__(self, thing: object, name: str | None, path: str | PathLike[str] | None, units: str, /) -> Figure: ...
+    def __call__(
+        self, thing: object, name: str | None, path: str | PathLike[str] | None, units: str | None, /
+    ) -> Figure: ...
 
 
 _FACES: dict[str, Any] = {}
@@ -61,7 +63,9 @@ class Shown(Named):
         html: str = _FACES["html"](self)
         return html
 
-    def plot(self, name: str | None = None, *, path: str | PathLike[str] | None = None, units: str = "si") -> Figure:
+    def plot(
+        self, name: str | None = None, *, path: str | PathLike[str] | None = None, units: str | None = None
+    ) -> Figure:
         """Draw it and return the figure.
 
         Parameters
@@ -71,7 +75,7 @@ class Shown(Named):
         path
             File to write it to as well; its ending says the format.
         units
-            ``"si"`` or ``"us"``.
+            ``"si"`` or ``"us"``; where they are not given, those of a case, and SI for all else.
 
         Raises
         ------

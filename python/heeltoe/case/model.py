@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property, partial
 from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 import shapely
@@ -30,6 +30,8 @@ class Case(Shown, Fields):
 
     title: str = Field(default="", strict=True)
     """What the results are called."""
+    units: Literal["si", "us"] = "si"
+    """Units in which everything is shown: SI, or those of the United States; files of numbers stay SI."""
     gravity: Annotated[Gravity, Field(ge=0.01, le=1e4)] = Field(default="9.80665 m/s^2", validate_default=True)
     """One g, of the weight and of motions given in g."""
     section: Section

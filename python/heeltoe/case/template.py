@@ -11,6 +11,7 @@ _TEMPLATE = """\
 # with # are off; they show what else there is, mostly with its default.
 
 title = {title}
+# units = "si"                      # what everything is shown in; "us": feet, inches, kips, psi
 
 # gravity = "9.80665 m/s^2"        # one g, of the weight and of motions given in g
 # Anchors or bars across the crack, each with at least one of prestress, axial_stiffness and shear_stiffness:

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 from rich.console import Console
@@ -17,7 +17,11 @@ from typer.core import TyperGroup
 from heeltoe.cli.streams import console, print_data
 from heeltoe.errors import InputError
 from heeltoe.plain import plain
+from heeltoe.units.systems import unit_system
 from heeltoe.whole import check_file, write_text
+
+if TYPE_CHECKING:
+    from heeltoe.case.model import Case
 
 # Typer shows this class of its click by its heirs alone.
 _UsageError: Any = typer.BadParameter.__mro__[1]
@@ -72,6 +76,26 @@ JsonPath = Annotated[str | None, typer.Option("--json", metavar="FILE|-", help="
 UnitsName = Annotated[
     str, typer.Option("--units", metavar="si|us", help="Units of all that people read; files of numbers stay SI.")
 ]
+
+CaseUnits = Annotated[
+    str | None,
+    typer.Option(
+        "--units",
+        metavar="si|us",
+        help="Units of all that people read, in place of those of the case; files of numbers stay SI.",
+    ),
+]
+
+
+def units_of(case: Case, option: str | None) -> str:
+    """Return the units in which a case is shown: those of the option, else its own."""
+    return case.units if option is None else unit_system(option, "--units").name
+
+
+def check_units(option: str | None) -> None:
+    """Refuse units that there are none of, before anything is computed."""
+    if option is not None:
+        unit_system(option, "--units")
 
 
 def command_line() -> str:

@@ -12,13 +12,16 @@ from heeltoe.cli.common import (
     LONGEST_PATH,
     NO_RESULT,
     CasePath,
+    CaseUnits,
     Changes,
     JsonPath,
     UnitsName,
     as_given,
     check_json,
+    check_units,
     finish,
     status,
+    units_of,
 )
 from heeltoe.cli.streams import console
 from heeltoe.errors import InputError
@@ -35,18 +38,21 @@ def periods(
     count: Annotated[int, typer.Option(metavar="N", help="How many of each.")] = 5,
     set_: Changes = None,
     json_: JsonPath = None,
+    units: CaseUnits = None,
 ) -> None:
     """Say in which periods the dam vibrates: intact, and the parts above and below its crack by themselves."""
     from heeltoe.case.read import read_case
     from heeltoe.models.flexible.periods import dam_periods
-    from heeltoe.views.terminal.dam import print_periods
+    from heeltoe.views.terminal.dam import about_dam, print_periods
 
+    check_units(units)
     loaded = read_case(case, list(set_ or []))
     check_json(json_)
     with status() as say:
         say("building the elastic parts")
         found = dam_periods(loaded, count, field="--count")
-    finish(found.to_json(), json_, [], lambda console: print_periods(found, console))
+    dam = about_dam(loaded, units_of(loaded, units))
+    finish(found.to_json(), json_, [], lambda console: print_periods(found, console, dam))
 
 
 def overturning(
@@ -56,13 +62,15 @@ def overturning(
     set_: Changes = None,
     json_: JsonPath = None,
     out: Annotated[Path, typer.Option(metavar="DIR", help="Write map and figure here.")] = Path("overturning"),
+    units: CaseUnits = None,
 ) -> None:
     """Draw which pulses overturn the block: a map over their frequency and amplitude, with the safe gap."""
     from heeltoe.case.read import read_case
     from heeltoe.study.overturning import overturning_map
     from heeltoe.views.files.write import OVERTURNING, write_overturning
-    from heeltoe.views.terminal.dam import print_overturning
+    from heeltoe.views.terminal.dam import about_dam, print_overturning
 
+    check_units(units)
     loaded = read_case(case, list(set_ or []))
     check_directory(out, "--out", OVERTURNING)
     check_json(json_)
@@ -70,7 +78,8 @@ def overturning(
         say(f"running {count * count} pulses")
         found = overturning_map(loaded, pulse, count=count)
         written = write_overturning(found, out)
-    finish(found.to_json(), json_, written, lambda console: print_overturning(found, console))
+    dam = about_dam(loaded, units_of(loaded, units))
+    finish(found.to_json(), json_, written, lambda console: print_overturning(found, console, dam))
 
 
 def statics(
@@ -133,6 +142,7 @@ def animate(
     motion: Annotated[str | None, typer.Option(metavar="FILE-or-NAME", help="Another ground motion.")] = None,
     pga: Annotated[str | None, typer.Option(metavar="0.4g", help="Scale the motion to this peak.")] = None,
     set_: Changes = None,
+    units: CaseUnits = None,
 ) -> None:
     """Show what the dam does: a video, or a page that plays in any browser without a network."""
     from time import perf_counter
@@ -147,6 +157,7 @@ def animate(
         raise InputError("unknown-model", "--model", model, models=", ".join((AUTO, *MODELS)), near="")
     place = to or Path(f"{Path(case).stem}.animation.html")
     many = None if exaggerate == "auto" else parse(exaggerate, "number", "--exaggerate")
+    check_units(units)
     start = parse(from_, "duration", "--from")
     end = None if until is None else parse(until, "duration", "--until")
     check_options(place, exaggerate=many, frames_per_second=fps, speed=speed)
@@ -162,8 +173,9 @@ def animate(
         analysed = perf_counter()
         if response.histories:
             say("drawing")
+            shown = loaded.with_({"units": units_of(loaded, units)})
             write_animation(
-                loaded, response, place, exaggerate=many, frames_per_second=fps, speed=speed, window=(start, end)
+                shown, response, place, exaggerate=many, frames_per_second=fps, speed=speed, window=(start, end)
             )
         drawn = perf_counter()
     words = console()

@@ -14,17 +14,18 @@ from typer.core import TyperCommand
 from heeltoe.cli.common import (
     NO_RESULT,
     CasePath,
+    CaseUnits,
     Changes,
     JsonPath,
-    UnitsName,
     as_given,
     check_json,
+    check_units,
     command_line,
     finish,
     status,
+    units_of,
 )
 from heeltoe.errors import InputError
-from heeltoe.units.systems import unit_system
 from heeltoe.whole import check_directory, files
 
 if TYPE_CHECKING:
@@ -76,7 +77,7 @@ def run(
     vtk: Annotated[
         bool, typer.Option("--vtk", help="With --out: VTK files of the flexible model for ParaView.")
     ] = False,
-    units: UnitsName = "si",
+    units: CaseUnits = None,
     output_step: Annotated[
         str | None,
         typer.Option(
@@ -129,7 +130,7 @@ class _Asked:
     spread: str | None
     json: str | None
     out: Path | None
-    units: str
+    units: str | None
     csv: bool
     vtk: bool
     vary: list[str] | None
@@ -145,7 +146,7 @@ class _Asked:
         from heeltoe.models.run import check_model
 
         check_model(self.model, "--model")
-        unit_system(self.units, "--units")
+        check_units(self.units)
         if self.report:
             from heeltoe.views.report.write import check_packages
 
@@ -192,6 +193,7 @@ def _run(path: str, changes: list[str], reverse: bool, output_step: str | None, 
         changes.append(f"motion.reverse={'false' if case.motion.reverse else 'true'}")
         case = read_case(path, changes)
     asked.check_elastic(case)
+    units = units_of(case, asked.units)
     step = None if output_step is None else parse(output_step, "duration", "--output-step")
     place = asked.out or (Path(f"{Path(path).stem}-report") if asked.report else None)
     if place is not None:
@@ -211,7 +213,7 @@ def _run(path: str, changes: list[str], reverse: bool, output_step: str | None, 
         earlier = [] if place is None else files(place)
         written = [] if place is None else _write(result, case, asked, place, say)
     removed = [] if place is None else [place / name for name in earlier if not (place / name).exists()]
-    finish(result.to_json(), asked.json, written, lambda console: show(result, console, asked.units), removed)
+    finish(result.to_json(), asked.json, written, lambda console: show(result, console, units), removed)
     if not result.ok:
         raise typer.Exit(NO_RESULT)
 
@@ -242,7 +244,8 @@ def _write(
     from heeltoe.views.files.write import figures_of, write_run
 
     say("writing")
-    figures = figures_of(result, case, asked.units)
+    units = units_of(case, asked.units)
+    figures = figures_of(result, case, units)
 
     def report(fresh: Path) -> None:
         if not asked.report or isinstance(result, SmallStudy):
@@ -250,7 +253,7 @@ def _write(
         from heeltoe.views.report.write import build_report, write_kinds
 
         say("writing the report")
-        write_kinds(build_report(case, result, units=asked.units, command=command_line(), figures=figures), fresh)
+        write_kinds(build_report(case, result, units=units, command=command_line(), figures=figures), fresh)
 
     shown = figures if asked.out else {}
     return write_run(result, place, shown, suffix=asked.suffix, vtk=asked.vtk, report=report)

@@ -14,16 +14,17 @@ import typer
 from heeltoe.cli.common import (
     LONGEST_PATH,
     NO_RESULT,
+    CaseUnits,
     JsonPath,
-    UnitsName,
     check_json,
+    check_units,
     command_line,
     finish,
     say_file,
+    units_of,
 )
 from heeltoe.cli.streams import console
 from heeltoe.plain import plain
-from heeltoe.units.systems import unit_system
 from heeltoe.whole import check_directory
 
 if TYPE_CHECKING:
@@ -46,10 +47,11 @@ def study(
     report: Annotated[
         bool, typer.Option("--report", help="Write a report as PDF and HTML into the directory of the runs.")
     ] = False,
-    units: UnitsName = "si",
+    units: CaseUnits = None,
     json_: JsonPath = None,
 ) -> None:
     """Run a study: many dams, many earthquakes, one table."""
+    from heeltoe.case.read import read_case
     from heeltoe.study.file import read_study
     from heeltoe.study.plan import plan_of
     from heeltoe.study.run import outlook, run_study
@@ -58,7 +60,7 @@ def study(
     from heeltoe.views.terminal.study import print_outlook, print_study
 
     check_json(json_)
-    unit_system(units, "--units")
+    check_units(units)
     words = console(stderr=True)
     read = read_study(file)
     if dry_run:
@@ -86,12 +88,14 @@ def study(
         print(f"heeltoe: what is done stays in {plain(place, LONGEST_PATH)}; go on by: {again}", file=sys.stderr)
         raise
 
+    in_units = units_of(read_case(read.directory / read.case), units)
+
     def reported(fresh: Path, drawn: Mapping[str, Figure]) -> None:
         base = (read.directory / read.case).parent
-        write_study_report(found, fresh, base=base, units=units, command=command_line(), figures=drawn)
+        write_study_report(found, fresh, base=base, units=in_units, command=command_line(), figures=drawn)
 
-    written = write_study(found, place, units, figures=not no_figures, report=reported if report else None)
-    finish(found.to_json(), json_, [], lambda console: print_study(found, console, units))
+    written = write_study(found, place, in_units, figures=not no_figures, report=reported if report else None)
+    finish(found.to_json(), json_, [], lambda console: print_study(found, console, in_units))
     say_file("wrote", place, words)
     if not no_figures:
         say_file("wrote", place / "figures", words)

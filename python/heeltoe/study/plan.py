@@ -247,7 +247,8 @@ class Plan:
     def inputs(self) -> dict[str, str]:
         """Hashes of all that the results hang on, by what each is called."""
         study = self.study.model_dump(mode="json", exclude={"title", "fragility", "case", "motions"})
-        case = self.case.model_dump(mode="json", exclude={"title", "motion"} if self.study.motions else {"title"})
+        unheard = {"title", "units"} | ({"motion"} if self.study.motions else set())
+        case = self.case.model_dump(mode="json", exclude=unheard)
         found = {f"the study's {name}": _hash(value) for name, value in study.items()}
         found |= {f"the case's {name}": _hash(value) for name, value in case.items()}
         if self.study.motions is not None:

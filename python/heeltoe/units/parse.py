@@ -28,6 +28,18 @@ _ANGLE = re.compile(r"deg|degrees?|°|rad|radians?|mrad")
 _TON = re.compile(
     r"(?<![A-Za-z_])(?:[kM]|kilo|mega)?tons?(?:_force)?(?![A-Za-z_])|(?<![A-Za-z_])force_tons?(?![A-Za-z_])"
 )
+# What engineers of the United States write and pint does not know. A pound on an area or a length is a force to them.
+_SHORT = {
+    "pcf": "(lb/ft^3)",
+    "kcf": "(kilopound/ft^3)",
+    "psf": "(lbf/ft^2)",
+    "ksf": "(kip/ft^2)",
+    "plf": "(lbf/ft)",
+    "klf": "(kip/ft)",
+}
+_SHORT_UNIT = re.compile(rf"(?<![A-Za-z_])(?:{'|'.join(_SHORT)})(?![A-Za-z_])")
+_POUND = re.compile(r"(?<![A-Za-z_])(?:lbs?|pounds?)(?![A-Za-z_])")
+_OF_FORCES = ("pressure", "line force", "stiffness")
 _UNIT = re.compile(r"[A-Za-z%µμ_0-9()*/^²³⁻·. -]+")
 
 
@@ -175,7 +187,8 @@ def _factor(unit: str, value: object, dimension: str, field: str) -> float:
             # To pint a per cent is an angle.
             factor = _conversion(unit, wanted.unit) if _ANGLE.fullmatch(unit) else None
         elif _UNIT.fullmatch(unit):
-            factor = _conversion(unit, wanted.unit)
+            unit_here = _SHORT_UNIT.sub(lambda found: _SHORT[found[0]], unit)
+            factor = _conversion(_POUND.sub("lbf", unit_here) if dimension in _OF_FORCES else unit_here, wanted.unit)
         else:
             raise ValueError
     except Exception:  # pint passes on whatever Python's tokenizer and arithmetic make of a unit it cannot read

@@ -26,9 +26,9 @@ from heeltoe.views.figures.write import save
 _ENDINGS = (".png", ".svg", ".pdf")
 
 
-def plot(thing: object, name: str | None, path: str | PathLike[str] | None, units: str) -> Figure:
+def plot(thing: object, name: str | None, path: str | PathLike[str] | None, units: str | None) -> Figure:
     """Return a figure of a thing, and write it where a path is given; see :meth:`heeltoe.shown.Shown.plot`."""
-    unit_system(units)
+    units = unit_system(units or (thing.units if isinstance(thing, Case) else "si")).name
     place = None if path is None else Path(path)
     if place is not None and place.suffix.lower() not in _ENDINGS:
         raise InputError("figure-format", "path", place)

@@ -23,8 +23,8 @@ async def look(desk: Desk, asked: Asked) -> dict[str, Any]:
     from heeltoe.app.case.draft import case_of
 
     session = desk.session
-    wanted = wanted_of({"model": RUNS[0], **asked}, session.units)
     case = await desk.workers.quick(case_of, session)
+    wanted = wanted_of({"model": RUNS[0], **asked}, session.units, "si" if case is None else case.units)
     made = session.kept_files
     return {
         "of": "away",
@@ -45,10 +45,10 @@ async def make(desk: Desk, asked: Asked) -> dict[str, Any]:
     from heeltoe.app.case.draft import case_of, fields_in_force
 
     session = desk.session
-    wanted = wanted_of(asked, session.units)
     case = await desk.workers.quick(case_of, session)
     if case is None:
         raise BadRequestError("there is no case")
+    wanted = wanted_of(asked, session.units, case.units)
     folder = session.folder / f"away-{next(_NUMBERS)}"
     await desk.workers.quick(lay_out, fields_in_force(session), sent_files(session), folder)
     told = start(desk, _MADE, work, folder, wanted)

@@ -26,6 +26,8 @@ class Wanted:
         Whether there is a report, tables are CSV in the place of Parquet, and there is an animation.
     units
         ``"si"`` or ``"us"``.
+    own
+        Those of the case itself.
     """
 
     model: str
@@ -33,6 +35,7 @@ class Wanted:
     csv: bool
     animation: bool
     units: str
+    own: str = "si"
 
     @property
     def suffix(self) -> str:
@@ -40,7 +43,7 @@ class Wanted:
         return ".csv" if self.csv else ".parquet"
 
 
-def wanted_of(asked: Asked, units: str) -> Wanted:
+def wanted_of(asked: Asked, units: str, own: str) -> Wanted:
     """Return what a tab asks for.
 
     Raises
@@ -52,7 +55,7 @@ def wanted_of(asked: Asked, units: str) -> Wanted:
     ticks: Mapping[str, object] = {name: asked.get(name, False) for name in ("report", "csv", "animation")}
     if model not in RUNS or not all(isinstance(each, bool) for each in ticks.values()):
         raise BadRequestError("model is one there is; report, csv and animation are true or false")
-    return Wanted(str(model), bool(ticks["report"]), bool(ticks["csv"]), bool(ticks["animation"]), units)
+    return Wanted(str(model), bool(ticks["report"]), bool(ticks["csv"]), bool(ticks["animation"]), units, own)
 
 
 def command(wanted: Wanted) -> str:
@@ -60,22 +63,23 @@ def command(wanted: Wanted) -> str:
     words = [f"heeltoe run {CASE} --model {wanted.model} --out {OUT}"]
     words += ["--report"] if wanted.report else []
     words += ["--csv"] if wanted.csv else []
-    words += [] if wanted.units == "si" else [f"--units {wanted.units}"]
-    lines = [" ".join(words)]
+    units = [] if wanted.units == wanted.own else [f"--units {wanted.units}"]
+    lines = [" ".join([*words, *units])]
     if wanted.animation:
-        lines.append(f"heeltoe animate {CASE} --model {wanted.model} --to {OUT}/animation.html")
+        lines.append(" ".join([f"heeltoe animate {CASE} --model {wanted.model} --to {OUT}/animation.html", *units]))
     return "\n".join(lines)
 
 
 def program(wanted: Wanted) -> str:
     """Return the program in Python that does the same."""
+    own = "" if wanted.units == wanted.own else f', "units={wanted.units}"'
     lines = [
         "import json",
         "from pathlib import Path",
         "",
         "import heeltoe",
         "",
-        f'case = heeltoe.read_case("{CASE}")',
+        f'case = heeltoe.read_case("{CASE}"{own})',
         f'result = heeltoe.run(case, "{wanted.model}")',
     ]
     if wanted.report:
@@ -87,7 +91,7 @@ def program(wanted: Wanted) -> str:
         ]
     lines += [f'Path("{OUT}").mkdir(exist_ok=True)']
     if wanted.report:
-        lines += [f'heeltoe.write_report(case, result, "{OUT}", units="{wanted.units}")']
+        lines += [f'heeltoe.write_report(case, result, "{OUT}")']
     if wanted.animation:
         lines += [f'heeltoe.animate(case, result, "{OUT}/animation.html")']
     lines += [f'Path("{OUT}/result.json").write_text(json.dumps(result.to_json(), indent=2))']

@@ -40,7 +40,7 @@ def make(say: Callable[..., None], folder: Path, wanted: Wanted) -> dict[str, An
     write_run(result, folder / OUT, figures, suffix=wanted.suffix, report=report)
     if wanted.animation and result.histories:
         say("drawing the animation")
-        animate(case, result, folder / OUT / "animation.html")
+        animate(case.with_({"units": wanted.units}), result, folder / OUT / "animation.html")
     say("packing")
     zipped(folder, folder / ZIP, without=(".heeltoe-files",))
     return {"files": listed(folder), "verdict": _verdict(result, wanted.units)}

@@ -186,6 +186,8 @@ def _check(session: Session, draft: Draft) -> None:
     """Read the fields; where they are sound their case is in force."""
     case, draft.errors = _read(session, draft.fields)
     if case is not None and case != session.case:
+        if "units" in case.model_fields_set and (session.case is None or case.units != session.case.units):
+            session.units = case.units
         session.case, session.example = case, ""
     draft.case = session.case
 

@@ -16,6 +16,7 @@ from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.plain import plain
 from heeltoe.result.response import Response
+from heeltoe.units.systems import Units, unit_system
 from heeltoe.views.animation.bodies import Moments, Part, elastic_parts, rigid_parts
 
 #: What a point of the crack does, as `Scene.status` counts it; -1 where nothing is known or opposite.
@@ -108,25 +109,25 @@ class Scene:
     views: tuple[tuple[float, float, float, float], ...]
 
 
-def build_scene(case: Case, response: Response, times: Floats, exaggeration: float | None) -> Scene:
+def build_scene(case: Case, response: Response, times: Floats, exaggeration: float | None, units: str = "si") -> Scene:
     """Gather what an animation of a response shows at some moments [s], which are among its histories.
 
     Without an `exaggeration` it is chosen so that the largest displacement is drawn 3 to 8 % of the dam's height long,
     and no longer than a third of the crack: 1, 2, 5, 10, 20, ... An overturned dam is drawn as it is.
     """
-    section = case.cut
+    section, system = case.cut, unit_system(units)
     histories = response.histories
     moments = Moments.of(histories["time_s"], times)
     if not isinstance(response, FlexibleResponse):
         parts = rigid_parts(case, histories, moments)
         forces, status = _corners(section, histories, response.mode, moments)
-        unit, size = "MN/m", 1e6
+        scale = system.scale("force")
     else:
         moved = Moments.of(response.crack.time, times)
         parts = elastic_parts(response.crack, moved)
         forces, status = _nodes(section, response.crack, moved)
-        unit, size = "MPa", 1e6
-    forces = forces / size
+        scale = system.scale("pressure")
+    forces = scale(forces)
     largest = max(float(np.abs(part.displacements(part.outline)).max()) for part in parts)
     if exaggeration is None:
         overturned = response.outcome == "overturned"
@@ -142,14 +143,14 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
         exaggeration=exaggeration,
         parts=parts,
         forces=forces,
-        force_unit=unit,
+        force_unit=scale.unit,
         force_scale=_usual(forces),
         status=status,
         mode=mode[moments.nearest],
         modes=modes,
         history_times=histories["time_s"][within],
         history_mode=mode[within],
-        traces=_traces(response, within),
+        traces=_traces(response, within, system),
         base=section.base_elevation,
         water=None if case.reservoir is None else section.base_elevation + case.reservoir.depth,
         tailwater=None if case.tailwater is None else section.base_elevation + case.tailwater.depth,
@@ -233,7 +234,7 @@ def _subtitle(response: Response) -> str:
     return f"{plain(response.motion.name)}, peak {peak:.3g} g; {response.model} model{shaken}{ending}"
 
 
-def _traces(response: Response, within: NDArray[np.bool_]) -> tuple[Trace, ...]:
+def _traces(response: Response, within: NDArray[np.bool_], units: Units) -> tuple[Trace, ...]:
     histories = response.histories
 
     def accelerations(chart: str, *named: tuple[str, str, str]) -> tuple[Trace, ...]:
@@ -245,9 +246,10 @@ def _traces(response: Response, within: NDArray[np.bool_]) -> tuple[Trace, ...]:
         """Return lengths in one unit that gives them readable numbers."""
         values = [histories[key][within] for *_, key in named]
         largest = max(float(np.abs(each).max()) for each in values)
-        unit, size = ("m", 1.0) if largest >= 1.0 else ("mm", 1e-3)
+        scale = units.scale("displacement", largest)
         return tuple(
-            Trace(role, chart, label, unit, each / size) for (role, label, _), each in zip(named, values, strict=True)
+            Trace(role, chart, label, scale.unit, scale(each))
+            for (role, label, _), each in zip(named, values, strict=True)
         )
 
     ground = "ground_acceleration_m_s2"

@@ -23,6 +23,8 @@ TRACES = {
 }
 #: Colours that say something, which no picture may lose.
 SPEAKING = (*STATUS, *MODES.values(), *TRACES.values(), FORCE, FORCE_CUT, WATER, UPPER, LOWER, GROUND)
+# Units of force per length of dam; others are of stress.
+_FORCES = ("MN/m", "kip/ft")
 # The states of an elastic dam's crack as kinds of motion.
 _KINDS = {"sliding": "slide", "rocking": "rock", "slide-rocking": "slide-rock", "drifting": "drift"}
 
@@ -39,5 +41,5 @@ def exaggeration_text(exaggeration: float) -> str:
 
 def force_text(force: float, unit: str, cut: float) -> str:
     """Say what the arrow of the legend stands for."""
-    what = "force on the part above" if unit == "MN/m" else "stress on the part above"
+    what = "force on the part above" if unit in _FORCES else "stress on the part above"
     return f"{what}, {force:g} {unit}; pale where cut at {cut * force:g}"

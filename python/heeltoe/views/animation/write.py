@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError, expect
 from heeltoe.result.response import Response
 from heeltoe.views.figures.dense import filled_in
 from heeltoe.whole import written
+
+if TYPE_CHECKING:
+    from heeltoe.views.animation.frames import Scene
 
 #: What an animation can be written as.
 SUFFIXES = (".mp4", ".gif", ".html")
@@ -33,7 +39,7 @@ def animate(
     speed: float = 1.0,
     window: tuple[float, float | None] = (0.0, None),
 ) -> Path:
-    """Write what a dam did in an earthquake as an animation.
+    """Write what a dam did in an earthquake as an animation, in the units of the case.
 
     Parameters
     ----------
@@ -74,7 +80,13 @@ def animate(
         raise InputError("animation-nothing", "response", response.outcome)
     shown = _window(response, *window)
     with written(place, "animation") as fresh:
-        _write(case, filled_in(response), fresh, exaggerate, frames_per_second, speed, shown)
+
+        def scene(times: Floats) -> Scene:
+            from heeltoe.views.animation.frames import build_scene
+
+            return build_scene(case, filled_in(response), times, exaggerate, case.units)
+
+        _write(scene, fresh, frames_per_second, speed, shown)
     return place
 
 
@@ -117,38 +129,29 @@ def _window(response: Response, start: float, end: float | None) -> tuple[float,
 
 
 def _write(
-    case: Case,
-    response: Response,
-    path: Path,
-    exaggerate: float | None,
-    frames_per_second: float,
-    speed: float,
-    window: tuple[float, float],
+    scene: Callable[[Floats], Scene], path: Path, frames_per_second: float, speed: float, window: tuple[float, float]
 ) -> None:
+    """Write a scene, which is built for the moments that the kind of file shows."""
     first, last = window
     # matplotlib and pillow only where they are needed.
-    from heeltoe.views.animation.frames import build_scene
-
     suffix = path.suffix.lower()
     if suffix == ".html":
         from heeltoe.views.animation.page import write_page
 
         step = max(_PAGE_STEP, (last - first) / _MOST_PAGE_FRAMES)
-        write_page(build_scene(case, response, _moments(first, last, step), exaggerate), speed, path)
+        write_page(scene(_moments(first, last, step)), speed, path)
     elif suffix == ".gif":
         from heeltoe.views.animation.video import gif_delay, write_gif
 
         delay = gif_delay(frames_per_second, (last - first) / speed)
-        times = _moments(first, last, 0.01 * delay * speed)
-        write_gif(build_scene(case, response, times, exaggerate), delay, path)
+        write_gif(scene(_moments(first, last, 0.01 * delay * speed)), delay, path)
     else:
         from heeltoe.views.animation.video import write_mp4
 
-        times = _moments(first, last, speed / frames_per_second)
-        write_mp4(build_scene(case, response, times, exaggerate), frames_per_second, path)
+        write_mp4(scene(_moments(first, last, speed / frames_per_second)), frames_per_second, path)
 
 
-def _moments(first: float, last: float, step: float) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+def _moments(first: float, last: float, step: float) -> Floats:
     """Return moments from the first on, at equal distances, that do not go beyond the last [s]."""
     count = int((last - first) / step * (1.0 + 1e-12)) + 1
     if count > _MOST_FRAMES:

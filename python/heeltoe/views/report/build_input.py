@@ -87,7 +87,7 @@ def _command(subject: Subject) -> str:
     chosen = subject.result.chosen
     model = subject.result.model if chosen is None else chosen.asked
     spread = " --spread" if any(run.response.spread is not None for run in subject.runs) else ""
-    units = "" if subject.units == "si" else f" --units {subject.units}"
+    units = "" if subject.units == subject.case.units else f" --units {subject.units}"
     return f"heeltoe run CASE.toml --model {model}{spread}{units} --report"
 
 

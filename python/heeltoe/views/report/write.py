@@ -76,7 +76,7 @@ def write_report(
     directory: Path | str,
     *,
     statics: Statics | None = None,
-    units: str = "si",
+    units: str | None = None,
     kinds: Sequence[str] = ("pdf", "html"),
     command: str = "",
 ) -> list[Path]:
@@ -95,7 +95,8 @@ def write_report(
     statics
         Result of :func:`heeltoe.statics`; computed with the residual slip of the result where it is not given.
     units
-        ``"si"`` or ``"us"``: of input, numbers, sentences and figures. The JSON stays SI.
+        ``"si"`` or ``"us"``: of input, numbers, sentences and figures; those of the case where it is not given. The
+        JSON stays SI.
     kinds
         Which of ``"pdf"`` and ``"html"``.
     command
@@ -117,7 +118,7 @@ def write_report(
     expect(case, Case, "not-a-case", "case")
     expect(result, Response, "not-a-response", "result")
     check_packages(kinds, "kinds")
-    document = build_report(case, result, statics=statics, units=units, command=command)
+    document = build_report(case, result, statics=statics, units=units or case.units, command=command)
     return write_document(document, directory, kinds)
 
 

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 from rich.console import Console
 
+from heeltoe.case.model import Case
+from heeltoe.units.sentences import written
 from heeltoe.views.terminal.common import label_grid, print_title, quiet_table
 from heeltoe.views.terminal.elastic import damping_line, mesh_line
 
@@ -16,8 +18,23 @@ if TYPE_CHECKING:
     from heeltoe.study.overturning import OverturningMap
 
 
-def print_periods(periods: DamPeriods, console: Console) -> None:
-    """Print the periods of a dam and of its parts."""
+def about_dam(case: Case, units: str = "si") -> str:
+    """Say how large a dam is, where it is cracked, and how deep its water is."""
+    section = case.cut
+    sizes = {
+        "height": section.crest_elevation - section.base_elevation,
+        "crack": section.crack_elevation - section.base_elevation,
+        "width": section.crack_width,
+    }
+    text = "{height:.4g m} high, cracked at {crack:.4g m}, {width:.4g m} wide there"
+    if case.reservoir is not None:
+        text += "; water {depth:.4g m} deep"
+        sizes["depth"] = case.reservoir.depth
+    return written(text, units, **sizes)
+
+
+def print_periods(periods: DamPeriods, console: Console, dam: str = "") -> None:
+    """Print the periods of a dam and of its parts, and what is said of the dam itself."""
     print_title(periods.title, "periods", console)
     console.print()
     columns = {
@@ -36,6 +53,8 @@ def print_periods(periods: DamPeriods, console: Console) -> None:
     console.print(table)
     console.print()
     grid = label_grid()
+    if dam:
+        grid.add_row("dam", dam)
     below = "" if periods.below is None else "; the part below is held at its base"
     grid.add_row("parts", f"each by itself, with its water; the part above is free, rigid-body motion left out{below}")
     grid.add_row("mesh", mesh_line(periods.elements, periods.nodes))
@@ -43,11 +62,13 @@ def print_periods(periods: DamPeriods, console: Console) -> None:
     console.print(grid)
 
 
-def print_overturning(found: OverturningMap, console: Console) -> None:
-    """Print which pulses overturn a block."""
+def print_overturning(found: OverturningMap, console: Console, dam: str = "") -> None:
+    """Print which pulses overturn a block, and what is said of the dam itself."""
     print_title(found.title, "overturning", console)
     console.print()
     grid = label_grid()
+    if dam:
+        grid.add_row("dam", dam)
     p, slenderness = found.frequency_parameter_1_s, found.slenderness_rad
     grid.add_row("block", f"slenderness {slenderness:.4g} rad, p = {p:.4g} 1/s")
     low, high = found.frequency_hz[0], found.frequency_hz[-1]
