@@ -122,6 +122,8 @@ def leaves(model: type[BaseModel] = Case, above: str = "") -> Iterator[tuple[str
     """Walk the schema: every field that holds a value, with its path; of a list of blocks the first, of steps each."""
     for name, field in model.model_fields.items():
         path = above + name
+        if name == "project":
+            continue  # words of the report, on which no number depends
         if name == "processing":
             for kind in _blocks(field.annotation):
                 step = typing.get_args(kind.model_fields["step"].annotation)[0]

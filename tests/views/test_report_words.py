@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from heeltoe.units.write import digits
-from heeltoe.views.report.build_question import glued
+from heeltoe.views.report.content import glued
 from heeltoe.views.words.fields import shown
 from heeltoe.views.words.numbers import Numbers, kind
 

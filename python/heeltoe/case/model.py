@@ -16,6 +16,7 @@ from heeltoe.case.dam import Anchor, Concrete, Crack, Ice, Section, Silt, Uplift
 from heeltoe.case.fields import Fields
 from heeltoe.case.motion import Motion
 from heeltoe.case.options import Analysis, Decoupled, Flexible, Limits, StaticsChoice
+from heeltoe.case.project import Project
 from heeltoe.case.quantities import Gravity
 from heeltoe.case.sentences import all_errors, collected, first_error
 from heeltoe.errors import InputError
@@ -32,6 +33,8 @@ class Case(Shown, Fields):
     """What the results are called."""
     units: Literal["si", "us"] = "si"
     """Units in which everything is shown: SI, or those of the United States; files of numbers stay SI."""
+    project: Project = Project()
+    """The title block of the report."""
     gravity: Annotated[Gravity, Field(ge=0.01, le=1e4)] = Field(default="9.80665 m/s^2", validate_default=True)
     """One g, of the weight and of motions given in g."""
     section: Section

@@ -17,6 +17,14 @@ title = {title}
 # Anchors or bars across the crack, each with at least one of prestress, axial_stiffness and shear_stiffness:
 # anchors = [{{ distance = "5 m", prestress = "2 MN/m", inclination = "0 deg", capacity = "4 MN/m" }}]
 
+# [project]                        # the title block of the report, in your own words
+# name = "Safety review"
+# client = "Owner of the dam"
+# author = "A. B."
+# checker = "C. D."
+# date = "2026-01-31"
+# revision = "0"
+
 [section]                          # vertical upstream face at x = 0, downstream to the right
 height = "100 m"
 crest_width = "8 m"

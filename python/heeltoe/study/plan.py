@@ -33,6 +33,8 @@ from heeltoe.warnings import Notice
 MOST = 10**11
 #: What the scale of the motions counts.
 _SCALES = {"factor": "number", "pga": "acceleration", "pgv": "velocity", "sa": "acceleration", "arias": "velocity"}
+# What people call things, on which no run depends.
+_WORDS = {"title", "units", "project"}
 # Of the draws, how many are looked at for values that a field cannot have.
 _LOOKED_AT = 1 << 20
 
@@ -247,7 +249,7 @@ class Plan:
     def inputs(self) -> dict[str, str]:
         """Hashes of all that the results hang on, by what each is called."""
         study = self.study.model_dump(mode="json", exclude={"title", "fragility", "case", "motions"})
-        unheard = {"title", "units"} | ({"motion"} if self.study.motions else set())
+        unheard = _WORDS | ({"motion"} if self.study.motions else set())
         case = self.case.model_dump(mode="json", exclude=unheard)
         found = {f"the study's {name}": _hash(value) for name, value in study.items()}
         found |= {f"the case's {name}": _hash(value) for name, value in case.items()}

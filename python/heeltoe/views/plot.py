@@ -86,7 +86,7 @@ def _(motion: GroundMotion, units: str) -> Mapping[str, Figure]:
 
 @_figures.register
 def _(found: Statics, units: str) -> Mapping[str, Figure]:
-    from heeltoe.views.figures.statics import statics_figure
+    from heeltoe.views.figures.statics.checks import statics_figure
 
     unit_system(units)
     return _one("statics", lambda: statics_figure(found))

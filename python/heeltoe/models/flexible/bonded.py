@@ -18,7 +18,7 @@ from heeltoe.models.flexible.modes import Modes, enough_modes, error_frequency, 
 
 # The earthquake plays no part in any dam, nor does what is asked of a run or read by other models.
 _OF_RUNS = ("time_step", "evidence", "theta", "penalty_factor", "newmark_gamma", "newmark_beta")
-_ANY: Any = dict.fromkeys(("title", "motion", "analysis", "limits", "statics", "decoupled"), True)
+_ANY: Any = dict.fromkeys(("title", "project", "motion", "analysis", "limits", "statics", "decoupled"), True)
 #: What a dam that is ready to be shaken does not depend on.
 NOT_OF_DAM: Any = _ANY | {"crack": {"restitution"}, "flexible": set(_OF_RUNS)}
 #: What its modes do not depend on.

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import fourier_amplitudes, velocity_displacement
 from heeltoe.motion.spectrum import response_spectrum
-from heeltoe.units.systems import unit_system
+from heeltoe.units.systems import Units, unit_system
 from heeltoe.units.write import number
 from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled
 from heeltoe.views.figures.write import save
@@ -25,37 +27,47 @@ def write_motion_figure(motion: GroundMotion, gravity: float, path: Path, units:
 
 
 @styled
+def history_figure(motion: GroundMotion, vertical: GroundMotion | None, gravity: float, units: str = "si") -> Figure:
+    """Draw acceleration, velocity and displacement over time, of the vertical motion beside, where there is one."""
+    motions = [motion, *([] if vertical is None else [vertical])]
+    figure = Figure(figsize=(WIDTH, 4.4), layout="constrained")
+    columns = figure.subplots(3, len(motions), sharex=True, squeeze=False).T
+    heading(figure, " and ".join(each.name for each in motions))
+    for axes, each, way in zip(columns, motions, ("horizontal, + downstream", "vertical, + up"), strict=False):
+        draw_history(list(axes), each, gravity, unit_system(units))
+        axes[0].set_title(way, loc="left", fontsize=9)
+        figure.align_ylabels(axes)
+    return figure
+
+
+def draw_history(panels: Sequence[Axes], motion: GroundMotion, gravity: float, units: Units) -> None:
+    """Draw acceleration, velocity and displacement over time, with their peaks, into three panels."""
+    velocity, displacement = velocity_displacement(motion)
+    speed, length = units.scale("velocity"), units.scale("length")
+    rows = (
+        ("acceleration", "PGA", motion.acceleration / gravity, motion.pga / gravity, "g"),
+        ("velocity", "PGV", speed(velocity), speed(motion.pgv), speed.unit),
+        ("displacement", "PGD", length(displacement), length(motion.pgd), length.unit),
+    )
+    for axes, (name, peak, values, most, unit) in zip(panels, rows, strict=True):
+        axes.plot(motion.time, values, color=COLOURS["ground"], linewidth=0.7)
+        axes.set_ylabel(f"{name} [{unit}]\n{peak} {number(most)} {unit}", fontsize=8)
+        axes.set_xlim(0.0, motion.duration)
+    panels[-1].set_xlabel("time [s]")
+
+
+@styled
 def motion_figure(motion: GroundMotion, gravity: float, units: str = "si") -> Figure:
     """Draw acceleration, velocity and displacement over time, Fourier amplitudes and the 5 % response spectrum."""
     system = unit_system(units)
-    velocity_scale, length = system.scale("velocity"), system.scale("length")
+    velocity_scale = system.scale("velocity")
     figure = Figure(figsize=(WIDTH, 8.0), layout="constrained")
     grid = figure.add_gridspec(4, 2, height_ratios=[1.0, 0.8, 0.8, 1.7])
     about = ", ".join(part for part in (motion.event, motion.station, motion.component, motion.date) if part)
     heading(figure, motion.name, about or "no origin stated")
-    velocity, displacement = velocity_displacement(motion)
     top = figure.add_subplot(grid[0, :])
-    peaks = (motion.pga / gravity, velocity_scale(motion.pgv), length(motion.pgd))
-    said = [number(peak) for peak in peaks]
-    panels = (
-        (top, motion.acceleration / gravity, f"acceleration [g]\nPGA {said[0]} g"),
-        (
-            figure.add_subplot(grid[1, :], sharex=top),
-            velocity_scale(velocity),
-            f"velocity [{velocity_scale.unit}]\nPGV {said[1]} {velocity_scale.unit}",
-        ),
-        (
-            figure.add_subplot(grid[2, :], sharex=top),
-            length(displacement),
-            f"displacement [{length.unit}]\nPGD {said[2]} {length.unit}",
-        ),
-    )
-    for axes, values, label in panels:
-        axes.plot(motion.time, values, color=COLOURS["ground"], linewidth=0.7)
-        axes.set_ylabel(label, fontsize=8)
-        axes.set_xlim(0.0, motion.duration)
-    panels[-1][0].set_xlabel("time [s]")
-
+    panels = [top, *(figure.add_subplot(grid[row, :], sharex=top) for row in (1, 2))]
+    draw_history(panels, motion, gravity, system)
     frequency, amplitude = fourier_amplitudes(motion)
     fourier = figure.add_subplot(grid[3, 0])
     shown = (frequency >= 0.05) & (amplitude > 0.0)
@@ -71,7 +83,7 @@ def motion_figure(motion: GroundMotion, gravity: float, units: str = "si") -> Fi
     response.semilogx(spectrum.period, spectrum.pseudo_acceleration / gravity, color=COLOURS["rotation"])
     response.axhline(motion.pga / gravity, color=COLOURS["limit"], linestyle="--", linewidth=0.9)
     response.annotate(
-        f"PGA {said[0]} g",
+        f"PGA {number(motion.pga / gravity)} g",
         (spectrum.period[-1], motion.pga / gravity),
         xytext=(0, 3),
         textcoords="offset points",

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.result.response import Response
-from heeltoe.units.systems import Units
+from heeltoe.units.systems import Scale, Units
 from heeltoe.units.write import length
 from heeltoe.views.figures.style import COLOURS, MODE_COLOURS, WIDTH
 
@@ -45,17 +45,36 @@ def draw_slip(axes: Axes, response: Response, units: Units) -> None:
     h = response.histories
     spread = None if response.spread is None else response.spread["residual_slip_m"]
     ends = np.array([] if spread is None else [spread["min"], spread["max"]])
-    scale = units.scale("displacement", largest(h["slip_m"], ends))
+    converged = converged_slip(response)
+    within = np.array([] if converged is None else [converged[0] - converged[1], converged[0] + converged[1]])
+    scale = units.scale("displacement", largest(h["slip_m"], ends, within))
     axes.plot(h["time_s"], scale(h["slip_m"]), color=COLOURS["slip"], linewidth=1.4)
     axes.set_ylabel(f"slip [{scale.unit}]\n(+ downstream)")
     if spread is not None:
         axes.axhspan(scale(ends[0]), scale(ends[1]), color=COLOURS["slip"], alpha=0.15, linewidth=0)
-    if largest(h["slip_m"], ends) == 0.0:
+    for edge in within:
+        axes.axhline(scale(edge), color=COLOURS["slip"], linewidth=0.6, linestyle=":")
+    if largest(h["slip_m"], ends, within) == 0.0:
         axes.set_ylim(-1.0, 1.0)
-    residual = response.residual_slip_m
-    text = length(residual) if scale.unit == "mm" else f"{scale(residual):.2f} {scale.unit}"
     varied = "" if spread is None else f", {scale(ends[0]):.4g} to {scale(ends[1]):.4g} with the shaking varied"
-    beside(axes, f"in the end {text}{varied}", colour=COLOURS["slip"])
+    beside(axes, f"{slip_in_the_end(response, scale)}{varied}", colour=COLOURS["slip"])
+
+
+def slip_in_the_end(response: Response, scale: Scale) -> str:
+    """Say what slip remains, and how far step and mesh let it be known."""
+    residual, known = response.residual_slip_m, converged_slip(response)
+    if known is None:
+        return f"in the end {length(residual) if scale.unit == 'mm' else f'{scale(residual):.2f} {scale.unit}'}"
+    said = "converged" if response.summary["evidence"]["converged"] else "NOT converged"
+    least = scale(known[1]) or 1.0
+    decimals = max(1, min(6, 1 - math.floor(math.log10(least))))
+    return f"in the end {scale(known[0]):.{decimals}f} ± {scale(known[1]):.{decimals}f} {scale.unit} (dotted), {said}"
+
+
+def converged_slip(response: Response) -> tuple[float, float] | None:
+    """Return the residual slip to trust and how uncertain it is [m]; None where nobody asked."""
+    found = response.summary.get("evidence")
+    return None if not found else (found["residual_slip_m"]["value"], found["residual_slip_m"]["uncertainty"])
 
 
 def draw_rotation(axes: Axes, response: Response, units: Units) -> None:

@@ -41,7 +41,7 @@ def section_figure(case: Case, units: str = "si") -> Figure:
     size = max(right - left, crest - base)
     one = section.height > _LOW * (crest - base)
     pressed = one and section.crack_elevation == base and float(uplift_profile(case)[:, 1].max()) > 0.0
-    low, high = _corners(case, size, below=0.34 if pressed else 0.22 if one else 0.16)
+    low, high = corners(case, size, below=0.34 if pressed else 0.22 if one else 0.16)
     views = [(low, high)]
     widths = [WIDTH - _LEFT - _EDGE]
     if not one:
@@ -61,24 +61,24 @@ def section_figure(case: Case, units: str = "si") -> Figure:
         canvases.append(Canvas(axes, length, size if place == 0 else near))
         canvases[-1].look_at(*view)
     for canvas in canvases:
-        _draw_bodies(canvas, case)
+        draw_bodies(canvas, case)
         canvas.axes.set_xlabel(f"x, downstream [{length.unit}]")
         canvas.axes.set_ylabel(f"z, up [{length.unit}]", labelpad=2)
         canvas.axes.grid(visible=False)
     # Before all labels, which keep off them.
     anchored = _draw_anchors(canvases[-1], case)
     depth = draw_uplift(canvases[-1], case, system)
-    _draw_dimensions(canvases[0], case, system, depth if one else 0.0)
-    _draw_crack(canvases[-1], section, small=False)
+    draw_dimensions(canvases[0], case, system, depth if one else 0.0)
+    draw_crack(canvases[-1], section, small=False)
     if not one:
-        _draw_crack(canvases[0], section, small=True)
+        draw_crack(canvases[0], section, small=True)
     if anchored is not None:
         canvases[-1].label("anchors" if len(case.anchors) > 1 else "anchor", anchored, "#B22222", first=(1, 1))
     draw_forces(canvases[-1], case, system)
     return figure
 
 
-def _corners(case: Case, size: float, *, below: float) -> tuple[Floats, Floats]:
+def corners(case: Case, size: float, *, below: float) -> tuple[Floats, Floats]:
     """Return the corners of what the first panel shows [m]."""
     left, base, right, crest = case.outline.bounds
     upstream = 0.54 if case.reservoir else 0.16
@@ -89,7 +89,7 @@ def _corners(case: Case, size: float, *, below: float) -> tuple[Floats, Floats]:
     )
 
 
-def _draw_bodies(canvas: Canvas, case: Case) -> None:
+def draw_bodies(canvas: Canvas, case: Case) -> None:
     """Draw water, silt, ice and both parts of the dam on the ground."""
     section, whole = case.cut, case.outline
     left, base, right, crest = whole.bounds
@@ -144,7 +144,7 @@ def _draw_surface(canvas: Canvas, whole: shapely.Polygon, level: float, side: st
         canvas.line([[at - part * size, z], [at + part * size, z]], color="#0072B2", linewidth=0.8, zorder=4)
 
 
-def _draw_crack(canvas: Canvas, section: CutSection, *, small: bool) -> None:
+def draw_crack(canvas: Canvas, section: CutSection, *, small: bool) -> None:
     """Draw the crack, its two ends and the centroid of what is above it."""
     ends = [section.heel, section.toe]
     canvas.line(ends, keep_off=True, color="white", linewidth=3.6, zorder=4.5)
@@ -179,7 +179,7 @@ def _draw_anchors(canvas: Canvas, case: Case) -> Floats | None:
     return ends[0] if ends else None
 
 
-def _draw_dimensions(canvas: Canvas, case: Case, units: Units, below: float) -> None:
+def draw_dimensions(canvas: Canvas, case: Case, units: Units, below: float) -> None:
     """Draw heights, widths and depths of water; `below` is how deep the uplift diagram is [m]."""
     section, whole = case.cut, case.outline
     left, base, right, crest = whole.bounds

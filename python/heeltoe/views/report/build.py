@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from heeltoe.plain import plain
 from heeltoe.result.write import build_info
 from heeltoe.views.report.build_evidence import evidence
 from heeltoe.views.report.build_input import defaults, given_input, input_hash, rerun
@@ -12,6 +13,7 @@ from heeltoe.views.report.build_results import results
 from heeltoe.views.report.build_statics import static_checks
 from heeltoe.views.report.build_verdict import limits
 from heeltoe.views.report.content import Document, References, Section, without_gaps
+from heeltoe.views.report.one_unit import one_unit_each
 from heeltoe.views.report.subject import Subject
 
 
@@ -37,5 +39,6 @@ def document(subject: Subject) -> Document:
         title=subject.title,
         subtitle=f"What the dam does in the earthquake, by {models}",
         footer=f"heeltoe {build_info()['heeltoe']} · input {hashed[:12]}",
-        blocks=blocks,
+        blocks=one_unit_each(blocks, subject.numbers),
+        about=tuple((label, plain(words)) for label, words in subject.case.project.rows()),
     )

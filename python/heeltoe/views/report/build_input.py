@@ -60,8 +60,8 @@ def rerun(subject: Subject) -> Section:
         paragraph(Strong("Build. "), Code(build)),
         paragraph(Strong("Input, SHA-256. "), Code(digest)),
         paragraph(
-            "The hash covers every field of the case in SI units, defaults included, and the samples of the ground "
-            "motion as used, so that the same hash and the same build mean the same numbers."
+            "The hash covers every field of the case in SI units, defaults included and the title block left out, and "
+            "the samples of the ground motion as used, so that the same hash and the same build mean the same numbers."
         ),
     ]
     return Section("To run it again", tuple(blocks))
@@ -70,7 +70,8 @@ def rerun(subject: Subject) -> Section:
 def input_hash(case: Case, motions: tuple[GroundMotion, GroundMotion | None]) -> str:
     """Return the SHA-256 of a case as canonical JSON, of its mesh files and of the samples of its motions."""
     hashed = hashlib.sha256()
-    text = json.dumps(case.model_dump(mode="json"), sort_keys=True, separators=(",", ":"), ensure_ascii=True)
+    written = case.model_dump(mode="json", exclude={"project"})
+    text = json.dumps(written, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
     hashed.update(text.encode())
     for name in (case.flexible.mesh_above, case.flexible.mesh_below):
         path = name and case.base_directory / name

@@ -66,6 +66,7 @@ def ground_motion(subject: Subject) -> Section:
         paragraph(gravity),
         table,
         _checks([motion for motion, _ in motions.values()], subject.units),
+        *subject.figure("motion")[:1],
         *_spectrum(subject),
     )
     return Section("Ground motion", without_gaps(*blocks))

@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import re
-
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.result.verdict import advice, verdict
 from heeltoe.units.write import NOTHING, digits, length
+from heeltoe.views.report.build_statics import missed_checks
 from heeltoe.views.report.content import (
     Block,
     Code,
@@ -16,11 +15,15 @@ from heeltoe.views.report.content import (
     Section,
     Strong,
     Table,
+    glued,
     paragraph,
     without_gaps,
 )
 from heeltoe.views.report.subject import Run, Subject
 from heeltoe.views.words.warnings import listed
+
+# Static checks that are not met and have room on page one; the others are counted there.
+_MOST_MISSED = 3
 
 
 def question(subject: Subject) -> Section:
@@ -38,13 +41,10 @@ def question(subject: Subject) -> Section:
                 "Whether that is safe enough is not judged: the case sets no limits under ", Code("[limits]"), "."
             )
         )
-    blocks = (_failures(subject), *answers, _not_met(subject), _warnings(subject), _numbers(subject))
+    shown = subject.figure("summary")[:1]
+    # The picture before the warnings: it stays on page one, however many these are.
+    blocks = (_failures(subject), *answers, _not_met(subject), *shown, _warnings(subject), _numbers(subject))
     return Section("Question and answer", without_gaps(*blocks))
-
-
-def glued(text: str) -> str:
-    """Keep numbers and their units on one line."""
-    return re.sub(r"(?<=\d) (?=(?:%|(?!and|to|or|of|at|in the|on)[a-zA-Z/]{1,4}\b))", "\u00a0", text)
 
 
 def _question(subject: Subject) -> Block:
@@ -87,18 +87,15 @@ def _failures(subject: Subject) -> Block | None:
 
 def _not_met(subject: Subject) -> Block | None:
     """Say which limits and static checks are not met."""
-    units, items = subject.units, []
+    units = subject.units
+    items: list[tuple[Inline, ...]] = []
     for check in subject.result.limits:
         if not check.met:
             found, allowed = length(check.value_m, units), length(check.allowed_m, units)
             text = f"{check.label} of {found}, {allowed} allowed{', by a dam that has failed' if check.failed else ''}."
             items.append((Strong("Limit. "), glued(text)))
     checks = () if subject.statics is None else subject.statics.checks
-    missed = [check for check in checks if not check.met]
-    if missed:
-        of = {check.load_case: [each.name for each in missed if each.load_case == check.load_case] for check in missed}
-        text = "; ".join(f"{case}: {', '.join(dict.fromkeys(names))}" for case, names in of.items())
-        items.append((Strong(f"{len(missed)} of {len(checks)} static checks. "), f"{text}."))
+    items += missed_checks(checks, units, _MOST_MISSED)
     return Notes("failure", "Not met", tuple(items)) if items else None
 
 

@@ -23,7 +23,6 @@ _ROWS: tuple[tuple[str, str, str | None], ...] = (
     ("Slip velocity at the end", "final_slip_velocity_m_s", None),
     ("End of the run", "end_time_s", None),
     ("Of it silence, after the ground motion", "silence_s", "time"),
-    ("Width of the crack", "crack_width_m", "length"),
 )
 _ALWAYS = ("impacts", "final_slip_velocity_m_s", "end_time_s")
 _STATIC: tuple[tuple[str, str, str | None], ...] = (
@@ -31,6 +30,7 @@ _STATIC: tuple[tuple[str, str, str | None], ...] = (
     ("Normal force on the crack", "static.normal_force_n", None),
     ("Force along the crack, + downstream", "static.horizontal_force_n", None),
     ("Resultant from the heel", "static.resultant_from_heel_m", "length"),
+    ("Width of the crack", "crack_width_m", "length"),
     ("Mass of the concrete above the crack", "static.concrete_mass_kg", None),
     ("Virtual mass of the water", "static.virtual_mass_kg", None),
 )

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from heeltoe.units.write import NOTHING
-from heeltoe.views.report.content import Block, Inline, Notes, Section, Table, paragraph
+from heeltoe.views.report.content import Block, Inline, Notes, Section, Strong, Table, glued, paragraph
 from heeltoe.views.report.subject import Subject
 from heeltoe.views.words.numbers import Value
 
 if TYPE_CHECKING:
+    from heeltoe.models.statics.checks import Check
     from heeltoe.models.statics.model import Statics
 
 _CASES: tuple[tuple[str, str, str | None], ...] = (
@@ -63,6 +65,17 @@ def static_checks(subject: Subject) -> Section | None:
         _levels(subject),
     ]
     return Section("Static checks", tuple(blocks))
+
+
+def missed_checks(checks: Sequence[Check], units: str, most: int) -> list[tuple[Inline, ...]]:
+    """Return a line for each check that is not met, `most` of them, and one that counts the others."""
+    missed = [check for check in checks if not check.met]
+    items: list[tuple[Inline, ...]] = [
+        (Strong("Static check. "), glued(f"{check.sentence.text(units)}.")) for check in missed[:most]
+    ]
+    if len(missed) > most:
+        items.append((f"{len(missed) - most} more of {len(checks)} static checks; their section lists them.",))
+    return items
 
 
 def source_number(subject: Subject, source: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import Literal
 
@@ -86,13 +87,17 @@ class Equation:
 
 @dataclass(frozen=True)
 class FigureBlock:
-    """A figure as SVG, with its caption, its width and height [in], and the share of the page's width that it takes."""
+    """A figure as SVG, with its caption, its width and height [in], and the share of the page's width that it takes.
+
+    One that is `held` stands where it is in the text; others may wait for a page with room for them.
+    """
 
     name: str
     caption: str
     svg: bytes
     size: tuple[float, float]
     share: float = 1.0
+    held: bool = False
 
 
 @dataclass(frozen=True)
@@ -132,17 +137,25 @@ class Document:
         What stands on every page, beside its number.
     blocks
         Everything else.
+    about
+        Label and words of each entry of the title block; none for no such block.
     """
 
     title: str
     subtitle: str
     footer: str
     blocks: tuple[Block, ...]
+    about: tuple[tuple[str, str], ...] = ()
 
 
 def paragraph(*parts: Inline) -> Paragraph:
     """Return running text of these parts."""
     return Paragraph(parts)
+
+
+def glued(text: str) -> str:
+    """Keep numbers and their units on one line."""
+    return re.sub(r"(?<=\d) (?=(?:%|(?!and|to|or|of|at|in the|on)[a-zA-Z/]{1,4}\b))", "\u00a0", text)
 
 
 def without_gaps(*blocks: Block | None) -> tuple[Block, ...]:

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 
 
 CAPTIONS = {
+    "summary": "The dam, its crack and its water; what shakes it, and how far the part above the crack slips.",
     "section": "Section of the dam with its crack, water levels and the pressure in the crack.",
     "comparison": "Both models side by side, shaken by the same ground motion.",
     "response": "Ground acceleration, slip (positive downstream), rotation and openings if there are any, the mode.",
@@ -22,6 +23,7 @@ CAPTIONS = {
     "forces": "Forces across the crack.",
     "energy": "Where the energy put in by the earthquake goes.",
     "path": "Path of the part above the crack.",
+    "motion": "The ground motion, as used: acceleration, velocity, displacement.",
     "spectrum": "Response spectrum of the ground motion, 5 % of critical damping.",
     "crack-level": "Acceleration of ground and crack, their response spectra, and the amplification; dotted: periods.",
     "crack": "What each place of the crack does over time.",
@@ -38,11 +40,26 @@ _SHARES |= {"bands": 0.8, "slips": 0.8, "fragility": 0.8}
 _LOWER = {"comparison": 0.8, "response": 0.75, "accelerations": 0.75, "forces": 0.9, "crack-level": 0.75}
 _LOWER |= {"crack": 0.8, "pressure": 0.75}
 _LEAST_HEIGHT = 4.5
+# What belongs to the words around it does not wait for another page.
+_HELD = ("summary",)
 # Flatter ones have panels side by side, with no room to spare.
 _FLAT = 0.47
 # Of two models only so many figures, those of the one beside after its name: those of one alone are in its own report.
 _OF_BOTH = (
-    *("section", "comparison", "response", "energy", "spectrum", "crack", "pressure", "deformed", "mesh", "modes"),
+    *(
+        "summary",
+        "section",
+        "motion",
+        "comparison",
+        "response",
+        "energy",
+        "spectrum",
+        "crack",
+        "pressure",
+        "deformed",
+        "mesh",
+        "modes",
+    ),
     "decoupled/crack-level",
 )
 
@@ -54,7 +71,7 @@ def drawings(figures: Mapping[str, Figure]) -> dict[str, FigureBlock]:
     """
     if "comparison" not in figures:
         return {name: drawing(name, figures[name], caption(name)) for name in figures}
-    shared = ("section", "comparison")
+    shared = ("summary", "section", "motion", "comparison")
     said = {name: caption(name if "/" in name or name in shared else f"flexible/{name}") for name in _OF_BOTH}
     return {name: drawing(name, figures[name], said[name]) for name in figures if name in _OF_BOTH}
 
@@ -87,4 +104,4 @@ def drawing(name: str, figure: Figure, text: str) -> FigureBlock:
     with laid_out(figure), mpl.rc_context({"svg.fonttype": "path", "svg.hashsalt": "heeltoe"}):
         figure.savefig(file, format="svg", metadata={"Date": None})
     share = _SHARES.get(own, 1.0) if height > _FLAT * width else 1.0
-    return FigureBlock(name, text, file.getvalue(), (float(width), float(height)), share)
+    return FigureBlock(name, text, file.getvalue(), (float(width), float(height)), share, own in _HELD)

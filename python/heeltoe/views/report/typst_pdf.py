@@ -128,10 +128,17 @@ def source(document: Document) -> str:
         f'#block(below: 0.7em, text(19pt, weight: "bold", {_words(document.title, _NARROW)}))\n'
         f"#block(below: 1.4em, text(11pt, fill: luma(70), {_words(document.subtitle)}))\n"
     )
+    title += _about(document.about)
     body = "\n".join(_Writer().write(document.blocks))
     if _unreadable(title + body):
         title += _plain(_NO_FONT) + "\n"
     return head + look + title + body
+
+
+def _about(rows: tuple[tuple[str, str], ...]) -> str:
+    """Return the title block."""
+    cells = ", ".join(f"{_words(label)}, {_words(text or ' ', _NARROW)}" for label, text in rows)
+    return f"#title-block({cells})\n" if rows else ""
 
 
 def _unreadable(text: str) -> bool:
@@ -177,7 +184,8 @@ class _Writer:
         caption = _words(block.caption)
         picture = f"image({name}, width: {shown:.1f}mm, alt: {_string(block.caption)})"
         # Text flows on until there is a page with room for it.
-        return f"#figure(placement: auto, {picture}, caption: {caption})"
+        placement = "none" if block.held else "auto"
+        return f"#figure(placement: {placement}, {picture}, caption: {caption})"
 
 
 def _plain(block: Block) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -58,7 +59,9 @@ def build_report(
     what a report needs. They are drawn where they are not given.
     """
     from heeltoe.models.statics.after import statics_after
-    from heeltoe.views.figures.all import all_figures
+    from heeltoe.views.figures.all import Figures, all_figures, has_pictures
+    from heeltoe.views.figures.motion import history_figure
+    from heeltoe.views.figures.summary import summary_figure
     from heeltoe.views.report.build import document
     from heeltoe.views.report.drawings import drawings
     from heeltoe.views.report.subject import Subject
@@ -66,7 +69,12 @@ def build_report(
 
     found = statics_after(case, *reversed(result.responses)) if statics is None else statics
     numbers = Numbers({**result.to_json(), "statics": found.to_json()}, units)
-    shown = drawings(all_figures(case, result, units) if figures is None else figures)
+    drawn = all_figures(case, result, units) if figures is None else figures
+    runs = tuple(run for run in reversed(result.responses) if has_pictures(run))
+    first = {"summary": lambda: summary_figure(case, runs, units)}
+    if runs:
+        first["motion"] = lambda: history_figure(result.motion, result.vertical, result.gravity, units)
+    shown = drawings(Figures(first | {name: partial(drawn.__getitem__, name) for name in drawn}))
     return document(Subject(case, result, numbers, shown, found, command))
 
 

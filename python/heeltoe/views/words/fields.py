@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from pydantic import BaseModel
 
+from heeltoe.case.project import Project
 from heeltoe.plain import plain
 from heeltoe.units.sentences import UNITS, scale
 
@@ -27,10 +28,15 @@ OWN_WORDS = ("title", "file", "unit", "mesh_above", "mesh_below")
 def fields(
     model: BaseModel, written: Mapping[str, Any], prefix: str = "", *, units: str = "si"
 ) -> Iterator[tuple[str, str, bool, str]]:
-    """Walk through all fields: path, value with its unit, whether it is given, meaning; blocks of fields come last."""
+    """Walk through all fields: path, value with its unit, whether it is given, meaning; blocks of fields come last.
+
+    Those of the title block are left out: they are words of the report, which shows them as such.
+    """
     blocks = []
     for name, info in type(model).model_fields.items():
         value = getattr(model, name)
+        if isinstance(value, Project):
+            continue
         if isinstance(value, BaseModel):
             blocks.append((value, written[name], f"{prefix}{name}."))
         elif isinstance(value, tuple) and value and isinstance(value[0], BaseModel):

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 from heeltoe.units.systems import FOOT, POUND, unit_system
@@ -28,6 +28,8 @@ _ENDINGS = {
 }
 # Less than this [Pa] is what rounding leaves of no stress.
 _NO_PRESSURE = 1e-3
+# Digits behind the first of the largest number of a table.
+_ALIKE = 3
 
 
 @dataclass(frozen=True)
@@ -42,11 +44,25 @@ class Value:
         What stands there.
     text
         The same with its unit.
+    quantity
+        What it is a number of, as :meth:`Numbers.text` takes it; empty where the text is more than number and unit.
+    shown
+        The number as it is shown: the other way round where that reads better.
     """
 
     key: str
     number: float | int
     text: str
+    quantity: str = ""
+    shown: float = 0.0
+
+
+def _to(number: float, step: float) -> str:
+    """Write a number to a step, or where it is small to its own first three digits, up to a hundredth of the step."""
+    if not number:
+        return "0"
+    own = max(10.0 ** (math.floor(math.log10(abs(number))) - 2), 1e-2 * step)
+    return f"{number:.{max(0, round(-math.log10(min(step, own))))}f}"
 
 
 class Numbers:
@@ -91,7 +107,16 @@ class Numbers:
             return NOTHING
         shown = number if sign > 0.0 else 0.0 - number
         number = number if isinstance(number, int) else float(number)
-        return Value(key, number, self.text(shown, quantity or kind(key)))
+        what = quantity or kind(key)
+        return Value(key, number, self.text(shown, what), what, float(shown))
+
+    def alike(self, values: Sequence[Value]) -> list[Value]:
+        """Return numbers of one quantity in one unit, that of the largest, where they were written in several."""
+        quantity = values[0].quantity
+        most = max(abs(each.number) for each in values)
+        scale = self.units.scale(quantity, most)
+        step = 10.0 ** (math.floor(math.log10(scale(most))) - _ALIKE) if most else 0.0
+        return [replace(each, text=f"{_to(scale(each.shown), step)} {scale.unit}") for each in values]
 
     def text(self, number: float, quantity: str) -> str:
         """Write a number in SI as people read it, in the report's units."""

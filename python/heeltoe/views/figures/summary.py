@@ -1,0 +1,78 @@
+"""The picture of page one: the section beside what shakes it and how far it slips."""
+
+from __future__ import annotations
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from heeltoe.case.model import Case
+from heeltoe.result.response import Response
+from heeltoe.units.systems import Units, unit_system
+from heeltoe.views.figures.canvas import Canvas
+from heeltoe.views.figures.panels import beside, largest, slip_in_the_end
+from heeltoe.views.figures.section import corners, draw_bodies, draw_crack, draw_dimensions
+from heeltoe.views.figures.shaking import draw_shaking
+from heeltoe.views.figures.style import COLOURS, WIDTH, styled
+from heeltoe.views.figures.time_axis import time_axis
+
+_HEIGHT = 3.0
+# Shares of the width: the section, and from where on the histories are.
+_SECTION, _HISTORIES = 0.41, 0.53
+_LOOKS = (("slip", "-"), ("rotation", "--"))
+
+
+@styled
+def summary_figure(case: Case, shown: tuple[Response, ...], units: str = "si") -> Figure:
+    """Draw the section without its forces, and beside it the acceleration of the ground and the slip.
+
+    Parameters
+    ----------
+    case
+        The dam.
+    shown
+        The runs that have histories, the one that is judged first; without any there is the section alone.
+    units
+        ``"si"`` or ``"us"``.
+    """
+    system = unit_system(units)
+    figure = Figure(figsize=(WIDTH, _HEIGHT))
+    _draw_section(figure.add_axes((0.005, 0.01, _SECTION if shown else 0.99, 0.98)), case, system)
+    if shown:
+        width = 0.985 - _HISTORIES
+        ground = figure.add_axes((_HISTORIES, 0.60, width, 0.31))
+        slip = figure.add_axes((_HISTORIES, 0.15, width, 0.34), sharex=ground)
+        draw_shaking((ground,), shown[0])
+        ground.set_title("")
+        ground.set_ylabel("ground [g]")
+        ground.tick_params(labelbottom=False)
+        _draw_slips(slip, shown, system)
+        for axes in (ground, slip):
+            axes.yaxis.set_label_coords(-0.13, 0.5)
+    return figure
+
+
+def _draw_section(axes: Axes, case: Case, units: Units) -> None:
+    left, base, right, crest = case.outline.bounds
+    canvas = Canvas(axes, units.scale("length"), max(right - left, crest - base))
+    canvas.look_at(*corners(case, canvas.size, below=0.18))
+    draw_bodies(canvas, case)
+    draw_dimensions(canvas, case, units, 0.0)
+    draw_crack(canvas, case.cut, small=True)
+    axes.set_axis_off()
+
+
+def _draw_slips(axes: Axes, shown: tuple[Response, ...], units: Units) -> None:
+    """Draw the slip of each run, and say what remains of the first."""
+    scale = units.scale("displacement", largest(*(each.histories["slip_m"] for each in shown)))
+    for response, (colour, dash) in zip(shown, _LOOKS, strict=False):
+        time, slip = response.histories["time_s"], scale(response.histories["slip_m"])
+        axes.plot(time, slip, color=COLOURS[colour], linestyle=dash, linewidth=1.2, label=f"{response.model} model")
+    if not any(each.histories["slip_m"].any() for each in shown):
+        axes.set_ylim(-1.0, 1.0)
+    axes.set_ylabel(f"slip [{scale.unit}]\n(+ downstream)")
+    time_axis(axes, *shown)
+    axes.set_xlabel("time [s]")
+    text = slip_in_the_end(shown[0], scale).replace(" (dotted)", "")
+    beside(axes, text, colour=COLOURS["slip"])
+    if len(shown) > 1:
+        axes.legend(loc="best", fontsize=7, handlelength=2.2)
