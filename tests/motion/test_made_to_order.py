@@ -12,7 +12,8 @@ from heeltoe.case.read import read_case
 from heeltoe.case.shaking import resolve
 from heeltoe.errors import InputError
 from heeltoe.motion.measures import arias_intensity, husid_time, significant_duration, velocity_displacement
-from heeltoe.motion.scenario import normal_scores, parameters_of, scenario_parameters, synthetic
+from heeltoe.motion.scenario import normal_scores, parameters_of, scenario_parameters, source_corner, synthetic
+from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.motion.stochastic import Parameters, modulation, stochastic_motion
 from heeltoe.units.parse import STANDARD_GRAVITY as G
 from shared.command import command
@@ -93,6 +94,40 @@ def test_median_intensity_agrees_with_another_relation():
         assert 0.4 < scenario_parameters(magnitude, distance).arias / other < 2.5
 
 
+# Medians [g] at 20 km, Vs30 760 m/s, strike-slip: the geometric mean of Boore et al.,
+# Campbell and Bozorgnia, Abrahamson et al., Chiou and Youngs (all of 2014), computed by pygmm 0.8.0.
+PERIODS = (0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 7.5, 10.0)
+MEDIANS = {
+    6.0: (0.0963, 0.0417, 0.0147, 0.00762, 0.00474, 0.00322, 0.00145, 0.000817),
+    6.5: (0.148, 0.0706, 0.0290, 0.0166, 0.0110, 0.00776, 0.00384, 0.00228),
+    7.0: (0.195, 0.0981, 0.0440, 0.0272, 0.0193, 0.0144, 0.00773, 0.00476),
+    7.5: (0.247, 0.130, 0.0627, 0.0412, 0.0308, 0.0239, 0.0140, 0.00893),
+}
+
+
+def test_the_corner_is_that_of_the_source():
+    """Half a magnitude is a factor of 10^0.25 in the cube root of the moment."""
+    assert source_corner(6.5) == pytest.approx(0.200, abs=5e-4)
+    assert source_corner(6.0) / source_corner(7.0) == pytest.approx(np.sqrt(10.0))
+    assert scenario_parameters(6.5, 20.0).corner == scenario_parameters(6.5, 50.0, seed=3).corner == source_corner(6.5)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("magnitude", MEDIANS)
+def test_long_periods_are_as_strong_as_other_relations_say(magnitude):
+    """As near as at short periods; with one corner of 0.1 Hz the long ones are four times too strong at M 6, twice at
+    M 6.5. Single motions scatter about the relations by a factor of two; at M 6, an end of its range, the median motion
+    is 1.4 to 2 times as strong at any period."""
+    order = scenario_parameters(magnitude, 20.0)
+    logs = [
+        np.log(response_spectrum(stochastic_motion(order, seed), PERIODS).pseudo_acceleration / 9.80665)
+        for seed in range(20)
+    ]
+    ratio = np.exp(np.mean(logs, axis=0)) / np.array(MEDIANS[magnitude])
+    assert (ratio < (2.1 if magnitude == 6.0 else 1.6)).all()
+    assert (ratio > 0.75).all()
+
+
 def test_rate_of_frequency_is_a_distribution():
     shares = [parameters_of(np.array([0.0, 0.0, 0.0, 0.0, z, 0.0])).frequency_rate for z in np.linspace(-4, 4, 81)]
     assert (np.diff(shares) > 0.0).all()
@@ -125,6 +160,10 @@ def test_names():
     assert finer.acceleration[::2] == pytest.approx(motion.acceleration, abs=1e-15)
     assert not np.array_equal(synthetic("synthetic:M6.5,20km,seed=3,scatter=yes").acceleration[:100],
                               motion.acceleration[:100])  # fmt: skip
+    assert "high-pass 0.2 Hz" in motion.processing[0]
+    slower = synthetic("synthetic:M6.5,20km,seed=3,corner=0.1")
+    assert "high-pass 0.1 Hz" in slower.processing[0]
+    assert slower.duration > motion.duration + 5.0
     far = synthetic("synthetic:M5.5,150km,seed=1,vs30=400,fault=reverse")
     assert "outside the records behind its relations" in str(far.warnings[1])
 
@@ -139,6 +178,7 @@ def test_names():
         ("synthetic:M6.5,20km,seed=1,seed=2", "seed is there twice"),
         ("synthetic:M6.5,20km,seed=1.5", "seed is no number"),
         ("synthetic:M6.5,20km,seed=1,fault=normal", "fault is strike-slip or reverse"),
+        ("synthetic:M6.5,20km,seed=1,corner=3", "motion.file: 3 Hz is out of range; give 0.01 to 2 Hz"),
         ("synthetic:M9.5,20km,seed=1", "motion.file: 9.5 is out of range; give 5 to 8.5"),
         ("synthetic:M6.5,2km,seed=1", "motion.file: 2 km is out of range; give 5 to 200 km"),
     ],

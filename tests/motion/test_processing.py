@@ -141,18 +141,60 @@ def test_baseline_takes_out_a_drift_and_nothing_else():
     assert baseline(RAMP, 1).acceleration == pytest.approx([-1.5, 1.5])
 
 
+def of_the_record(filtered, motion):
+    """What of a filtered motion stands where the record is."""
+    first = round(filtered.lead / motion.dt)
+    return filtered.acceleration[first : first + motion.time.size]
+
+
 def test_band_pass():
     slow, middle, fast = (sine(f, 60.0, size=1.0).acceleration for f in (0.05, 2.0, 40.0))
     motion = GroundMotion("three", sine(1.0, 60.0).time, slow + middle + fast)
     inside = slice(1500, -1500)
     passed = band_pass(motion, 0.5, 10.0)
-    assert passed.acceleration[inside] == pytest.approx(middle[inside], abs=2e-3)
+    assert of_the_record(passed, motion)[inside] == pytest.approx(middle[inside], abs=2e-3)
     assert "bandpass 0.5 to 10 Hz" in passed.processing[-1]
-    assert band_pass(motion, low=0.5).acceleration[inside] == pytest.approx((middle + fast)[inside], abs=2e-3)
-    assert band_pass(motion, high=10.0).acceleration[inside] == pytest.approx((slow + middle)[inside], abs=2e-3)
+    high, low = band_pass(motion, low=0.5), band_pass(motion, high=10.0)
+    assert of_the_record(high, motion)[inside] == pytest.approx((middle + fast)[inside], abs=2e-3)
+    assert of_the_record(low, motion)[inside] == pytest.approx((slow + middle)[inside], abs=2e-3)
     # Two passes: half at the corner, by |H|^2 of any Butterworth filter.
     corner = band_pass(sine(2.0, 60.0), low=2.0)
-    assert np.abs(corner.acceleration[inside]).max() == pytest.approx(0.5, abs=5e-3)
+    assert np.abs(corner.acceleration[3000:-3000]).max() == pytest.approx(0.5, abs=5e-3)
+
+
+def test_a_band_pass_keeps_what_the_filter_puts_beside_the_record():
+    """A pulse one way, more than the filter lets through: cut off at the ends of the record, the ground runs away."""
+    time = 0.01 * np.arange(4001)
+    pulse = GroundMotion("pulse", time, np.exp(-(((time - 10.0) / 2.0) ** 2)))
+    passed = band_pass(pulse, low=0.1)
+    assert abs(passed.end_velocity) < 1e-4 * passed.pgv
+    assert abs(velocity_displacement(passed)[1][-1]) < 0.01 * passed.pgd
+    # With five times the zeros, all of them kept.
+    padded = GroundMotion("padded", 0.01 * np.arange(64001), np.pad(pulse.acceleration, 30000))
+    assert passed.pgd == pytest.approx(band_pass(padded, low=0.1).pgd, rel=0.01)
+    assert passed.duration < 120.0
+    own = GroundMotion("cut off", time, of_the_record(passed, pulse))
+    assert own.pgd > 2.0 * passed.pgd
+
+
+def test_seconds_before_a_record_keep_its_times_and_its_other_component(tmp_path):
+    record = "\n".join(f"{v:.6f}" for v in sine(0.7, 10.0, size=0.2).acceleration)
+    for name in ("a", "b"):
+        (tmp_path / f"{name}.txt").write_text(f"# units: m/s2\n# dt: 0.01\n{record}\n")
+    filtered = {"step": "band-pass", "low": "0.5 Hz"}
+    motion = {"file": "a.txt", "processing": [filtered], "duration": "8 s", "vertical": {"file": "b.txt"}}
+    case = read_case(DAM | {"motion": motion})
+    across, up = resolve(case.motion, case.gravity, tmp_path)
+    assert across.lead == up.lead > 3.0
+    assert across.duration == up.duration == pytest.approx(8.0 + across.lead)
+    assert up.acceleration[0] == 0.0
+    assert np.interp(up.lead + 1.0, up.time, up.acceleration) == pytest.approx(0.2 * np.sin(1.4 * np.pi), abs=1e-4)
+    # A window says its times by the record too; from its start it keeps the seconds before it.
+    passed = band_pass(sine(0.7, 10.0), low=0.5)
+    assert cut_to_window(passed, 0.0, 4.0).duration == pytest.approx(4.0 + passed.lead)
+    window = cut_to_window(passed, 1.0, 4.0)
+    assert (window.duration, window.lead) == (pytest.approx(3.0), 0.0)
+    assert window.acceleration[0] == pytest.approx(np.interp(1.0 + passed.lead, passed.time, passed.acceleration))
 
 
 def test_taper():

@@ -72,7 +72,7 @@ class Motion(Source):
     """The ground motion: horizontal, positive downstream, and vertical on request, positive up."""
 
     duration: TimeSpan | None = None
-    """Length of the run; the whole record where it is not given."""
+    """Length of the run, counted from where the record begins; the whole record where it is not given."""
     allow_zero: Truth = False
     """Accept a motion that is zero throughout, which is otherwise taken for a mistake."""
     vertical: Annotated[

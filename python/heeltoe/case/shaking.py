@@ -60,7 +60,8 @@ def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[Grou
             )
         elif factor != 1.0:
             vertical = vertical.scaled(factor, f"scaled by {factor:.6g} like the horizontal motion")
-        vertical = vertical.with_warnings(*check_pair(horizontal, vertical))
+        vertical = vertical.with_warnings(*check_pair(horizontal, vertical)).led_by(horizontal.lead)
+        horizontal = horizontal.led_by(vertical.lead)
         vertical = _finish(vertical, shaking.vertical, shaking.duration)
         vertical = vertical.with_warnings(*check(vertical, gravity, allow_zero=True, field="motion.vertical"))
     horizontal = _finish(horizontal, shaking, shaking.duration)
@@ -121,4 +122,4 @@ def _state_of(path: Path) -> tuple[object, ...]:
 def _finish(motion: GroundMotion, shaking: Source, duration: float | None) -> GroundMotion:
     if shaking.reverse:
         motion = motion.reversed()
-    return motion if duration is None else motion.cut(duration)
+    return motion if duration is None else motion.cut(duration + motion.lead)

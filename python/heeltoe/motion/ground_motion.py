@@ -49,6 +49,8 @@ class GroundMotion(Shown):
         What the file says was done, and all that was done here.
     warnings
         What a reader of any result with this motion must know.
+    lead
+        What a filter has put before the first value of the record [s]; components of one earthquake go together by it.
     """
 
     name: str
@@ -64,6 +66,7 @@ class GroundMotion(Shown):
     source: str = ""
     processing: tuple[str, ...] = ()
     warnings: tuple[Notice, ...] = ()
+    lead: float = 0.0
 
     def __post_init__(self) -> None:
         for name in ("time", "acceleration"):
@@ -212,6 +215,22 @@ class GroundMotion(Shown):
             lost = Notice("motion-cut", duration_s=duration, time_s=self.peak[0])
             result = replace(result, warnings=(*result.warnings, lost))
         return result
+
+    def led_by(self, lead: float) -> GroundMotion:
+        """Return the motion with the ground at rest before it, so that its record begins `lead` [s] after its start."""
+        more = lead - self.lead
+        if more <= 0.0:
+            return self
+        at_rest = [0.0] if self.acceleration[0] == 0.0 else [0.0, 0.0]
+        time = np.concatenate([[0.0] if len(at_rest) == 1 else [0.0, more], self.time + more])
+        said = f"{more:.4g} s of rest before it, to go with the other component"
+        return replace(
+            self,
+            time=time,
+            acceleration=np.concatenate([at_rest, self.acceleration]),
+            lead=lead,
+            processing=(*self.processing, said),
+        )
 
     @property
     def is_cut(self) -> bool:

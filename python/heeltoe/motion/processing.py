@@ -107,6 +107,8 @@ def baseline(motion: GroundMotion, order: int = 2, *, displacement: bool = False
     )
 
 
+# Of the peak; what the filter puts beside the record below this moves displacements by less than a hundredth.
+_FADED = 1e-6
 # Zeros on either side of a record that is filtered: a corner that asks for more is far slower than any record is long.
 _MOST_ZEROS = 5_000_000
 
@@ -116,9 +118,11 @@ def band_pass(
 ) -> GroundMotion:
     """Filter with a Butterworth filter, forward and backward, so that phases stay (scipy's sosfiltfilt).
 
-    Before and after the record stand 1.5 `order` / `low` seconds of zeros, the rule of Converse and Brady (1992), and
-    are cut off again. The two passes together have twice the order; each corner is down by half (6 dB). Cutting off
-    the transients leaves a small end velocity; let a baseline step follow where that matters.
+    Before and after the record stand 1.5 `order` / `low` seconds of zeros, the rule of Converse and Brady (1992). What
+    the filter puts there belongs to the motion: cut off, it leaves a velocity behind that makes displacements several
+    times too large. So it stays, up to where it falls below a millionth of the peak, and `lead` of the motion says how
+    much of it stands before the record. The two passes together have twice the order; each corner is down by half
+    (6 dB).
 
     Parameters
     ----------
@@ -158,11 +162,24 @@ def band_pass(
     sections = signal.butter(
         order, corners if len(corners) == 2 else corners[0], kind, fs=1.0 / motion.dt, output="sos"
     )
-    padded = np.pad(motion.acceleration, zeros)
-    filtered = signal.sosfiltfilt(sections, padded, padlen=0)[zeros : zeros + motion.time.size]
+    filtered = signal.sosfiltfilt(sections, np.pad(motion.acceleration, zeros), padlen=0)
+    size = np.abs(filtered)
+    felt = np.flatnonzero(size > _FADED * size.max())
+    first = min(zeros, int(felt[0])) if felt.size else zeros
+    last = max(zeros + motion.time.size - 1, int(felt[-1])) if felt.size else zeros + motion.time.size - 1
+    before, behind = (zeros - first) * motion.dt, (last - zeros - motion.time.size + 1) * motion.dt
     band = " to ".join(f"{corner:g}" for corner in corners)
-    said = f"{kind} {band} Hz (Butterworth of order {order}, forward and backward, {zeros * motion.dt:g} s of zeros)"
-    return replace(motion, acceleration=filtered, processing=(*motion.processing, said))
+    said = (
+        f"{kind} {band} Hz (Butterworth of order {order}, forward and backward, {zeros * motion.dt:g} s of zeros on "
+        f"either side, of which {before:.4g} s before and {behind:.4g} s behind the record stay)"
+    )
+    return replace(
+        motion,
+        time=motion.dt * np.arange(last - first + 1, dtype=np.float64),
+        acceleration=filtered[first : last + 1],
+        lead=motion.lead + before,
+        processing=(*motion.processing, said),
+    )
 
 
 def taper(motion: GroundMotion, share: float = 0.05, ends: Ends = "both") -> GroundMotion:
@@ -195,23 +212,28 @@ def cut_significant(motion: GroundMotion, start: float = 0.05, end: float = 0.95
         motion,
         time=np.concatenate([[first], motion.time[inside], [last]]) - first,
         acceleration=np.concatenate([edges[:1], motion.acceleration[inside], edges[1:]]),
+        lead=0.0,
         processing=(*motion.processing, said),
     )
 
 
 def cut_to_window(motion: GroundMotion, start: float = 0.0, end: float | None = None) -> GroundMotion:
-    """Keep what lies between two moments [s], with samples right at the cuts; without an `end`, all after `start`."""
-    last = motion.duration if end is None else min(end, motion.duration)
-    if not 0.0 <= start < last:
-        raise InputError("order-window", "start", f"{start:g} s", end=f"{last:g} s")
+    """Keep what lies between two moments [s] of the record, with samples right at the cuts; without an `end`, all after
+    `start`, and from a start of zero what a filter has put before the record too."""
+    last = motion.duration if end is None else min(end + motion.lead, motion.duration)
+    first = start + motion.lead if start > 0.0 else 0.0
+    if not (start >= 0.0 and first < last):
+        raise InputError("order-window", "start", f"{start:g} s", end=f"{last - motion.lead:g} s")
     left = motion.cut(last)
-    inside = left.time > start
-    edge = np.interp(start, left.time, left.acceleration)
-    said = f"cut to {start:g} s to {last:g} s" if last < motion.duration else f"without its first {start:g} s"
+    inside = left.time > first
+    edge = np.interp(first, left.time, left.acceleration)
+    until = last - motion.lead
+    said = f"cut to {start:g} s to {until:g} s" if last < motion.duration else f"without its first {start:g} s"
     return replace(
         left,
-        time=np.concatenate([[0.0], left.time[inside] - start]),
+        time=np.concatenate([[0.0], left.time[inside] - first]),
         acceleration=np.concatenate([[edge], left.acceleration[inside]]),
+        lead=motion.lead if start == 0.0 else 0.0,
         processing=(*motion.processing, said),
     )
 
@@ -244,5 +266,7 @@ def scale_time(motion: GroundMotion, factor: float, *, allow: bool = False) -> G
     if not allow:
         raise InputError("order-time", "allow", f"{factor:g}")
     said = f"time stretched by {factor:.6g}: all its frequencies are divided by that"
-    stretched = replace(motion, time=motion.time * factor, processing=(*motion.processing, said))
+    stretched = replace(
+        motion, time=motion.time * factor, lead=motion.lead * factor, processing=(*motion.processing, said)
+    )
     return stretched.with_warnings(Notice("motion-stretched", name=motion.name, factor=factor))

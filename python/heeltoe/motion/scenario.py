@@ -49,7 +49,7 @@ _RHO = (
     (-0.2034, 0.2814),
     (-0.0137,),
 )
-_OPTION = re.compile(r"(seed|vs30|fault|step|scatter)=(.+)")
+_OPTION = re.compile(r"(seed|vs30|fault|step|scatter|corner)=(.+)")
 
 
 def normal_scores(magnitude: float, distance: float, vs30: float, reverse: bool) -> Floats:
@@ -91,6 +91,18 @@ def _two_sided(share: float) -> float:
     return float(min(0.5, -np.log(max(1.0 - (share - at_zero) * above / top, 1e-300)) / above))
 
 
+def source_corner(magnitude: float) -> float:
+    """Return the corner frequency [Hz] of an earthquake's source after Brune (1970): 4.9e6 beta (stress / M0)^(1/3).
+
+    In the units of Boore (2003), Pure and Applied Geophysics 160, 635-676: beta = 3.5 km/s, a stress parameter of
+    100 bar, as is usual for active regions, and the seismic moment M0 [dyn cm] of Hanks and Kanamori (1979). Below it
+    the acceleration of the source falls with the square of the frequency, as f^2 / (f^2 + corner^2): what the
+    critically damped high-pass of the motions does, so that this is its corner.
+    """
+    moment = 10.0 ** (1.5 * magnitude + 16.05)
+    return float(4.9e6 * 3.5 * (100.0 / moment) ** (1.0 / 3.0))
+
+
 def scenario_parameters(
     magnitude: float, distance: float, vs30: float = 760.0, *, reverse: bool = False, seed: int | None = None,
     gravity: float = STANDARD_GRAVITY,
@@ -121,8 +133,9 @@ def scenario_parameters(
         if not low <= value <= high:
             raise InputError("synthetic-range", name, f"{value:g}{unit}", bounds=f"{low:g} to {high:g}{unit}")
     scores = normal_scores(magnitude, distance, vs30, reverse)
+    corner = source_corner(magnitude)
     if seed is None:
-        return parameters_of(scores, gravity)
+        return replace(parameters_of(scores, gravity), corner=corner)
     correlation = np.eye(6)
     for i, row in enumerate(_RHO):
         correlation[i, i + 1 :] = correlation[i + 1 :, i] = row
@@ -135,14 +148,14 @@ def scenario_parameters(
         except InputError:
             continue
         if 0.2 <= drawn.duration / drawn.middle <= 4.9:
-            return drawn
+            return replace(drawn, corner=corner)
 
 
 def synthetic(name: str, *, gravity: float = STANDARD_GRAVITY, field: str = "motion.file") -> GroundMotion:
     """Return the motion that a name such as ``synthetic:M6.5,20km,seed=3,vs30=760,fault=reverse`` orders.
 
     Without ``scatter=yes`` the parameters are the medians, and only the noise differs between seeds. A ``step`` [s]
-    refines the motion, exactly; it divides 0.01 s.
+    refines the motion, exactly; it divides 0.01 s. A ``corner`` [Hz] of the high-pass goes before that of the source.
 
     Raises
     ------
@@ -161,6 +174,8 @@ def synthetic(name: str, *, gravity: float = STANDARD_GRAVITY, field: str = "mot
             seed=seed if order.get("scatter") else None,
             gravity=gravity,
         )
+        if "corner" in order:
+            parameters = replace(parameters, corner=order["corner"])
     except _Form as reason:
         raise InputError("synthetic-form", field, name, reason=reason) from None
     except InputError as error:

@@ -63,7 +63,7 @@ class Parameters:
             ("frequency", LOWEST_FREQUENCY, 25.0, "Hz"),
             ("frequency_rate", -5.0, 5.0, "Hz/s"),
             ("bandwidth", 0.01, 0.99, ""),
-            ("corner", 0.01, 1.0, "Hz"),
+            ("corner", 0.01, 2.0, "Hz"),
         ):
             value = getattr(self, name)
             if not low <= value <= high:
@@ -147,7 +147,7 @@ def stochastic_motion(
         f"filtered, modulated white noise after Rezaeian and Der Kiureghian (2010): Arias intensity "
         f"{parameters.arias:.4g} m/s, D5-95 {parameters.duration:.4g} s, t_mid {parameters.middle:.4g} s, frequency "
         f"{parameters.frequency:.4g} Hz there, changing by {parameters.frequency_rate:.3g} Hz/s, bandwidth "
-        f"{parameters.bandwidth:.3g}, high-pass {parameters.corner:g} Hz, seed {seed}"
+        f"{parameters.bandwidth:.3g}, high-pass {parameters.corner:.3g} Hz, seed {seed}"
     )
     motion = GroundMotion(
         name, time, acceleration, format="synthetic", units_as_read="m/s^2", source="made to order", processing=(said,)

