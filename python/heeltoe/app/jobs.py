@@ -80,7 +80,8 @@ class Job:
             except (EOFError, OSError):
                 break
             await tell(self.told())
-        self._process.join(_PATIENCE_S)
+        # A process that has processes of its own takes a while to end: nobody else shall wait for it.
+        await loop.run_in_executor(None, self._process.join, _PATIENCE_S)
         if self._process.is_alive():
             self._process.kill()
         self._here.close()
