@@ -13,6 +13,9 @@ import pytest
 
 from shared.dams import ROOT
 
+LAPTOP = {"width": 1366, "height": 900}
+# Where a page is looked at: name, width, colours.
+_PLACES = [("dark", 1366, "dark"), ("telephone", 390, "light"), ("night", 390, "dark"), ("projector", 1920, "light")]
 # Screenshots of every page, to be looked at.
 PICTURES = ROOT / "out" / "app"
 # What Debian calls it, and others.
@@ -56,22 +59,71 @@ def chromium():
         browser.close()
 
 
-@pytest.fixture
-def page(chromium, address):
-    """Open the app in a tab that must not complain, and asks nobody else for anything."""
-    context = chromium.new_context(viewport={"width": 1366, "height": 900})
+@pytest.fixture(scope="module")
+def context(chromium):
+    """Keep what a browser keeps from one page to the next: the scripts, as it has compiled them, too."""
+    made = chromium.new_context(viewport=LAPTOP, has_touch=True)
     # Machines are busy: what must come may come late.
-    context.set_default_timeout(120_000)
-    tab = context.new_page()
-    said, foreign = [], []
-    tab.on("console", lambda message: said.append(message.text) if message.type == "error" else None)
-    tab.on("pageerror", lambda error: said.append(str(error)))
-    tab.on("request", lambda asked: None if asked.url.startswith(address) else foreign.append(asked.url))
-    tab.goto(address)
-    yield tab
-    context.close()
+    made.set_default_timeout(60_000)
+    yield made
+    made.close()
+
+
+@pytest.fixture(scope="module")
+def tab(context, address):
+    """Open a tab for all tests of a module: its scripts are compiled once. Return it, and what it complains of."""
+    opened, complaints = context.new_page(), []
+    opened.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
+    opened.on("pageerror", lambda error: complaints.append(str(error)))
+    opened.on("request", lambda asked: None if _is_own(asked.url, address) else complaints.append(asked.url))
+    return opened, complaints
+
+
+def _is_own(url: str, address: str) -> bool:
+    return url.startswith((address, "data:", "blob:"))
+
+
+@pytest.fixture
+def page(tab, address):
+    """Open the app in a tab that must not complain, asks nobody else for anything, and knows of no case before it."""
+    opened, complaints = tab
+    opened.set_viewport_size(LAPTOP)
+    opened.emulate_media(color_scheme="light")
+    opened.goto(address)
+    yield opened
+    opened.evaluate("() => { localStorage.clear(); sessionStorage.clear(); }")
+    said = complaints[:]
+    complaints.clear()
     assert not said
-    assert not [each for each in foreign if not each.startswith(("data:", "blob:"))]
+
+
+@pytest.fixture
+def places(page, picture):
+    """Return what walks through the screens that a page is looked at on, each loaded anew, nothing reaching out of it
+    sideways, and pictured in the end."""
+
+    def walk(name: str):
+        for place, width, scheme in _PLACES:
+            page.set_viewport_size({"width": width, "height": 900})
+            page.emulate_media(color_scheme=scheme)
+            page.reload()
+            yield page
+            assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), place
+            picture(page, f"{name}-{place}")
+
+    return walk
+
+
+@pytest.fixture
+def heard_well():
+    """Return what asks axe-core what would hold up somebody who does not see the page."""
+    axe = pytest.importorskip("axe_playwright_python.sync_playwright")
+
+    def grave(tab) -> list[tuple[str, str]]:
+        found = axe.Axe().run(tab).response["violations"]
+        return [(each["id"], each["nodes"][0]["html"]) for each in found if each["impact"] in ("serious", "critical")]
+
+    return grave
 
 
 @pytest.fixture

@@ -69,27 +69,11 @@ def test_both_blocks_where_the_crack_is_at_a_height(page, picture):
     picture(page, "answer-height")
 
 
-@pytest.mark.parametrize(
-    ("name", "width", "scheme"), [("dark", 1366, "dark"), ("telephone", 390, "light"), ("projector", 1920, "light")]
-)
-def test_looks(chromium, address, picture, name, width, scheme):
-    context = chromium.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)
-    tab = context.new_page()
-    tab.goto(address)
-    tab.wait_for_selector(SLIP)
-    settled(tab)
-    assert tab.evaluate("document.documentElement.scrollWidth <= innerWidth")
-    picture(tab, f"answer-{name}")
-    context.close()
-
-
-def test_a_screen_reader_finds_its_way(page):
-    axe = pytest.importorskip("axe_playwright_python.sync_playwright")
-    page.wait_for_selector(SLIP)
-    settled(page)
-    found = axe.Axe().run(page).response["violations"]
-    grave = [each for each in found if each["impact"] in ("serious", "critical")]
-    assert not grave, [(each["id"], each["nodes"][0]["html"]) for each in grave]
+def test_looks(places, heard_well):
+    for page in places("answer"):
+        page.wait_for_selector(SLIP)
+        settled(page)
+    assert not heard_well(page)
 
 
 def test_an_elastic_run_is_cancelled(page):

@@ -16,9 +16,10 @@ HOME = "http://127.0.0.1:8642"
 HEADERS = {"host": "127.0.0.1:8642", "origin": HOME}
 
 
-@pytest.fixture
-def server(tmp_path):
-    with TestClient(application(Settings("127.0.0.1", 8642, tmp_path)), base_url=HOME) as found:
+@pytest.fixture(scope="module")
+def server(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("app")
+    with TestClient(application(Settings("127.0.0.1", 8642, folder)), base_url=HOME) as found:
         yield found
 
 

@@ -24,8 +24,9 @@ def settings(tmp_path):
     return Settings("127.0.0.1", 8642, tmp_path)
 
 
-@pytest.fixture
-def ask(settings):
+@pytest.fixture(scope="module")
+def ask(tmp_path_factory):
+    settings = Settings("127.0.0.1", 8642, tmp_path_factory.mktemp("app"))
     with TestClient(application(settings), base_url=HOME, follow_redirects=False) as client:
         yield client
 

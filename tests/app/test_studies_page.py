@@ -17,7 +17,7 @@ LOOKED = "() => /runs? \\(/.test(document.querySelector('.outlook').textContent)
 def studies(page):
     """Open the page, with a grid in its form."""
     page.click("#tab-studies")
-    page.wait_for_function(LOOKED, timeout=60_000)
+    page.wait_for_function(LOOKED)
     return page
 
 
@@ -25,23 +25,29 @@ def small(page) -> None:
     """Ask for three runs."""
     page.fill("[data-field='vary.crack.friction['] input", "0.9, 1.0, 1.1")
     page.click("text=Remove >> nth=1")
-    page.wait_for_function("() => /^3 runs/.test(document.querySelector('.outlook').textContent)", timeout=60_000)
+    page.wait_for_function("() => /^3 runs/.test(document.querySelector('.outlook').textContent)")
 
 
 def ran(page) -> None:
     """Run it and wait for what it says."""
     page.click("text=Run the study")
-    page.wait_for_selector(".document figure img", timeout=120_000)
+    page.wait_for_selector(".document figure img")
+
+
+def reached(page) -> int:
+    """Return how many of a million runs are done."""
+    said = page.wait_for_selector(".studies .state >> text=/of 1,000,000 runs/").inner_text()
+    return int(said.split(" of ")[0].replace(",", ""))
 
 
 def saved(page, label: str) -> bytes:
     """Fetch what a button offers."""
-    with page.expect_download(timeout=60_000) as waiting:
+    with page.expect_download() as waiting:
         page.click(f"button:text-is('{label}')")
     return waiting.value.path().read_bytes()
 
 
-def test_a_study_is_counted_run_and_taken_away(studies, picture):
+def test_a_study_is_counted_run_taken_away_and_looked_at(studies, places, picture, heard_well):
     picture(studies, "studies-form")
     small(studies)
     ran(studies)
@@ -53,6 +59,10 @@ def test_a_study_is_counted_run_and_taken_away(studies, picture):
     parts = {name.split("/", 1)[1] for name in names}
     assert {"case.toml", "study.toml", "study/study.json", "study/runs/part-00000000.parquet"} <= parts
     assert any(name.startswith("study/figures/") for name in parts)
+    for page in places("studies"):
+        page.click(".studies button:text-is('Show')")
+        page.wait_for_selector(".document figure img")
+    assert not heard_well(page)
 
 
 def test_what_is_wrong_is_said_at_its_field(studies):
@@ -75,11 +85,13 @@ def test_what_is_wrong_is_said_at_its_field(studies):
 def test_a_study_is_cancelled_found_again_and_gone_on_with(studies, address):
     studies.click("button:text-is('Fragility')")
     studies.fill("#study-title", "<img src=x onerror=alert(1)>")
-    studies.fill("#study-samples", "200000")
-    studies.wait_for_function("() => /^200,000 runs/.test(document.querySelector('.outlook').textContent)")
+    # More than are done before the page is there again, on any machine.
+    studies.fill("#study-samples", "1000000")
+    studies.wait_for_function("() => /^1,000,000 runs/.test(document.querySelector('.outlook').textContent)")
     studies.click("text=Run the study")
-    studies.wait_for_selector(".studies .state >> text=/of 200,000 runs/", timeout=120_000)
+    reached(studies)
     studies.reload()
+    done = reached(studies)
     studies.click(".studies button:text-is('Cancel')")
     studies.wait_for_selector(".studies .state >> text=cancelled")
     assert studies.inner_text(".studies strong") == "<img src=x onerror=alert(1)>"
@@ -89,44 +101,33 @@ def test_a_study_is_cancelled_found_again_and_gone_on_with(studies, address):
     assert not other.is_visible(".studies li")  # that of the tab which is open
     other.close()
     studies.click(".studies button:text-is('Go on')")
-    studies.wait_for_selector(".studies .state >> text=done", timeout=300_000)
-    studies.wait_for_selector(".document figure img", timeout=120_000)
+    # It does not begin anew.
+    assert reached(studies) >= done
+    studies.click(".studies button:text-is('Cancel')")
+    studies.wait_for_selector(".studies .state >> text=cancelled")
+    studies.click(".studies button:text-is('Show')")
     assert studies.inner_text(".document h2") == "<img src=x onerror=alert(1)>"
-    assert "200,000 runs" in studies.inner_text(".document")
+    studies.click(".studies button:text-is('Remove')")
+    studies.wait_for_selector(".studies li", state="detached")
 
 
-def test_a_page_that_was_closed_comes_back(chromium, address):
-    context = chromium.new_context()
+def test_a_page_that_was_closed_comes_back(context, address):
     page = context.new_page()
     page.goto(f"{address}#studies")
-    page.wait_for_function(LOOKED, timeout=60_000)
+    page.wait_for_function(LOOKED)
+    small(page)
     page.click("text=Run the study")
     page.wait_for_selector(".studies li")
     page.close()
     page = context.new_page()
     page.goto(f"{address}#studies")
-    page.wait_for_selector(".studies .state >> text=done", timeout=120_000)
+    page.wait_for_selector(".studies .state >> text=done")
     page.click(".studies button:text-is('Show')")
-    page.wait_for_selector(".document figure img", timeout=60_000)
+    page.wait_for_selector(".document figure img")
     page.click(".studies button:text-is('Remove')")
     page.wait_for_selector(".studies li", state="detached")
-    context.close()
-
-
-@pytest.mark.parametrize(("name", "width", "scheme"), [("telephone", 390, "dark"), ("projector", 1920, "light")])
-def test_looks(chromium, address, picture, name, width, scheme):
-    axe = pytest.importorskip("axe_playwright_python.sync_playwright")
-    context = chromium.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme)
-    page = context.new_page()
-    page.goto(f"{address}#studies")
-    page.wait_for_function(LOOKED, timeout=60_000)
-    ran(page)
-    assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
-    picture(page, f"studies-{name}")
-    found = axe.Axe().run(page).response["violations"]
-    grave = [each for each in found if each["impact"] in ("serious", "critical")]
-    assert not grave, [(each["id"], each["nodes"][0]["html"]) for each in grave]
-    context.close()
+    page.evaluate("localStorage.clear()")
+    page.close()
 
 
 def test_keys_alone_make_a_study(studies):
@@ -141,3 +142,6 @@ def test_keys_alone_make_a_study(studies):
     studies.focus("text=Run the study")
     studies.keyboard.press("Enter")
     studies.wait_for_selector(".studies li >> text=by keys")
+    studies.focus("[aria-label='Cancel: by keys']")
+    studies.keyboard.press("Enter")
+    studies.wait_for_selector(".studies .state >> text=cancelled")

@@ -22,6 +22,7 @@ def outcome(path, required: str) -> subprocess.CompletedProcess[str]:
     )
 
 
+@pytest.mark.slow
 def test_they_are_skipped_and_say_so(tmp_path):
     found = outcome(tmp_path, "")
     assert found.returncode == 0, found.stdout
@@ -29,6 +30,7 @@ def test_they_are_skipped_and_say_so(tmp_path):
     assert "no browser: install chromium" in found.stdout
 
 
+@pytest.mark.slow
 def test_they_fail_where_they_are_required(tmp_path):
     found = outcome(tmp_path, "required")
     assert found.returncode == 1
