@@ -1,10 +1,10 @@
-"""Commands about a dam beside running it: periods, overturning, static checks, animation."""
+"""Commands about a dam beside running it: periods, overturning, animation."""
 
 from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -15,7 +15,6 @@ from heeltoe.cli.common import (
     CaseUnits,
     Changes,
     JsonPath,
-    UnitsName,
     as_given,
     check_json,
     check_units,
@@ -26,11 +25,7 @@ from heeltoe.cli.common import (
 from heeltoe.cli.streams import console
 from heeltoe.errors import InputError
 from heeltoe.plain import plain
-from heeltoe.units.systems import unit_system
 from heeltoe.whole import check_directory, check_file
-
-if TYPE_CHECKING:
-    pass
 
 
 def periods(
@@ -80,48 +75,6 @@ def overturning(
         written = write_overturning(found, out)
     dam = about_dam(loaded, units_of(loaded, units))
     finish(found.to_json(), json_, written, lambda console: print_overturning(found, console, dam))
-
-
-def statics(
-    case: CasePath,
-    set_: Changes = None,
-    criteria: Annotated[
-        str | None, typer.Option(metavar="USACE|USBR|FERC|CDA", help="Whose required factors to judge by.")
-    ] = None,
-    slip: Annotated[
-        str | None,
-        typer.Option(metavar="0.15m", help="Residual slip of the post-seismic case; without it that of a run."),
-    ] = None,
-    model: Annotated[
-        str, typer.Option(metavar="auto|rigid|decoupled|flexible", help="Which model says the slip, as of a run.")
-    ] = "auto",
-    json_: JsonPath = None,
-    units: UnitsName = "si",
-) -> None:
-    """Judge the stability before, during (pseudo-static) and after the earthquake."""
-    from heeltoe.case.read import read_case
-    from heeltoe.models.run import check_model
-    from heeltoe.models.statics.model import statics as judge
-    from heeltoe.units.parse import parse
-    from heeltoe.views.terminal.statics import print_statics
-
-    unit_system(units, "--units")
-    check_model(model, "--model")
-    changes = [*(set_ or []), *([] if criteria is None else [f"statics.criteria={criteria}"])]
-    loaded = read_case(case, changes)
-    check_json(json_)
-    with status() as say:
-        if slip is not None:
-            found = judge(loaded, parse(slip, "length", "--slip"), slip_source="--slip")
-        elif loaded.motion is not None and loaded.statics.residual_slip is None:
-            from heeltoe.models.run import run
-            from heeltoe.models.statics.after import statics_after
-
-            say("running the earthquake")
-            found = statics_after(loaded, *reversed(run(loaded, model).responses))
-        else:
-            found = judge(loaded)
-    finish(found.to_json(), json_, [], lambda console: print_statics(found, console, units))
 
 
 def animate(

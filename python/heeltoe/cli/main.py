@@ -14,6 +14,7 @@ from heeltoe.cli import app as app_command
 from heeltoe.cli import dam as dam_commands
 from heeltoe.cli import motion as motion_command
 from heeltoe.cli import run as run_command
+from heeltoe.cli import statics as statics_command
 from heeltoe.cli import study as study_command
 from heeltoe.cli.common import BAD_INPUT, BUG, INTERRUPTED, LONGEST_PATH, NO_RESULT, app
 from heeltoe.cli.streams import console, streams
@@ -115,7 +116,7 @@ app.command(cls=run_command.Run)(run_command.run)
 for command in (
     dam_commands.periods,
     dam_commands.overturning,
-    dam_commands.statics,
+    statics_command.statics,
     dam_commands.animate,
     motion_command.motion,
     study_command.study,

@@ -181,14 +181,8 @@ def run_small(
         Where a value cannot be used, or all runs together take more than the first case allows; all cases are read
         before the first one runs.
     """
-    samples = Samples(axes, "grid", None, 0)
-    columns, _ = samples.at(np.arange(samples.count, dtype=np.int64))
-    cells = tuple(zip(*columns.values(), strict=True)) if columns else ((),)
-    cases = [
-        read_case(source, [*changes, *(f"{path}={value}" for path, value in zip(columns, cell, strict=True))])
-        for cell in cells
-    ]
-    _check_together(cases, cost)
+    cells, cases = cases_of(source, changes, axes)
+    check_together(cases, cost)
     responses = []
     for done, case in enumerate(cases):
         if progress is not None:
@@ -197,7 +191,21 @@ def run_small(
     return SmallStudy(tuple(axes), cells, tuple(responses))
 
 
-def _check_together(cases: Sequence[Case], cost: Callable[[Case], Cost | None]) -> None:
+def cases_of(
+    source: str | os.PathLike[str] | Mapping[str, Any], changes: Sequence[str], axes: Sequence[Axis]
+) -> tuple[tuple[tuple[str, ...], ...], list[Case]]:
+    """Return the values of every combination, and the case that each makes."""
+    samples = Samples(axes, "grid", None, 0)
+    columns, _ = samples.at(np.arange(samples.count, dtype=np.int64))
+    cells = tuple(zip(*columns.values(), strict=True)) if columns else ((),)
+    cases = [
+        read_case(source, [*changes, *(f"{path}={value}" for path, value in zip(columns, cell, strict=True))])
+        for cell in cells
+    ]
+    return cells, cases
+
+
+def check_together(cases: Sequence[Case], cost: Callable[[Case], Cost | None]) -> None:
     """Refuse a table that takes too much as a whole."""
     costs = [each for each in map(cost, cases) if each is not None]
     if costs:

@@ -26,6 +26,7 @@ UNITS: dict[str, tuple[float, str]] = {
     "mm": (1e-3, "displacement"),
     "cm": (1e-2, "displacement"),
     "m": (1.0, "length"),
+    "m²": (1.0, "area"),
     "m/s": (1.0, "velocity"),
     "cm/s": (1e-2, "velocity"),
     "m/s²": (1.0, "acceleration"),
@@ -59,6 +60,8 @@ def scale(quantity: str, largest: float) -> Scale:
     """Return the unit of the United States in which people write a quantity of up to `largest` in SI."""
     if quantity == "acceleration":
         return Scale(1.0 / FOOT, "ft/s²")
+    if quantity == "area":
+        return Scale(1.0 / FOOT**2, "ft²")
     if quantity == "density":
         return Scale(FOOT**3 / POUND, "lb/ft³")
     if quantity == "mass":

@@ -66,6 +66,9 @@ class LoadCase:
         Where the forces come from, by their names.
     ends_m
         Ends of the contact, each downstream of the heel of the crack and above it: its heel and its toe.
+    pressures
+        Of the water in the crack as far as it is found open: distance from the heel of the crack [m] and pressure
+        [Pa], straight in between; twice the same distance is a jump.
     """
 
     name: str
@@ -93,6 +96,7 @@ class LoadCase:
     assumptions: tuple[Sentence, ...]
     sources: Mapping[str, Sentence]
     ends_m: tuple[tuple[float, float], tuple[float, float]]
+    pressures: tuple[tuple[float, float], ...]
 
     def sheet(self, about: str = "heel") -> Sheet:
         """Return the forces one by one with arms, moments and sum about the "heel" or the "toe" of the contact."""
@@ -113,6 +117,7 @@ class LoadCase:
     def to_json(self) -> dict[str, Any]:
         """Return plain numbers, strings and lists."""
         written = asdict(self)
+        written["pressures"] = [list(point) for point in self.pressures]
         for name in ("sources", "ends_m"):
             del written[name]
         from_heel = sheet(self.forces, self.sources, "heel", (0.0, 0.0))
@@ -208,6 +213,7 @@ def solve_case(
         assumptions=given.assumptions,
         sources=given.sources,
         ends_m=(section.from_crack_frame(contact.start, 0.0), section.from_crack_frame(contact.end, 0.0)),
+        pressures=tuple((float(x), float(p)) for x, p in settled.profile),
     )
     return Solved(load_case, settled)
 

@@ -115,7 +115,7 @@ def sources_of(case: Case) -> dict[str, Sentence]:
     """Say where the forces of a case of loads come from, by their names."""
     said = {
         "weight": Sentence.of(
-            "{area_m2:.4g} m² of concrete of {density:.5g kg/m³}, at its centroid",
+            "{area_m2:.5g m²} of concrete of {density:.5g kg/m³}, at its centroid",
             area_m2=case.cut.area,
             density=case.concrete.density,
         ),

@@ -93,10 +93,15 @@ def _command(subject: Subject) -> str:
 
 
 def _rows(subject: Subject, *, given: bool) -> tuple[tuple[Inline, ...], ...]:
-    written = subject.case.model_dump(mode="json")
+    return case_rows(subject.case, subject.units, given=given)
+
+
+def case_rows(case: Case, units: str, *, given: bool) -> tuple[tuple[Inline, ...], ...]:
+    """Return the fields of a case that are given, or those that are not: path, value, meaning."""
+    written = case.model_dump(mode="json")
     return tuple(
         (Code(path), value, meaning.replace("`", ""))
-        for path, value, is_given, meaning in fields(subject.case, written, units=subject.units)
+        for path, value, is_given, meaning in fields(case, written, units=units)
         if is_given == given
     )
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TYPE_CHECKING
 
 from heeltoe.units.write import NOTHING
@@ -61,7 +62,7 @@ def static_checks(subject: Subject) -> Section | None:
         _cases(subject, found),
         _checks(subject, found),
         _missed(found, subject.units),
-        _remarks(subject, found),
+        remarks(found, subject.units, partial(source_number, subject)),
         _levels(subject),
     ]
     return Section("Static checks", tuple(blocks))
@@ -135,15 +136,15 @@ def _missed(found: Statics, units: str) -> Block:
     return Notes("warning", f"Not met: {len(items)} of {len(found.checks)} static checks", tuple(items))
 
 
-def _remarks(subject: Subject, found: Statics) -> Notes:
+def remarks(found: Statics, units: str, number_of: Callable[[str], str]) -> Notes:
     """Gather what the load cases take for granted, and what there is to say about the required values."""
     notes: dict[str, list[str]] = {}
     for check in found.checks:
-        number = source_number(subject, check.source)
+        number = number_of(check.source)
         for text in filter(None, check.note.split("; ")):
             if number not in notes.setdefault(text, []):
                 notes[text].append(number)
-    remarks = [f"{each.name}: {text.text(subject.units)}." for each in found.cases for text in each.assumptions]
+    remarks = [f"{each.name}: {text.text(units)}." for each in found.cases for text in each.assumptions]
     remarks += [f"{', '.join(sorted(numbers))}: {note}." for note, numbers in notes.items()]
     return Notes("note", "Taken for granted", tuple((text,) for text in dict.fromkeys(remarks)))
 

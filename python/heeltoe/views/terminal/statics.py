@@ -9,11 +9,14 @@ from rich.markup import escape
 from rich.table import Table
 
 from heeltoe.models.statics.checks import Check
+from heeltoe.models.statics.joints import Joint, Joints
 from heeltoe.models.statics.load_case import LoadCase
 from heeltoe.models.statics.model import Statics
-from heeltoe.units.sentences import numbers
+from heeltoe.study.statics import StaticsTable
+from heeltoe.units.sentences import numbers, quantity
 from heeltoe.views.terminal.common import label_grid, label_lines, print_title, print_warnings, quiet_table
-from heeltoe.views.words.statics import basis, check_cells, failed, verdict_of
+from heeltoe.views.words.sheet import lines, steps
+from heeltoe.views.words.statics import basis, check_cells, failed, section_rows, verdict_of
 
 # Label, how numbers are written (in SI, without a minus before zero), what they are; or words without a form.
 _ROWS: tuple[tuple[str, str, Callable[[LoadCase], float | str | None]], ...] = (
@@ -51,10 +54,10 @@ def print_statics(found: Statics, console: Console, units: str = "si") -> None:
     sources = _sources(found.checks)
     said = [(str(number), source) for source, number in sources.items()]
     said += [(", ".join(map(str, of)), note) for note, of in _notes(found.checks, sources).items()]
-    for lines in (said, _assumptions(found.cases, units)):
-        if lines:
+    for told in (said, _assumptions(found.cases, units)):
+        if told:
             console.print()
-            console.print(label_lines((label, escape(text)) for label, text in lines))
+            console.print(label_lines((label, escape(text)) for label, text in told))
     print_warnings([warning.text(units) for warning in found.warnings], console)
     console.print()
     verdict = label_grid()
@@ -62,6 +65,97 @@ def print_statics(found: Statics, console: Console, units: str = "si") -> None:
     for text in failed(found, units):
         verdict.add_row("", f"[red]{escape(text)}[/red]")
     console.print(verdict)
+
+
+def print_sections(found: Joints, console: Console, units: str = "si", *, sheet: bool = False) -> None:
+    """Print a table of the sections, that which governs first, and the checks of that one; with their calculation
+    sheets on request."""
+    joint = found.governing
+    if len(found.joints) > 1:
+        print_title(found.title, f"statics at {len(found.joints)} sections", console)
+        console.print()
+        console.print(_sections(found, units))
+        console.print()
+        console.print("[dim]margin: what is there over what is asked for; 1 just meets it[/dim]")
+        console.print()
+        where = quantity(joint.elevation_m, ".4g m", units)
+        console.print(f"[bold]The section that governs, at {where}[/bold]")
+    print_statics(joint.statics, console, units)
+    if sheet:
+        for each in found.ranked if len(found.joints) > 1 else (joint,):
+            _print_sheets(each, console, units)
+    if len(found.joints) > 1:
+        missed = [each for each in found.ranked if not each.statics.ok]
+        said = f"{len(missed)} of {len(found.joints)} sections miss a check" if missed else "every section meets all"
+        console.print(f"\n[{'bold red' if missed else 'bold'}]All sections[/]  {said}")
+
+
+def _sections(found: Joints, units: str) -> Table:
+    """Return the table of the sections."""
+    table, (head, rows) = quiet_table(), section_rows(found, units)
+    for place, name in enumerate(head):
+        table.add_column(escape(name), justify="left" if place in (1, 2) else "right")
+    for row, joint in zip(rows, found.ranked, strict=True):
+        table.add_row(*map(escape, row), style="" if joint.statics.ok else "red")
+    return table
+
+
+def _print_sheets(joint: Joint, console: Console, units: str) -> None:
+    where = quantity(joint.elevation_m, ".4g m", units)
+    for each in joint.statics.cases:
+        console.print(f"\n[bold]{escape(each.name)}[/bold], crack at {where}")
+        written = lines(each, units)
+        table = quiet_table()
+        for place, name in enumerate(written.head[:-1]):
+            table.add_column(escape(name), justify="right" if place else "left")
+        for row in written.rows:
+            table.add_row(*map(escape, row[:-1]), style="bold" if row is written.rows[-1] else "")
+        console.print(table)
+        console.print()
+        table = quiet_table()
+        for name in ("step", "how", "numbers", "is", "required", ""):
+            table.add_column(name, justify="right" if name == "is" else "left")
+        for step in steps(each, joint.statics.checks, units):
+            met = "" if step.met is None else "met" if step.met else "[bold red]fails[/]"
+            table.add_row(*map(escape, (step.name, step.formula, step.worked, step.value, step.limit)), met)
+        console.print(table)
+
+
+def print_statics_table(found: StaticsTable, console: Console, units: str = "si") -> None:
+    """Print a table of static checks: a row for each dam, with what governs it."""
+    print_title(found.title, f"statics of {len(found.cells)} dams", console)
+    console.print()
+    table, rows = quiet_table(), found.rows()
+    several = any(len(each.joints) > 1 for each in found.found)
+    for axis in found.axes:
+        table.add_column(escape(axis.path.replace(".", "\n")), no_wrap=True)
+    heads = ["checks\nnot met", "governs", "margin", "least\nsliding", "least\noverturn.", "least\nflotation"]
+    cracks, unit = numbers([row["longest_crack_m"] or 0.0 for row in rows], "z.2f m", units)
+    slips, slip_unit = numbers([row["slip_m"] or 0.0 for row in rows], "z.4f m", units)
+    slid = any(row["slip_m"] is not None for row in rows)
+    for head in [*heads, f"longest\ncrack, {unit}", *([f"slip,\n{slip_unit}"] if slid else [])]:
+        table.add_column(head, justify="left" if head == "governs" else "right")
+    for cell, row, crack, slip in zip(found.cells, rows, cracks, slips, strict=True):
+        governs = f"{row['governing_load_case']}, {row['governing_check']}"
+        if several:
+            governs += f", at {quantity(row['governing_elevation_m'], '.4g m', units)}"
+        factors = [row[f"least_{name}_factor"] for name in ("sliding", "overturning", "flotation")]
+        said = ["-" if each is None else f"{each:.2f}" for each in (row["governing_margin"], *factors)]
+        table.add_row(
+            *map(escape, cell),
+            str(row["checks_not_met"]),
+            escape(governs),
+            *said,
+            crack,
+            *([slip if row["slip_m"] is not None else "-"] if slid else []),
+            style="" if row["checks_not_met"] == 0 else "red",
+        )
+    console.print(table)
+    warnings = dict.fromkeys(each.text(units) for found_ in found.found for each in found_.warnings)
+    print_warnings(list(warnings), console)
+    met = sum(each.ok for each in found.found)
+    said_ = f"{met} of {len(found.found)} dams meet all checks ({found.found[0].joints[0].statics.criteria})"
+    console.print(f"\n[bold]Verdict[/bold]  {said_}")
 
 
 def _assumptions(cases: tuple[LoadCase, ...], units: str) -> list[tuple[str, str]]:

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 
 from heeltoe.models.statics.checks import Check
+from heeltoe.models.statics.joints import Joints
 from heeltoe.models.statics.model import Statics
-from heeltoe.units.sentences import quantity
+from heeltoe.units.sentences import numbers, quantity
 
 
 def basis(found: Statics, units: str) -> list[tuple[str, str]]:
@@ -28,6 +29,34 @@ def basis(found: Statics, units: str) -> list[tuple[str, str]]:
     if found.slip_m is not None:
         lines.append(("residual slip", f"{quantity(found.slip_m, '.4f m', units)}: {found.slip_source}"))
     return lines
+
+
+def section_rows(found: Joints, units: str) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
+    """Return head and rows of a table of sections, that which governs first: where, which check governs, its margin,
+    the least factors, and the longest crack."""
+    heights, unit = numbers([joint.elevation_m for joint in found.ranked], ".5g m", units)
+    cracks = [max((each.cracked_length_m for each in joint.statics.cases), default=0.0) for joint in found.ranked]
+    lengths, crack_unit = numbers(cracks, "z.2f m", units)
+    head = (f"at, {unit}", "governs", "check", "margin", "sliding", "overturning", f"open, {crack_unit}", "not met")
+    rows = []
+    for joint, height, length in zip(found.ranked, heights, lengths, strict=True):
+        worst, missed = joint.governing, sum(not check.met for check in joint.statics.checks)
+        least = [
+            min((each for case in joint.statics.cases if (each := getattr(case, name)) is not None), default=None)
+            for name in ("sliding_factor", "overturning_factor")
+        ]
+        rows.append(
+            (
+                height,
+                "-" if worst is None else worst.load_case,
+                "-" if worst is None else worst.name,
+                "-" if worst is None or worst.margin is None else f"{worst.margin:.2f}",
+                *("-" if each is None else f"{each:.2f}" for each in least),
+                length,
+                f"{missed} of {len(joint.statics.checks)}",
+            )
+        )
+    return head, rows
 
 
 def check_rows(found: Statics) -> list[dict[str, object]]:

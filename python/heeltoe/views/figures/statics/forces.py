@@ -1,0 +1,238 @@
+"""One load case of the static checks: all forces with their arms, the water pressures, the stress on what is closed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+
+import numpy as np
+from matplotlib.figure import Figure
+
+from heeltoe.arrays import Floats
+from heeltoe.case.model import Case
+from heeltoe.geometry.section import CutSection
+from heeltoe.models.statics.cases import at_depth
+from heeltoe.models.statics.load_case import LoadCase
+from heeltoe.models.statics.sheet import ForceLine
+from heeltoe.units.systems import Units, unit_system
+from heeltoe.units.write import number, scaled
+from heeltoe.views.figures.canvas import Canvas
+from heeltoe.views.figures.section import draw_bodies
+from heeltoe.views.figures.section_forces import FORCE_COLOURS
+from heeltoe.views.figures.statics.stresses import draw_stresses
+from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled
+
+_HEIGHT, _PANEL = 7.2, 1.55
+# Of the size of what is shown: the longest arrow, the deepest pressure, the step between dimension lines.
+_LONGEST, _DEEPEST, _STEP = 0.30, 0.13, 0.075
+# A force of less than this part of the largest is no arrow that anyone could see; its line of the sheet has it.
+_LITTLE = 1e-3
+_BODY = ("weight", "inertia")
+_UPSTREAM = ("reservoir", "ice", "silt", "hydrodynamic")
+_WATER = "#0072B2"
+_EARTHQUAKE = "#D55E00"
+
+# Where an arrow has its point [m], what it brings there [N/m], how far from the heel that acts [m], and whose it is.
+_Arrow = tuple[Floats, Floats, float, ForceLine]
+
+
+@styled
+def forces_figure(case: Case, found: LoadCase, units: str = "si") -> Figure:
+    """Draw the forces of a load case to one scale, each with its arm from the heel, the pressures of the water, the
+    resultant, and below the stress on the part of the crack that is closed.
+
+    Parameters
+    ----------
+    case
+        The dam with its crack.
+    found
+        A load case of its checks.
+    units
+        ``"si"`` or ``"us"``.
+    """
+    system = unit_system(units)
+    drawn, section = in_load_case(case, found), case.cut
+    figure = Figure(figsize=(WIDTH, _HEIGHT))
+    heading(figure, case.title or "Untitled case", f"{found.name}, crack at {_at(case, system)}")
+    panel = _PANEL / _HEIGHT
+    axes = figure.add_axes((0.0, panel + 0.075, 1.0, 1.0 - panel - 0.075 - 0.55 / _HEIGHT))
+    size = max(section.crack_width, section.height)
+    canvas = Canvas(axes, system.scale("length"), size)
+    arrows = list(_arrows(found, section))
+    heights, widths = _arms(arrows, up=False), _arms(arrows, up=True)
+    low, high = section.polygon.min(axis=0), section.polygon.max(axis=0)
+    left = 0.46 + _STEP * len(heights)
+    below = 0.10 + _DEEPEST + _STEP * len(widths)
+    canvas.look_at(low - np.array([left, below]) * size, high + np.array([0.42, 0.2]) * size)
+    axes.set_axis_off()
+    draw_bodies(canvas, drawn)
+    depth = _draw_pressures(canvas, drawn, found, system)
+    _draw_crack(canvas, section, found)
+    _draw_arms(canvas, section, (heights, widths), depth, system)
+    _draw_arrows(canvas, section, found, arrows, system)
+    stress = figure.add_axes((0.1, 0.42 / _HEIGHT, 0.87, panel - 0.05))
+    draw_stresses(stress, found, system)
+    return figure
+
+
+def in_load_case(case: Case, found: LoadCase) -> Case:
+    """Return the case with the water, and without the ice, that a load case has."""
+    choice = case.statics
+    if found.name != "flood" or choice.flood_depth is None:
+        return case
+    risen = at_depth(case, choice.flood_depth)
+    update: dict[str, object] = {"ice": None}
+    water = risen.tailwater or risen.reservoir
+    if choice.flood_tailwater is not None and water is not None:
+        update["tailwater"] = water.model_copy(update={"depth": choice.flood_tailwater})
+    return risen.model_copy(update=update)
+
+
+def _at(case: Case, units: Units) -> str:
+    return scaled(case.crack.elevation, units.scale("length"), 4)
+
+
+def _arrows(found: LoadCase, section: CutSection) -> Iterator[_Arrow]:
+    """Return the horizontal and the vertical part of each force that can be seen, where they act."""
+    sheet = found.sheet()
+    size = max(abs(each) for line in sheet.lines for each in (line.horizontal_n, line.vertical_n))
+    for line in sheet.lines:
+        # From the heel of the crack; the sheet counts from that of the contact.
+        if line.height_m is not None and abs(line.horizontal_n) > _LITTLE * size:
+            z = line.height_m + sheet.point_m[1]
+            yield _on(line, section, z, up=False), np.array([line.horizontal_n, 0.0]), line.height_m, line
+        if line.distance_m is not None and abs(line.vertical_n) > _LITTLE * size:
+            x = line.distance_m + sheet.point_m[0]
+            yield _on(line, section, x, up=True), np.array([0.0, line.vertical_n]), line.distance_m, line
+
+
+def _on(line: ForceLine, section: CutSection, place: float, *, up: bool) -> Floats:
+    """Return where a force meets what it acts on [m]: a face, the crack, or the middle of the body."""
+    heel = np.array(section.heel)
+    name = line.name.split(" ")[0]
+    if name in _BODY:
+        return np.array([heel[0] + place, section.centroid[1]] if up else [section.centroid[0], heel[1] + place])
+    faces = {**dict.fromkeys(_UPSTREAM, section.upstream_face), "tailwater": section.downstream_face}
+    face = faces.get(name, np.array([section.heel, section.toe])) - heel
+    along, across = (0, 1) if up else (1, 0)
+    order = np.argsort(face[:, along], kind="stable")
+    other = float(np.interp(place, face[order, along], face[order, across]))
+    found: Floats = heel + (np.array([place, other]) if up else np.array([other, place]))
+    return found
+
+
+def _arms(arrows: list[_Arrow], *, up: bool) -> list[tuple[float, str]]:
+    """Return the arms of the vertical or of the horizontal parts with whose they are, those alike in one."""
+    found: dict[float, list[str]] = {}
+    for _, force, arm, line in arrows:
+        if bool(force[1]) == up and arm:
+            known = next((each for each in found if math.isclose(each, arm, rel_tol=1e-6)), arm)
+            found.setdefault(known, []).append(line.name)
+    return [(arm, ", ".join(names)) for arm, names in sorted(found.items(), key=lambda each: abs(each[0]))]
+
+
+def _colour(name: str) -> str:
+    first = name.split(" ")[0]
+    return _EARTHQUAKE if first in ("inertia", "hydrodynamic") else FORCE_COLOURS.get(first, _WATER)
+
+
+def _draw_crack(canvas: Canvas, section: CutSection, found: LoadCase) -> None:
+    """Draw the crack, what of it is open in thick red, and the ends of the contact."""
+    heel, along = np.array(section.heel), np.array(section.from_crack_frame(1.0, 0.0))
+    start, end, open_ = found.contact_from_m, found.contact_to_m, found.cracked_length_m
+    canvas.line([section.heel, section.toe], keep_off=True, color="#000000", linewidth=1.4, zorder=4.6)
+    gone = (start, start + open_) if found.cracked_from == "heel" else (end - open_, end)
+    if open_:
+        canvas.line([heel + each * along for each in gone], color=COLOURS["crack"], linewidth=3.5, zorder=4.7)
+        middle = heel + sum(gone) / 2.0 * along
+        canvas.label("open", middle, COLOURS["crack"], first=(0, 1))
+    canvas.label("heel", heel + start * along, first=(-1, -1))
+    canvas.label("toe", heel + end * along, first=(1, -1))
+
+
+def _draw_pressures(canvas: Canvas, case: Case, found: LoadCase, units: Units) -> float:
+    """Draw the pressure of the water on both faces and in the crack to one scale; return how deep it goes below the
+    crack [m]."""
+    section, points = case.cut, np.array(found.pressures)
+    faces = []
+    for water, face, side in (
+        (case.reservoir, section.upstream_face, -1.0),
+        (case.tailwater, section.downstream_face, 1.0),
+    ):
+        if water is not None:
+            wet = _wet(face, section.base_elevation + water.depth)
+            faces.append((wet, water.density * case.gravity * (section.base_elevation + water.depth - wet[:, 1]), side))
+    most = max([float(points[:, 1].max()), *(float(p.max(initial=0.0)) for _, p, _ in faces)])
+    if most <= 0.0:
+        return 0.0
+    per, scale = _DEEPEST * canvas.size / most, units.scale("pressure", most)
+    look = {"facecolor": "none", "edgecolor": _WATER, "linewidth": 0.7, "zorder": 2.5}
+    for wet, pressure, side in faces:
+        if pressure.size > 1 and pressure.max() > 0.0:
+            outer = wet + np.outer(side * per * pressure, [1.0, 0.0])
+            canvas.fill(np.vstack([wet, outer[::-1]]), hatch="---", alpha=0.8, **look)
+            low = int(np.argmax(pressure))
+            canvas.label(scaled(float(pressure[low]), scale), outer[low], _WATER, first=(int(side), 1))
+    heel, along = np.array(section.heel), np.array(section.from_crack_frame(1.0, 0.0))
+    down = np.array(section.from_crack_frame(0.0, -1.0))
+    top = heel + np.outer(points[:, 0], along)
+    bottom = top + np.outer(per * points[:, 1], down)
+    if points[:, 1].max() > 0.0:
+        canvas.fill(np.vstack([top[[0, -1]], bottom[::-1]]), hatch="|||", **look)
+        canvas.line(bottom, keep_off=True, color=_WATER, linewidth=0.8, zorder=3.1)
+    said: set[tuple[float, float]] = set()
+    for (x, height), place in zip(found.pressures, bottom, strict=True):
+        key = (round(x, 6), round(height, 3))
+        if height > 1e-6 * most and key not in said:
+            said.add(key)
+            canvas.label(scaled(height, scale), place, _WATER, first=(-1 if x <= 0.0 else 1, -1))
+    return float(per * points[:, 1].max())
+
+
+def _wet(face: Floats, level: float) -> Floats:
+    """Return the corners of a face below a level, from below, with the place where the water ends [m]."""
+    found = [face[0]]
+    for start, end in pairwise(face):
+        if end[1] > level:
+            if start[1] < level:
+                found.append(start + (end - start) * (level - start[1]) / (end[1] - start[1]))
+            break
+        found.append(end)
+    return np.array([point for point in found if point[1] <= level + 1e-9] or [face[0]])
+
+
+def _draw_arms(
+    canvas: Canvas, section: CutSection, arms: tuple[list[tuple[float, str]], ...], depth: float, units: Units
+) -> None:
+    """Draw the arms of the horizontal forces at the left, those of the vertical ones below."""
+    heights, widths = arms
+    heel, size, length = np.array(section.heel), canvas.size, units.scale("length")
+    for place, (arm, _) in enumerate(heights, start=1):
+        away = np.array([-(0.40 + _STEP * place) * size, 0.0])
+        canvas.dimension(heel, heel + np.array([0.0, arm]), number(length(arm), 4), shift=away)
+    lowest = depth + 0.06 * size + max(0.0, heel[1] - section.polygon[:, 1].min())
+    for place, (arm, names) in enumerate(widths, start=1):
+        away = np.array([0.0, -(lowest + _STEP * place * size)])
+        canvas.dimension(heel, heel + np.array([arm, 0.0]), f"{names} {number(length(arm), 4)}", shift=away)
+
+
+def _draw_arrows(canvas: Canvas, section: CutSection, found: LoadCase, arrows: list[_Arrow], units: Units) -> None:
+    """Draw the forces and their resultant with their sizes."""
+    total = np.array([found.sheet().sum.horizontal_n, found.sheet().sum.vertical_n])
+    most = max([float(np.abs(force).max()) for _, force, _, _ in arrows] + [float(np.hypot(*total))])
+    per, scale = _LONGEST * canvas.size / most, units.scale("force", most)
+    ends = []
+    for point, force, _, line in arrows:
+        vector, colour = force * per, _colour(line.name)
+        tail, tip = (point, point + vector) if line.name in _BODY else (point - vector, point)
+        canvas.arrow(tail, tip, colour)
+        ends.append((line, force, tip if line.name in _BODY else tail, vector if line.name in _BODY else -vector))
+    if found.resultant_from_heel_m is not None:
+        tip = np.array(section.heel) + found.resultant_from_heel_m * np.array(section.from_crack_frame(1.0, 0.0))
+        canvas.arrow(tip - total * per, tip, "#6A4C93", width=3.0)
+        canvas.label(f"R {scaled(float(np.hypot(*total)), scale)}", tip - total * per, "#6A4C93", first=(-1, 1))
+    for line, force, end, away in ends:
+        across = 1 if abs(away[0]) < abs(away[1]) else 0
+        first = (across, int(np.sign(away[1])) if across else 1)
+        canvas.label(f"{line.name} {scaled(float(np.abs(force).max()), scale)}", end, _colour(line.name), first=first)

@@ -1,0 +1,73 @@
+"""The files of the static checks: JSON, calculation sheets, checks, figures; all of them or none."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+from matplotlib.figure import Figure
+
+from heeltoe.models.statics.joints import Joints
+from heeltoe.result.write import json_text, write_table
+from heeltoe.study.statics import StaticsTable, statics_json
+from heeltoe.views.figures.write import save_all
+from heeltoe.whole import write_whole
+
+_REPORT = ("report.pdf", "report.html")
+_TABLES = ("result.json", "sheet.csv", "checks.csv", "table.csv", "table.parquet")
+_FIGURES = tuple(f"{name}{suffix}" for name in ("section", "statics", "forces-*") for suffix in (".png", ".svg"))
+#: Names of all files that the static checks may leave.
+OWN = (*_TABLES, *_FIGURES, *_REPORT)
+
+
+def write_statics(
+    found: Joints,
+    directory: Path,
+    figures: Mapping[str, Figure],
+    *,
+    report: Callable[[Path], object] | None = None,
+) -> list[Path]:
+    """Write the checks as ``result.json``, every force of every load case as ``sheet.csv``, every check as
+    ``checks.csv``, both with SI numbers, these figures, and what `report` writes into a directory.
+
+    An earlier report goes where this is given, and stays where it is not.
+    """
+
+    def write(fresh: Path) -> None:
+        (fresh / "result.json").write_text(json_text(statics_json(found)) + "\n", encoding="utf-8")
+        write_table(pa.Table.from_pylist(list(_forces(found))), fresh / "sheet.csv")
+        write_table(pa.Table.from_pylist(list(_checks(found))), fresh / "checks.csv")
+        save_all(figures, fresh)
+        if report is not None:
+            report(fresh)
+
+    own = OWN if report is not None else (*_TABLES, *_FIGURES)
+    return write_whole(write, directory, own)
+
+
+def write_statics_table(found: StaticsTable, directory: Path) -> list[Path]:
+    """Write a table of static checks as ``result.json``, ``table.csv`` and ``table.parquet``."""
+
+    def write(fresh: Path) -> None:
+        (fresh / "result.json").write_text(json_text(found.to_json()) + "\n", encoding="utf-8")
+        for suffix in (".csv", ".parquet"):
+            write_table(found.to_table(), fresh / f"table{suffix}")
+
+    return write_whole(write, directory, OWN)
+
+
+def _forces(found: Joints) -> Iterator[dict[str, Any]]:
+    """Return every force of every load case at every section."""
+    for joint in found.ranked:
+        for each in joint.statics.to_json()["cases"]:
+            for force in each["forces"]:
+                yield {"elevation_m": joint.elevation_m, "load_case": each["name"], **force}
+
+
+def _checks(found: Joints) -> Iterator[dict[str, Any]]:
+    """Return every check of every load case at every section."""
+    for joint in found.ranked:
+        for check in joint.statics.checks:
+            yield {"elevation_m": joint.elevation_m, **check.to_json()}

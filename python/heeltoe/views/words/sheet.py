@@ -1,0 +1,311 @@
+"""The calculation sheet of a load case in numbers that can be added and divided by hand: forces, then step by step."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from heeltoe.models.statics.checks import Check
+from heeltoe.models.statics.load_case import LoadCase
+from heeltoe.models.statics.sheet import ForceLine
+from heeltoe.units.systems import FOOT, INCH, KIP, POUND_FORCE
+from heeltoe.units.write import NOTHING
+from heeltoe.views.words.statics import check_cells
+
+# Digits of the largest number of a column; the others have as many behind the point, so that they add up.
+_DIGITS = 6
+
+
+@dataclass(frozen=True)
+class SheetUnits:
+    """Units whose products and quotients are units of the sheet again: what is multiplied by hand needs no factor.
+
+    Attributes
+    ----------
+    length, force
+        In SI: metres, and newtons per metre of dam.
+    names
+        Of length, force, moment and stress.
+    """
+
+    length: float
+    force: float
+    names: tuple[str, str, str, str]
+
+    @property
+    def moment(self) -> float:
+        """In SI."""
+        return self.length * self.force
+
+    @property
+    def stress(self) -> float:
+        """In SI."""
+        return self.force / self.length
+
+
+_SI = SheetUnits(1.0, 1e3, ("m", "kN/m", "kN·m/m", "kPa"))
+_US = SheetUnits(FOOT, KIP / FOOT, ("ft", "kip/ft", "kip·ft/ft", "ksf"))
+_PSI = POUND_FORCE / INCH**2
+
+
+def sheet_units(units: str) -> SheetUnits:
+    """Return the units of a sheet in SI or in those of the United States."""
+    return _US if units == "us" else _SI
+
+
+@dataclass(frozen=True)
+class Lines:
+    """The forces of a load case as text.
+
+    Attributes
+    ----------
+    head
+        Of the columns: force, horizontal, its height, vertical, its distance, moment, where it comes from.
+    rows
+        Of each force, and last their sum.
+    """
+
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+
+
+def lines(found: LoadCase, units: str, about: str = "heel") -> Lines:
+    """Return the forces with arms and moments about the heel or the toe of the contact; those without effect are left
+    out."""
+    sheet, to = found.sheet(about), sheet_units(units)
+    length, force, moment, _ = to.names
+    shown = [line for line in sheet.lines if line.horizontal_n or line.vertical_n or line.moment_nm]
+    every = [*shown, sheet.sum]
+    pushes = _column([each for line in every for each in (line.horizontal_n, line.vertical_n)], to.force)
+    arms = _column([each for line in shown for each in (line.height_m, line.distance_m)], to.length)
+    turns = _column([line.moment_nm for line in every], to.moment)
+    columns = (pushes, arms, pushes, arms, turns)
+    rows = [
+        (line.name, *(column(value) for column, value in zip(columns, _numbers(line), strict=True)), _from(line, units))
+        for line in shown
+    ]
+    last = sheet.sum
+    whole = (columns[0](last.horizontal_n), "", columns[2](last.vertical_n), "", columns[4](last.moment_nm))
+    head = (
+        "force",
+        f"H [{force}]",
+        f"arm z [{length}]",
+        f"V [{force}]",
+        f"arm x [{length}]",
+        f"M about {about} [{moment}]",
+        "from",
+    )
+    return Lines(head, (*rows, ("sum", *whole, "")))
+
+
+def _numbers(line: ForceLine) -> tuple[float | None, ...]:
+    return line.horizontal_n, line.height_m, line.vertical_n, line.distance_m, line.moment_nm
+
+
+def _from(line: ForceLine, units: str) -> str:
+    return line.source.text(units)
+
+
+def _column(values: Sequence[float | None], unit: float) -> Callable[[float | None], str]:
+    """Return what writes the numbers of a column: all to the same place behind the point."""
+    decimals = _decimals(max((abs(value) / unit for value in values if value is not None), default=0.0))
+    return lambda value: NOTHING if value is None else _text(value / unit, decimals)
+
+
+def _decimals(largest: float) -> int:
+    return min(_DIGITS, max(0, _DIGITS - 1 - math.floor(math.log10(largest)))) if largest > 0.0 else 0
+
+
+def _text(value: float, decimals: int) -> str:
+    return f"{value:z.{decimals}f}".replace("-", "−")
+
+
+def _say(value: float, digits: int = _DIGITS) -> str:
+    """Write a number of a step."""
+    if not value:
+        return "0"
+    decimals = min(_DIGITS, max(0, digits - 1 - math.floor(math.log10(abs(value)))))
+    text = _text(value, decimals)
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+@dataclass(frozen=True)
+class Step:
+    """A step of the calculation.
+
+    Attributes
+    ----------
+    name, formula, worked, value
+        What is found, how, with the numbers put in, and what comes out.
+    limit
+        What is required of it; empty where nothing is.
+    met
+        Whether it is met; None where nothing is required.
+    """
+
+    name: str
+    formula: str
+    worked: str
+    value: str
+    limit: str = ""
+    met: bool | None = None
+
+
+def steps(found: LoadCase, checks: Sequence[Check], units: str) -> tuple[Step, ...]:
+    """Return the steps from the sums of the sheet to the factors, with what is required of each."""
+    return _Steps(found, checks, units).all()
+
+
+class _Steps:
+    """Writes the steps of one load case."""
+
+    def __init__(self, found: LoadCase, checks: Sequence[Check], units: str) -> None:
+        self.found, self.to = found, sheet_units(units)
+        self.length, self.force, self.moment, self.stress = self.to.names
+        self.units = units
+        self.checks = {check.name: check for check in checks if check.load_case == found.name}
+        self.sum = found.sheet().sum
+        (x0, z0), (x1, z1) = found.ends_m
+        self.angle = math.atan2(z1 - z0, x1 - x0)
+        self.normal = found.normal_force_n / self.to.force
+        self.shear = found.shear_force_n / self.to.force
+        self.width = found.contact_width_m / self.to.length
+
+    def all(self) -> tuple[Step, ...]:
+        """Return all steps that the load case has."""
+        made = [*self._sums(), *self._position(), *self._stresses(), self._sliding(), self._overturning()]
+        return (*made, self._flotation())
+
+    def _judged(self, name: str) -> tuple[str, bool | None]:
+        check = self.checks.get(name)
+        return ("", None) if check is None else (check_cells(check)[3].replace("-", ""), check.met)
+
+    def _sums(self) -> list[Step]:
+        across, up = (each / self.to.force for each in (self.sum.horizontal_n, self.sum.vertical_n))
+        normal, shear = _say(self.normal), _say(self.shear)
+        if abs(math.sin(self.angle)) < 1e-12:
+            return [
+                Step("normal force", "N = −ΣV", f"−({_say(up)})", f"{normal} {self.force}"),
+                Step("force along the crack", "T = ΣH", _say(across), f"{shear} {self.force}"),
+            ]
+        turn = f"{math.degrees(self.angle):.4f}°"
+        return [
+            Step(
+                "normal force",
+                "N = ΣH sin α − ΣV cos α",
+                f"{_say(across)} sin {turn} − ({_say(up)}) cos {turn}",
+                f"{normal} {self.force}",
+            ),
+            Step(
+                "force along the crack",
+                "T = ΣH cos α + ΣV sin α",
+                f"{_say(across)} cos {turn} + ({_say(up)}) sin {turn}",
+                f"{shear} {self.force}",
+            ),
+        ]
+
+    def _position(self) -> list[Step]:
+        found = self.found
+        limit, met = self._judged("resultant")
+        if found.resultant_from_heel_m is None or found.eccentricity_m is None:
+            return [Step("resultant", "x = −ΣM / N", "N is not positive", "none", limit, met)]
+        moment = self.sum.moment_nm / self.to.moment
+        place = (found.resultant_from_heel_m - found.contact_from_m) / self.to.length
+        away = found.eccentricity_m / self.to.length
+        share = abs(away) / self.width
+        return [
+            Step(
+                "resultant from the heel",
+                "x = −ΣM / N",
+                f"−({_say(moment)}) / {_say(self.normal)}",
+                f"{_say(place)} {self.length}",
+            ),
+            Step(
+                "from the middle of B",
+                "e = x − B/2",
+                f"{_say(place)} − {_say(self.width)}/2",
+                f"{_say(away)} {self.length}",
+            ),
+            Step("over the contact", "|e| / B", f"{_say(abs(away))} / {_say(self.width)}", f"{share:.4f}", limit, met),
+        ]
+
+    def _stresses(self) -> list[Step]:
+        found = self.found
+        stands = self.checks.get("equilibrium")
+        met = None if stands is None else stands.met
+        if found.heel_stress_pa is None or found.toe_stress_pa is None or found.resultant_from_heel_m is None:
+            return [Step("state of the crack", "σ ≥ −f_t at the tip", "no length of it holds", found.outcome, "", met)]
+        open_, closed = found.cracked_length_m / self.to.length, self.width - found.cracked_length_m / self.to.length
+        from_heel = found.cracked_from == "heel"
+        place = (found.resultant_from_heel_m - found.contact_from_m) / self.to.length
+        middle = (open_ if from_heel else 0.0) + closed / 2.0
+        away = place - middle
+        made = []
+        how = "nothing opens" if not open_ else f"from the {found.cracked_from}, {found.iterations} iterations"
+        made.append(Step("crack open", "c: σ = −f_t at its tip", how, f"{_say(open_)} {self.length}", "", met))
+        made.append(
+            Step("length closed", "L = B − c", f"{_say(self.width)} − {_say(open_)}", f"{_say(closed)} {self.length}")
+        )
+        shift = f"{_say(place)} − {_say(open_)} − {_say(closed)}/2"
+        if not open_ or not from_heel:
+            shift = f"{_say(place)} − {_say(closed)}/2"
+        formula = "e' = x − c − L/2" if open_ and from_heel else "e' = x − L/2"
+        made.append(Step("from the middle of L", formula, shift, f"{_say(away)} {self.length}"))
+        limit, met = self._judged("compression")
+        for name, sign, value in (
+            ("stress at the heel" if not (open_ and from_heel) else "stress at the tip", "−", found.heel_stress_pa),
+            ("stress at the toe" if from_heel or not open_ else "stress at the tip", "+", found.toe_stress_pa),
+        ):
+            governs = value == max(found.heel_stress_pa, found.toe_stress_pa)
+            # What is left of a tip at zero is rounding.
+            shown = 0.0 if abs(value) < 1e-9 * abs(found.normal_force_n) / found.contact_width_m else value
+            made.append(
+                Step(
+                    name,
+                    f"σ = N/L (1 {sign} 6 e'/L)",
+                    f"{_say(self.normal)}/{_say(closed)} (1 {sign} 6 · {_say(away)}/{_say(closed)})",
+                    self._stress(shown),
+                    *((limit, met) if governs and limit else ("", None)),
+                )
+            )
+        return made
+
+    def _stress(self, value: float) -> str:
+        text = f"{_say(value / self.to.stress, 5)} {self.stress}"
+        return text if self.units != "us" else f"{text} = {_say(value / _PSI, 4)} psi"
+
+    def _sliding(self) -> Step:
+        found = self.found
+        limit, met = self._judged("sliding factor")
+        if found.sliding_factor is None:
+            return Step("sliding", "F = μ N / |T|", "T is zero", "none", limit, met)
+        cohesive = found.cohesive_force_n / self.to.force
+        held = f"{found.friction:g} · {_say(max(0.0, self.normal))}"
+        formula, worked = "F = μ N / |T|", f"{held} / {_say(abs(self.shear))}"
+        if cohesive:
+            formula, worked = "F = (C + μ N) / |T|", f"({_say(cohesive)} + {held}) / {_say(abs(self.shear))}"
+        return Step("sliding", formula, worked, f"{found.sliding_factor:.4f}", limit, met)
+
+    def _overturning(self) -> Step:
+        found = self.found
+        about = found.overturning_about
+        sign = 1.0 if about == "toe" else -1.0
+        moments = [sign * line.moment_nm / self.to.moment for line in found.sheet(about).lines]
+        holds, turns = math.fsum(max(0.0, each) for each in moments), -math.fsum(min(0.0, each) for each in moments)
+        formula = f"ΣM that hold / ΣM that turn, about the {about}"
+        if found.overturning_factor is None:
+            return Step("overturning", formula, "nothing turns it", "none")
+        return Step("overturning", formula, f"{_say(holds)} / {_say(turns)}", f"{found.overturning_factor:.4f}")
+
+    def _flotation(self) -> Step:
+        limit, met = self._judged("flotation factor")
+        across = [
+            (line.vertical_n * math.cos(self.angle) - line.horizontal_n * math.sin(self.angle)) / self.to.force
+            for line in self.found.sheet().lines
+        ]
+        down, up = -math.fsum(min(0.0, each) for each in across), math.fsum(max(0.0, each) for each in across)
+        if self.found.flotation_factor is None:
+            return Step("flotation", "ΣV down / ΣV up", "nothing lifts it", "none", limit, met)
+        worked = f"{_say(down)} / {_say(up)}"
+        return Step("flotation", "ΣV down / ΣV up", worked, f"{self.found.flotation_factor:.4f}", limit, met)
