@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 
+from heeltoe.errors_of_records import OF_RECORDS
 from heeltoe.errors_of_statics import OF_STATICS
 from heeltoe.errors_of_studies import OF_STUDIES
 from heeltoe.plain import plain
@@ -119,44 +120,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     ),
     "motion-brief": ("lasts {value}", "give it {least} or more, in its file and in motion.duration"),
     "motion-samples": ("a step of {value} makes {count:.3g} samples", "give a step that makes up to {limit:.3g}"),
-    "record-unreadable": ("cannot be read ({reason})", "give the path of a record"),
-    "record-large": ("has {value}, more than any record", "give a file with one record"),
-    "record-empty": ("is empty", "give a file with a record"),
-    "record-binary": ("is not a text file", "give the record as text"),
-    "record-format": (
-        "is in no format that is known (it starts with {value})",
-        "give PEER AT2, COSMOS or CSMIP V2, SMC, K-NET, two columns (time, acceleration) or one column",
-    ),
-    "record-format-later": ("is in {value} format, which is not read", "give the corrected record"),
-    "record-header": ("its header states no {value} that can be used", "download it again"),
-    "record-columns": ("has {value} columns of numbers", "keep two of them, time and acceleration, or one"),
-    "record-comma": (
-        "line {line}: the commas of {value} can be read in two ways",
-        "write decimal points, and separate columns by commas or blanks",
-    ),
-    "record-channel-missing": ("has several channels ({value})", "choose one in {channel_field}"),
-    "record-channel": ("{value} means {count} of the channels of {name} ({channels})", "choose one by its number"),
-    "record-channels-lost": (
-        "opens {opened} channels, but has the accelerations of one alone ({value})",
-        "get the whole file, or say in {channel_field} that this one is meant",
-    ),
-    "record-marker": (
-        "value {number} is {value}, which marks what is missing and was never measured",
-        "correct the file",
-    ),
-    "record-number": ("line {line}: {value} is not a number", "correct the file"),
-    "record-ragged": ("line {line} has {value} where others have {width}", "correct the file"),
-    "record-not-acceleration": ("is a {value} record", "give the acceleration record"),
-    "record-unit-missing": ("does not state its unit; it peaks at {value}", "say so in {unit_field}: {guess}"),
-    "record-unit-conflict": ("{value} is not what {name} states, {stated}", "remove one of them"),
-    "record-step-missing": ("does not state its time step", 'say so in {step_field}, for example "0.01 s"'),
-    "record-step-conflict": ("{value} is not what the file states, {stated} s", "remove one of them"),
-    "record-step": ("a time step of {value} is not that of a record", "correct the file"),
-    "record-ambiguous": ("{value} means several files: {names}", "give the path"),
-    "record-not-found": (
-        "there is no record {value}",
-        "{hint} install heeltoe[records], or set HEELTOE_RECORDS to a directory of records",
-    ),
     "spectrum-damping": ("a damping ratio of {value} is out of range", "give one from 0 to below 1"),
     "spectrum-period": (
         "are no finite numbers of seconds, or shorter than any record tells",
@@ -337,6 +300,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     ),
     "cannot-write": ("{value} cannot be written ({reason})", "give a place where you may write"),
     **OF_STATICS,
+    **OF_RECORDS,
     **OF_STUDIES,
 }
 

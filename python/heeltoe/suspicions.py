@@ -175,6 +175,11 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
     ),
     "record-torn": ("caution", "", "{name} ends in the middle of a number: its last value may be wrong"),
     "record-flagged": ("caution", "", "{name} flags a problem with its data: see the comments in it"),
+    "record-uncorrected": (
+        "caution",
+        "motion.processing",
+        "{name} is uncorrected: {why}; an analysis asks for motion.processing with a band-pass or a baseline",
+    ),
     "record-unit-assumed": (
         "caution",
         "motion.unit",

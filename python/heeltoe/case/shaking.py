@@ -8,7 +8,7 @@ from pathlib import Path
 from heeltoe.case.motion import Motion, Source
 from heeltoe.errors import InputError
 from heeltoe.kept import Kept
-from heeltoe.motion.check import check, check_pair, check_record
+from heeltoe.motion.check import check, check_moved, check_pair, check_record
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.processing import process
 from heeltoe.motion.records import called, read_record
@@ -80,7 +80,9 @@ def read_source(
     """Read, or make, the motion, look for damage that would be hidden later, and process it."""
     motion = _source(shaking, gravity, base_directory, field, upward)
     motion = motion.with_warnings(*check_record(motion, gravity, field=field, upward=upward))
-    return process(motion, shaking.processing, gravity, field=f"{field}.processing")
+    motion = process(motion, shaking.processing, gravity, field=f"{field}.processing")
+    check_moved(motion, field)
+    return motion
 
 
 def _source(shaking: Source, gravity: float, base_directory: Path, field: str, upward: bool) -> GroundMotion:

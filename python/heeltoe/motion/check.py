@@ -7,11 +7,13 @@ import re
 import numpy as np
 
 from heeltoe.errors import InputError
-from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.motion.ground_motion import UNCORRECTED, GroundMotion
 from heeltoe.warnings import Notice
 
 # More than any ground has been seen to do [g].
 _STRONGEST = 10.0
+# The fastest and farthest that ground has been seen to move are some 4 m/s and 10 m [m/s, m].
+_FASTEST, _FARTHEST = 10.0, 50.0
 # Fewer samples than this are a pulse that somebody drew.
 _DRAWN = 20
 # How far the peak reaches beyond all but its next neighbours: of some seventy records of strong motion Landers 1992 has
@@ -99,6 +101,22 @@ def _reach(motion: GroundMotion, width: int) -> float:
     others = np.concatenate([size[: max(0, place - width)], size[place + width + 1 :]])
     largest = float(others.max(initial=0.0))
     return float(size[place]) / largest if largest else 1.0 if size[place] == 0.0 else np.inf
+
+
+def check_moved(motion: GroundMotion, field: str) -> None:
+    """Refuse a record, as it was processed and before it is scaled, that is uncorrected or goes where no ground goes.
+
+    Raises
+    ------
+    InputError
+        With the value and its limit; a motion drawn by points may go anywhere.
+    """
+    for each in motion.warnings:
+        if each.code == UNCORRECTED:
+            raise InputError(UNCORRECTED, field, name=motion.name, why=dict(each.quantities)["why"])
+    if motion.format != "points" and (motion.pgv > _FASTEST or motion.pgd > _FARTHEST):
+        there = {"displacement": f"{motion.pgd:.3g} m", "limit": f"{_FASTEST:g} m/s", "farthest": f"{_FARTHEST:g} m"}
+        raise InputError("motion-fast", field, f"{motion.pgv:.3g} m/s", name=motion.name, **there)
 
 
 def check_pair(horizontal: GroundMotion, vertical: GroundMotion) -> tuple[Notice, ...]:

@@ -16,6 +16,8 @@ from heeltoe.plain import plain
 from heeltoe.shown import Shown
 from heeltoe.warnings import Notice
 
+#: The warning of a record that stands as its instrument gave it; what corrects it takes it away.
+UNCORRECTED = "record-uncorrected"
 # How the step of processing that ends a motion early begins.
 _CUT = "cut to "
 # Of a refined motion: days of shaking at a thousandth of a second, and still within memory.
@@ -215,6 +217,10 @@ class GroundMotion(Shown):
             lost = Notice("motion-cut", duration_s=duration, time_s=self.peak[0])
             result = replace(result, warnings=(*result.warnings, lost))
         return result
+
+    def corrected(self) -> GroundMotion:
+        """Return the motion without the warning that its record is uncorrected."""
+        return replace(self, warnings=tuple(each for each in self.warnings if each.code != UNCORRECTED))
 
     def led_by(self, lead: float) -> GroundMotion:
         """Return the motion with the ground at rest before it, so that its record begins `lead` [s] after its start."""

@@ -101,7 +101,7 @@ def baseline(motion: GroundMotion, order: int = 2, *, displacement: bool = False
     also = " and displacement" if displacement else ""
     said = f"baseline: polynomial of degree {order} taken from the velocity, end velocity{also} zero"
     return replace(
-        motion,
+        motion.corrected(),
         acceleration=motion.acceleration - taken,
         processing=(*motion.processing, f"{said} (was {ends[0]:.4g} m/s)"),
     )
@@ -174,7 +174,7 @@ def band_pass(
         f"either side, of which {before:.4g} s before and {behind:.4g} s behind the record stay)"
     )
     return replace(
-        motion,
+        motion if low is None else motion.corrected(),
         time=motion.dt * np.arange(last - first + 1, dtype=np.float64),
         acceleration=filtered[first : last + 1],
         lead=motion.lead + before,

@@ -11,6 +11,7 @@ from heeltoe import GroundMotion, InputError
 from heeltoe.motion.records import read_text, read_text_channels
 from shared.record_samples import GAL, cosmos, csmip, knet, smc
 from shared.record_samples import WAVE as _WAVE
+from shared.records_of_the_world import SAMPLES as OF_THE_WORLD
 
 
 def _at2() -> bytes:
@@ -84,6 +85,9 @@ _JUNK = [
 ]
 
 
+_OTHERS = {name: lambda sample=sample: sample().encode() for name, sample in OF_THE_WORLD.items()}
+
+
 def _mutate(data: bytes, rng: random.Random) -> bytes:
     out = bytearray(data)
     for _ in range(rng.randint(1, 4)):
@@ -114,7 +118,7 @@ def _mutate(data: bytes, rng: random.Random) -> bytes:
 
 
 def _assault(name: str, count: int) -> tuple[int, int]:
-    sample = (SAMPLES | {"foreign": _foreign})[name]()
+    sample = (SAMPLES | _OTHERS | {"foreign": _foreign})[name]()
     rng = random.Random(f"heeltoe {name}")
     sound = refused = 0
     complaints = []
@@ -158,13 +162,18 @@ def test_mutations(name):
     _check_both_kinds(*_assault(name, 2_000))
 
 
+@pytest.mark.parametrize("name", _OTHERS)
+def test_mutations_of_formats_of_the_world(name):
+    _check_both_kinds(*_assault(name, 400))
+
+
 def test_mutations_of_a_format_that_is_not_read():
     _, refused = _assault("foreign", 2_000)
     assert refused > 1_900
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", SAMPLES)
+@pytest.mark.parametrize("name", [*SAMPLES, *_OTHERS])
 def test_many_mutations(name):
     _check_both_kinds(*_assault(name, 100_000))
 

@@ -17,7 +17,22 @@ from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.records.catalog import find
 from heeltoe.motion.records.channel import choose, numbered
-from heeltoe.motion.records.formats import columns, cosmos_v2, csmip_v2, foreign, knet, peer_at2, usgs_smc
+from heeltoe.motion.records.formats import (
+    afad,
+    columns,
+    cosmos_v2,
+    csmip_v2,
+    csmnc,
+    esm,
+    foreign,
+    geonet,
+    knet,
+    peer_at2,
+    unam,
+    usc_v2,
+    usgs_smc,
+    volume1,
+)
 from heeltoe.motion.records.raw import RawRecord
 from heeltoe.motion.records.to_motion import Told, to_motion
 from heeltoe.motion.scenario import PREFIX, synthetic
@@ -26,7 +41,22 @@ from heeltoe.units.parse import STANDARD_GRAVITY
 __all__ = ["READERS", "RawRecord", "read_channels", "read_record", "read_text", "read_text_channels"]
 
 #: In the order in which they are asked.
-READERS: tuple[ModuleType, ...] = (csmip_v2, cosmos_v2, usgs_smc, knet, foreign, peer_at2, columns)
+READERS: tuple[ModuleType, ...] = (
+    esm,
+    afad,
+    unam,
+    geonet,
+    usc_v2,
+    volume1,
+    csmip_v2,
+    cosmos_v2,
+    usgs_smc,
+    knet,
+    csmnc,
+    foreign,
+    peer_at2,
+    columns,
+)
 
 _NOTHING_TOLD = Told()
 # No record comes near; what is larger is something else.
@@ -105,15 +135,14 @@ def called(motion: GroundMotion, path: Path, given: str) -> GroundMotion:
 
 def read_text(data: bytes, name: str, channel: str | int | None = None, told: Told = _NOTHING_TOLD) -> GroundMotion:
     """Read a record from the bytes of its file; see :func:`read_record`."""
-    records, format_ = _records(data, name)
-    raw = choose(records, channel, name, f"{told.field}.channel")
-    return to_motion(raw, format_, name, len(records), told)
+    records = _records(data, name)
+    return to_motion(choose(records, channel, name, f"{told.field}.channel"), name, len(records), told)
 
 
 def read_text_channels(data: bytes, name: str, told: Told = _NOTHING_TOLD) -> list[GroundMotion]:
     """Read all channels from the bytes of a file; see :func:`read_channels`."""
-    records, format_ = _records(data, name)
-    return [to_motion(raw, format_, name, len(records), told) for raw in records]
+    records = _records(data, name)
+    return [to_motion(raw, name, len(records), told) for raw in records]
 
 
 def _place(path: str | os.PathLike[str], field: str) -> Path:
@@ -135,14 +164,18 @@ def _load(path: str | os.PathLike[str]) -> tuple[bytes, str]:
         raise InputError("record-unreadable", str(path), reason=getattr(error, "strerror", None) or error) from None
 
 
-def _records(data: bytes, name: str) -> tuple[list[RawRecord], str]:
-    """The channels of a file and its format."""
+def _records(data: bytes, name: str) -> list[RawRecord]:
+    """The channels of a file, numbered."""
+    return numbered(_read(data, name))
+
+
+def _read(data: bytes, name: str) -> list[RawRecord]:
     lines = _lines(data, name)
     reader = next((reader for reader in READERS if reader.matches(lines)), None)
     if reader is None:
         raise InputError("record-format", name, repr(lines[0][:40]))
     records: list[RawRecord] = reader.read(lines, name)
-    return numbered(records), reader.FORMAT
+    return [replace(record, format=reader.FORMAT) for record in records]
 
 
 def _lines(data: bytes, name: str) -> list[str]:

@@ -38,6 +38,10 @@ class RawRecord:
         What does not fit together in the file.
     channel
         Number of the channel as the file states it; empty where it does not.
+    uncorrected
+        Why the record is not to be used as it stands; empty where it is.
+    format
+        Of the file.
     """
 
     values: Floats
@@ -48,6 +52,8 @@ class RawRecord:
     processing: tuple[str, ...] = ()
     warnings: tuple[Notice, ...] = ()
     channel: str = ""
+    uncorrected: str = ""
+    format: str = ""
 
 
 def numbers(lines: list[str], name: str, first_line: int, width: int = 0) -> Floats:
@@ -91,9 +97,40 @@ def numbers(lines: list[str], name: str, first_line: int, width: int = 0) -> Flo
     return np.array(values)
 
 
+def table(lines: list[str], name: str, first_line: int, width: int) -> Floats:
+    """Read lines of `width` numbers each to one row for each column; empty lines are left out; see :func:`numbers`."""
+    for number, line in enumerate(lines, first_line):
+        words = len(unglued(line).split())
+        if words not in (0, width):
+            raise InputError("record-ragged", name, f"{words} columns", line=number, width=width)
+    return np.ascontiguousarray(numbers(lines, name, first_line).reshape(-1, width).T)
+
+
 def real(text: str) -> float:
     """Return the number that a text of the pattern :data:`NUMBER` is."""
     return float(text.upper().replace("D", "E"))
+
+
+def labelled(lines: list[str], most: int) -> dict[str, str]:
+    """Return what stands behind the first colon of the first lines, by what stands before it in small letters."""
+    pairs = (line[:400].partition(":") for line in lines[:most])
+    said: dict[str, str] = {}
+    for label, colon, value in pairs:
+        if colon:
+            said.setdefault(plain(label).lower(), value.strip())
+    return said
+
+
+def leading(text: str) -> str:
+    """Return the number with which a text begins, as it is written there; empty where it does not."""
+    found = re.match(rf"\s*({NUMBER})", text, re.IGNORECASE)
+    return found[1] if found else ""
+
+
+def stated(text: str) -> float | None:
+    """Return the number with which a text begins; None where it does not."""
+    written = leading(text)
+    return real(written) if written else None
 
 
 def plain(text: str) -> str:

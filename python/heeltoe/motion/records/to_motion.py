@@ -36,15 +36,13 @@ class Told:
     assume: bool = False
 
 
-def to_motion(raw: RawRecord, format_: str, name: str, channels: int, told: Told) -> GroundMotion:
+def to_motion(raw: RawRecord, name: str, channels: int, told: Told) -> GroundMotion:
     """Make a ground motion of a record.
 
     Parameters
     ----------
     raw
         The record as it stands in its file.
-    format_
-        Name of the format of the file.
     name
         Of the file.
     channels
@@ -70,16 +68,17 @@ def to_motion(raw: RawRecord, format_: str, name: str, channels: int, told: Told
     if peak * factor > _LARGEST_VALUE:
         raise InputError("motion-peak", name, f"{peak:.4g} {unit}", name="it")
     stem = Path(name).stem
+    measured = (Notice("record-uncorrected", name=name, why=raw.uncorrected),) if raw.uncorrected else ()
     return GroundMotion(
         name=f"{stem}-chan{raw.channel}" if channels > 1 else stem,
         time=time,
         acceleration=raw.values * factor,
-        format=format_,
+        format=raw.format,
         units_as_read=read_as,
         source=name,
         channel=raw.channel,
         processing=raw.processing,
-        warnings=(*raw.warnings, *unsure, *unsure_too),
+        warnings=(*raw.warnings, *measured, *unsure, *unsure_too),
         **raw.about,  # type: ignore[arg-type]
     )
 

@@ -27,6 +27,7 @@ _CLOSED = re.compile(r"\s*/&|.*end of data", re.IGNORECASE)
 _FORMAT = re.compile(r"\(\s*\d+\s*[a-z](\d{1,2})\.", re.IGNORECASE)
 _CHANNEL = re.compile(r"\bchan\s*(\d+):\s*(\S+(?: \S+)*)", re.IGNORECASE)
 _FIRST = re.compile(r"\s*corrected accelerogram", re.IGNORECASE)
+_RAW = re.compile(r"\s*uncorrected accelerogram", re.IGNORECASE)
 _PEAK = re.compile(rf"peak\s+acceleration\s*=\s*({NUMBER})\s*([a-z][\w/^]*)", re.IGNORECASE)
 _FILTERED, _PROCESSED = re.compile(r"\s*accelerogram .*filtered", re.IGNORECASE), re.compile(r"processed:\s*\S", re.I)
 _UNNAMED = re.compile(r"re?co?rd of\s+(.+)", re.IGNORECASE)
@@ -35,7 +36,9 @@ _HEADER_LINES, _WIDTH = 60, 200
 
 
 def matches(lines: list[str]) -> bool:
-    """Whether a line announces accelerations in the words of the format."""
+    """Whether a line announces accelerations in the words of the format; volume 1 has them too, uncorrected."""
+    if any(_RAW.match(line[:_WIDTH]) for line in lines[:1]):
+        return False
     return any(_ACCELERATION.match(line[:_WIDTH]) for line in lines[: 2 * _HEADER_LINES])
 
 

@@ -1,0 +1,54 @@
+"""AFAD (Turkish network, text of the older archive): three components side by side, in gal::
+
+STRONG GROUND MOTION RECORDS OF TURKIYE
+NUMBER OF DATA          : 28683
+SAMPLING INTERVAL (sec) : 0.01
+RAW PGA VALUES (gal)    : (N-S) 13.200332 (E-W) 12.163827 (U-D) 9.840572
+       N-S          E-W          U-D
+"""
+
+from __future__ import annotations
+
+import re
+
+from heeltoe.errors import InputError
+from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, labelled, peaked, stated, table
+
+FORMAT = "AFAD"
+
+_FIRST = re.compile(r"\s*strong ground motion records of turk", re.IGNORECASE)
+_PEAK = re.compile(rf"\(([NSEWUD]-[NSEWUD])\)\s*({NUMBER})", re.IGNORECASE)
+_HEADER_LINES = 40
+
+
+def matches(lines: list[str]) -> bool:
+    """Whether the file opens in the words of the format."""
+    return any(_FIRST.match(line[:200]) for line in lines[:3])
+
+
+def read(lines: list[str], name: str) -> list[RawRecord]:
+    """Read a file that matches."""
+    said = labelled(lines, _HEADER_LINES)
+    ways = next((k for k, line in enumerate(lines[:_HEADER_LINES]) if line.split() == ["N-S", "E-W", "U-D"]), None)
+    count, step = stated(said.get("number of data", "")), stated(said.get("sampling interval (sec)", ""))
+    if ways is None or count is None or not step:
+        raise InputError("record-header", name, "components, number of data or sampling interval")
+    peaks = next((value for label, value in said.items() if "pga values (gal)" in label), "")
+    peak_of = {way.upper(): peak for way, peak in _PEAK.findall(peaks)}
+    raw = any(label.startswith("raw pga") for label in said)
+    return [
+        RawRecord(
+            values,
+            time_step=step,
+            unit="gal",
+            about={
+                "event": f"magnitude {said.get('earthquake magnitude', '')} at {said.get('epicenter coordinates', '')}",
+                "date": said.get("earthquake date", ""),
+                "station": f"{said.get('station id', '')} {said.get('place', '')}".strip(),
+                "component": way,
+            },
+            warnings=counted(values, count, name) + (peaked(values, peak_of[way], name) if way in peak_of else ()),
+            uncorrected="its header speaks of raw values" if raw else "",
+        )
+        for way, values in zip(("N-S", "E-W", "U-D"), table(lines[ways + 1 :], name, ways + 2, 3), strict=True)
+    ]

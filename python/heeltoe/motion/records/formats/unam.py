@@ -1,0 +1,61 @@
+"""UNAM and the Mexican database (ASA, archivo estandar de aceleracion): up to twelve channels side by side, in gal::
+
+INTERVALO DE MUESTREO, C1-C6 (s)       : /0.005/0.005/0.005
+ACEL. MAX.(Gal), C1-C6                 : /25.6114/58.7394/-42.3377
+UNIDADES DE LOS DATOS                  : Gal (cm/s/s)
+   CANAL-1   CANAL-2   CANAL-3
+         V      N00E      N90E
+"""
+
+from __future__ import annotations
+
+import re
+
+from heeltoe.errors import InputError
+from heeltoe.motion.records.raw import RawRecord, counted, labelled, leading, peaked, stated, table
+
+FORMAT = "UNAM ASA"
+
+_CHANNELS = re.compile(r"\s*canal-?\s*1\b", re.IGNORECASE)
+_HEADER_LINES = 160
+
+
+def matches(lines: list[str]) -> bool:
+    """Whether the first lines bear the title of the format."""
+    return any("ARCHIVO ESTANDAR DE ACELERACION" in line[:200].upper() for line in lines[:20])
+
+
+def read(lines: list[str], name: str) -> list[RawRecord]:
+    """Read a file that matches."""
+    said = labelled(lines, _HEADER_LINES)
+    above = next((k for k, line in enumerate(lines[:_HEADER_LINES]) if _CHANNELS.match(line[:200])), None)
+    steps = [stated(each) for each in _parts(said, "intervalo de muestreo")]
+    unit = said.get("unidades de los datos", "").lower()
+    if above is None or above + 3 > len(lines) or not steps or not steps[0] or not unit.startswith("gal"):
+        raise InputError("record-header", name, "channels, step or unit")
+    width = len(lines[above].split())
+    ways = lines[above + 1].split()
+    ways = ways if len(ways) == width else [""] * width
+    peaks, counts = _parts(said, "acel. max.(gal)"), [stated(each) for each in _parts(said, "num. total de muestras")]
+    about = {
+        "event": f"magnitude {said.get('magnitud(es)', '').strip('/ ')}".removesuffix("magnitude "),
+        "date": f"{said.get('fecha del sismo [gmt]', '')} {said.get('hora epicentro (gmt)', '')}".strip(),
+        "station": said.get("nombre de la estacion", ""),
+    }
+    records = []
+    for k, values in enumerate(table(lines[above + 3 :], name, above + 4, width)):
+        count = counts[k] if k < len(counts) else None
+        warnings = counted(values, count, name) if count is not None else ()
+        if k < len(peaks) and leading(peaks[k]):
+            warnings += peaked(values, leading(peaks[k]), name)
+        step = steps[k] if k < len(steps) else steps[0]
+        records.append(
+            RawRecord(values, time_step=step, unit="gal", about={**about, "component": ways[k]}, warnings=warnings)
+        )
+    return records
+
+
+def _parts(said: dict[str, str], label: str) -> list[str]:
+    """What the header says of each channel, the first six and the rest one behind the other."""
+    texts = [value for key, value in said.items() if key.startswith(label) and re.search(r"c\d+ ?- ?c\d+", key)]
+    return [part.strip() for text in texts for part in text.split("/")[1:] if part.strip()]
