@@ -35,6 +35,12 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "{field}: {density_kg_m3:g kg/m^3} is unusual for water",
     ),
     "density-unusual": ("caution", "concrete.density", "{field}: {density_kg_m3:g kg/m^3} is unusual for concrete"),
+    "water-over-crest": (
+        "caution",
+        "reservoir.depth",
+        "{field}: the water stands {over_m:.3g m} above the crest; it presses on the faces as still water does and on "
+        'the crest by reservoir.nappe = "{nappe}", without what its flow changes',
+    ),
     "reservoir-below-crack": (
         "note",
         "reservoir",

@@ -67,8 +67,8 @@ REFUSED = [
         'statics.drain_diameter: has no meaning without uplift.pattern = "drained"; give that, or remove this',
     ),
     (
-        dam(statics={"flood_depth": "101 m"}),
-        "statics.flood_depth: 101 m is above the crest at 100 m; give a depth between 0 m and 100 m",
+        dam(statics={"flood_depth": "201 m"}),
+        "statics.flood_depth: 201 m is more than twice the height of the dam, 100 m; give a depth up to 200 m",
     ),
     (
         dam(uplift={"opening": "1 mm"}),
@@ -219,12 +219,12 @@ REFUSED = [
         "crack.static_friction: 0.9 is below kinetic_friction, 1; give a static_friction of at least 1",
     ),
     (
-        dam(reservoir={"depth": "120 m"}),
-        "reservoir.depth: 120 m is above the crest at 100 m; give a depth between 0 m and 100 m",
+        dam(reservoir={"depth": "220 m"}),
+        "reservoir.depth: 220 m is more than twice the height of the dam, 100 m; give a depth up to 200 m",
     ),
     (
-        dam(tailwater={"depth": "101 m"}),
-        "tailwater.depth: 101 m is above the crest at 100 m; give a depth between 0 m and 100 m",
+        dam(tailwater={"depth": "201 m"}),
+        "tailwater.depth: 201 m is more than twice the height of the dam, 100 m; give a depth up to 200 m",
     ),
     (
         dam(uplift={"extent": 0.5}),

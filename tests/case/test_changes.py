@@ -53,7 +53,7 @@ def test_a_change_is_checked_as_a_file_is():
         ("crack.frictoin=1.2", "unknown-field", 'did you mean "friction"?'),
         ({"reservoir": {"depht": "3 m"}}, "unknown-field", 'did you mean "depth"?'),
         ({"reservoir.depth": 95}, "unit-missing", '"95 m"'),
-        ({"reservoir.depth": "120 m"}, "water-above-crest", "above the crest"),
+        ({"reservoir.depth": "220 m"}, "water-above-crest", "twice the height of the dam"),
         ("crack.friction", "override-form", "PATH=VALUE"),
         ({"": 1}, "override-form", "PATH=VALUE"),
         ({3: 1}, "override-form", "PATH=VALUE"),

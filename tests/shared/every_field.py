@@ -92,6 +92,7 @@ HELPED: dict[str, tuple[Fields, Any]] = {
     ),
     "crack.friction": ({"crack.static_friction": GONE, "crack.kinetic_friction": GONE, "crack.friction": 0.6}, 0.5),
     "crack.inclination": ({}, "5 deg"),
+    "reservoir.nappe": ({"reservoir.depth": "31 m", "ice": GONE}, "weight"),
     "uplift.pattern": ({"uplift": {"pattern": "uniform"}, "statics.drain_diameter": GONE}, None),
     "uplift.extent": ({"uplift": {"pattern": "cut-off", "extent": 0.5}, "statics.drain_diameter": GONE}, 0.4),
     "uplift.points": (

@@ -134,7 +134,7 @@ def test_json():
         ("crack.friction=0.9,eleven", "wrong-quantity"),
         ("crack.friction=0.9,12", "out-of-range"),
         ("reservoir.depth=90 m,90", "unit-missing"),
-        ("reservoir.depth=90 m,120 m", "water-above-crest"),
+        ("reservoir.depth=90 m,220 m", "water-above-crest"),
         ("uplift.pattern=none,some", "not-a-choice"),
         ("crack.frictoin=0.9,1.0", "unknown-field"),
         ("crack=1,2", "wrong-type"),

@@ -140,6 +140,17 @@ class Water(Fields):
     virtual_mass_rotates: Truth = True
     """The virtual water of a rigid block resists its rotation as Westergaard's profile does along the face; or, as in
     Zhu (2004), as one mass at the height of its centre."""
+    hydrodynamic: Literal["westergaard", "zangar"] = "westergaard"
+    """Pressure of the water that moves with a rigid block, and of the pseudo-static checks: Westergaard's, less in
+    proportion before each slope of the face; or Zangar's for a face of one slope."""
+
+
+class Reservoir(Water):
+    """Still water upstream, which may stand above the crest."""
+
+    nappe: Literal["none", "weight", "falling"] = "none"
+    """What water above the crest presses on it with: nothing; its full weight; or a weight that falls from the full one
+    at the upstream edge of the crest to nothing at the downstream edge."""
 
 
 class Ice(Fields):

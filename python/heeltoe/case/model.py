@@ -12,7 +12,7 @@ import shapely
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
 from heeltoe.case.changes import apply
-from heeltoe.case.dam import Anchor, Concrete, Crack, Ice, Section, Silt, Uplift, Water
+from heeltoe.case.dam import Anchor, Concrete, Crack, Ice, Reservoir, Section, Silt, Uplift, Water
 from heeltoe.case.fields import Fields
 from heeltoe.case.motion import Motion
 from heeltoe.case.options import Analysis, Decoupled, Flexible, Limits, StaticsChoice
@@ -24,6 +24,9 @@ from heeltoe.geometry.levels import cut_levels
 from heeltoe.geometry.section import ON_LINE, CutSection, cut, outline, outside
 from heeltoe.plain import plain
 from heeltoe.shown import Shown
+
+# Water so many times as deep as the dam is high is a slip of the pen.
+_DEEPEST = 2.0
 
 
 class Case(Shown, Fields):
@@ -44,7 +47,7 @@ class Case(Shown, Fields):
     """The concrete."""
     crack: Crack
     """The crack."""
-    reservoir: Water | None = None
+    reservoir: Reservoir | None = None
     """The water upstream."""
     tailwater: Water | None = None
     """The water downstream."""
@@ -200,8 +203,8 @@ def problems(fields: Mapping[str, Any]) -> tuple[Case | None, list[InputError]]:
 
 def misfits(case: Case) -> Iterator[tuple[bool, Callable[[], InputError]]]:
     """Walk what the section rules out, whether it is so, row by row where the numbers of the case are columns, and what
-    is to be said then: water and silt above the crest, as flow over a dam is another problem, and anchors beyond the
-    toe."""
+    is to be said then: silt above the crest, water farther above it than the dam is high, ice that nothing holds there,
+    sections outside the dam and anchors beyond the toe."""
     section, choice = case.cut, case.statics
     height = section.crest_elevation - section.base_elevation
     surfaces = {
@@ -213,7 +216,11 @@ def misfits(case: Case) -> Iterator[tuple[bool, Callable[[], InputError]]]:
     }
     for field, depth in surfaces.items():
         if depth is not None:
-            yield depth > height * (1.0 + ON_LINE), partial(_above_crest, field, depth, height)
+            most = height if field == "silt.depth" else _DEEPEST * height
+            yield depth > most * (1.0 + ON_LINE), partial(_above_crest, field, depth, height)
+    if case.ice is not None and case.reservoir is not None:
+        level = case.reservoir.depth - case.ice.depth
+        yield level > height * (1.0 + ON_LINE), partial(_ice_above_crest, level, height)
     for place, joint in enumerate(choice.sections):
         field = f"statics.sections[{place}].elevation"
         yield outside(case.outline, joint.elevation), partial(_outside, field, joint.elevation, height)
@@ -228,7 +235,11 @@ def _outside(field: str, elevation: float, height: float) -> InputError:
 
 def _above_crest(field: str, depth: float, height: float) -> InputError:
     code = "silt-above-crest" if field == "silt.depth" else "water-above-crest"
-    return InputError(code, field, f"{depth:g} m", height=f"{height:g} m")
+    return InputError(code, field, f"{depth:g} m", height=f"{height:g} m", most=f"{_DEEPEST * height:g} m")
+
+
+def _ice_above_crest(level: float, height: float) -> InputError:
+    return InputError("ice-above-crest", "ice.depth", f"{level:g} m", height=f"{height:g} m")
 
 
 def _beyond_toe(field: str, distance: float, width: float) -> InputError:

@@ -167,7 +167,10 @@ class StaticsChoice(Fields):
     seismic_coefficient: Annotated[DimensionlessNumber, Field(gt=0.0, le=3.0)] | None = None
     """Horizontal acceleration of the pseudo-static check in g; no such check without it."""
     vertical_seismic_coefficient: Annotated[DimensionlessNumber, Field(ge=0.0, le=3.0)] = 0.0
-    """Vertical acceleration at the same time in g, taken the worse way."""
+    """Vertical acceleration at the same time in g, up and down: each check is judged by the worse way."""
+    uplift_in_earthquake: Literal["criteria", "unchanged", "zero", "full"] = "criteria"
+    """Pressure of the water where a pseudo-static load opens the crack: as the criteria have it; as it was (USACE,
+    FERC); none (USBR); or at once the reservoir's (ICOLD)."""
     residual_friction: FrictionCoefficient | None = None
     """Coefficient of friction after the earthquake; the kinetic one where it is not given."""
     residual_slip: Annotated[Length, Field(ge=0.0)] | None = None
@@ -187,6 +190,8 @@ class StaticsChoice(Fields):
             raise InputError("needs-other", "flood_tailwater", other="flood_depth")
         if self.vertical_seismic_coefficient and self.seismic_coefficient is None:
             raise InputError("needs-other", "vertical_seismic_coefficient", other="seismic_coefficient")
+        if self.uplift_in_earthquake != "criteria" and self.seismic_coefficient is None:
+            raise InputError("needs-other", "uplift_in_earthquake", other="seismic_coefficient")
         if self.flood_rarity == "extreme" and self.flood_depth is None:
             raise InputError("needs-other", "flood_rarity", other="flood_depth")
         elevations = [section.elevation for section in self.sections]

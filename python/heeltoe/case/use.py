@@ -36,6 +36,8 @@ READ_BY: dict[str, frozenset[str]] = {
     "crack.restitution": _BLOCKS,
     "reservoir.virtual_mass_rotates": _BLOCKS,
     "tailwater.virtual_mass_rotates": _BLOCKS,
+    "reservoir.hydrodynamic": _BLOCKS | {"statics"},
+    "tailwater.hydrodynamic": _BLOCKS | {"statics"},
     "anchors.axial_stiffness": _SHAKEN,
     "anchors.shear_stiffness": _SHAKEN,
     "anchors.capacity": _SHAKEN,
@@ -152,7 +154,11 @@ def _idle_water(case: Case, models: Sequence[str]) -> Iterator[Rule]:
         tuple(f"uplift.{name}" for name in type(uplift).model_fields),
     )
     for side, there in above.items():
-        yield not there, f"the {side} does not stand above the crack", (f"{side}.virtual_mass_rotates",)
+        moves = (f"{side}.virtual_mass_rotates", f"{side}.hydrodynamic")
+        yield not there, f"the {side} does not stand above the crack", moves
+    crest = section.crest_elevation - section.base_elevation
+    highest = max(case.reservoir.depth if case.reservoir else 0.0, 0.0 if still else case.statics.flood_depth or 0.0)
+    yield highest <= crest, "no water stands above the crest", ("reservoir.nappe",)
     yield (
         uplift.pattern == "none" and uplift.during_shaking == "constant" and not dry,
         'uplift.pattern = "none"',
@@ -162,6 +168,11 @@ def _idle_water(case: Case, models: Sequence[str]) -> Iterator[Rule]:
         _stands_upright(case, below="flexible" in models),
         "the silt stands before a vertical face",
         ("silt.vertical_density",),
+    )
+    yield (
+        set(models) == {"statics"} and case.statics.seismic_coefficient is None,
+        "there is no statics.seismic_coefficient",
+        ("reservoir.hydrodynamic", "tailwater.hydrodynamic"),
     )
     still_water = tuple(f"{side}.follows_vertical_motion" for side in ("reservoir", "tailwater"))
     yield (

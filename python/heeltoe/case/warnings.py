@@ -25,6 +25,9 @@ def case_warnings(case: Case) -> tuple[Notice, ...]:
     upstream = case.reservoir.depth if case.reservoir else 0.0
     if case.reservoir and 0.0 < upstream <= case.crack.elevation:
         said.append(Notice("reservoir-below-crack"))
+    over = upstream - (case.cut.crest_elevation - case.cut.base_elevation)
+    if case.reservoir and over > 0.0:
+        said.append(Notice("water-over-crest", over_m=over, nappe=case.reservoir.nappe))
     if case.ice and upstream - case.ice.depth < case.crack.elevation:
         said.append(Notice("ice-below-crack"))
     if case.silt and case.silt.depth <= case.crack.elevation:

@@ -225,7 +225,7 @@ def build_block(case: Case) -> Block:
     forces = static_forces(case)
     water = virtual_mass(case)
     static = across_crack(total("static loads", forces), section)
-    sides = {"reservoir": case.reservoir, "tailwater": case.tailwater}
+    sides = {"reservoir": case.reservoir, "tailwater": case.tailwater, "nappe": case.reservoir}
     hanging = [name for name, side in sides.items() if side is not None and side.follows_vertical_motion]
     following = tuple(force for force in forces if force.name in hanging)
     pressed = across_crack(total("following", following), section)

@@ -67,16 +67,23 @@ def total(name: str, forces: Iterable[Resultant]) -> Resultant:
     )
 
 
+def scaled(name: str, force: Resultant, factor: float) -> Resultant:
+    """Return so many times a force under a new name."""
+    numbers = (force.horizontal, force.vertical, force.moment, force.virial, force.lift_moment)
+    return Resultant(name, *(factor * number for number in numbers))
+
+
 def static_forces(case: Case) -> tuple[Resultant, ...]:
-    """Return weight, reservoir, tailwater and uplift, with zeros for what is not there, then ice, silt and prestress
-    of the anchors where there are any."""
+    """Return weight, reservoir, tailwater and uplift, with zeros for what is not there, then nappe, ice, silt and
+    prestress of the anchors where there are any."""
     forces = [
         weight(case),
         reservoir_pressure(case),
         tailwater_pressure(case),
         uplift(case),
     ]
-    for there, force in ((case.ice, ice), (case.silt, silt), (case.anchors, prestress)):
+    over = np.any(nappe_heads(case)[0] > 0.0)
+    for there, force in ((over, nappe), (case.ice, ice), (case.silt, silt), (case.anchors, prestress)):
         if there:
             forces.append(force(case))
     return tuple(forces)
@@ -103,6 +110,28 @@ def reservoir_pressure(case: Case) -> Resultant:
 def tailwater_pressure(case: Case) -> Resultant:
     """Return the force of the tailwater on the downstream face above the crack, with its weight on slopes."""
     return _face_pressure("tailwater", case, case.tailwater, upstream=False)
+
+
+def nappe_heads(case: Case) -> tuple[float, float]:
+    """Return the heads that press on the crest at its upstream and its downstream edge [m]; zero where water does not
+    stand above it, or by the choice of the case does not press."""
+    water = case.reservoir
+    if water is None or water.nappe == "none":
+        return 0.0, 0.0
+    section = case.cut
+    head = larger(0.0, section.base_elevation + water.depth - section.crest_elevation)
+    return head, head if water.nappe == "weight" else 0.0 * head
+
+
+def nappe(case: Case) -> Resultant:
+    """Return the weight of the water above the crest, as far as it presses on it."""
+    section, (h0, h1) = case.cut, nappe_heads(case)
+    unit = case.gravity * (case.reservoir.density if case.reservoir else 0.0)
+    top, end = section.upstream_edges[-1], section.downstream_edges[-1]
+    width = end.x1 - top.x1
+    force = -unit * width * (h0 + h1) / 2.0
+    moment = -unit * width * _mean_product(top.x1, end.x1, h0, h1)
+    return Resultant("nappe", 0.0, force, moment, top.z1 * force, moment)
 
 
 def ice(case: Case) -> Resultant:

@@ -11,7 +11,8 @@ from shared.elastic import G, built, deep, parts, resultant
 from shared.meshes import flat
 from shared.outlines import dams, make
 
-waters = st.one_of(st.none(), st.floats(0.01, 1.0))
+waters = st.one_of(st.none(), st.floats(0.01, 1.4))
+nappes = st.sampled_from(["none", "weight", "falling"])
 uplifts = st.sampled_from(
     [
         {"pattern": "none"},
@@ -25,11 +26,11 @@ uplifts = st.sampled_from(
 
 
 @settings(max_examples=50)
-@given(dams(), st.integers(0, 9), waters, waters, uplifts, st.integers(1, 4))
-def test_resultants_are_those_of_the_rigid_body(corners, tenths, up, down, uplift, across):
+@given(dams(), st.integers(0, 9), waters, waters, uplifts, st.integers(1, 4), nappes)
+def test_resultants_are_those_of_the_rigid_body(corners, tenths, up, down, uplift, across, nappe):
     assume(not flat(corners))
     top = max(z for _, z in corners)
-    water = {"reservoir": up and deep(up * top), "tailwater": down and deep(down * top)}
+    water = {"reservoir": up and deep(up * top) | {"nappe": nappe}, "tailwater": down and deep(down * top)}
     options = {"elements_across": across, "elements_across_below": 3}
     case, section, one = built(corners, tenths / 10 * top, uplift=uplift, flexible=options, **water)
     scale = 2650 * G * 80.0 * top
@@ -53,7 +54,7 @@ def test_resultants_are_those_of_the_rigid_body(corners, tenths, up, down, uplif
 
 
 @settings(max_examples=40)
-@given(dams(), st.integers(0, 9), st.floats(0.01, 1.0), waters, st.integers(1, 4))
+@given(dams(), st.integers(0, 9), st.floats(0.01, 1.4), waters, st.integers(1, 4))
 def test_virtual_mass(corners, tenths, filling, down, across):
     assume(not flat(corners))
     top = max(z for _, z in corners)

@@ -153,7 +153,7 @@ def test_flood():
 
 
 def test_pseudo_static_downstream():
-    found = only(heeltoe.statics(dam(statics=SHAKEN)), "pseudo-static downstream")
+    found = only(heeltoe.statics(dam(statics=SHAKEN)), "pseudo-static downstream, lifting")
     assert found.normal_force_n == pytest.approx((60.0 - 4.8) * M, **CLOSE)
     assert found.shear_force_n == pytest.approx((40.5 + 9.6 + 4.725) * M, **CLOSE)
     assert found.sliding_factor == pytest.approx(0.9 * 55.2 / 54.825, **CLOSE)
@@ -168,7 +168,7 @@ def test_pseudo_static_downstream():
 
 
 def test_pseudo_static_upstream():
-    found = only(heeltoe.statics(dam(statics=SHAKEN)), "pseudo-static upstream")
+    found = only(heeltoe.statics(dam(statics=SHAKEN)), "pseudo-static upstream, lifting")
     assert found.shear_force_n == pytest.approx((40.5 - 9.6 - 4.725) * M, **CLOSE)
     assert found.sliding_factor == pytest.approx(0.9 * 55.2 / 26.175, **CLOSE)
     # 2815 - 320 - 170.1 - 128
@@ -193,7 +193,7 @@ def test_usbr_takes_the_uplift_from_the_crack_of_the_earthquake():
     W' = 96 - 4.8 = 91.2 and M' = 91.2 x 160/3 - 1215 - 320 - 170.1 = 3158.9 about the toe,
     M' - p L^3/(3 B) = (W' - p L^2/(2 B)) L/3: p L^3/(6 B) + W' L/3 - M' = 0, p = 0.9."""
     result = heeltoe.statics(dam(statics=SHAKEN | {"criteria": "USBR"}))
-    found = only(result, "pseudo-static downstream")
+    found = only(result, "pseudo-static downstream, lifting")
     roots = np.roots([0.9 / 480.0, 0.0, 91.2 / 3.0, -3158.9])
     left = float(roots[np.argmin(abs(roots.imag))].real)
     assert found.cracked_length_m == pytest.approx(80.0 - left, **CLOSE)

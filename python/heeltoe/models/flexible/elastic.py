@@ -15,10 +15,12 @@ import scipy.sparse as sparse
 from heeltoe.arrays import Floats, Integers
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
+from heeltoe.mechanics.loads import nappe_heads
 from heeltoe.models.flexible.loads import (
     anchor_forces,
     edge_shapes,
     ice_forces,
+    nappe_forces,
     silt_forces,
     uplift_forces,
     water_forces,
@@ -207,6 +209,8 @@ def _body(case: Case, mesh: BodyMesh, *, above: bool) -> Body:
         "tailwater": water_forces(mesh, case, upstream=False),
         "uplift": uplift_forces(mesh, case, above=above),
     }
+    if above and any(nappe_heads(case)):
+        loads["nappe"] = nappe_forces(mesh, case)
     if case.ice:
         loads["ice"] = ice_forces(mesh, case, above=above)
     if case.silt:
@@ -214,8 +218,8 @@ def _body(case: Case, mesh: BodyMesh, *, above: bool) -> Body:
     if case.anchors:
         loads["anchors"] = anchor_forces(mesh, case, above=above)
     following = np.zeros(mesh.nodes.size)
-    for name, side in (("reservoir", case.reservoir), ("tailwater", case.tailwater)):
-        if side is not None and side.follows_vertical_motion:
+    for name, side in (("reservoir", case.reservoir), ("tailwater", case.tailwater), ("nappe", case.reservoir)):
+        if name in loads and side is not None and side.follows_vertical_motion:
             following += loads[name] / case.gravity
     water = virtual_masses(mesh, case, above=above)
     load = np.sum(list(loads.values()), axis=0)

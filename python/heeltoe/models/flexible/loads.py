@@ -16,11 +16,14 @@ from heeltoe.arrays import Floats, Integers
 from heeltoe.case.model import Case
 from heeltoe.geometry.axes import places
 from heeltoe.geometry.section import CutSection
-from heeltoe.mechanics.loads import uplift_profile, water_above_crack
+from heeltoe.mechanics.loads import nappe_heads, uplift_profile, water_above_crack
+from heeltoe.models.flexible.mesh.checks import boundary_edges
 from heeltoe.models.flexible.mesh.dam import BodyMesh
 
 # Exact to degree 5: quadratic shape function, quadratic pressure and linear normal on an edge.
 _THREE = np.polynomial.legendre.leggauss(3)
+# An edge that rises by less than this part of the crest's width belongs to the crest.
+_LEVEL = 1e-6
 
 
 def edge_shapes(s: Floats) -> Floats:
@@ -44,6 +47,24 @@ def silt_forces(mesh: BodyMesh, case: Case) -> Floats:
         return np.zeros(mesh.nodes.size)
     surface = case.cut.base_elevation + silt.depth
     return _fluid(mesh, surface, case.gravity, (silt.horizontal_density, silt.vertical_density), upstream=True)
+
+
+def nappe_forces(mesh: BodyMesh, case: Case) -> Floats:
+    """Return the forces on the crest of the water above it, shape (2 n,) [N/m]."""
+    forces = np.zeros(mesh.nodes.size)
+    if case.reservoir is None:
+        return forces
+    unit, (h0, h1) = case.gravity * case.reservoir.density, nappe_heads(case)
+    x0, x1 = (float(mesh.nodes[path[-1], 0]) for path in (mesh.upstream, mesh.downstream))
+    crest = mesh.nodes[:, 1].max()
+    for edge in boundary_edges(mesh.elements):
+        corners = mesh.nodes[edge]
+        if x1 > x0 and np.all(np.abs(corners[:, 1] - crest) <= _LEVEL * (x1 - x0)):
+            s, weights = _gauss(-1.0, 1.0)
+            head = h0 + (h1 - h0) * (edge_shapes(s) @ corners[:, 0] - x0) / (x1 - x0)
+            # With the body on the left, the crest runs upstream and the water is on its right.
+            _press(forces, edge, corners, s, -unit * head * weights)
+    return forces
 
 
 def ice_forces(mesh: BodyMesh, case: Case, *, above: bool) -> Floats:

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
-from heeltoe.case.dam import Water
+from heeltoe.case.dam import Reservoir, Water
 from heeltoe.case.model import Case
-from heeltoe.mechanics.loads import Resultant, concrete_mass, static_forces
-from heeltoe.mechanics.virtual_water import virtual_mass
-from heeltoe.models.statics.checks import check_case
+from heeltoe.mechanics.loads import Resultant, concrete_mass, scaled, static_forces
+from heeltoe.mechanics.virtual_water import moving_force
 from heeltoe.models.statics.contact import Contact
-from heeltoe.models.statics.criteria import UPLIFT_IN_EARTHQUAKE, Loads
+from heeltoe.models.statics.criteria import Loads, uplift_in_earthquake
+from heeltoe.models.statics.governing import governing
 from heeltoe.models.statics.load_case import Given, Solved, solve_case
 from heeltoe.models.statics.sheet import sources_of, sources_of_inertia
 from heeltoe.models.statics.water import still_water, water_in_earthquake
@@ -29,7 +28,8 @@ def flood(case: Case) -> Solved:
     assert choice.flood_depth is not None
     risen = at_depth(case, choice.flood_depth)
     if choice.flood_tailwater is not None:
-        risen = risen.model_copy(update={"tailwater": _water(case.tailwater, choice.flood_tailwater)})
+        below = case.tailwater or Water.model_validate({"depth": "0 m"})
+        risen = risen.model_copy(update={"tailwater": below.model_copy(update={"depth": choice.flood_tailwater})})
     text = f"reservoir {{depth_m:g m}} deep, an {choice.flood_rarity} load"
     said = [Sentence.of(text, depth_m=choice.flood_depth)]
     if case.ice is not None:
@@ -40,20 +40,20 @@ def flood(case: Case) -> Solved:
 
 def at_depth(case: Case, depth: float) -> Case:
     """Return the case with another depth of the reservoir [m]; fresh water where it had none."""
-    return case.model_copy(update={"reservoir": _water(case.reservoir, depth)})
+    above = case.reservoir or Reservoir.model_validate({"depth": "0 m"})
+    return case.model_copy(update={"reservoir": above.model_copy(update={"depth": depth})})
 
 
 def pseudo_static(case: Case, before: Solved) -> tuple[Solved, ...]:
     """Return the cases of a seismic coefficient that pushes the block downstream and upstream.
 
-    The concrete's inertia acts at its centroid, Westergaard's water on the upstream face, both the same way; the
-    vertical coefficient acts up or down, whichever leaves more checks unmet, or the smaller sliding factor where both
-    leave as many. Where the other leaves one unmet that this meets, it is a case of its own. `before` is the usual
-    case: the crack that it has opened is open already and no longer bonded.
+    The concrete's inertia acts at its centroid, the water's pressure on the faces, both the same way; the vertical
+    coefficient lifts the block or presses it down, a case each, which says what checks it governs. `before` is the
+    usual case: the crack that it has opened is open already and no longer bonded.
     """
-    horizontal = case.statics.seismic_coefficient
+    horizontal, vertical = case.statics.seismic_coefficient, case.statics.vertical_seismic_coefficient
     assert horizontal is not None
-    vanishes, source = UPLIFT_IN_EARTHQUAKE[case.statics.criteria]
+    law, source = uplift_in_earthquake(case.statics)
     still = _contact(case)
     opened = before.settled.heel_crack
     contact = replace(
@@ -61,34 +61,23 @@ def pseudo_static(case: Case, before: Solved) -> tuple[Solved, ...]:
         bonded_from=max(still.bonded_from, still.start + opened),
         bonded_to=still.end - before.settled.toe_crack,
     )
-    water = water_in_earthquake(before.settled.profile, still.start, still.end, opened, vanishes=vanishes)
-    vertical = case.statics.vertical_seismic_coefficient
+    water = water_in_earthquake(before.settled.profile, still_water(case, still.start, still.end), opened, law)
     found: list[Solved] = []
     for way, sign in (("downstream", -1.0), ("upstream", 1.0)):
         tried = []
-        for up in (-1.0, 1.0) if vertical else (0.0,):
-            forces = (*_dry(case), *_inertia(case, sign * horizontal, up * vertical))
-            said = [Sentence(f"uplift: {source}")]
-            if vertical:
-                way_up = "down" if up > 0.0 else "up"
-                said.append(Sentence(f"vertical coefficient {way_up}ward on the block"))
-            sources = sources_of(case) | sources_of_inertia(case, sign * horizontal, up * vertical)
+        for name, up in ((", lifting", -1.0), (", pressing", 1.0)) if vertical else (("", 0.0),):
+            ground = sign * horizontal, up * vertical
             given = Given(
-                f"pseudo-static {way}", "earthquake", case.crack.mu_static, case.statics.cohesion, tuple(said), sources
+                f"pseudo-static {way}{name}",
+                "earthquake",
+                case.crack.mu_static,
+                case.statics.cohesion,
+                (Sentence(f"uplift: {source}"),),
+                sources_of(case) | sources_of_inertia(case, *ground),
             )
-            tried.append(solve_case(given, case.cut, forces, contact, water))
-        found += _worse(case, tried)
+            tried.append(solve_case(given, case.cut, (*_dry(case), *_inertia(case, *ground)), contact, water))
+        found += governing(tried) if vertical else tried
     return tuple(found)
-
-
-def _worse(case: Case, tried: list[Solved]) -> list[Solved]:
-    """Return the worse direction of the vertical coefficient, and the other if it misses what that one meets."""
-
-    def missed(each: Solved) -> set[str]:
-        return {check.name for check in check_case(each.load_case, case.statics) if not check.met}
-
-    first, *others = sorted(tried, key=lambda each: (-len(missed(each)), _or_infinite(each.load_case.sliding_factor)))
-    return [first, *(each for each in others if missed(each) - missed(first))]
 
 
 def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
@@ -139,10 +128,6 @@ def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
     return solve_case(given, case.cut, _dry(case), contact, water)
 
 
-def _water(water: Water | None, depth: float) -> Water:
-    return (water or Water.model_validate({"depth": "1 m"})).model_copy(update={"depth": depth})
-
-
 def _contact(case: Case) -> Contact:
     width = case.cut.crack_width
     return Contact(0.0, width, (1.0 - case.statics.bonded) * width, case.statics.tensile_strength)
@@ -155,26 +140,18 @@ def _dry(case: Case) -> tuple[Resultant, ...]:
 
 def _inertia(case: Case, horizontal: float, vertical: float) -> tuple[Resultant, ...]:
     """Return the forces of a ground acceleration in g, downstream and upward."""
-    g, mass, moved = case.gravity, concrete_mass(case), virtual_mass(case)
+    weight = concrete_mass(case) * case.gravity
     section = case.cut
-    x, z = section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1]
-    push, lift = -mass * g * horizontal, -mass * g * vertical
-    water = -moved.mass * g * horizontal
+    place = section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1]
     forces = [
-        Resultant.at("inertia", (push, lift), (x, z)),
-        Resultant.at("hydrodynamic", (water, 0.0), (0.0, moved.height)),
+        Resultant.at("inertia", (-weight * horizontal, -weight * vertical), place),
+        moving_force(case, horizontal * case.gravity),
     ]
-    for force, side in zip(static_forces(case)[1:3], (case.reservoir, case.tailwater), strict=True):
+    sides = {"reservoir": case.reservoir, "nappe": case.reservoir, "tailwater": case.tailwater}
+    for force in static_forces(case):
+        side = sides.get(force.name)
         if side is not None and side.follows_vertical_motion and vertical:
-            forces.append(
-                Resultant(
-                    f"{force.name} in vertical motion",
-                    vertical * force.horizontal,
-                    vertical * force.vertical,
-                    vertical * force.moment,
-                    lift_moment=vertical * force.lift_moment,
-                )
-            )
+            forces.append(scaled(f"{force.name} in vertical motion", force, vertical))
     return tuple(forces)
 
 
@@ -184,7 +161,3 @@ def _still(name: str, loads: Loads, case: Case, said: tuple[Sentence, ...]) -> S
     water = still_water(case, contact.start, contact.end)
     given = Given(name, loads, case.crack.mu_static, case.statics.cohesion, said, sources_of(case))
     return solve_case(given, case.cut, _dry(case), contact, water)
-
-
-def _or_infinite(value: float | None) -> float:
-    return math.inf if value is None else value

@@ -69,7 +69,8 @@ class Check:
 def check_case(found: LoadCase, choice: StaticsChoice) -> tuple[Check, ...]:
     """Return the checks of a load case by the criteria chosen, equilibrium first.
 
-    A sliding factor is judged by the factors for cohesion only where cohesion is in its resistance.
+    A sliding factor is judged by the factors for cohesion only where cohesion is in its resistance. Of two signs of a
+    vertical seismic coefficient each check counts where it is worse.
     """
     rows = criteria(
         choice.criteria,
@@ -87,7 +88,7 @@ def check_case(found: LoadCase, choice: StaticsChoice) -> tuple[Check, ...]:
             checks.append(_resultant(found, row))
         else:
             checks.append(_factor(found, row))
-    return tuple(checks)
+    return tuple(check for check in checks if found.governs is None or check.name in found.governs)
 
 
 def fallen(words: str, **quantities: float) -> Check:

@@ -9,6 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypedDict, Unpack
 
+from heeltoe.case.options import StaticsChoice
+
 Loads = Literal["usual", "unusual", "extreme", "earthquake", "post-earthquake"]
 
 _MEMORY = "the number was not compared with the print"
@@ -258,14 +260,26 @@ CRITERIA: dict[str, tuple[Criterion, ...]] = {
     "CDA": _CDA_ROWS,
 }
 
-#: What the criteria say of the uplift where the earthquake opens the crack: whether it vanishes, and where that stands.
-#: CDA leaves both open (as for regions of high seismicity, zero): unchanged is taken.
-UPLIFT_IN_EARTHQUAKE: dict[str, tuple[bool, str]] = {
-    "USACE": (False, f"{_EM_2200}: unchanged by the earthquake"),
-    "USBR": (True, "USBR, Design of Small Dams, 3rd edition (1987): zero where the earthquake opens the crack"),
-    "FERC": (False, f"{_FERC}: unchanged by the earthquake"),
-    "CDA": (False, "CDA, Dam Safety Guidelines (1997): unchanged, as where seismicity is low"),
+#: What the criteria say of the uplift where the earthquake opens the crack, "unchanged" or "zero", and where that
+#: stands. CDA leaves both open (as for regions of high seismicity, zero): unchanged is taken.
+UPLIFT_IN_EARTHQUAKE: dict[str, tuple[str, str]] = {
+    "USACE": ("unchanged", f"{_EM_2200}: unchanged by the earthquake"),
+    "USBR": ("zero", "USBR, Design of Small Dams, 3rd edition (1987): zero where the earthquake opens the crack"),
+    "FERC": ("unchanged", f"{_FERC}: unchanged by the earthquake"),
+    "CDA": ("unchanged", "CDA, Dam Safety Guidelines (1997): unchanged, as where seismicity is low"),
 }
+_CHOSEN = {
+    "unchanged": "unchanged by the earthquake, as the case asks (USACE, FERC)",
+    "zero": "zero where the earthquake opens the crack, as the case asks (USBR)",
+    "full": "at once the reservoir's where the earthquake opens the crack, as the case asks (ICOLD 1986)",
+}
+
+
+def uplift_in_earthquake(choice: StaticsChoice) -> tuple[str, str]:
+    """Return what the uplift does where the earthquake opens the crack, "unchanged", "zero" or "full", and where that
+    stands."""
+    law = choice.uplift_in_earthquake
+    return UPLIFT_IN_EARTHQUAKE[choice.criteria] if law == "criteria" else (law, _CHOSEN[law])
 
 
 def criteria(

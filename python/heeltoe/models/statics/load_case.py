@@ -24,8 +24,8 @@ class LoadCase:
     Attributes
     ----------
     name
-        "usual", "flood", "pseudo-static downstream", "pseudo-static upstream" (the way the block is pushed) or
-        "post-seismic".
+        "usual", "flood", "pseudo-static downstream", "pseudo-static upstream" (the way the block is pushed; with a
+        vertical coefficient ", lifting" or ", pressing" stands behind) or "post-seismic".
     loads
         What the criteria take it for: "usual", "unusual", "extreme", "earthquake", "post-earthquake".
     forces
@@ -64,6 +64,9 @@ class LoadCase:
         What was taken for granted, a sentence each.
     sources
         Where the forces come from, by their names.
+    governs
+        Names of the checks of which this is the worse sign of a vertical seismic coefficient; None where there is no
+        other sign, and all checks are its own.
     ends_m
         Ends of the contact, each downstream of the heel of the crack and above it: its heel and its toe.
     pressures
@@ -97,6 +100,7 @@ class LoadCase:
     sources: Mapping[str, Sentence]
     ends_m: tuple[tuple[float, float], tuple[float, float]]
     pressures: tuple[tuple[float, float], ...]
+    governs: tuple[str, ...] | None = None
 
     def sheet(self, about: str = "heel") -> Sheet:
         """Return the forces one by one with arms, moments and sum about the "heel" or the "toe" of the contact."""

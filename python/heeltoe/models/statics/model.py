@@ -174,17 +174,7 @@ def statics(
             checks += check_case(after.load_case, choice)
         if source == _UNKNOWN:
             warnings.append(Notice("slip-unknown"))
-    if before.load_case.cracked_length_m:
-        warnings.append(Notice("crack-opens-statically", length_m=before.load_case.cracked_length_m))
-    usual_depth = case.reservoir.depth if case.reservoir else 0.0
-    if choice.flood_depth is not None and choice.flood_depth < usual_depth:
-        warnings.append(Notice("flood-low", usual_depth_m=usual_depth))
-    if choice.residual_friction is not None and choice.residual_friction > case.crack.mu_static:
-        warnings.append(Notice("residual-friction-high"))
-    if any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors):
-        warnings.append(Notice("anchors-as-prestress"))
-    if choice.sections:
-        warnings.append(Notice("sections-apart", count=len(choice.sections)))
+    warnings += _said_of(case, before.load_case)
     references = dict.fromkeys(check.source for check in checks if check.required is not None)
     if choice.seismic_coefficient is not None and water_above_crack(case, case.reservoir):
         references[REFERENCES["water"]] = None
@@ -202,6 +192,23 @@ def statics(
         warnings=tuple(warnings),
         references=tuple(references),
     )
+
+
+def _said_of(case: Case, usual: LoadCase) -> list[Notice]:
+    """Return what is to be said of the choices beside the usual loads."""
+    choice, said = case.statics, []
+    if usual.cracked_length_m:
+        said.append(Notice("crack-opens-statically", length_m=usual.cracked_length_m))
+    usual_depth = case.reservoir.depth if case.reservoir else 0.0
+    if choice.flood_depth is not None and choice.flood_depth < usual_depth:
+        said.append(Notice("flood-low", usual_depth_m=usual_depth))
+    if choice.residual_friction is not None and choice.residual_friction > case.crack.mu_static:
+        said.append(Notice("residual-friction-high"))
+    if any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors):
+        said.append(Notice("anchors-as-prestress"))
+    if choice.sections:
+        said.append(Notice("sections-apart", count=len(choice.sections)))
+    return said
 
 
 def _unread(choice: StaticsChoice) -> tuple[Notice, ...]:

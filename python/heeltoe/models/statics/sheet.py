@@ -13,7 +13,7 @@ from typing import Any
 
 from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
-from heeltoe.mechanics.loads import Resultant, concrete_mass, total, water_above_crack
+from heeltoe.mechanics.loads import Resultant, concrete_mass, nappe_heads, total, water_above_crack
 from heeltoe.units.sentences import Sentence
 
 # A part of a force that is so small beside the others is rounding, and has no arm.
@@ -123,6 +123,10 @@ def sources_of(case: Case) -> dict[str, Sentence]:
         "tailwater": _water(case, case.tailwater, "toe"),
         "uplift": Sentence.of('pattern "{pattern}", intensity {intensity:g}', **_uplift(case)),
     }
+    if case.reservoir is not None:
+        text = "{head_m:.4g m} of water over the upstream edge of the crest, {end_m:.4g m} over the downstream one"
+        head, end = nappe_heads(case)
+        said["nappe"] = Sentence.of(text, head_m=head, end_m=end)
     if case.ice is not None:
         said["ice"] = Sentence.of("{push_n:g kN/m}, {depth_m:g m} below the surface", **_ice(case))
     if case.silt is not None:
@@ -144,9 +148,11 @@ def sources_of_inertia(case: Case, horizontal: float, vertical: float) -> dict[s
             horizontal=horizontal,
             vertical=vertical,
         ),
-        "hydrodynamic": Sentence.of("virtual water times {horizontal:g} g of the ground", horizontal=horizontal),
+        "hydrodynamic": Sentence.of(
+            "{whose} water times {horizontal:g} g of the ground", whose=_whose(case), horizontal=horizontal
+        ),
     }
-    for name in ("reservoir", "tailwater"):
+    for name in ("reservoir", "nappe", "tailwater"):
         said[f"{name} in vertical motion"] = Sentence.of(
             "{vertical:g} times the pressure of the {name}", vertical=vertical, name=name
         )
@@ -160,6 +166,11 @@ def _water(case: Case, water: Water | None, end: str) -> Sentence:
     return Sentence.of(
         "water {head_m:.4g m} above the {end}, {density:g kg/m³}", head_m=head, end=end, density=water.density
     )
+
+
+def _whose(case: Case) -> str:
+    names = [side.hydrodynamic.title() for side in (case.reservoir, case.tailwater) if side is not None]
+    return " and ".join(f"{name}'s" for name in dict.fromkeys(names)) or "no"
 
 
 def _uplift(case: Case) -> dict[str, Any]:

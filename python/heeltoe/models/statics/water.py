@@ -103,29 +103,35 @@ def still_water(case: Case, start: float, end: float) -> StillWater:
     return StillWater(pressure, tuple(bends))
 
 
-def water_in_earthquake(before: Floats, start: float, end: float, opened: float, *, vanishes: bool) -> StillWater:
+def water_in_earthquake(before: Floats, still: StillWater, opened: float, law: str) -> StillWater:
     """Return the water in a crack that the earthquake opens further.
 
     Parameters
     ----------
     before
         Profile before the earthquake.
-    start, end, opened
-        Ends of the contact, and how far it was open from the heel before [m].
-    vanishes
-        Whether the pressure in what the earthquake opens is zero (USBR 1987), or what it was (USACE 1995, FERC 2002).
+    still
+        Water that has had time to follow the opening.
+    opened
+        How far it was open from the heel before [m].
+    law
+        What the pressure is in what the earthquake opens: "unchanged", "zero", or "full", at once that of free water.
     """
+    # The earthquake finds the block on all of its base.
+    start, end = 0.0, float(before[-1, 0])
 
     def pressure(heel: float, toe: float) -> Floats:
-        if not vanishes or (heel <= opened and toe <= 0.0):
+        if law == "unchanged" or (heel <= opened and toe <= 0.0):
             return before
+        if law == "full":
+            return still.pressure(heel, toe)
         # From the heel the pressure vanishes between the old tip and the new one.
         low, high = (start + opened, start + heel) if heel > opened else (end - toe, end)
         points = cut_out(before, 0.0, low)
         points += [(low, 0.0), (high, 0.0)]
         return np.array(points + cut_out(before, high, float(before[-1, 0])))
 
-    return StillWater(pressure, (start + opened, *(float(x) for x in before[:, 0])))
+    return StillWater(pressure, (start + opened, *still.places, *(float(x) for x in before[:, 0])))
 
 
 def _level(section: CutSection, water: Water | None) -> float:

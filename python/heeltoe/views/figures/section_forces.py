@@ -19,6 +19,7 @@ FORCE_COLOURS = {
     "reservoir": "#0072B2",
     "tailwater": "#0072B2",
     "uplift": "#0072B2",
+    "nappe": "#0072B2",
     "ice": "#6A4C93",
     "silt": "#8A6D1B",
     "anchors": "#B22222",
@@ -104,7 +105,8 @@ def _meets(force: Resultant, section: CutSection) -> Floats:
     """Return where the line along which a force acts meets the face, or the crack, that it acts on [m]."""
     heel = np.array(section.heel)
     faces = {"reservoir": section.upstream_face, "ice": section.upstream_face, "silt": section.upstream_face}
-    crack = np.array([section.heel, section.toe])
+    crest = np.array([section.upstream_face[-1], section.downstream_face[-1]])
+    crack = crest if force.name == "nappe" else np.array([section.heel, section.toe])
     face = faces.get(force.name, section.downstream_face if force.name == "tailwater" else crack) - heel
     # On the line x v - z h = moment about the heel.
     off = face @ np.array([force.vertical, -force.horizontal]) - force.moment
