@@ -29,4 +29,4 @@ def statics_figures(found: Joints, units: str = "si") -> Figures:
 
 def slug(name: str) -> str:
     """Return the name of a load case as a part of a file's name."""
-    return name.replace(" ", "-")
+    return name.replace(",", "").replace(" ", "-")
