@@ -249,6 +249,57 @@ def test_more_than_two_columns_are_refused_with_a_remedy(width):
         read("3 blind mice\n3 blind mice\n")
 
 
+ROWS = "".join(f"{0.01 * k:.2f} {0.1 * (k % 3):.1f} {0.2 * (k % 2):.1f} {0.3 * (k % 4):.1f}\n" for k in range(30))
+
+
+@pytest.mark.parametrize(
+    "header", ["time [s], NS [g], EW [g], up [g]", "t(s)  NS  EW  up\n# units: g", "T|NS [g]|EW (g)|up (g)"]
+)
+def test_columns_with_a_name_each(header):
+    text = f"# {header}\n{ROWS}"
+    found = channels(text)
+    assert [each.component for each in found] == ["NS", "EW", "up"]
+    assert [each.pga / G for each in found] == pytest.approx([0.2, 0.2, 0.9])
+    assert read(text, channel="ew").dt == pytest.approx(0.01)
+    with pytest.raises(InputError, match=r"has several channels \(1: NS, peak 0\.2 g; 2: EW"):
+        read(text)
+
+
+def test_velocities_and_displacements_beside_accelerations_are_left_out():
+    header = "Time (sec), Acceleration (g), Velocity (cm/sec), Displacement (cm)\n"
+    motion = read(header + ROWS.replace(" ", ","))
+    assert (motion.units_as_read, motion.pga / G) == ("g", pytest.approx(0.2))
+    with pytest.raises(InputError, match="is a displacement and velocity record; give the acceleration record"):
+        read("time [s], vx [cm/s], velocity y, d [cm]\n" + ROWS.replace(" ", ","))
+
+
+@pytest.mark.parametrize(
+    ("header", "quantity"),
+    [
+        ("# time [s], velocity [cm/s]", "velocity"),
+        ("time [s];v [m/s]", "velocity"),
+        ("# units: cm/s", "velocity"),
+        ("# Displacement time history", "displacement"),
+        ("t [s], d [cm]", "displacement"),
+    ],
+)
+def test_a_column_of_another_quantity_is_no_acceleration(header, quantity):
+    separator = ";" if ";" in header else " "
+    with pytest.raises(InputError, match=f"is a {quantity} record; give the acceleration record"):
+        read(f"{header}\n" + "".join(f"{0.01 * k:.2f}{separator}0.1\n" for k in range(30)), unit="cm/s^2")
+
+
+def test_a_column_that_counts_the_samples_is_no_time():
+    text = "# units: [g]\n" + "".join(f"{k} {0.1 * (k % 3):.1f}\n" for k in range(1, 40))
+    with pytest.raises(InputError, match=r"counts the samples and is no time; say the time step in motion\.time_step"):
+        read(text)
+    motion = read(text, time_step=0.005)
+    assert (motion.dt, motion.processing) == (pytest.approx(0.005), ("the first column counts the samples",))
+    assert read(text.replace("units: [g]", "units: [g], dt: 0.02")).dt == pytest.approx(0.02)
+    # A thousand values in a second have times of whole milliseconds.
+    assert read("time [ms], acc [g]\n" + text.split("\n", 1)[1]).dt == pytest.approx(0.001)
+
+
 # Records as distributed
 
 

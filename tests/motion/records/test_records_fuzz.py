@@ -46,6 +46,11 @@ def _at2_of_1999() -> bytes:
     ).encode()
 
 
+def _named_columns() -> bytes:
+    rows = "\n".join(f"{0.01 * k:.3f} {v:.6f} {9.81 * v:.6f} {0.5 * v:.6f}" for k, v in enumerate(_WAVE))
+    return f"time [s], NS [g], vx [m/s], up [g]\n{rows}\n".encode()
+
+
 def _foreign() -> bytes:
     rows = "\n".join("".join(f"{981 * v:10.3f}" for v in row) for row in _WAVE.reshape(-1, 8))
     head = "UNCORRECTED ACCELEROGRAM DATA\r\n"
@@ -58,6 +63,7 @@ SAMPLES = {
     "two columns": _two_columns,
     "comma": _comma,
     "one column": _one_column,
+    "named columns": _named_columns,
     "csmip": lambda: csmip({" 90 DEG": GAL, "UP": 0.5 * GAL}).encode(),
     "cosmos": lambda: (cosmos() + cosmos("velocity") + cosmos(values=0.5 * GAL, number=2)).encode(),
     "smc": lambda: smc().encode(),

@@ -40,6 +40,8 @@ class RawRecord:
         Number of the channel as the file states it; empty where it does not.
     uncorrected
         Why the record is not to be used as it stands; empty where it is.
+    counts_samples
+        Whether the file numbers its values where others say their times.
     format
         Of the file.
     """
@@ -53,6 +55,7 @@ class RawRecord:
     warnings: tuple[Notice, ...] = ()
     channel: str = ""
     uncorrected: str = ""
+    counts_samples: bool = False
     format: str = ""
 
 

@@ -138,7 +138,9 @@ def _time(raw: RawRecord, name: str, told: Told) -> tuple[Floats, tuple[Notice, 
         step = _LIKELY_STEP
         warnings = (Notice("record-step-assumed", field=field, name=name, step_s=step),)
     if step is None:
-        raise InputError("record-step-missing", name, step_field=field)
+        raise InputError(
+            "record-counts-samples" if raw.counts_samples else "record-step-missing", name, step_field=field
+        )
     if raw.time_step and told.time_step and abs(raw.time_step - told.time_step) > 1e-9 * told.time_step:
         raise InputError("record-step-conflict", field, f"{told.time_step:g} s", stated=raw.time_step)
     if not 1e-6 <= step <= _LONGEST_STEP:

@@ -1,4 +1,5 @@
-"""Plain columns: time and acceleration, or acceleration alone; a header in words or behind ``#`` if there is one.
+"""Plain columns: time and acceleration, or acceleration alone; a header in words or behind ``#`` if there is one. More
+columns than two are read where a line above them names each.
 
 Columns are parted by blanks, tabs, commas or semicolons; beside semicolons and tabs, commas are decimal. A header may
 state the unit and the step::
@@ -11,29 +12,27 @@ state the unit and the step::
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 
 import numpy as np
 
+from heeltoe.arrays import Floats
 from heeltoe.errors import InputError
 from heeltoe.motion.records.cells import is_data, parted, with_points
+from heeltoe.motion.records.quantities import (
+    direction_in,
+    is_time,
+    names_of,
+    other_quantity,
+    quantity_of,
+    unit_of,
+    units_in,
+)
 from heeltoe.motion.records.raw import RawRecord, counted, numbers
 from heeltoe.warnings import Notice
 
 FORMAT = "columns"
 
-# A unit with a letter before it is another one (nm/s2), with a number before it a quantity (a peak, not the unit of
-# the data), with an operation behind it a part of one (g/10).
-_BEFORE, _AFTER = r"(?<![^\W_])(?<![\d.]\s)", r"\b(?!\s*[/*^×])"
-_PER_S2 = r"(?:\s*/\s*s(?:ec)?\s*(?:(?:\^|\*\*)?\s*2|/\s*s(?:ec)?)|\s+s(?:\^|\*\*)?-2)"
-_UNITS = (
-    ("cm/s^2", rf"{_BEFORE}(?:cm{_PER_S2}|gals?){_AFTER}"),
-    ("mm/s^2", rf"{_BEFORE}mm{_PER_S2}{_AFTER}"),
-    ("m/s^2", rf"{_BEFORE}m{_PER_S2}{_AFTER}"),
-    ("ft/s^2", rf"{_BEFORE}ft{_PER_S2}{_AFTER}"),
-    ("in/s^2", rf"{_BEFORE}in(?:ch)?{_PER_S2}{_AFTER}"),
-    ("g", rf"\[\s*g\s*\]|\(\s*g\s*\)|(?:\bin\s|units?\s*[:=]\s*|accel\w*\s*,?\s)\s*g{_AFTER}"),
-)
-_ONE_G = re.compile(r"1\s*g\s*=[^)\]]*", re.IGNORECASE)
 _STEP = re.compile(
     r"(?:time[ -]?step|(?:time|sampling) interval|\bdt\b|delta[ -]?t|^step(?=\s*[:=]))"
     r"\s*(?:[\[(]\s*([a-z]+)\s*[\])])?\s*[:=]?\s*([\d.]+(?:e[-+]?\d+)?)\s*([a-z]*)",
@@ -43,6 +42,8 @@ _SECONDS, _MILLISECONDS = r"s|secs?|seconds?", r"ms|msecs?|milliseconds?"
 _TIME_IN_MS = re.compile(rf"\bt(?:ime)?\s*[\[(]\s*(?:{_MILLISECONDS})\s*[\])]", re.IGNORECASE)
 _STATED = re.compile(r"(?:number of points|points|npts|samples)\s*[:=]\s*(\d{1,12})\b", re.IGNORECASE)
 _HEADER_LINES, _HEADER_WIDTH = 100, 400
+# More moments than this that are 1 s apart count samples: no record is so slow.
+_FEW = 20
 # A line of data is shorter; of a longer one, a part tells what it is.
 _DATA_WIDTH, _MOST_COLUMNS = 4000, 20
 _ABOUT = re.compile(r"^(event|earthquake|station|component|date|processing)\s*[:=]\s*(.+)$", re.IGNORECASE)
@@ -78,7 +79,8 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     header, first = _split(lines)
     data = [parted(line.split("#")[0]) for line in with_points(lines[first:], name, first + 1)]
     width = len(data[0].split())
-    if width > 2:
+    names = names_of(header, width)
+    if width > 2 and names is None:
         raise InputError("record-columns", name, width)
     for k, line in enumerate(data):
         if len(line.split()) not in (0, width):
@@ -86,52 +88,76 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     values = numbers(data, name, first + 1)
     if values.size % width:
         raise InputError("record-ragged", name, f"{values.size} numbers", line=first + 1, width=width)
-    table = values.reshape(-1, width)
-    said = " \n ".join(header)
+    columns = np.ascontiguousarray(values.reshape(-1, width).T)
     about = {}
     for line in header:
         if found := _ABOUT.match(line):
             about[found[1].lower().replace("earthquake", "event")] = found[2].strip()
     processing = (about.pop("processing"),) if "processing" in about else ()
-    warnings: list[Notice] = []
-    stated = _STATED.search(said)
-    if stated:
-        warnings.extend(counted(table[:, 0], int(stated[1]), name))
+    stated = _STATED.search(" \n ".join(header))
+    warnings = counted(columns[0], int(stated[1]), name) if stated else ()
+    timed = width == 2 or (names is not None and width > 2 and is_time(names[0]))
+    clock = _clock(columns[0] if timed else None, header, name)
+    series = _series(columns[1:] if timed else columns, (names or [""] * width)[int(timed) :], header, name)
+    return [
+        RawRecord(
+            each,
+            time=clock.time,
+            time_step=clock.step,
+            unit=unit,
+            about={**about, "component": direction} if direction else dict(about),
+            processing=(*processing, *clock.said),
+            warnings=(*warnings, *clock.warnings),
+            counts_samples=clock.counts,
+        )
+        for each, direction, unit in series
+    ]
+
+
+@dataclass(frozen=True)
+class _Clock:
+    """When the values of a file are: their moments [s] or their step [s], and what is to be said of them."""
+
+    time: Floats | None
+    step: float | None
+    said: tuple[str, ...] = ()
+    warnings: tuple[Notice, ...] = ()
+    counts: bool = False
+
+
+def _clock(time: Floats | None, header: list[str], name: str) -> _Clock:
     step = next((value for line in header if (value := _step(line)) is not None), None)
-    time = np.ascontiguousarray(table[:, 0]) if width == 2 else None
-    if time is not None and any(_TIME_IN_MS.search(line) for line in header):
-        time = time / 1e3
-        processing = (*processing, "time read in ms")
-    if time is not None and step is not None and time.size > 1:
+    if time is None:
+        return _Clock(None, step)
+    said: tuple[str, ...] = ()
+    if any(_TIME_IN_MS.search(line) for line in header):
+        time, said = time / 1e3, ("time read in ms",)
+    elif time.size > _FEW and (np.diff(time) == 1.0).all():
+        return _Clock(None, step, ("the first column counts the samples",), counts=True)
+    if step is not None and time.size > 1:
         median = float(np.median(np.diff(time)))
         if abs(median - step) > 0.01 * step:
-            warnings.append(Notice("record-step-differs", name=name, stated_s=step, found_s=median))
-    record = RawRecord(
-        np.ascontiguousarray(table[:, -1]),
-        time=time,
-        time_step=step if time is None else None,
-        unit=_unit(header),
-        about=about,
-        processing=processing,
-        warnings=tuple(warnings),
-    )
-    return [record]
+            return _Clock(time, None, said, (Notice("record-step-differs", name=name, stated_s=step, found_s=median),))
+    return _Clock(time, None, said)
 
 
-def _unit(header: list[str]) -> str | None:
-    """The unit a header states, or None where it states none or several: nothing is guessed.
-
-    Lines that speak of units go before lines that speak of acceleration; what one g is worth is no unit.
-    """
-    for word in ("unit", "acc"):
-        found = set()
-        for line in header:
-            if word in line.lower():
-                text = _ONE_G.sub("", line.replace("²", "2"))
-                found |= {unit for unit, pattern in _UNITS if re.search(pattern, text, re.IGNORECASE)}
-        if found:
-            return found.pop() if len(found) == 1 else None
-    return None
+def _series(columns: Floats, names: list[str], header: list[str], name: str) -> list[tuple[Floats, str, str | None]]:
+    """The accelerations among columns, each with its direction and its unit."""
+    unit = unit_of(header)
+    if len(columns) == 1:
+        told = [line for line in header if not _ABOUT.match(line)]
+        if quantity := other_quantity(told) or (None if unit else quantity_of(names[0])):
+            raise InputError("record-not-acceleration", name, quantity)
+        return [(columns[0], "", unit)]
+    quantities = [quantity_of(each) for each in names]
+    kept = [
+        (values, direction_in(each), next(iter(units_in(each)), unit))
+        for values, each, quantity in zip(columns, names, quantities, strict=True)
+        if quantity is None
+    ]
+    if not kept:
+        raise InputError("record-not-acceleration", name, " and ".join(sorted({each or "" for each in quantities})))
+    return kept
 
 
 def _step(line: str) -> float | None:
