@@ -67,6 +67,8 @@ class Table:
         A letter for each column: ``l`` or ``r``.
     widths
         Shares of the width that the columns take; none for as wide as they need.
+    whole
+        Whether it stays on one page, however long it is.
     """
 
     head: tuple[str, ...]
@@ -74,6 +76,7 @@ class Table:
     caption: str = ""
     align: str = ""
     widths: tuple[float, ...] = ()
+    whole: bool = False
 
 
 @dataclass(frozen=True)

@@ -38,7 +38,7 @@ from heeltoe.views.words.statics import basis, check_cells, section_rows, verdic
 
 # Of the width of a page: the forces with their origin, and the steps.
 _FORCES = (2.3, 1.6, 1.3, 1.7, 1.3, 2.1, 4.2)
-_STEPS = (2.6, 3.0, 4.6, 2.5, 1.5, 0.9)
+_STEPS = (2.4, 2.8, 4.4, 3.3, 1.5, 0.8)
 # Static checks that are not met and have room on page one.
 _MOST_MISSED = 6
 _DEFAULTS = ("flexible", "decoupled", "analysis", "limits")
@@ -135,7 +135,7 @@ def _answer(subject: _Subject) -> Section:
     others = sum(each is not joint for each, _ in missed)
     if others:
         items.append((f"{others} more at other sections, in the table of sections and in their sheets.",))
-    warnings = tuple((glued(each.text(units)),) for each in found.warnings)
+    warnings = tuple((glued(each),) for each in _warnings(subject))
     blocks = (
         paragraph(Strong("Answer. "), glued(f"{said[0].upper()}{said[1:]}.")),
         Notes("failure", "Not met", tuple(items)) if items else None,
@@ -150,6 +150,18 @@ def _answer(subject: _Subject) -> Section:
         ),
     )
     return Section("Answer", without_gaps(*blocks))
+
+
+def _warnings(subject: _Subject) -> list[str]:
+    """Return every warning once, those of some sections with where these are."""
+    said: dict[str, list[Joint]] = {}
+    for joint in subject.found.joints:
+        for each in joint.statics.warnings:
+            said.setdefault(each.text(subject.units), []).append(joint)
+    return [
+        text if len(of) == len(subject.found.joints) else f"crack at {', '.join(map(subject.at, of))}: {text}"
+        for text, of in said.items()
+    ]
 
 
 def _table_of_sections(subject: _Subject) -> Table:
@@ -219,7 +231,9 @@ def _steps(subject: _Subject, found: LoadCase, joint: Joint) -> Table:
         rows.append((step.name, step.formula, step.worked, glued(step.value), glued(step.limit), _verdict(step)))
     names = sheet_units(subject.units).names
     caption = f"From the sums to the factors, in {names[0]}, {names[1]} and {names[3]}."
-    return Table(("step", "how", "numbers", "is", "required", "met"), tuple(rows), caption, "lllrrl", _STEPS)
+    return Table(
+        ("step", "how", "numbers", "is", "required", "met"), tuple(rows), caption, "lllrrl", _STEPS, whole=True
+    )
 
 
 def _verdict(step: Step) -> str:

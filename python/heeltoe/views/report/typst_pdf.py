@@ -211,12 +211,12 @@ def _table(table: Table) -> str:
     count = len(table.head)
     widths = [f"{share:g}fr" for share in table.widths] or ["auto"] * count
     letters = table.align.ljust(count, "l")
-    if len(table.rows) > _SHORT:
+    broken = len(table.rows) > _SHORT and not table.whole
+    if broken:
         widths, letters = ["0pt", *widths], "l" + letters
     columns = ", ".join(widths)
     align = ", ".join("right" if letter == "r" else "left" for letter in letters)
     # Short tables stay in one piece; long ones keep their first and their last rows together by cells without width.
-    broken = len(table.rows) > _SHORT
     held = f"table.cell(rowspan: {_HELD}, breakable: false, inset: 0pt, [])"
     cells = [
         "table.hline(stroke: 0.8pt)",

@@ -28,6 +28,14 @@ _HEIGHT, _PANEL = 7.2, 1.55
 _LONGEST, _DEEPEST, _STEP = 0.30, 0.13, 0.075
 # A force of less than this part of the largest is no arrow that anyone could see; its line of the sheet has it.
 _LITTLE = 1e-3
+_ARM = {
+    "arrowstyle": "<|-|>",
+    "color": "#555555",
+    "linewidth": 0.8,
+    "mutation_scale": 6.0,
+    "shrinkA": 0.0,
+    "shrinkB": 0.0,
+}
 _BODY = ("weight", "inertia")
 _UPSTREAM = ("reservoir", "ice", "silt", "hydrodynamic")
 _WATER = "#0072B2"
@@ -210,11 +218,33 @@ def _draw_arms(
     heel, size, length = np.array(section.heel), canvas.size, units.scale("length")
     for place, (arm, _) in enumerate(heights, start=1):
         away = np.array([-(0.40 + _STEP * place) * size, 0.0])
-        canvas.dimension(heel, heel + np.array([0.0, arm]), number(length(arm), 4), shift=away)
+        _dimension(canvas, heel + away, np.array([0.0, arm]), number(length(arm), 4))
     lowest = depth + 0.06 * size + max(0.0, heel[1] - section.polygon[:, 1].min())
     for place, (arm, names) in enumerate(widths, start=1):
         away = np.array([0.0, -(lowest + _STEP * place * size)])
-        canvas.dimension(heel, heel + np.array([arm, 0.0]), f"{names} {number(length(arm), 4)}", shift=away)
+        _dimension(canvas, heel + away, np.array([arm, 0.0]), f"{names} {number(length(arm), 4)}")
+
+
+def _dimension(canvas: Canvas, start: Floats, arm: Floats, text: str) -> None:
+    """Draw an arm as a line with its length beyond its far end, however short it is."""
+    ends = canvas.points(np.stack([start, start + arm]))
+    canvas.axes.annotate("", ends[1], ends[0], arrowprops=_ARM, zorder=6)
+    canvas.keep_off(np.stack([start, start + arm]))
+    upright = bool(arm[1])
+    last = ends[int(np.argmax(ends[:, 1 if upright else 0]))]
+    canvas.axes.annotate(
+        text,
+        last,
+        xytext=(0.0, 4.0) if upright else (4.0, 0.0),
+        textcoords="offset points",
+        rotation=90.0 if upright else 0.0,
+        ha="center" if upright else "left",
+        va="bottom" if upright else "center",
+        fontsize=7.5,
+        color="#222222",
+        bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.4},
+        zorder=7,
+    )
 
 
 def _draw_arrows(canvas: Canvas, section: CutSection, found: LoadCase, arrows: list[_Arrow], units: Units) -> None:
