@@ -137,6 +137,7 @@ def spectrum(time: Floats, ground: Floats, periods: Floats, damping: float) -> F
 
 CRACK_SUMMARY_FIELDS: Final[list[str]]
 FRAME_FIELDS: Final[list[str]]
+EXTREME_FIELDS: Final[list[str]]
 CRACK_OUTCOMES: Final[list[str]]
 CRACK_STATES: Final[list[str]]
 CONTACT_STATUSES: Final[list[str]]
@@ -193,6 +194,14 @@ class CrackAnchor(Protocol):
     @property
     def shear_stiffness(self) -> float: ...
 
+class StressRows(Protocol):
+    """Stresses by the modes; see :class:`heeltoe.models.flexible.stress.places.StressRows`."""
+
+    @property
+    def bodies(self) -> Sequence[Floats]: ...
+    @property
+    def stride(self) -> int: ...
+
 class CrackedDam:
     """Two elastic parts with a frictional crack between them; immutable, so that many runs may share one.
 
@@ -239,10 +248,10 @@ class CrackedDam:
         theta: float,
         stride: int,
         keep_modes: bool,
-        scale: tuple[float, float],
+        stresses: StressRows | None = None,
         penalty: tuple[float, float, float] | None = None,
         ending: Ending | None = None,
-    ) -> tuple[Floats, Floats, Floats, Floats, Floats, NDArray[np.uint8], Floats, Floats]:
+    ) -> tuple[Floats, Floats, Floats, Floats, Floats, NDArray[np.uint8], Floats, Floats, Floats, Floats]:
         """Shake it, with exact contact or with springs at the contacts.
 
         Parameters
@@ -257,8 +266,8 @@ class CrackedDam:
             Steps from frame to frame; 0 for no frames.
         keep_modes
             Whether frames keep the amplitudes of all modes.
-        scale
-            Factors on the horizontal and the vertical ground.
+        stresses
+            Those whose extremes are wanted.
         penalty
             Stiffness of the springs [N/m] and Newmark's gamma and beta, for the penalty method; `ground` then has the
             accelerations at both ends of all steps, (n + 1, 2), and theta plays no part.
@@ -267,11 +276,11 @@ class CrackedDam:
 
         Returns
         -------
-        summary, frames, upper, lower, force, status, modes of the upper and the lower part
+        summary, frames, upper, lower, force, status, modes of the upper and the lower part, extremes of both
             ``CRACK_SUMMARY_FIELDS`` and the largest tension [N] of each anchor; then tables with one row for each
             frame: ``FRAME_FIELDS``, positions of the crack nodes of either face (all along the crack, then all across
             it) [m], mean forces on those of the upper face since the frame before [N], statuses of the watched nodes,
-            amplitudes.
+            amplitudes. Extremes are tables of ``EXTREME_FIELDS`` with one row for each place.
         """
 
     def run_many(

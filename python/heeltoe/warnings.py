@@ -199,6 +199,19 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "anchor {number:d} is pulled with {tension_n:.4g kN/m}, beyond its capacity of {capacity_n:.4g kN/m}, and "
         "would have yielded; the result takes it for elastic",
     ),
+    "tension-exceeds": (
+        "grave",
+        "concrete.tensile_strength",
+        "a tension of {stress_pa:.3g MPa} {where}, {z_m:.3g m} up, at {time_s:.2f s} exceeds the "
+        "{strength_pa:.3g MPa} that the concrete bears in an earthquake, over {share:.2g %} of the section: the "
+        "assumption that nothing cracks further does not hold",
+    ),
+    "tension-before": (
+        "grave",
+        "concrete.tensile_strength",
+        "a tension of {stress_pa:.3g MPa} before the earthquake exceeds the {strength_pa:.3g MPa} that the concrete "
+        "bears: the dam is cracked elsewhere, too, or its loads are not these",
+    ),
     "faces-penetrate": (
         "caution",
         "flexible.contactors",

@@ -1,11 +1,11 @@
 //! The flexible model, bound to Python.
 
 use heeltoe::flexible::{
-    many, simulate, Dam, FaceAnchor, Give, Inside, Modes, Penalty, Point, Scheme, Shaking, Sides, Summary,
-    Wanted,
+    many, simulate, Dam, Extreme, FaceAnchor, Give, Inside, Modes, Penalty, Point, Scheme, Shaking, Sides,
+    Stressed, Stresses, Summary, Wanted,
 };
 use heeltoe::inside::Law;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
 use crate::tables::{named, pool, rows, shaped, wrong, Numbers};
@@ -117,7 +117,36 @@ type Run<'py> = (
     Bound<'py, PyArray2<u8>>,
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
 );
+
+/// Stresses by the modes of either part as Python gives them, by the names of `Stressed`.
+#[derive(FromPyObject)]
+pub struct StressRows<'py> {
+    bodies: Vec<PyReadonlyArray3<'py, f64>>,
+    stride: usize,
+}
+
+impl StressRows<'_> {
+    fn stressed(&self) -> PyResult<Stressed<'_>> {
+        let mut bodies = Vec::new();
+        for each in &self.bodies {
+            let rows = rows(each.as_slice()?, "a stress")?;
+            bodies.push(Stresses::new(rows, each.shape()[1]).map_err(wrong)?);
+        }
+        match bodies[..] {
+            [upper, ref lower @ ..] if self.stride > 0 && lower.len() < 2 => Ok(Stressed {
+                bodies: Sides {
+                    upper,
+                    lower: lower.first().copied(),
+                },
+                stride: self.stride,
+            }),
+            _ => Err(wrong("stresses need one or two parts and a stride")),
+        }
+    }
+}
 
 /// See `_kernel.pyi`.
 #[pyclass(frozen)]
@@ -195,7 +224,7 @@ impl CrackedDam {
     }
 
     /// See `_kernel.pyi`.
-    #[pyo3(signature = (ground, dt, theta, stride, keep_modes, scale, penalty=None, ending=None))]
+    #[pyo3(signature = (ground, dt, theta, stride, keep_modes, stresses=None, penalty=None, ending=None))]
     #[allow(clippy::too_many_arguments)]
     fn run<'py>(
         &self,
@@ -205,24 +234,32 @@ impl CrackedDam {
         theta: f64,
         stride: usize,
         keep_modes: bool,
-        scale: [f64; 2],
+        stresses: Option<StressRows<'py>>,
         penalty: Option<[f64; 3]>,
         ending: Option<Bound<'py, Ending>>,
     ) -> PyResult<Run<'py>> {
         let scheme = self.scheme(theta, penalty)?;
         let ground = rows(ground.as_slice()?, "ground")?;
-        let shaking = Shaking { ground, dt, scale };
+        let shaking = Shaking {
+            ground,
+            dt,
+            scale: [1.0; 2],
+        };
+        let stresses = stresses.as_ref().map(StressRows::stressed).transpose()?;
         let reached = |run: &heeltoe::flexible::Run| Some([run.summary.end_time, run.summary.slip]);
         let run = watched(py, ending.as_ref().map(Bound::get), reached, |stop| {
             let wanted = Wanted {
                 stride,
                 modes: keep_modes,
+                stresses,
                 stop,
             };
             simulate(&self.dam, &shaking, &scheme, wanted)
         })?;
         let frames = run.frames;
         let count = frames.rows.len();
+        let extremes = run.extremes.unwrap_or_default();
+        let table = |of: Vec<Extreme>| shaped(py, of.iter().flat_map(Extreme::row).collect(), of.len());
         Ok((
             numbers(&run.summary).into_pyarray(py),
             shaped(py, frames.rows.as_flattened().to_vec(), count)?,
@@ -232,6 +269,8 @@ impl CrackedDam {
             shaped(py, frames.status, count)?,
             shaped(py, frames.modes_upper, count)?,
             shaped(py, frames.modes_lower, count)?,
+            table(extremes.upper)?,
+            table(extremes.lower.unwrap_or_default())?,
         ))
     }
 

@@ -78,6 +78,10 @@ class Concrete(Fields):
     """Poisson's ratio."""
     damping: Annotated[DimensionlessNumber, Field(ge=0.0, lt=1.0)] = 0.05
     """Damping ratio."""
+    tensile_strength: Annotated[Pressure, Field(gt=0.0, le=1e8)] | None = None
+    """Tensile strength, static; the largest tension of the flexible model is judged by it where it is given."""
+    dynamic_tension: Annotated[DimensionlessNumber, Field(ge=1.0, le=3.0)] = 1.5
+    """Tensile strength in an earthquake over the static one (Raphael, ACI Journal 81-17, 1984)."""
 
 
 class Crack(Fields):

@@ -212,3 +212,6 @@ class Decoupled(Fields):
     """The block feels the vertical motion at the crack too."""
     rotation: Truth = False
     """The block feels the rotation of the crack too."""
+    upper_part: Literal["rigid body", "mass on the crack"] = "rigid body"
+    """How the part above the crack hangs on the part below it: as a rigid body with its lever arm and its inertia; or,
+    as in Zhu (2004), as its mass alone, spread evenly along the crack."""

@@ -39,6 +39,8 @@ density = "2400 kg/m^3"
 modulus = "20 GPa"                 # without it the dam can only be a rigid block; the next two are of the elastic dam
 # poisson = 0.2
 # damping = 0.05
+# tensile_strength = "1.5 MPa"     # static; the largest tension of the elastic dam is judged by it
+# dynamic_tension = 1.5            # that in an earthquake over it (Raphael 1984)
 
 [crack]
 elevation = "0 m"                  # at the upstream face, above the lowest point of the section
@@ -120,6 +122,7 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # [decoupled]                      # of --model decoupled: the part below the crack shakes the block above it
 # vertical = false                 # with the vertical motion at the crack, too
 # rotation = false                 # and with its rotation
+# upper_part = "rigid body"        # how the part above hangs on that below; or "mass on the crack", as in Zhu (2004)
 
 # [limits]                         # what you allow: the verdict and the report compare with it
 # residual_slip = "150 mm"

@@ -14,7 +14,7 @@ from heeltoe.arrays import Floats
 from heeltoe.kernel.columns import columns
 
 if TYPE_CHECKING:
-    from heeltoe._kernel import CrackAnchor, FollowingWater, ReducedBody
+    from heeltoe._kernel import CrackAnchor, FollowingWater, ReducedBody, StressRows
 
 #: Names of what an elastic dam does, how its run ends, and what the nodes of its crack do.
 DAM_STATES = tuple(_kernel.CRACK_STATES)
@@ -44,6 +44,9 @@ class DamRun:
         (f, c) of each watched node, counting :data:`CONTACT_STATUSES`.
     modes
         (f, m) amplitudes of the modes of the upper and of the lower part.
+    extremes
+        Of the stresses of each part, columns (p,) by name: largest principal stress, when, and the stress then; least
+        principal stress, and when. Empty where none are wanted.
     """
 
     summary: Mapping[str, float]
@@ -54,6 +57,7 @@ class DamRun:
     force: Floats
     status: NDArray[np.uint8]
     modes: tuple[Floats, Floats]
+    extremes: tuple[Mapping[str, Floats], ...]
 
     @property
     def outcome(self) -> str:
@@ -134,7 +138,7 @@ class CrackedDam:
         theta: float,
         *,
         stride: int = 0,
-        scale: tuple[float, float] = (1.0, 1.0),
+        stresses: StressRows | None = None,
         penalty: tuple[float, float, float] | None = None,
         ending: Ending | None = None,
     ) -> DamRun:
@@ -151,15 +155,15 @@ class CrackedDam:
             Weight of the new state within a step, 0.5 to 1; springs know none.
         stride
             Steps from frame to frame; 0 for no frames.
-        scale
-            Factors on the horizontal and the vertical ground.
+        stresses
+            Of which the extremes are wanted.
         penalty
             Stiffness of the springs [N/m] and Newmark's gamma and beta.
         ending
             What may end the run from another thread.
         """
-        row, frames, upper, lower, force, status, above, below = self._dam.run(
-            ground, step, theta, stride, stride > 0, scale, penalty, ending
+        row, frames, upper, lower, force, status, above, below, *extremes = self._dam.run(
+            ground, step, theta, stride, stride > 0, stresses, penalty, ending
         )
         names, numbers = _kernel.CRACK_SUMMARY_FIELDS, row.tolist()
         return DamRun(
@@ -171,6 +175,7 @@ class CrackedDam:
             force=force,
             status=status,
             modes=(above, below),
+            extremes=tuple(columns(_kernel.EXTREME_FIELDS, each) for each in extremes if each.size),
         )
 
     def run_many(

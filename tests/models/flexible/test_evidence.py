@@ -149,6 +149,6 @@ def test_the_work_of_runs_is_counted_once():
     trials = Trials(shaken, 1e-3, 0.1)
     own, finer = Level(0, 0), Level(1, -1)
     assert trials.cost([(own, (1.0,)), (finer, SCALES), (finer, (1.0,))]) == 1.0 + 5.0 * 2.0
-    trials.prepare(own, [(finer, (1.0, 0.99))])
+    trials.prepare([own], [(finer, (1.0, 0.99))])
     assert (trials.runs, trials.work) == (3, 1.0 + 2.0 * 2.0)
     assert trials.cost([(own, (1.0,)), (finer, SCALES)]) == 3.0 * 2.0

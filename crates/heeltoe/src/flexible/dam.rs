@@ -2,6 +2,7 @@
 
 use super::acting::{FaceAnchor, Inside};
 use super::body::ReducedBody;
+use super::envelope::Stressed;
 use super::idce::Penalty;
 use super::sides::Sides;
 use super::stance::Give;
@@ -101,6 +102,8 @@ pub struct Wanted<'a> {
     pub stride: usize,
     /// Whether frames keep the amplitudes of all modes, too.
     pub modes: bool,
+    /// Stresses whose extremes are wanted.
+    pub stresses: Option<Stressed<'a>>,
     /// What ends the run before its time.
     pub stop: Stop<'a>,
 }

@@ -58,6 +58,7 @@ pub(super) fn simulate(dam: &Dam, shaking: &Shaking, penalty: &Penalty, wanted: 
     if newmark.walk.observed() {
         newmark.keep();
     }
+    newmark.stress();
     for (step, ends) in ground.windows(2).enumerate() {
         let ends = [ends[0], ends[1]].map(|a| [scale[0] * a[0], scale[1] * a[1]]);
         let force = newmark.step(ends);
@@ -71,6 +72,9 @@ pub(super) fn simulate(dam: &Dam, shaking: &Shaking, penalty: &Penalty, wanted: 
         if newmark.walk.due(step) {
             newmark.balance();
             newmark.keep();
+        }
+        if newmark.walk.stressed(step) {
+            newmark.stress();
         }
         if newmark.walk.lost() {
             break;
@@ -179,6 +183,12 @@ impl<'a> Newmark<'a> {
     fn balance(&mut self) {
         self.ledger.stored = energy(&self.bodies);
         self.ledger.numerical = self.ledger.unexplained();
+    }
+
+    /// Look at the stresses.
+    fn stress(&mut self) {
+        let modes = self.bodies.map(|body| &body.q[..]);
+        self.walk.stress::<Plain>(&modes);
     }
 
     /// Keep a frame.

@@ -1,9 +1,11 @@
 //! What a run of the flexible model leaves behind.
 
 use super::coulomb::Report;
+use super::envelope::Extreme;
 use super::frames::Frames;
 use super::ledger::Ledger;
 use super::observe::State;
+use super::sides::Sides;
 use crate::table::{columns, named};
 
 named! {
@@ -27,6 +29,8 @@ pub struct Run {
     pub summary: Summary,
     /// States at equal distances in time, if they were asked for.
     pub frames: Frames,
+    /// Extremes of the stresses at each place of both bodies, if they were asked for.
+    pub extremes: Option<Sides<Vec<Extreme>>>,
 }
 
 /// Peaks and sums over all steps.

@@ -71,6 +71,7 @@ fn run<W: Wide>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run
         let start = moreau.ledger;
         moreau.keep(&start);
     }
+    moreau.stress::<W>();
     for step in 0..shaking.ground.len() {
         moreau.set_up::<W>();
         let impulse = moreau.contact::<W>();
@@ -86,6 +87,9 @@ fn run<W: Wide>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run
         if moreau.walk.due(step) {
             let now = moreau.balance();
             moreau.keep(&now);
+        }
+        if moreau.walk.stressed(step) {
+            moreau.stress::<W>();
         }
         if moreau.walk.lost() {
             break;
@@ -331,6 +335,13 @@ impl<'a> Moreau<'a> {
         ledger.numerical -= work[1] + taken_up;
         ledger.springs = acting.stored;
         ledger.turnover += work[0].abs() + work[1].abs();
+    }
+
+    /// Look at the stresses.
+    #[inline(always)]
+    fn stress<W: Wide>(&mut self) {
+        let total = self.bodies.map(Moving::amplitudes);
+        self.walk.stress::<W>(&total.map(|modes| &modes[..]));
     }
 
     /// Keep a frame.

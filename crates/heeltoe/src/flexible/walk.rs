@@ -6,12 +6,14 @@
 use super::body::Group;
 use super::coupling::Crack;
 use super::dam::{Dam, Wanted};
+use super::envelope::Envelope;
 use super::frames::{Frames, Since, Snapshot};
 use super::ledger::Ledger;
 use super::observe::{mean_along, Motion};
 use super::result::{Outcome, Run, Summary};
 use super::sides::{Faces, Sides};
 use super::stance::Stance;
+use super::wide::Wide;
 
 /// A slip or opening of so many widths of the crack is off any scale.
 const REACH: f64 = 100.0;
@@ -30,6 +32,7 @@ pub(super) struct Walk<'a> {
     reach: f64,
     since: Since,
     frames: Frames,
+    envelope: Option<Envelope<'a>>,
 }
 
 impl<'a> Walk<'a> {
@@ -50,6 +53,7 @@ impl<'a> Walk<'a> {
             reach: REACH * (upper.position[upper.nodes - 1] - upper.position[0]),
             since: Since::new(upper),
             frames: Frames::default(),
+            envelope: wanted.stresses.map(Envelope::new),
         }
     }
 
@@ -128,6 +132,20 @@ impl<'a> Walk<'a> {
         self.since.clear();
     }
 
+    /// Whether the stresses after this step are wanted.
+    #[inline(always)]
+    pub(super) fn stressed(&self, step: usize) -> bool {
+        self.envelope.as_ref().is_some_and(|envelope| envelope.due(step))
+    }
+
+    /// Take the stresses of a state into account, where they are wanted.
+    #[inline(always)]
+    pub(super) fn stress<W: Wide>(&mut self, modes: &Sides<&[Group]>) {
+        if let Some(envelope) = &mut self.envelope {
+            envelope.add::<W>(self.summary.end_time, modes);
+        }
+    }
+
     /// Whether the upper part is off any scale, which the outcome says, or somebody has stopped the run.
     #[inline(always)]
     pub(super) fn lost(&mut self) -> bool {
@@ -153,6 +171,7 @@ impl<'a> Walk<'a> {
         Run {
             summary,
             frames: self.frames,
+            extremes: self.envelope.map(Envelope::end),
         }
     }
 }

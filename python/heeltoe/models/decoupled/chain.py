@@ -21,6 +21,7 @@ from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.flexible.bonded import fingerprints
 from heeltoe.models.flexible.cost import Part, building, check_cost, parts_of
 from heeltoe.models.flexible.elastic import Sparse, dam, dofs, side_by_side
+from heeltoe.models.flexible.loads import edge_shapes
 from heeltoe.models.flexible.mesh.dam import BodyMesh, dam_mesh
 from heeltoe.models.flexible.modes import lowest
 
@@ -107,6 +108,7 @@ def _kept(case: Case, build: Callable[[Case], Chain]) -> Chain:
     """Build a chain, or find it by all that it depends on."""
     fields: Any = dict.fromkeys(("section", "concrete", "reservoir", "tailwater", "flexible", "gravity"), True)
     fields["crack"] = {"elevation", "inclination"}
+    fields["decoupled"] = {"upper_part"}
     # Files may change under their name.
     key = (build.__name__, case.model_dump_json(include=fields), *fingerprints(case))
     return _KEPT.get(key, lambda: build(case))
@@ -120,8 +122,7 @@ def _chain(case: Case) -> Chain:
     body = dam(case, dam_mesh(case)).lower
     assert body is not None
     plane = plane_fit(body.mesh)
-    # What is attached moves as the fitted plane does.
-    mass = body.mass + plane.T @ sparse.csr_array(attached_mass(case, block)) @ plane
+    mass = body.mass + _attached(case, block, body.mesh, plane)
     free = np.setdiff1d(np.arange(body.mesh.nodes.size), dofs(body.mesh.fixed))
     hold = sparse.eye_array(body.mesh.nodes.size, format="csr")[:, free]
     return _in_modes(body.stiffness, mass, plane, hold, case.concrete.damping)
@@ -173,6 +174,32 @@ def plane_fit(mesh: BodyMesh) -> Sparse:
     places = dofs(mesh.crack)
     rows = np.repeat(np.arange(3), places.size)
     return sparse.csr_array((fit.reshape(-1), (rows, np.tile(places, 3))), (3, mesh.nodes.size))
+
+
+def _attached(case: Case, block: Block, mesh: BodyMesh, plane: Sparse) -> Sparse:
+    """Return what the part above the crack adds to the mass of the part below."""
+    if case.decoupled.upper_part == "rigid body":
+        # It moves as the fitted plane does.
+        return plane.T @ sparse.csr_array(attached_mass(case, block)) @ plane
+    concrete = case.concrete.density * block.section.area
+    horizontal = concrete + block.water.mass
+    places = dofs(mesh.crack)
+    shares = sparse.kron(face_shares(mesh), np.diag([horizontal, concrete])).tocoo()
+    size = mesh.nodes.size
+    return sparse.csr_array((shares.data, (places[shares.row], places[shares.col])), (size, size))
+
+
+def face_shares(mesh: BodyMesh) -> Floats:
+    """Return how a mass spread evenly along the crack, 1 in all, works on its k nodes: consistently, shape (k, k)."""
+    points = mesh.nodes[mesh.crack]
+    s, weights = np.polynomial.legendre.leggauss(4)
+    shapes = edge_shapes(s)
+    shares = np.zeros((len(points), len(points)))
+    for first in range(0, len(points) - 2, 2):
+        edge = slice(first, first + 3)
+        speed = np.hypot(*(np.stack([s - 0.5, -2.0 * s, s + 0.5], axis=-1) @ points[edge]).T)
+        shares[edge, edge] += shapes.T @ ((weights * speed)[:, None] * shapes)
+    return shares / shares.sum()
 
 
 def attached_mass(case: Case, block: Block) -> Floats:

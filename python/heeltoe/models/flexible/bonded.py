@@ -15,16 +15,18 @@ from heeltoe.models.flexible.cost import building, check_cost, part_of
 from heeltoe.models.flexible.elastic import Dam, bonded_state, dam
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from heeltoe.models.flexible.modes import Modes, enough_modes, error_frequency, reduce, residual_error
+from heeltoe.models.flexible.stress.places import StressPlaces, stress_places
 
 # The earthquake plays no part in any dam, nor does what is asked of a run or read by other models.
 _OF_RUNS = ("time_step", "evidence", "theta", "penalty_factor", "newmark_gamma", "newmark_beta")
 _ANY: Any = dict.fromkeys(("title", "project", "motion", "analysis", "limits", "statics", "decoupled"), True)
+_STRENGTH = {"tensile_strength", "dynamic_tension"}
 #: What a dam that is ready to be shaken does not depend on.
-NOT_OF_DAM: Any = _ANY | {"crack": {"restitution"}, "flexible": set(_OF_RUNS)}
+NOT_OF_DAM: Any = _ANY | {"crack": {"restitution"}, "concrete": _STRENGTH, "flexible": set(_OF_RUNS)}
 #: What its modes do not depend on.
 NOT_OF_MODES: Any = _ANY | {
     "crack": {"restitution", "friction", "static_friction", "kinetic_friction"},
-    "concrete": {"damping"},
+    "concrete": {"damping", *_STRENGTH},
     "flexible": {*_OF_RUNS, "damping", "damping_on_water", "contact", "contactors"},
 }
 
@@ -44,12 +46,15 @@ class BondedDam(Dam):
     basis_error
         Largest error of the crack's flexibility by the modes left out, see
         :func:`heeltoe.models.flexible.modes.error_frequency`; 0 where none is.
+    stress_places
+        Where the stresses of each body are read.
     """
 
     bent: tuple[Floats, ...]
     bonded_force: Floats
     modes: tuple[Modes, ...]
     basis_error: float
+    stress_places: tuple[StressPlaces, ...]
 
 
 _KEPT: Kept[BondedDam] = Kept(4)
@@ -94,6 +99,7 @@ def _build(case: Case) -> BondedDam:
         bonded_force=force,
         modes=modes,
         basis_error=max(errors),
+        stress_places=tuple(map(stress_places, bonded.bodies, modes)),
     )
 
 

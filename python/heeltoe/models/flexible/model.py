@@ -15,6 +15,8 @@ from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
 from heeltoe.models.flexible.refinement import Answer, answer
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.models.flexible.stress.envelope import envelope_of
+from heeltoe.models.flexible.stress.tension import tension_of, tension_warnings
 from heeltoe.models.flexible.tables import energy_of, histories_of, history_of, summary_of
 from heeltoe.models.flexible.warnings import outcome_of, stands, warnings_of
 from heeltoe.models.silence import until_rest
@@ -58,16 +60,21 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
     outcome, advice = outcome_of(dam, block, run)
     # One that slides by itself needs no vibration to go on.
     growth = None if outcome == "unstable" else self_excitation(shaken, run)
-    history = history_of(case, dam, run)
+    history, envelope = history_of(case, dam, run), envelope_of(dam, run)
+    tension = None if outcome == "unstable" else tension_of(found, envelope)
     return FlexibleResponse(
         model="flexible",
         title=case.title,
         outcome=outcome,
         advice=advice,
-        warnings=tuple(warnings_of(shaken, run, history, evidence, growth, block.sliding_safety_factor, outcome)),
+        warnings=(
+            *warnings_of(shaken, run, history, evidence, growth, block.sliding_safety_factor, outcome),
+            *tension_warnings(tension),
+        ),
         summary=summary_of(shaken, run, evidence)
         | {
             "self_excitation": None if growth is None else growth.to_json(),
+            "tension": tension,
             "penetration_m": {"watched": run.summary["penetration"], "any_in_frames": history.deepest_penetration()},
         },
         energy=energy_of(run),
@@ -81,6 +88,7 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
         references=_references(case, dam),
         silence_s=earthquake.silence,
         crack=history,
+        envelope=envelope,
     )
 
 

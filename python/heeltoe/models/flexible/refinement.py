@@ -29,11 +29,20 @@ _Wanted = list[tuple[Level, Sequence[float]]]
 
 @dataclass(frozen=True)
 class Answer:
-    """A run with its frames, its dam, and what it is worth."""
+    """A run with its frames, its dam, and what it is worth.
+
+    Attributes
+    ----------
+    shaken, run, evidence
+        What is told.
+    beside
+        The dam with the other mesh, and its run with frames; None where there is none.
+    """
 
     shaken: ShakenDam
     run: DamRun
     evidence: Evidence | None
+    beside: tuple[ShakenDam, DamRun] | None = None
 
 
 def answer(shaken: ShakenDam, frame_step: float, asked: str, first: DamRun | None = None) -> Answer:
@@ -68,7 +77,9 @@ def answer(shaken: ShakenDam, frame_step: float, asked: str, first: DamRun | Non
             found = stand.evidence(spent=True)
             break
         level = finer
-    return Answer(trials.dam_of(level.mesh), trials.whole(level), found)
+    mesh = stand.mesh
+    beside = None if mesh is None else (trials.dam_of(mesh.mesh), trials.whole(mesh))
+    return Answer(trials.dam_of(level.mesh), trials.whole(level), found, beside)
 
 
 def _finer(found: Evidence, level: Level, options: Flexible) -> Level | None:
@@ -109,7 +120,8 @@ class _Stand:
         self._step = Level(level.mesh, level.halvings + (-1 if shaken.may_step(longer) else 1))
         # Members of the ensemble take the longer of the two steps.
         self._halvings = min(level.halvings, self._step.halvings)
-        self._mesh = self._beside() if full else None
+        #: The other mesh, None where there is none.
+        self.mesh = self._beside() if full else None
 
     def _beside(self) -> Level | None:
         if self._options.mesh_above or self._options.mesh_below:
@@ -124,21 +136,21 @@ class _Stand:
     @property
     def _cheap(self) -> Level:
         """Where the shaking is varied at first: the coarser of the two meshes."""
-        return self._own if self._mesh is None else min(self._mesh, self._own)
+        return self._own if self.mesh is None else min(self.mesh, self._own)
 
     def wanted(self, *, means: bool) -> _Wanted:
         """Return the runs that :meth:`evidence` needs, or needs where means are compared."""
         wanted: _Wanted = [(self._level, _AS_IT_IS), (self._step, _AS_IT_IS)]
         if self._full:
             wanted += [(self._cheap, SCALES), (self._own, SCALES if means else _AS_IT_IS)]
-            if self._mesh is not None:
-                wanted.append((self._mesh, SCALES if means else _AS_IT_IS))
+            if self.mesh is not None:
+                wanted.append((self.mesh, SCALES if means else _AS_IT_IS))
         return wanted
 
     def evidence(self, *, spent: bool = False) -> Evidence:
         """Return what the run at this level is worth."""
         trials = self._trials
-        trials.prepare(self._level, self.wanted(means=False))
+        trials.prepare([level for level in (self._level, self.mesh) if level is not None], self.wanted(means=False))
         run, other = trials.numbers(self._level, _AS_IT_IS), trials.numbers(self._step, _AS_IT_IS)
         varied = trials.numbers(self._cheap, SCALES) if self._full else None
         step = float(run["residual_slip_m"][0] - other["residual_slip_m"][0])
@@ -146,7 +158,7 @@ class _Stand:
         if mean:
             varied = trials.numbers(self._own, SCALES)
         scales = SCALES if mean else _AS_IT_IS
-        beside = None if self._mesh is None else trials.numbers(self._mesh, scales)
+        beside = None if self.mesh is None else trials.numbers(self.mesh, scales)
         own = trials.numbers(self._own, scales) if self._full else run
         worth = {
             each.key: _worth(
@@ -165,7 +177,7 @@ class _Stand:
             time_step=trials.step_of(self._level),
             other_step=trials.step_of(self._step),
             across=self._options.elements_across,
-            other_across=None if self._mesh is None else trials.across_of(self._mesh),
+            other_across=None if self.mesh is None else trials.across_of(self.mesh),
             failed=0 if varied is None else trials.failed(self._own if mean else self._cheap, SCALES),
             slips=() if varied is None else tuple(varied["residual_slip_m"].tolist()),
             runs=trials.runs,

@@ -11,6 +11,7 @@ from heeltoe.result.response import Of, Response
 # Not at run time: who asks whether a response is one of these need not wait for the elastic parts.
 if TYPE_CHECKING:
     from heeltoe.models.flexible.history import CrackHistory
+    from heeltoe.models.flexible.stress.envelope import PartEnvelope
 
 # A crack that lets go for less than this in all [s] moves no dam.
 _LETS_GO_S = 0.02
@@ -24,9 +25,12 @@ class FlexibleResponse(Response):
     ----------
     crack
         What crack and parts did, frame by frame.
+    envelope
+        The largest stresses of the upper and, if there is one, of the lower part over the run.
     """
 
     crack: CrackHistory
+    envelope: tuple[PartEnvelope, ...]
 
     elastic: ClassVar[bool] = True
 
@@ -45,6 +49,10 @@ class FlexibleResponse(Response):
     )
     self_excitation = Of[Mapping[str, float | None] | None](
         "How fast a vibration grows as the dam slides; None where it does not slide."
+    )
+    tension = Of[Mapping[str, Any] | None](
+        "The largest tension over the run, where and when, and whether the concrete bears it; None where it has no "
+        "bound anywhere."
     )
     contact = Of[str]("What the case says of it.")
     steps = Of[int]("How many.")

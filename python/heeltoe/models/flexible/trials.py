@@ -115,17 +115,21 @@ class Trials:
         self._whole[level] = run
         self._numbers[level, 1.0] = {**run.summary, "outcome": float(DAM_OUTCOMES.index(run.outcome))}
 
-    def prepare(self, whole: Level, wanted: Iterable[tuple[Level, Sequence[float]]]) -> None:
-        """Make one run with frames and others side by side: the kernel lets go of the interpreter."""
+    def prepare(self, whole: Sequence[Level], wanted: Iterable[tuple[Level, Sequence[float]]]) -> None:
+        """Make runs with frames, the first of which is told, and others side by side: the kernel lets go of the
+        interpreter."""
 
         def make(one: tuple[Level, Sequence[float]]) -> None:
-            self.numbers(*one)
+            level, scales = one
+            # That of the shaking as it is has its frames.
+            self.numbers(level, [scale for scale in scales if level not in whole or scale != 1.0])
 
         with ThreadPoolExecutor(os.cpu_count()) as pool:
-            shown = pool.submit(self.whole, whole)
+            shown, *others = [pool.submit(self.whole, level) for level in whole]
             try:
                 list(pool.map(make, wanted))
-                shown.result()
+                for each in (shown, *others):
+                    each.result()
             except KeyboardInterrupt as error:
                 # Threads hear of no signal; what the run with frames has come to is told.
                 self._ending.ask()

@@ -1,0 +1,1 @@
+"""The largest stresses of an elastic dam over a run, and whether they crack it further."""

@@ -1,0 +1,129 @@
+"""The largest tension of a run beside the strength of the concrete: what the contract says of it, and its warnings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from heeltoe.models.flexible.mesh.dam import BodyMesh
+from heeltoe.models.flexible.reduced import FlexibleDam
+from heeltoe.models.flexible.refinement import Answer
+from heeltoe.models.flexible.stress.envelope import (
+    PartEnvelope,
+    Peak,
+    envelope_of,
+    largest_compression,
+    largest_tension,
+    tension_before,
+)
+from heeltoe.warnings import Notice
+
+# What a part of the dam is called.
+_PARTS = ("above", "below")
+
+
+def tension_of(found: Answer, parts: Sequence[PartEnvelope]) -> dict[str, Any] | None:
+    """Return what the contract says of the largest tension of a run, with what another mesh makes of it; None where no
+    point is far enough from where the stress has no bound."""
+    dam, concrete = found.shaken.dam, found.shaken.case.concrete
+    tension, compression = largest_tension(parts), largest_compression(parts)
+    if tension is None or compression is None:
+        return None
+    static = concrete.tensile_strength
+    strength = None if static is None else static * concrete.dynamic_tension
+    before = tension_before(parts)
+    return {
+        "stress_pa": tension.stress,
+        **_where(dam, parts, tension),
+        "direction_rad": float(parts[tension.part].direction[tension.index]),
+        "before_shaking_pa": before,
+        "strength_pa": strength,
+        "static_strength_pa": static,
+        "exceeds": None if strength is None else tension.stress > strength,
+        "exceeds_before_shaking": None if static is None else before > static,
+        "share_beyond": None if strength is None else share_beyond(dam, parts, strength),
+        "read_from_crack_m": dam.stress_places[0].apart,
+        "mesh": _by_mesh(found, tension),
+        "compression": {"stress_pa": compression.stress, **_where(dam, parts, compression)},
+    }
+
+
+def tension_warnings(tension: Mapping[str, Any] | None) -> Iterator[Notice]:
+    """Return what a reader must know where the concrete does not bear its tension."""
+    if tension is None:
+        return
+    if tension["exceeds_before_shaking"]:
+        yield Notice(
+            "tension-before",
+            stress_pa=tension["before_shaking_pa"],
+            strength_pa=tension["static_strength_pa"],
+        )
+    if tension["exceeds"]:
+        yield Notice(
+            "tension-exceeds",
+            time_s=tension["time_s"],
+            stress_pa=tension["stress_pa"],
+            strength_pa=tension["strength_pa"],
+            where=place_said(tension),
+            z_m=tension["z_m"],
+            share=100.0 * tension["share_beyond"],
+        )
+
+
+def place_said(found: Mapping[str, Any]) -> str:
+    """Say where a largest stress is, its height apart."""
+    part = f"the part {found['part']} the crack"
+    place = found["place"]
+    return f"inside {part}" if place == "inside" else f"at the {place}{'' if place == 'base' else ' face'} of {part}"
+
+
+def share_beyond(dam: FlexibleDam, parts: Sequence[PartEnvelope], strength: float) -> float:
+    """Return which part of the section has had more tension than `strength` [Pa]: that of its elements of which more
+    than half the corners have, where the stress has a bound."""
+    beyond, whole = 0.0, 0.0
+    for body, part in zip(dam.bodies, parts, strict=True):
+        corners = body.mesh.elements[:, :4]
+        over = (part.bounded & (part.tension > strength))[np.searchsorted(part.nodes, corners)]
+        x, z = np.moveaxis(body.mesh.nodes[corners], 2, 0)
+        area = np.abs(np.sum(x * np.roll(z, -1, axis=1) - z * np.roll(x, -1, axis=1), axis=1)) / 2.0
+        beyond += float(area[over.mean(axis=1) > 0.5].sum())
+        whole += float(area.sum())
+    return beyond / whole
+
+
+def _by_mesh(found: Answer, tension: Peak) -> dict[str, Any] | None:
+    """Return what another mesh makes of the largest tension; None where there is none beside."""
+    if found.beside is None:
+        return None
+    shaken, run = found.beside
+    other = largest_tension(envelope_of(shaken.dam, run))
+    if other is None:
+        return None
+    return {
+        "other_elements_across": shaken.case.flexible.elements_across,
+        "stress_pa": other.stress,
+        "difference_pa": abs(tension.stress - other.stress),
+    }
+
+
+def _where(dam: FlexibleDam, parts: Sequence[PartEnvelope], peak: Peak) -> dict[str, Any]:
+    mesh = dam.bodies[peak.part].mesh
+    node = int(parts[peak.part].nodes[peak.index])
+    x, z = mesh.nodes[node]
+    return {
+        "time_s": peak.time,
+        "part": _PARTS[peak.part],
+        "place": _place(mesh, node),
+        "x_m": float(x),
+        "z_m": float(z),
+    }
+
+
+def _place(mesh: BodyMesh, node: int) -> str:
+    """Return on which face a node is."""
+    for name, nodes in (("upstream", mesh.upstream), ("downstream", mesh.downstream), ("base", mesh.fixed)):
+        if node in nodes:
+            return name
+    return "inside"

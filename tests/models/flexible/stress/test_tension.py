@@ -1,0 +1,96 @@
+"""The largest tension beside the strength of the concrete: numbers, warnings, evidence."""
+
+from __future__ import annotations
+
+import pytest
+
+from heeltoe import flexible, read_case
+from heeltoe.models.flexible.stress.tension import place_said, share_beyond
+from shared.dams import BASE, FAST, HEIGHT, example
+
+
+def codes(response):
+    return {each.code for each in response.warnings}
+
+
+def run(*changes):
+    return flexible(read_case(HEIGHT, [*FAST, *changes]))
+
+
+def test_without_a_strength_nothing_is_judged():
+    found = run()
+    tension = found.tension
+    assert tension["stress_pa"] > 0.0
+    assert tension["strength_pa"] is tension["exceeds"] is tension["share_beyond"] is None
+    assert not {"tension-exceeds", "tension-before"} & codes(found)
+
+
+def test_a_tension_beyond_the_strength_is_warned_of():
+    weak, strong = (run(f"concrete.tensile_strength={strength}") for strength in ("0.5 MPa", "20 MPa"))
+    tension = weak.tension
+    assert tension["strength_pa"] == 0.75e6
+    assert tension["exceeds"]
+    assert 0.0 < tension["share_beyond"] < 1.0
+    notice = next(each for each in weak.warnings if each.code == "tension-exceeds")
+    assert notice.time_s == tension["time_s"]
+    text = notice.text()
+    assert f"a tension of {tension['stress_pa'] / 1e6:.3g} MPa" in text
+    assert "exceeds the 0.75 MPa" in text
+    assert "the assumption that nothing cracks further does not hold" in text
+    assert "psi" in notice.text("us")
+    assert strong.tension["exceeds"] is False
+    assert strong.tension["share_beyond"] == 0.0
+    assert strong.tension["stress_pa"] == tension["stress_pa"]
+    assert "tension-exceeds" not in codes(strong)
+    # The static strength is what counts before the earthquake.
+    assert not tension["exceeds_before_shaking"]
+
+
+def test_the_factor_of_fast_loads_counts():
+    found = run("concrete.tensile_strength=0.5 MPa", "concrete.dynamic_tension=2")
+    assert found.tension["strength_pa"] == 1e6
+    assert found.tension["static_strength_pa"] == 0.5e6
+
+
+def test_a_dam_that_is_pulled_too_hard_before_the_earthquake():
+    found = run("concrete.tensile_strength=1 kPa")
+    assert found.tension["exceeds_before_shaking"]
+    assert found.tension["before_shaking_pa"] > 1e3
+    assert "tension-before" in codes(found)
+
+
+def test_another_mesh_says_how_certain_it_is():
+    found = flexible(example("typical-height", *FAST[2:], "flexible.elements_across=4"))
+    mesh = found.tension["mesh"]
+    across = found.evidence["elements_across"]
+    assert mesh["other_elements_across"] == across // 2
+    assert mesh["difference_pa"] == pytest.approx(abs(found.tension["stress_pa"] - mesh["stress_pa"]))
+    assert run().tension["mesh"] is None
+
+
+def test_a_dam_that_does_not_stand_has_no_tension_to_tell():
+    found = flexible(read_case(BASE, [*FAST, "crack.friction=0.3"]))
+    assert found.outcome == "unstable"
+    assert found.tension is None
+    assert "tension-exceeds" not in codes(found)
+
+
+def test_how_much_of_the_section_is_beyond_a_strength():
+    found = run()
+    dam, parts = found.crack.dam, found.envelope
+    shares = [share_beyond(dam, parts, strength) for strength in (-1e12, 0.0, 1e5, 1e6, 1e12)]
+    assert shares == sorted(shares, reverse=True)
+    assert 0.6 < shares[0] < 1.0
+    assert shares[-1] == 0.0
+
+
+@pytest.mark.parametrize(
+    ("part", "place", "said"),
+    [
+        ("above", "downstream", "at the downstream face of the part above the crack"),
+        ("below", "base", "at the base of the part below the crack"),
+        ("above", "inside", "inside the part above the crack"),
+    ],
+)
+def test_places_have_names(part, place, said):
+    assert place_said({"part": part, "place": place}) == said
