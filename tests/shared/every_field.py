@@ -37,7 +37,7 @@ BASE: Fields = {
         "neck_width": "6 m",
         "base_width": "26 m",
     },
-    "concrete": {"modulus": "20 GPa"},
+    "concrete": {"modulus": "20 GPa", "tensile_strength": "1 MPa"},
     "crack": {"elevation": "6 m", "static_friction": 0.7, "kinetic_friction": 0.6},
     "reservoir": {"depth": "26 m"},
     "tailwater": {"depth": "10 m"},

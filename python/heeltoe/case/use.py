@@ -33,6 +33,8 @@ READ_BY: dict[str, frozenset[str]] = {
     "concrete.modulus": _ELASTIC,
     "concrete.poisson": _ELASTIC,
     "concrete.damping": _ELASTIC,
+    "concrete.tensile_strength": frozenset({"flexible"}),
+    "concrete.dynamic_tension": frozenset({"flexible"}),
     "crack.restitution": _BLOCKS,
     "reservoir.virtual_mass_rotates": _BLOCKS,
     "tailwater.virtual_mass_rotates": _BLOCKS,
@@ -188,6 +190,8 @@ def _idle_choices(case: Case, models: Sequence[str]) -> Iterator[Rule]:
     penalty = tuple(f"flexible.{name}" for name in ("penalty_factor", "newmark_gamma", "newmark_beta"))
     yield flexible and options.contact == "coulomb", 'flexible.contact = "coulomb"', penalty
     yield flexible and options.contact == "idce", 'flexible.contact = "idce"', ("flexible.theta",)
+    unjudged = case.concrete.tensile_strength is None
+    yield flexible and unjudged, "concrete.tensile_strength is not given", ("concrete.dynamic_tension",)
     water = any(each and each.depth for each in (case.reservoir, case.tailwater))
     yield elastic and not water, "there is no water", ("flexible.virtual_mass", "flexible.damping_on_water")
     below = case.outline.area - case.cut.area > 1e-9 * case.outline.area

@@ -199,7 +199,8 @@ def face_shares(mesh: BodyMesh) -> Floats:
         edge = slice(first, first + 3)
         speed = np.hypot(*(np.stack([s - 0.5, -2.0 * s, s + 0.5], axis=-1) @ points[edge]).T)
         shares[edge, edge] += shapes.T @ ((weights * speed)[:, None] * shapes)
-    return shares / shares.sum()
+    even: Floats = shares / shares.sum()
+    return even
 
 
 def attached_mass(case: Case, block: Block) -> Floats:

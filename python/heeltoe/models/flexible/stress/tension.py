@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from heeltoe.case.model import Case
 from heeltoe.models.flexible.mesh.dam import BodyMesh
 from heeltoe.models.flexible.reduced import FlexibleDam
 from heeltoe.models.flexible.refinement import Answer
@@ -27,23 +28,17 @@ _PARTS = ("above", "below")
 def tension_of(found: Answer, parts: Sequence[PartEnvelope]) -> dict[str, Any] | None:
     """Return what the contract says of the largest tension of a run, with what another mesh makes of it; None where no
     point is far enough from where the stress has no bound."""
-    dam, concrete = found.shaken.dam, found.shaken.case.concrete
+    dam = found.shaken.dam
     tension, compression = largest_tension(parts), largest_compression(parts)
     if tension is None or compression is None:
         return None
-    static = concrete.tensile_strength
-    strength = None if static is None else static * concrete.dynamic_tension
     before = tension_before(parts)
     return {
         "stress_pa": tension.stress,
         **_where(dam, parts, tension),
         "direction_rad": float(parts[tension.part].direction[tension.index]),
         "before_shaking_pa": before,
-        "strength_pa": strength,
-        "static_strength_pa": static,
-        "exceeds": None if strength is None else tension.stress > strength,
-        "exceeds_before_shaking": None if static is None else before > static,
-        "share_beyond": None if strength is None else share_beyond(dam, parts, strength),
+        "strength": _judged(found.shaken.case, dam, parts, (tension.stress, before)),
         "read_from_crack_m": dam.stress_places[0].apart,
         "mesh": _by_mesh(found, tension),
         "compression": {"stress_pa": compression.stress, **_where(dam, parts, compression)},
@@ -52,23 +47,24 @@ def tension_of(found: Answer, parts: Sequence[PartEnvelope]) -> dict[str, Any] |
 
 def tension_warnings(tension: Mapping[str, Any] | None) -> Iterator[Notice]:
     """Return what a reader must know where the concrete does not bear its tension."""
-    if tension is None:
+    strength = None if tension is None else tension["strength"]
+    if tension is None or strength is None:
         return
-    if tension["exceeds_before_shaking"]:
+    if strength["exceeds_before_shaking"]:
         yield Notice(
             "tension-before",
             stress_pa=tension["before_shaking_pa"],
-            strength_pa=tension["static_strength_pa"],
+            strength_pa=strength["static_pa"],
         )
-    if tension["exceeds"]:
+    if strength["exceeds"]:
         yield Notice(
             "tension-exceeds",
             time_s=tension["time_s"],
             stress_pa=tension["stress_pa"],
-            strength_pa=tension["strength_pa"],
+            strength_pa=strength["dynamic_pa"],
             where=place_said(tension),
             z_m=tension["z_m"],
-            share=100.0 * tension["share_beyond"],
+            share=100.0 * strength["share_beyond"],
         )
 
 
@@ -91,6 +87,23 @@ def share_beyond(dam: FlexibleDam, parts: Sequence[PartEnvelope], strength: floa
         beyond += float(area[over.mean(axis=1) > 0.5].sum())
         whole += float(area.sum())
     return beyond / whole
+
+
+def _judged(
+    case: Case, dam: FlexibleDam, parts: Sequence[PartEnvelope], tensions: tuple[float, float]
+) -> dict[str, Any] | None:
+    """Return the strength beside the largest tension and that before the earthquake; None where none is given."""
+    static = case.concrete.tensile_strength
+    if static is None:
+        return None
+    dynamic = static * case.concrete.dynamic_tension
+    return {
+        "dynamic_pa": dynamic,
+        "static_pa": static,
+        "exceeds": tensions[0] > dynamic,
+        "exceeds_before_shaking": tensions[1] > static,
+        "share_beyond": share_beyond(dam, parts, dynamic),
+    }
 
 
 def _by_mesh(found: Answer, tension: Peak) -> dict[str, Any] | None:
