@@ -13,6 +13,8 @@ from typing import Any
 from heeltoe.suspicions import OF_INPUT, Severity
 from heeltoe.units.sentences import Sentence
 
+#: What a reader of a block's result does for that of the dam.
+AS_ELASTIC = "run it with --model auto"
 # Code -> (how grave, field of the case, sentence). Quantities are called as in the JSON, with their unit at the end;
 # how they are written stands in the braces, see heeltoe.units.sentences. {field} is the field, {time_s} the moment.
 CATALOGUE: dict[str, tuple[Severity, str, str]] = {
@@ -84,7 +86,7 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "caution",
         "decoupled",
         "the decoupled chain leaves out the vibration of the part above the crack, and what its sliding and rocking "
-        "spare the part below: run it with --model auto, and the dam is elastic",
+        f"spare the part below: {AS_ELASTIC}, and the dam is elastic",
     ),
     "block-still-moves": (
         "caution",

@@ -171,6 +171,17 @@ def test_a_file_is_opened_and_saved(case, tmp_path):
     assert case.input_value("#field-section-height") == "50 ft"
 
 
+def test_a_refusal_goes_with_the_next_success(case):
+    case.evaluate("() => document.querySelector('#field-title').removeAttribute('maxlength')")
+    case.fill("#field-title", "x" * 250_000)
+    wait_for(case, "#notice", "kB")
+    value_is(case, "#field-title", "x" * 250_000)  # nothing that was typed is lost
+    assert case.is_visible("#notice")
+    case.fill("#field-title", "short")
+    wait_for(case, "#case-title", "short")
+    case.wait_for_selector("#notice", state="hidden")
+
+
 def test_a_screen_reader_finds_its_way(case, heard_well):
     case.evaluate("document.querySelectorAll('details').forEach(each => { each.open = true; })")
     case.fill(FRICTION, "x")

@@ -63,6 +63,22 @@ def test_plays_and_pauses(answer):
     assert moment(answer) == then
 
 
+def test_who_wants_less_motion_sees_a_picture_now_and_then(answer):
+    answer.emulate_media(reduced_motion="reduce")
+    answer.select_option(".moving select[data-label=Speed]", "0.1")
+    gaps = answer.evaluate(
+        """() => new Promise((done) => {
+            const times = [];
+            const seen = new MutationObserver(() => times.push(performance.now()) > 3 && done(times));
+            seen.observe(document.querySelector("#dam-says"), { childList: true });
+            document.querySelector(".moving button").click();
+        }).then((times) => times.slice(1).map((each, place) => each - times[place]))"""
+    )
+    assert min(gaps[1:]) > 400, gaps
+    answer.click(".moving >> text=Pause")
+    answer.emulate_media(reduced_motion="no-preference")
+
+
 def test_static_checks_follow_while_they_are_open(answer, picture):
     answer.click("text=Static checks of the same case")
     answer.wait_for_selector("[data-checks=statics] >> text=sliding factor")

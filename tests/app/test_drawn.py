@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import base64
+import re
 
 import numpy as np
 import pytest
 
 from heeltoe import decoupled
 from heeltoe.app.live import answer
+from heeltoe.app.meant import in_words_of_the_page
 from heeltoe.app.sliders import change, sliders
 from heeltoe.app.thinned import thinned
 from heeltoe.models.run import earthquake, live
+from heeltoe.warnings import CATALOGUE
 from shared.dams import SHORT, example
 
 
@@ -60,3 +63,14 @@ def test_sliders_stand_where_the_case_is_and_change_it(units):
 def test_an_error_is_told_at_its_field():
     told = answer(example("typical-base"), {"crack.friction": -1.0}, "rigid", "si")
     assert told["error"]["field"] == "crack.friction"
+
+
+def test_warnings_name_buttons_and_no_commands():
+    said = {code: in_words_of_the_page(template) for code, (_, _, template) in CATALOGUE.items()}
+    assert not {code: each for code, each in said.items() if re.search(r"(^| )--\w|heeltoe [a-z]+ ", each)}
+
+
+def test_a_block_is_told_to_be_run_as_an_elastic_dam():
+    said = " ".join(each["text"] for each in answer(example("typical-height"), {}, "rigid", "si")["warnings"])
+    assert "run the elastic dam with its button" in said
+    assert "--model" not in said

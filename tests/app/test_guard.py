@@ -134,6 +134,21 @@ def test_what_no_page_asks_is_told_and_the_tab_goes_on(ask, message):
         assert (told["of"], told["serial"], told["ok"]) == ("rigid", 5, True)
 
 
+def test_open_tabs_are_so_many_and_the_next_one_is_told(settings):
+    few = replace(settings, most_open=2)
+    with TestClient(application(few), base_url=HOME) as ask, enter(ask) as one:
+        name = one.receive_json()["session"]
+        with enter(ask) as two:
+            two.receive_json()
+            with enter(ask) as three, pytest.raises(WebSocketDisconnect) as closed:
+                three.receive_json()
+            assert closed.value.code == 1013
+            assert "2 tabs are open" in closed.value.reason
+            query = f"/talk?session={name}&again="
+            with ask.websocket_connect(query, headers={"host": "127.0.0.1:8642", "origin": HOME}) as again:
+                assert again.receive_json()["session"] == name  # loaded anew, it is no other
+
+
 def test_sessions_are_few_and_end(settings):
     found = Sessions(replace(settings, most_sessions=2))
     first = found.enter("")

@@ -76,6 +76,25 @@ def test_a_pair_is_dropped_and_shakes_the_dam(motion, picture):
     motion.wait_for_selector(f"{FACTS} >> text=MINE090")
 
 
+def test_a_file_is_dropped_on_the_page(motion, tmp_path):
+    path = tmp_path / "DROP090.AT2"
+    path.write_bytes(at2(step=0.01))
+    assert motion.input_value("#motion-end") == "30.0 s"
+    # As the browser itself tells the page of a file from elsewhere.
+    hand = motion.context.new_cdp_session(motion)
+    box = motion.locator(".drop").bounding_box()
+    held = {"items": [], "files": [str(path)], "dragOperationsMask": 1}
+    for kind in ("dragEnter", "dragOver", "drop"):
+        at = {"x": box["x"] + 20, "y": box["y"] + 20, "data": held}
+        hand.send("Input.dispatchDragEvent", {"type": kind, **at})
+        if kind == "dragOver":
+            motion.wait_for_selector(".drop.over")
+    says(motion, FACTS, "DROP090")
+    # The part was one of the motion before it.
+    assert motion.input_value("#motion-end") == ""
+    motion.wait_for_selector(".drop:not(.over)")
+
+
 def test_part_of_it_and_the_other_sign(motion):
     motion.fill("#motion-start", "2")
     motion.fill("#motion-end", "12 s")

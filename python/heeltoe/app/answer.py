@@ -69,7 +69,11 @@ def start(desk: Desk, what: str, work: Work, *arguments: Any, parent: bool = Fal
     """Start a long run of this tab, and return what is told of it; see :class:`heeltoe.app.jobs.Job`."""
     session = desk.session
     if len(_RUNNING) >= desk.settings.most_jobs:
-        return {"of": "job refused", "text": f"{len(_RUNNING)} long runs go on: cancel one, or wait for it."}
+        return {
+            "of": "job refused",
+            "what": what,
+            "text": f"{len(_RUNNING)} long runs go on: cancel one, or wait for it.",
+        }
     job = Job(what, work, *arguments, parent=parent)
     session.jobs[job.number] = job
     task = asyncio.create_task(job.follow(session.say))

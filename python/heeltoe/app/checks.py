@@ -7,6 +7,7 @@ from typing import Any
 
 from heeltoe.app.actions import Asked, BadRequestError, Desk, Entry
 from heeltoe.app.answer import changes_of, start
+from heeltoe.app.meant import meant
 from heeltoe.case.model import Case
 
 _MODELS = ("rigid", "decoupled", "flexible")
@@ -52,7 +53,7 @@ def checked(case: Case, changes: Mapping[str, Any], units: str) -> dict[str, Any
         "failed": failed(found, units),
         "basis": basis(found, units),
         "checks": check_rows(found),
-        "warnings": [each.text(units) for each in found.warnings],
+        "warnings": [meant(each, units) for each in found.warnings],
     }
 
 
@@ -70,8 +71,8 @@ def spread_of(
     if not found.summary:
         return {"model": model, "columns": COLUMNS, "rows": [], "said": found.outcome, "warnings": []}
     spread = with_spread(found, changed, progress=lambda done, of: say(f"{done} of {of} runs"))
-    before = {each.text(units) for each in found.warnings}
-    warnings = [each.text(units) for each in spread.warnings]
+    before = {meant(each, units) for each in found.warnings}
+    warnings = [meant(each, units) for each in spread.warnings]
     return {
         "model": model,
         "columns": COLUMNS,

@@ -78,6 +78,6 @@ class Conversation:
                 found = {"of": "bad request", "text": str(error)}
             except HeeltoeError as error:
                 found = {"of": "refused", "text": str(error)}
-            await self._desk.tell({**found, "serial": serial})
+            await self._desk.tell({**found, "serial": serial, "to": name})
             asked = self._waiting.pop(name, None) if entry.newest else None
         self._busy.discard(name)

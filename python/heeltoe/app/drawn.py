@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from heeltoe.app.meant import meant
 from heeltoe.app.thinned import thinned
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
@@ -28,7 +29,7 @@ def drawn(response: Response, units: str) -> dict[str, Any]:
         "title": response.title,
         "ok": response.ok,
         "verdict": verdict(response, units),
-        "warnings": [{"text": each.text(units), "severity": each.severity} for each in response.warnings],
+        "warnings": [{"text": meant(each, units), "severity": each.severity} for each in response.warnings],
         "shaking": shaken_by(response),
         "seconds": response.seconds,
     }

@@ -22,12 +22,14 @@ from heeltoe.app.actions import Desk, actions
 from heeltoe.app.conversation import Conversation
 from heeltoe.app.downloads import gone
 from heeltoe.app.guard import Guard
-from heeltoe.app.sessions import Session, Sessions
+from heeltoe.app.sessions import Session, Sessions, TooManyError
 from heeltoe.app.settings import Settings
 from heeltoe.app.uploads import take
 from heeltoe.app.workers import Workers
 
 _PAGE = Path(__file__).parent / "page"
+# The code with which a websocket is closed where there are too many.
+_TRY_LATER = 1013
 
 
 def application(settings: Settings) -> Starlette:
@@ -48,8 +50,12 @@ def application(settings: Settings) -> Starlette:
     async def talk(socket: WebSocket) -> None:
         await socket.accept()
         asked = socket.query_params
-        session = sessions.enter(asked.get("session", ""), again="again" in asked, closed=asked.get("closed", ""))
-        desk = Desk(session, workers, settings, _teller(socket))
+        try:
+            session = sessions.enter(asked.get("session", ""), again="again" in asked, closed=asked.get("closed", ""))
+        except TooManyError as error:
+            await socket.close(_TRY_LATER, str(error))
+            return
+        desk = Desk(session, workers, settings, _teller(socket, session))
         session.tell = desk.tell
         try:
             await desk.tell({"of": "hello", "session": session.name})
@@ -91,12 +97,16 @@ async def _begin(desk: Desk) -> None:
         await desk.tell(job.told())
 
 
-def _teller(socket: WebSocket) -> Any:
-    """Return what sends a message to a tab, one at a time; what is said to a tab that has gone is lost."""
+def _teller(socket: WebSocket, session: Session) -> Any:
+    """Return what sends a message to a tab, one at a time; what is said to a tab that has gone is lost.
+
+    Files that it has sent are called as it calls them, whoever speaks of them."""
     lock = asyncio.Lock()
 
     async def tell(message: dict[str, Any]) -> None:
         text = json.dumps(message, separators=(",", ":"), allow_nan=False)
+        for called, stored in session.sent.items():
+            text = text.replace(stored, json.dumps(called)[1:-1])
         async with lock:
             if socket.client_state is WebSocketState.CONNECTED:
                 try:

@@ -114,6 +114,10 @@ class Session:
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
+class TooManyError(Exception):
+    """As many tabs are open as may be."""
+
+
 class Sessions:
     """The tabs that the server remembers: so many, so long.
 
@@ -140,8 +144,18 @@ class Sessions:
         last, else a new one.
 
         A tab that was doubled has the name of one that is open, and begins with its case; one that is loaded `again`
-        goes on, though the server may not have seen yet that it was left."""
+        goes on, though the server may not have seen yet that it was left.
+
+        Raises
+        ------
+        TooManyError
+            Where as many are open as may be.
+        """
         found = self.get(name)
+        goes_on = found is not None and (again or not found.open)
+        if not goes_on and sum(each.open for each in self._found.values()) >= self._settings.most_open:
+            most = self._settings.most_open
+            raise TooManyError(f"{most} tabs are open, which is as many as can be: close one, and this page goes on.")
         if found is None and not name:
             left = self.get(closed)
             found = None if left is None or left.open else left

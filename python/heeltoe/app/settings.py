@@ -25,6 +25,8 @@ class Settings:
         What a browser must show; empty where the app is reached from this machine alone.
     most_sessions
         Tabs that are remembered; the one unused for longest goes first.
+    most_open
+        Tabs that are open at once.
     idle_s
         After how long without a word a tab is forgotten [s].
     largest_message, largest_upload
@@ -46,6 +48,7 @@ class Settings:
     folder: Path
     token: str = ""
     most_sessions: int = 64
+    most_open: int = 32
     idle_s: float = 4 * 3600.0
     largest_message: int = 1_000_000
     largest_upload: int = 20_000_000

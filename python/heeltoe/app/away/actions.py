@@ -54,7 +54,7 @@ async def make(desk: Desk, asked: Asked) -> dict[str, Any]:
     told = start(desk, _MADE, work, folder, wanted)
     if told["of"] != "job":
         await desk.workers.quick(partial(shutil.rmtree, ignore_errors=True), folder)
-        return {**told, "what": _MADE}
+        return told
     before, session.kept_files = session.kept_files, (folder, _state(case))
     for job in [each for each in session.jobs.values() if each.what == _MADE and each.number != told["number"]]:
         job.cancel()

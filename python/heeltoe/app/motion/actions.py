@@ -82,38 +82,46 @@ async def look(desk: Desk, asked: Asked) -> dict[str, Any]:
 
 async def use(desk: Desk, asked: Asked) -> dict[str, Any]:
     """Shake the case of the tab by what stands on the page."""
-    from heeltoe.app.motion.look import shaken
+    from heeltoe.app.motion.look import refusal
     from heeltoe.app.open_case import state
 
     session = desk.session
-    found = await _read(desk, asked, shaken)
-    if "case" not in found:
-        return {"of": "motion used", **found}
-    session.case, session.example = found["case"], ""
-    # The sliders of the motion stand where it is now.
-    session.changes = {path: each for path, each in session.changes.items() if not path.startswith("motion.")}
-    session.moved = frozenset(path for path in session.moved if not path.startswith("motion."))
-    told = await desk.workers.quick(state, session)
-    await desk.tell(told)
-    return {"of": "motion used"}
+    found = await _read(desk, asked, refusal)
+    if not found:
+        found = await desk.workers.quick(_put, session, asked["form"])
+        await desk.tell(await desk.workers.quick(state, session))
+    return {"of": "motion used", **found}
+
+
+def _put(session: Session, given: object) -> dict[str, Any]:
+    """Put the motion of a form into the case, and return what keeps that from being in force."""
+    from heeltoe.app.case.draft import draft_of, edit
+    from heeltoe.app.case.files import as_sent
+    from heeltoe.app.live import refused
+    from heeltoe.app.motion.draft import motion_fields, read_form
+
+    form, case = read_form(given), session.case
+    assert form is not None
+    assert case is not None
+    edit(session, as_sent(session, {"motion": motion_fields(form, case, session.sent)}))
+    return next(map(refused, draft_of(session).errors), {})
 
 
 async def _read(desk: Desk, asked: Asked, compute: Any, *arguments: Any) -> dict[str, Any]:
-    """Compute with the case, the motion that the page asks for, and the names of files, where files are read."""
+    """Compute with the case and the motion that the page asks for, where files are read."""
     from heeltoe.app.live import refused
     from heeltoe.app.motion.draft import motion_fields, read_form
 
     session, form = desk.session, read_form(asked.get("form"))
     if form is None or session.case is None:
         raise BadRequestError("a motion is chosen by the fields of its page")
-    called = {stored: name for name, stored in session.sent.items()}
     try:
         fields = motion_fields(form, session.case, session.sent)
     except InputError as error:
         return {"usable": False, "motions": [], **refused(error)}
     read, most = desk.workers.read, desk.settings.longest_reading_s
     try:
-        found: dict[str, Any] = await read(most, compute, session.case, fields, session.folder, called, *arguments)
+        found: dict[str, Any] = await read(most, compute, session.case, fields, session.folder, *arguments)
     except WorkerLostError:
         said = {"field": "motion", "text": _SLOW, "problem": _SLOW, "remedy": ""}
         return {"usable": False, "motions": [], "error": said}

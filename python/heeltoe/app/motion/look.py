@@ -67,15 +67,15 @@ def _is_vertical(motion: GroundMotion) -> bool:
         return False
 
 
-def shaken(case: Case, motion: Mapping[str, Any], folder: Path, called: Mapping[str, str]) -> dict[str, Any]:
-    """Return a case with another motion, which has been read once as an analysis reads it, or why it cannot be used."""
+def refusal(case: Case, motion: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    """Return why a motion cannot be used, read once as an analysis reads it; nothing where it can."""
     try:
         found = _with_motion(case, motion, folder)
         assert found.motion is not None
         resolve(found.motion, found.gravity, found.base_directory)
     except InputError as error:
-        return refused(_placed(error, motion, called))
-    return {"case": found}
+        return refused(_placed(error, motion))
+    return {}
 
 
 def _with_motion(case: Case, motion: Mapping[str, Any], folder: Path) -> Case:
@@ -83,7 +83,7 @@ def _with_motion(case: Case, motion: Mapping[str, Any], folder: Path) -> Case:
     return Case.of({**fields, "motion": dict(motion)}).based_in(folder)
 
 
-def look(case: Case, motion: Mapping[str, Any], folder: Path, called: Mapping[str, str], units: str) -> dict[str, Any]:
+def look(case: Case, motion: Mapping[str, Any], folder: Path, units: str) -> dict[str, Any]:
     """Return what would shake a case: as an analysis takes it, or, where that cannot be, each record as it was read and
     why it cannot be used."""
     try:
@@ -91,10 +91,10 @@ def look(case: Case, motion: Mapping[str, Any], folder: Path, called: Mapping[st
         assert found.motion is not None
         pair = resolve(found.motion, found.gravity, found.base_directory)
     except InputError as error:
-        said = refused(_placed(error, motion, called))
+        said = refused(_placed(error, motion))
         seen = [_as_read(source, case.gravity, folder) for source in (motion, motion.get("vertical"))]
-        return {**said, "usable": False, "motions": _shown(seen, case.gravity, called, units, doubts=True)}
-    return {"usable": True, "motions": _shown(list(pair), case.gravity, called, units, doubts=False)}
+        return {**said, "usable": False, "motions": _shown(seen, case.gravity, units, doubts=True)}
+    return {"usable": True, "motions": _shown(list(pair), case.gravity, units, doubts=False)}
 
 
 def _as_read(source: Mapping[str, Any] | None, gravity: float, folder: Path) -> GroundMotion | None:
@@ -118,28 +118,21 @@ def _as_read(source: Mapping[str, Any] | None, gravity: float, folder: Path) -> 
         return None
 
 
-def _shown(
-    motions: list[GroundMotion | None], gravity: float, called: Mapping[str, str], units: str, *, doubts: bool
-) -> list[dict[str, Any]]:
+def _shown(motions: list[GroundMotion | None], gravity: float, units: str, *, doubts: bool) -> list[dict[str, Any]]:
     ways = ("horizontal", "vertical")
     return [
-        {"way": way, **drawn_motion(motion, gravity, called, units, doubts=doubts)}
+        {"way": way, **drawn_motion(motion, gravity, units, doubts=doubts)}
         for way, motion in zip(ways, motions, strict=True)
         if motion is not None
     ]
 
 
-def drawn_motion(
-    motion: GroundMotion, gravity: float, called: Mapping[str, str], units: str, *, doubts: bool
-) -> dict[str, Any]:
+def drawn_motion(motion: GroundMotion, gravity: float, units: str, *, doubts: bool) -> dict[str, Any]:
     """Return facts, warnings and curves of a motion; with `doubts`, also what an analysis would say about it."""
     warnings = [each.text(units) for each in motion.warnings]
     if doubts:
         warnings += suspicions(motion, units, gravity)
     facts = about_motion(motion, units, gravity)
-    for stored, name in called.items():
-        warnings = [each.replace(stored, name) for each in warnings]
-        facts = tuple((label, text.replace(stored, name)) for label, text in facts)
     velocity, displacement = velocity_displacement(motion)
     intensity = husid(motion)
     share = 100.0 * intensity / intensity[-1] if intensity[-1] > 0.0 else intensity
@@ -166,13 +159,13 @@ def drawn_motion(
     }
 
 
-def _placed(error: InputError, motion: Mapping[str, Any], called: Mapping[str, str]) -> InputError:
+def _placed(error: InputError, motion: Mapping[str, Any]) -> InputError:
     """Return an error about a file at the field that can mend it."""
     for field, source in (("motion", motion), ("motion.vertical", motion.get("vertical") or {})):
         if error.field and error.field == Path(str(source.get("file", ""))).name:
             error.field = f"{field}.{_MENDED_BY.get(error.code, 'file')}"
             break
-    return _renamed(error, called)
+    return error
 
 
 def _renamed(error: InputError, called: Mapping[str, str]) -> InputError:

@@ -62,8 +62,8 @@ export class Spread {
     this.content = element("div", { class: "content" });
     this.root = element("details", { class: "card more", "data-checks": "spread" }, element("summary", {}, "Spread: the same with a little weaker and stronger shaking"), element("div", { class: "in-line" }, element("label", { for: "spread-model" }, "of the"), this.model, this.start, this.cancel), this.bar, this.said, this.content);
     talk.on("job", (job) => this.take(job));
-    talk.on("job refused", ({ text }) => {
-      if (!this.root.hasAttribute("open")) return;
+    talk.on("job refused", ({ what, text }) => {
+      if (what !== "spread") return;
       this.said.textContent = text;
     });
   }

@@ -23,7 +23,8 @@ export class FlexibleRun {
     this.bar = element("progress", { hidden: true, "aria-label": "The elastic dam is computed" });
     this.root = element("div", { class: "slider" }, this.start, this.cancel, this.bar, this.said);
     talk.on("job", (job) => this.take(job));
-    talk.on("job refused", ({ text }) => {
+    talk.on("job refused", ({ what, text }) => {
+      if (what !== "flexible") return;
       this.said.textContent = text;
     });
   }

@@ -39,9 +39,20 @@ talk.on("state", (state) => {
   units.value = state.units;
 });
 talk.on("connected", () => notice(""));
-talk.on("lost", () => notice("The app is not running any more, or cannot be reached. The page goes on as soon as it is back."));
+talk.on("lost", ({ reason }) => notice(reason || "The app is not running any more, or cannot be reached. The page goes on as soon as it is back."));
 talk.on("bad request", ({ text }) => notice(`The page has asked for something that the app does not know: ${text}. Reload it.`));
-talk.on("refused", ({ text }) => notice(text));
+/** Number of the question that was refused last; its notice goes with the first later one that is not. */
+let refused = Infinity;
+talk.on("refused", ({ text, serial }) => {
+  refused = serial;
+  notice(text);
+});
+talk.on("answered", ({ of, to, serial }) => {
+  // The page asks for the case itself, to show it as it was before what was refused.
+  if (serial <= refused || to === "case" || of === "refused" || of === "bad request") return;
+  refused = Infinity;
+  notice("");
+});
 
 followTheme(() => {
   answer.redraw();

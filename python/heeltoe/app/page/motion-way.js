@@ -10,8 +10,9 @@ export class Way {
   /**
    * @param {"horizontal" | "vertical"} name
    * @param {() => void} changed
+   * @param {() => void} other Called when it is another motion.
    */
-  constructor(name, changed) {
+  constructor(name, changed, other) {
     this.name = name;
     /** @type {any} */
     this.offered = { records: [], catalogue: [] };
@@ -31,7 +32,7 @@ export class Way {
     };
     this.source = /** @type {HTMLSelectElement} */ (element("select", { id: `${name}-source`, "aria-label": `${TITLES[name]}: source`, onchange: () => {
       this.clear();
-      changed();
+      other();
     } }));
     this.stated = element("div", {}, element("p", { class: "faint" }, "Where the file does not state them:"), line("unit", "unit (g, cm/s^2, m/s^2)"), ...at("unit"), line("time_step", "time step [s]"), ...at("time_step"));
     this.made = element("div", {}, line("magnitude", "magnitude", "6.5"), line("distance", "distance [km]", "20"), line("seed", "seed", "1"));

@@ -14,7 +14,7 @@ export function motionPage(talk) {
   let seen = null;
   /** Horizontal records that were sent together are one for each way. @type {number} */
   let sending = 0;
-  const ways = [new Way("horizontal", changed), new Way("vertical", changed)];
+  const ways = [new Way("horizontal", changed, whole), new Way("vertical", changed, changed)];
   const files = /** @type {HTMLInputElement} */ (element("input", { type: "file", multiple: true, id: "record-files", onchange: () => send([...(files.files || [])]) }));
   const said = element("ul", { class: "sent", role: "status" });
   const drop = element("div", { class: "drop" }, element("label", { for: "record-files" }, "Drop records here, or choose files"), files, element("p", { class: "faint" }, "PEER AT2, COSMOS and CSMIP V2, USGS SMC, K-NET, columns of numbers; one for each direction, up to 20 MB."), said);
@@ -45,6 +45,12 @@ export function motionPage(talk) {
     used.textContent = "";
     clearTimeout(waiting);
     waiting = setTimeout(look, WAIT_MS);
+  }
+
+  /** Another motion is taken as a whole: the part was one of that before. */
+  function whole() {
+    start.value = end.value = "";
+    changed();
   }
 
   function look() {
@@ -119,6 +125,7 @@ export function motionPage(talk) {
       // Another earthquake's vertical motion does not go with it.
       if (way === ways[0] && !ways[1].isSent()) ways[1].choose("");
       way.choose(`record:${answer.called}`, channel.channel);
+      if (way === ways[0]) whole();
     }
     changed();
   }

@@ -20,6 +20,8 @@ export class Talk {
     /** Whether the session is surely of this tab: a tab that was doubled has the same name. */
     this.again = Boolean(entry && entry.type === "reload");
     this.on("hello", ({ session }) => {
+      this.wait = 250;
+      this.heard("connected");
       this.session = session;
       this.again = true;
       sessionStorage.setItem(KEY, session);
@@ -41,25 +43,23 @@ export class Talk {
       this.waiting.delete(message.serial);
       if (waits) waits(message);
       for (const hear of this.listeners.get(message.of) || []) hear(message);
+      if (message.serial) this.heard("answered", message);
     });
-    socket.addEventListener("open", () => {
-      this.wait = 250;
-      this.heard("connected");
-    });
-    socket.addEventListener("close", () => {
-      this.heard("lost");
+    socket.addEventListener("close", ({ reason }) => {
+      this.heard("lost", { reason });
       setTimeout(() => this.open(), this.wait);
       this.wait = Math.min(2 * this.wait, LONGEST_WAIT_MS);
     });
   }
 
-  /** @param {string} of */
-  heard(of) {
-    for (const hear of this.listeners.get(of) || []) hear({ of });
+  /** @param {string} of @param {object} more */
+  heard(of, more = {}) {
+    for (const hear of this.listeners.get(of) || []) hear(more);
   }
 
   /**
-   * Hear what the server says of something; "connected" and "lost" are of the connection itself.
+   * Hear what the server says of something; "connected" and "lost" are of the connection itself, "answered" is of all
+   * answers, which say what they are answers `to`.
    * @param {string} of
    * @param {(message: any) => void} hear
    */

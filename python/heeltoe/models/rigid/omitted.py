@@ -13,7 +13,7 @@ from heeltoe.mechanics.beam import Swing, swing_of
 from heeltoe.models.rigid.criterion import FAR_M, LEAST_M, Fit, Likeness, fits
 from heeltoe.result.response import Response
 from heeltoe.units.sentences import Sentence
-from heeltoe.warnings import Notice
+from heeltoe.warnings import AS_ELASTIC, Notice
 
 #: Moduli that the concrete of dams usually has [Pa].
 USUAL_MODULI = (15e9, 35e9)
@@ -52,7 +52,7 @@ def omitted(case: Case, response: Response) -> tuple[Notice, ...]:
         damping=case.concrete.damping,
         friction=case.crack.mu_static,
         unlike=_unlike(case, response),
-        remedy="give concrete.modulus" if modulus is None else "run it with --model auto",
+        remedy="give concrete.modulus" if modulus is None else AS_ELASTIC,
     )
     swing = swing_of(case, response.motion, moduli)
     if swing is None:

@@ -125,9 +125,6 @@ export function studiesPage(talk) {
   talk.on("study refused", ({ text }) => {
     refused.textContent = text;
   });
-  talk.on("job refused", ({ text }) => {
-    refused.textContent = text;
-  });
   talk.on("study look", (told) => {
     const found = form.fault(told.error || null);
     start.toggleAttribute("disabled", Boolean(told.error));

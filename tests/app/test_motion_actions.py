@@ -1,0 +1,83 @@
+"""What a tab may ask of its motion: used in the case as any other change of it, and called as its sender calls it."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import pytest
+
+pytest.importorskip("starlette")
+
+from starlette.testclient import TestClient
+
+from heeltoe.app.server import application
+from heeltoe.app.settings import Settings
+
+HOME = "http://127.0.0.1:8642"
+CALLED = "my <b>quake.txt"
+FORM = {"horizontal": {"source": f"record:{CALLED}", "unit": "g"}, "vertical": {"source": ""}}
+
+
+@pytest.fixture
+def tab(tmp_path):
+    """Open a tab that has sent a record, and return what asks it."""
+    with (
+        TestClient(application(Settings("127.0.0.1", 8642, tmp_path)), base_url=HOME) as client,
+        client.websocket_connect("/talk", headers={"host": "127.0.0.1:8642", "origin": HOME}) as socket,
+    ):
+        session = socket.receive_json()["session"]
+
+        def ask(what, **fields):
+            """Return the answer; nobody is told what its files are called here."""
+            ask.serial += 1
+            socket.send_json({"do": what, "serial": ask.serial, **fields})
+            while (told := socket.receive_json()).get("serial") != ask.serial:
+                assert told["of"] == "state"
+            assert "upload-" not in json.dumps(told)
+            return told
+
+        ask.serial = 0
+        # It drifts, which is warned of by its name.
+        record = "".join(f"{0.02 * k:.2f} {0.05 + 0.4 * math.sin(0.3 * k):.5f}\n" for k in range(300))
+        headers = {"origin": HOME, "x-session": session}
+        file = client.post("/upload", content=record.encode(), headers=headers).json()["name"]
+        assert "error" not in ask("record", file=file, called=CALLED)
+        yield ask
+
+
+def test_a_record_is_called_as_its_sender_calls_it(tab):
+    assert CALLED in json.dumps(tab("motion look", form=FORM)["motions"])
+    assert "error" not in tab("use motion", form=FORM)
+    answer = tab("rigid", values={})
+    assert CALLED in answer["shaking"]
+    assert any(CALLED in each["text"] for each in answer["warnings"])
+    assert CALLED in json.dumps(tab("statics", values={})["basis"])
+    assert tab("study form")["choices"]["own"] == CALLED
+    assert tab("case")["fields"]["motion"]["file"] == CALLED
+
+
+def test_a_motion_in_the_case_is_a_step_that_is_taken_back(tab):
+    before = tab("case")["fields"]["motion"]
+    tab("rigid", values={"motion.pga": 0.3})
+    tab("use motion", form=FORM)
+    assert tab("case")["fields"]["motion"] == {"file": CALLED, "unit": "g"}
+    assert tab("step case")["fields"]["motion"]["pga"] == "0.3 g"
+    assert tab("step case")["fields"]["motion"] == before
+    tab("step case", forward=True)
+    assert tab("step case", forward=True)["fields"]["motion"]["file"] == CALLED
+
+
+def test_what_keeps_a_motion_from_being_in_force_is_told(tab):
+    tab("edit case", changes={"crack.friction": "slippery"})
+    told = tab("use motion", form=FORM)
+    assert told["error"]["field"] == "crack.friction"
+    tab("edit case", changes={"crack.friction": "1"})
+    assert CALLED in tab("rigid", values={})["shaking"]
+
+
+def test_a_motion_that_cannot_be_read_changes_nothing(tab):
+    before = tab("case")["fields"]
+    way = {**FORM["horizontal"], "unit": "parsec"}
+    assert tab("use motion", form={**FORM, "horizontal": way})["error"]["field"] == "motion.unit"
+    assert tab("case")["fields"] == before
