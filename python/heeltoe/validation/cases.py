@@ -14,6 +14,7 @@ from heeltoe.validation import (
     penalty,
     random_blocks,
     random_dams,
+    textbooks,
     thesis_blocks,
     thesis_dams,
     turning,
@@ -48,6 +49,10 @@ CASES: dict[str, Callable[[], Iterable[Row]]] = {
     "halving": flexible_dams.halving,
     "evidence": evidence.evidence,
     "penalty": penalty.penalty,
+    "punmia-walls": textbooks.punmia_walls,
+    "punmia-dams": textbooks.punmia_dams,
+    "zangar": textbooks.zangar_pressure,
+    "elementary": textbooks.elementary,
 }
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-#: What a number is compared with: mathematics; what the thesis prints; an independent program; another model or
-#: another run of ours; a condition that a result must meet.
-Kind = Literal["closed form", "thesis", "prototype", "own run", "condition"]
+#: What a number is compared with: mathematics; what the thesis, or a book, prints; an independent program; another
+#: model or another run of ours; a condition that a result must meet.
+Kind = Literal["closed form", "thesis", "book", "prototype", "own run", "condition"]
 
 
 class Skipped(Exception):
