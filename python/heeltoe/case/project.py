@@ -3,26 +3,38 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from datetime import date
+from typing import Annotated
 
-from pydantic import Field
+from pydantic import BeforeValidator, Field, WithJsonSchema
 
 from heeltoe.case.fields import Fields
+
+# A revision may be a number, and TOML has dates.
+Words = Annotated[
+    str,
+    BeforeValidator(
+        lambda given: str(given) if isinstance(given, date | int) and not isinstance(given, bool) else given
+    ),
+    Field(strict=True),
+    WithJsonSchema({"type": ["string", "integer"]}),
+]
 
 
 class Project(Fields):
     """The title block of a report, as free words; no number depends on it."""
 
-    name: str = Field(default="", strict=True)
+    name: Words = ""
     """What the project is called."""
-    client: str = Field(default="", strict=True)
+    client: Words = ""
     """For whom it is."""
-    author: str = Field(default="", strict=True)
+    author: Words = ""
     """Who made the report."""
-    checker: str = Field(default="", strict=True)
+    checker: Words = ""
     """Who checked it; left empty, the title block has a line to sign on."""
-    date: str = Field(default="", strict=True)
+    date: Words = ""
     """Of the report."""
-    revision: str = Field(default="", strict=True)
+    revision: Words = ""
     """Of the report."""
 
     def rows(self) -> Iterator[tuple[str, str]]:

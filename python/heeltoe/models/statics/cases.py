@@ -25,17 +25,22 @@ def usual(case: Case) -> Solved:
 def flood(case: Case) -> Solved:
     """Return the case of the flood; the ice is gone then."""
     choice = case.statics
+    text = f"reservoir {{depth_m:g m}} deep, an {choice.flood_rarity} load"
+    said = [Sentence.of(text, depth_m=choice.flood_depth)]
+    if case.ice is not None:
+        said.append(Sentence("no ice in the flood"))
+    return _still("flood", choice.flood_rarity, flooded(case), tuple(said))
+
+
+def flooded(case: Case) -> Case:
+    """Return the case with the water of its flood, and without ice."""
+    choice = case.statics
     assert choice.flood_depth is not None
     risen = at_depth(case, choice.flood_depth)
     if choice.flood_tailwater is not None:
         below = case.tailwater or Water.model_validate({"depth": "0 m"})
         risen = risen.model_copy(update={"tailwater": below.model_copy(update={"depth": choice.flood_tailwater})})
-    text = f"reservoir {{depth_m:g m}} deep, an {choice.flood_rarity} load"
-    said = [Sentence.of(text, depth_m=choice.flood_depth)]
-    if case.ice is not None:
-        risen = risen.model_copy(update={"ice": None})
-        said.append(Sentence("no ice in the flood"))
-    return _still("flood", choice.flood_rarity, risen, tuple(said))
+    return risen.model_copy(update={"ice": None})
 
 
 def at_depth(case: Case, depth: float) -> Case:

@@ -38,7 +38,7 @@ from heeltoe.views.words.statics import basis, check_cells, section_rows, verdic
 
 # Of the width of a page: the forces with their origin, and the steps.
 _FORCES = (2.3, 1.6, 1.3, 1.7, 1.3, 2.1, 4.2)
-_STEPS = (2.4, 2.8, 4.4, 3.3, 1.5, 0.8)
+_STEPS = (2.6, 2.75, 5.35, 2.8, 1.35, 0.6)
 # Static checks that are not met and have room on page one.
 _MOST_MISSED = 6
 _DEFAULTS = ("flexible", "decoupled", "analysis", "limits")
@@ -82,7 +82,8 @@ def statics_document(
     command
         What was typed to get it.
     """
-    shown = {name: drawing(name, figures[name], _caption(name)) for name in figures}
+    cases = {f"forces-{slug(each.name)}": each.name for each in found.governing.statics.cases}
+    shown = {name: drawing(name, figures[name], _caption(name, cases)) for name in figures}
     subject = _Subject(case, found, shown, units, command)
     several = len(found.joints) > 1
     sections = (
@@ -104,16 +105,15 @@ def statics_document(
     )
 
 
-def _caption(name: str) -> str:
+def _caption(name: str, cases: Mapping[str, str]) -> str:
     if name == "section":
         return "Section of the dam with its crack, water levels and the usual forces."
     if name == "statics":
         return "How far each check is met: from 1 on it is."
-    case = name.removeprefix("forces-").replace("-", " ").replace("pseudo static", "pseudo-static")
-    case = case.replace("post seismic", "post-seismic")
+    case = cases[name]
     return (
-        f"{case.capitalize()}: forces with their arms from the heel, water pressures, resultant R; below, the stress "
-        "on what is closed."
+        f"{case[0].upper()}{case[1:]}: forces with their arms from the heel, water pressures, resultant R; below, the "
+        "stress on what is closed."
     )
 
 
@@ -251,7 +251,8 @@ def _method(subject: _Subject) -> Section:
         "as far as found: with its force and arm the steps can be followed without iterating.",
         "A force that acts on a slope has two arms, one for each of its parts. In the overturning factor each force "
         "counts as a whole on the side to which it turns the block. B is the width of the contact, c the length that "
-        "is open, C the cohesive force, μ the coefficient of friction, f_t the tensile strength.",
+        "is open, C the cohesive force, μ the coefficient of friction. The tip of a crack holds where its stress is no "
+        "more tension than the tensile strength.",
     )
     return Section("How it is computed", tuple(paragraph(text) for text in texts))
 

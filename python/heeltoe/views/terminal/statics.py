@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 
 from rich.console import Console
 from rich.markup import escape
+from rich.measure import Measurement
 from rich.table import Table
 
 from heeltoe.models.statics.checks import Check
@@ -46,8 +47,9 @@ def print_statics(found: Statics, console: Console, units: str = "si") -> None:
     console.print()
     console.print(label_lines((label, escape(text)) for label, text in basis(found, units)))
     console.print()
-    console.print(_cases(found, units))
-    console.print()
+    for cases in _beside(found.cases, console, units):
+        console.print(_cases(cases, units))
+        console.print()
     console.print(_checks(found.checks))
     console.print()
     console.print("[dim]resultant: at, from the heel; checked, from the middle; f: compressive strength[/dim]")
@@ -94,7 +96,7 @@ def _sections(found: Joints, units: str) -> Table:
     """Return the table of the sections."""
     table, (head, rows) = quiet_table(), section_rows(found, units)
     for place, name in enumerate(head):
-        table.add_column(escape(name), justify="left" if place in (1, 2) else "right")
+        table.add_column(escape(name.replace("overt", "over-\nt")), justify="left" if place in (1, 2) else "right")
     for row, joint in zip(rows, found.ranked, strict=True):
         table.add_row(*map(escape, row), style="" if joint.statics.ok else "red")
     return table
@@ -168,14 +170,27 @@ def _assumptions(cases: tuple[LoadCase, ...], units: str) -> list[tuple[str, str
     return [(names[0] if len(names) == 1 else names[0].split()[0], text) for text, names in shared.items()]
 
 
-def _cases(found: Statics, units: str) -> Table:
+def _beside(cases: tuple[LoadCase, ...], console: Console, units: str) -> list[tuple[LoadCase, ...]]:
+    """Divide load cases so that no number has to be cut, evenly, as far as at least one fits."""
+    wide = console.options.update(max_width=10_000)
+    most = next(
+        count
+        for count in range(len(cases), 0, -1)
+        if count == 1 or Measurement.get(console, wide, _cases(cases[:count], units)).maximum <= console.width
+    )
+    tables = -(-len(cases) // most)
+    each = -(-len(cases) // tables)
+    return [cases[start : start + each] for start in range(0, len(cases), each)]
+
+
+def _cases(cases: tuple[LoadCase, ...], units: str) -> Table:
     table = quiet_table()
     table.add_column("", no_wrap=True)
-    for each in found.cases:
+    for each in cases:
         # Five cases with long names are to fit beside each other.
-        table.add_column(each.name.replace(" ", "\n").replace("-", "-\n"), justify="right", no_wrap=True)
+        table.add_column(each.name.replace(" ", "\n").replace("-", "-\n", 1), justify="right", no_wrap=True)
     for label, form, read in _ROWS:
-        table.add_row(*_row(label, form, [read(each) for each in found.cases], units))
+        table.add_row(*_row(label, form, [read(each) for each in cases], units))
     return table
 
 

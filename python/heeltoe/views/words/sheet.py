@@ -235,7 +235,7 @@ class _Steps:
         stands = self.checks.get("equilibrium")
         met = None if stands is None else stands.met
         if found.heel_stress_pa is None or found.toe_stress_pa is None or found.resultant_from_heel_m is None:
-            return [Step("state of the crack", "σ ≥ −f_t at the tip", "no length of it holds", found.outcome, "", met)]
+            return [Step("state of the crack", "stress at the tip", "no length of it holds", found.outcome, "", met)]
         open_, closed = found.cracked_length_m / self.to.length, self.width - found.cracked_length_m / self.to.length
         from_heel = found.cracked_from == "heel"
         place = (found.resultant_from_heel_m - found.contact_from_m) / self.to.length
@@ -243,7 +243,7 @@ class _Steps:
         away = place - middle
         made = []
         how = "nothing opens" if not open_ else f"from the {found.cracked_from}, {found.iterations} iterations"
-        made.append(Step("crack open", "c: σ = −f_t at its tip", how, f"{_say(open_)} {self.length}", "", met))
+        made.append(Step("crack open", "c, where its tip holds", how, f"{_say(open_)} {self.length}", "", met))
         made.append(
             Step("length closed", "L = B − c", f"{_say(self.width)} − {_say(open_)}", f"{_say(closed)} {self.length}")
         )
@@ -293,7 +293,7 @@ class _Steps:
         sign = 1.0 if about == "toe" else -1.0
         moments = [sign * line.moment_nm / self.to.moment for line in found.sheet(about).lines]
         holds, turns = math.fsum(max(0.0, each) for each in moments), -math.fsum(min(0.0, each) for each in moments)
-        formula = f"ΣM that hold / ΣM that turn, about the {about}"
+        formula = f"ΣM hold / ΣM turn, about {about}"
         if found.overturning_factor is None:
             return Step("overturning", formula, "nothing turns it", "none")
         return Step("overturning", formula, f"{_say(holds)} / {_say(turns)}", f"{found.overturning_factor:.4f}")

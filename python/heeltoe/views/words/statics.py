@@ -49,7 +49,7 @@ def section_rows(found: Joints, units: str) -> tuple[tuple[str, ...], list[tuple
             (
                 height,
                 "-" if worst is None else worst.load_case,
-                "-" if worst is None else worst.name,
+                "-" if worst is None else worst.name.removesuffix(" factor"),
                 "-" if worst is None or worst.margin is None else f"{worst.margin:.2f}",
                 *("-" if each is None else f"{each:.2f}" for each in least),
                 length,

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
-from heeltoe.models.statics.cases import at_depth
+from heeltoe.models.statics.cases import flooded
 from heeltoe.models.statics.load_case import LoadCase
 from heeltoe.models.statics.sheet import ForceLine
 from heeltoe.units.systems import Units, unit_system
@@ -60,7 +60,7 @@ def forces_figure(case: Case, found: LoadCase, units: str = "si") -> Figure:
         ``"si"`` or ``"us"``.
     """
     system = unit_system(units)
-    drawn, section = in_load_case(case, found), case.cut
+    drawn, section = flooded(case) if found.name == "flood" else case, case.cut
     figure = Figure(figsize=(WIDTH, _HEIGHT))
     heading(figure, case.title or "Untitled case", f"{found.name}, crack at {_at(case, system)}")
     panel = _PANEL / _HEIGHT
@@ -72,7 +72,7 @@ def forces_figure(case: Case, found: LoadCase, units: str = "si") -> Figure:
     low, high = section.polygon.min(axis=0), section.polygon.max(axis=0)
     left = 0.46 + _STEP * len(heights)
     below = 0.10 + _DEEPEST + _STEP * len(widths)
-    canvas.look_at(low - np.array([left, below]) * size, high + np.array([0.42, 0.2]) * size)
+    canvas.look_at(low - np.array([left, below]) * size, high + np.array([0.42, 0.1]) * size)
     axes.set_axis_off()
     draw_bodies(canvas, drawn)
     depth = _draw_pressures(canvas, drawn, found, system)
@@ -82,19 +82,6 @@ def forces_figure(case: Case, found: LoadCase, units: str = "si") -> Figure:
     stress = figure.add_axes((0.1, 0.42 / _HEIGHT, 0.87, panel - 0.05))
     draw_stresses(stress, found, system)
     return figure
-
-
-def in_load_case(case: Case, found: LoadCase) -> Case:
-    """Return the case with the water, and without the ice, that a load case has."""
-    choice = case.statics
-    if found.name != "flood" or choice.flood_depth is None:
-        return case
-    risen = at_depth(case, choice.flood_depth)
-    update: dict[str, object] = {"ice": None}
-    water = risen.tailwater or risen.reservoir
-    if choice.flood_tailwater is not None and water is not None:
-        update["tailwater"] = water.model_copy(update={"depth": choice.flood_tailwater})
-    return risen.model_copy(update=update)
 
 
 def _at(case: Case, units: Units) -> str:
@@ -121,6 +108,8 @@ def _on(line: ForceLine, section: CutSection, place: float, *, up: bool) -> Floa
     name = line.name.split(" ")[0]
     if name in _BODY:
         return np.array([heel[0] + place, section.centroid[1]] if up else [section.centroid[0], heel[1] + place])
+    if name == "nappe":
+        return np.array([heel[0] + place, section.crest_elevation])
     faces = {**dict.fromkeys(_UPSTREAM, section.upstream_face), "tailwater": section.downstream_face}
     face = faces.get(name, np.array([section.heel, section.toe])) - heel
     along, across = (0, 1) if up else (1, 0)

@@ -40,11 +40,12 @@ def draw_stresses(axes: Axes, found: LoadCase, units: Units) -> None:
         for place, value, side in zip(closed, ends.tolist(), ("left", "right"), strict=True):
             axes.annotate(
                 scaled(value, scale, 4),
-                (length(place), scale(value)),
-                xytext=(4 if side == "left" else -4, 3 if value <= 0.0 else -3),
+                (length(place), 0.0),
+                # On the other side of the line than what is drawn.
+                xytext=(3 if side == "left" else -3, 3 if value >= 0.0 else -3),
                 textcoords="offset points",
                 ha=side,
-                va="bottom" if value <= 0.0 else "top",
+                va="bottom" if value >= 0.0 else "top",
                 fontsize=8,
                 bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 0.6},
             )
