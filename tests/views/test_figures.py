@@ -15,13 +15,13 @@ from heeltoe.errors import InputError
 from heeltoe.views.figures.all import NAMES, all_figures
 from heeltoe.views.figures.crack import contact_pressure, crack_figure, pressure_figure
 from heeltoe.views.figures.dam import mesh_figure, modes_figure
-from heeltoe.views.figures.deformed import deformed_figure
 from heeltoe.views.figures.energy import energy_figure, friction_loss
 from heeltoe.views.figures.histories import response_figure, slip_by_kind, slip_by_mode_figure
 from heeltoe.views.figures.panels import draw_ribbon
 from heeltoe.views.figures.path import path_figure
 from heeltoe.views.figures.shaking import until
 from heeltoe.views.figures.spectrum import spectrum_figure
+from heeltoe.views.figures.stress.deformed import deformed_figure
 from heeltoe.views.figures.style import without_heading
 from heeltoe.views.figures.write import save_all
 from heeltoe.views.files.write import write_all

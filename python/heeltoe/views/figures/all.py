@@ -46,6 +46,7 @@ NAMES = (
     "crack",
     "pressure",
     "deformed",
+    "tension",
     "mesh",
     "modes",
 )
@@ -157,13 +158,16 @@ def _drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]
 def _elastic_drawings(response: FlexibleResponse, units: str) -> dict[str, Callable[[], Figure]]:
     from heeltoe.views.figures.crack import crack_figure, pressure_figure
     from heeltoe.views.figures.dam import mesh_figure, modes_figure
-    from heeltoe.views.figures.deformed import deformed_figure
+    from heeltoe.views.figures.stress.deformed import deformed_figure
+    from heeltoe.views.figures.stress.tension import tension_figure
 
     dam = response.crack.dam
+    told = {"tension": lambda: tension_figure(response, units)} if response.tension is not None else {}
     return {
         "crack": lambda: crack_figure(response, units),
         "pressure": lambda: pressure_figure(response, units),
         "deformed": lambda: deformed_figure(response, units=units),
+        **told,
         "mesh": lambda: mesh_figure(dam, units),
         "modes": lambda: modes_figure(dam, units),
     }

@@ -6,6 +6,7 @@ from heeltoe.views.report.content import Block, Inline, Section, Table, paragrap
 from heeltoe.views.report.subject import Subject
 from heeltoe.views.words.numbers import Value
 from heeltoe.views.words.starts import starts
+from heeltoe.views.words.tension import tension_line, tension_worth
 
 _ROWS: tuple[tuple[str, str, str | None], ...] = (
     ("Slip while sliding", "slip_by_mode_m.sliding", "displacement"),
@@ -63,6 +64,7 @@ _FIGURES = (
     "crack",
     "pressure",
     "deformed",
+    "tension",
 )
 
 
@@ -97,10 +99,21 @@ def results(subject: Subject) -> Section:
                 subject.align(),
             )
         )
-        blocks += [*_at_the_crack(subject), *_anchors(subject)]
+        blocks += [*_tension(subject), *_at_the_crack(subject), *_anchors(subject)]
     else:
         blocks.append(paragraph("The run never started, so that there are no results and no figures of it."))
     return Section("Results", (*blocks, *subject.figure(*_FIGURES)))
+
+
+def _tension(subject: Subject) -> list[Block]:
+    """Return the largest tension of an elastic dam, and what the concrete bears."""
+    blocks: list[Block] = []
+    for run in subject.runs:
+        found = run.response.summary.get("tension")
+        if found is not None:
+            said = tension_line(found, subject.units), tension_worth(found, subject.units)
+            blocks.append(paragraph(f"The largest tension in the concrete is {said[0]}. It is {said[1]}."))
+    return blocks
 
 
 def _at_the_crack(subject: Subject) -> list[Block]:

@@ -28,12 +28,13 @@ CAPTIONS = {
     "crack-level": "Acceleration of ground and crack, their response spectra, and the amplification; dotted: periods.",
     "crack": "What each place of the crack does over time.",
     "deformed": "Deformed dam with its principal stresses, tension on the left, compression on the right.",
+    "tension": "Largest principal tension over the run at every place, and the largest of all.",
     "pressure": "Contact pressure along the crack over time.",
     "mesh": "The mesh, and the nodes of the crack.",
     "modes": "Lowest vibration modes of the intact dam.",
 }
 # Simple figures need not be as wide as the page.
-_SHARES = {"section": 0.7, "spectrum": 0.7, "slip-by-mode": 0.8, "energy": 0.8, "mesh": 0.6}
+_SHARES = {"section": 0.7, "tension": 0.8, "spectrum": 0.7, "slip-by-mode": 0.8, "energy": 0.8, "mesh": 0.6}
 _SHARES |= {"bands": 0.8, "slips": 0.8, "fragility": 0.8}
 # Histories are drawn lower than on a page of their own, so that two of them share one, or one and a table; letters stay
 # as large as they are.
@@ -57,6 +58,7 @@ _OF_BOTH = (
         "crack",
         "pressure",
         "deformed",
+        "tension",
         "mesh",
         "modes",
     ),

@@ -28,6 +28,7 @@ from heeltoe.views.words.motion import sampling
 from heeltoe.views.words.numbers import headline
 from heeltoe.views.words.spread import COLUMNS, spread_rows, spread_said
 from heeltoe.views.words.starts import of_what, starts
+from heeltoe.views.words.tension import tension_line, tension_worth
 from heeltoe.views.words.warnings import listed
 
 
@@ -142,6 +143,9 @@ def _result_lines(response: Response, units: str) -> list[tuple[str, str]]:
     ]
     lines.append(("time by mode", ", ".join(times)))
     lines += _chosen_lines(response, units)
+    if isinstance(response, FlexibleResponse) and response.tension is not None:
+        lines.append(("largest tension", tension_line(response.tension, units)))
+        lines.append(("", tension_worth(response.tension, units)))
     if response.elastic:
         return [*lines, ("node strikes", _strikes(response, units)), ("in the end", in_the_end(response))]
     closes = f"the energy ledger closes to {response.energy.residual if response.energy else 0.0:.0e}"

@@ -64,7 +64,7 @@ def tension_warnings(tension: Mapping[str, Any] | None) -> Iterator[Notice]:
             strength_pa=strength["dynamic_pa"],
             where=place_said(tension),
             z_m=tension["z_m"],
-            share=100.0 * strength["share_beyond"],
+            share=strength["share_beyond"],
         )
 
 

@@ -1,0 +1,1 @@
+"""Figures of the stresses in an elastic dam."""
