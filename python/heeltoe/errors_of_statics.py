@@ -15,6 +15,12 @@ OF_STATICS: dict[str, tuple[str, str]] = {
         "the ice acts at {value}, above the crest at {height}",
         "leave the ice out, or lower the water",
     ),
+    # criteria of a user's own
+    "criteria-file-missing": ("there is no such file", "give the path of criteria in TOML, relative to the case file"),
+    "criteria-table": ("there is no such check", "write one of {known}"),
+    "criteria-loads": ("there is no such case of loads", "write one of {known}"),
+    "criteria-number": ("{value} is no number above 0 and up to {most}", "give one"),
+    "criteria-empty": ("{value} asks for nothing", "add a table, for example [sliding] with usual = 1.5"),
     # sections
     "section-misfit": ("at {value} the case does not fit: {reason}", "change that, or leave this section out"),
     "sections-twice": ("{value} stands twice", "name each elevation once"),

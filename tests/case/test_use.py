@@ -155,7 +155,7 @@ def test_criteria_tell_what_they_do_not_ask_for(criteria):
         idle = [each for each in found.warnings if each.code == "fields-idle"]
         assert same is bool(idle), name
         told += [name] if idle else []
-    assert tuple(told) == unread(criteria)
+    assert tuple(told) == unread(CRITERIA[criteria])
 
 
 def test_checks_after_a_run_count_what_the_run_reads():

@@ -72,9 +72,8 @@ def test_an_overhang_has_the_pressure_of_a_vertical_face():
 
 @pytest.mark.parametrize("degrees", [30, 60])
 def test_the_curve_is_that_of_potential_flow(degrees):
-    """An electric analogy is potential flow. C_m is the largest pressure on a face, which falls less with the slope than
-    what the whole face is pushed with: the sums of the book's form stay on the safe side, by up to 0.06 of a vertical
-    face's."""
+    """An electric analogy is potential flow. C_m is the largest pressure on a face, which falls less with the slope
+    than what the whole face is pushed with: the sums stay on the safe side, by up to 0.06 of a vertical face's."""
     upright, found = (push(leaning(angle), columns=40, rows=16)[0] for angle in (0.0, float(degrees)))
     share = coefficient(math.tan(math.radians(degrees))) / coefficient(0.0)
     assert -0.01 < share - found / upright < 0.065

@@ -111,6 +111,7 @@ HELPED: dict[str, tuple[Fields, Any]] = {
     "analysis.time_limit": ({}, "1 ms"),
     "analysis.memory_limit": ({}, "1 kB"),
     "decoupled.vertical": ({"motion.vertical": GONE}, None),
+    "statics.criteria_file": ({}, "nowhere.toml"),
     "statics.tensile_strength": ({"statics.bonded": 1.0, "statics.tensile_strength": "0.01 MPa"}, "0.05 MPa"),
 }
 JOINT = {"elevation": "10 m", "friction": 0.65, "bonded": 0.4, "cohesion": "0.4 MPa", "tensile_strength": "0.01 MPa"}

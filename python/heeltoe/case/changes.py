@@ -21,6 +21,8 @@ _REPLACES = {
     "motion.points": ("motion.file", "motion.channel", "motion.unit", "motion.time_step"),
     "motion.vertical.file": tuple(f"motion.vertical.{name}" for name in ("points", "channel", "unit", "time_step")),
     "motion.vertical.points": tuple(f"motion.vertical.{name}" for name in ("file", "channel", "unit", "time_step")),
+    "statics.criteria": ("statics.criteria_file",),
+    "statics.criteria_file": ("statics.criteria",),
     "crack.friction": ("crack.static_friction", "crack.kinetic_friction"),
     "crack.static_friction": ("crack.friction",),
     "crack.kinetic_friction": ("crack.friction",),

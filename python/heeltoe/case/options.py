@@ -144,8 +144,10 @@ def _section_of(given: object) -> object:
 class StaticsChoice(Fields):
     """Strength and load cases of the static checks before, during and after the earthquake."""
 
-    criteria: Literal["USACE", "USBR", "FERC", "CDA"] = "USACE"
+    criteria: Literal["USACE", "USBR", "FERC", "CDA", "CADAM3D"] = "USACE"
     """Whose required factors the checks are judged by."""
+    criteria_file: str | None = Field(default=None, strict=True, min_length=1)
+    """Criteria of your own from a file in TOML, relative to the case file, in place of those."""
     structure: Literal["critical", "normal"] = "critical"
     """Critical where a failure would cost lives (FERC: high or significant hazard, otherwise low)."""
     site_information: Literal["well defined", "ordinary", "limited"] = "ordinary"
@@ -198,7 +200,10 @@ class StaticsChoice(Fields):
         twice = next((each for each in elevations if elevations.count(each) > 1), None)
         if twice is not None:
             raise InputError("sections-twice", "sections", f"{twice:g} m")
-        if self.criteria == "USACE" and self.site_information == "limited" and self.structure == "critical":
+        if self.criteria_file is not None and "criteria" in self.model_fields_set:
+            raise InputError("fields-conflict", "criteria", other="criteria_file")
+        own = self.criteria_file is not None
+        if not own and self.criteria == "USACE" and self.site_information == "limited" and self.structure == "critical":
             # USACE has no factors for these: the site must be explored.
             other = 'structure = "critical" under USACE'
             raise InputError("contradiction", "site_information", shown(self.site_information), other=other)

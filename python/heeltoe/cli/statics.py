@@ -36,7 +36,8 @@ def statics(
     case: CasePath,
     set_: Changes = None,
     criteria: Annotated[
-        str | None, typer.Option(metavar="USACE|USBR|FERC|CDA", help="Whose required factors to judge by.")
+        str | None,
+        typer.Option(metavar="USACE|USBR|FERC|CDA|CADAM3D|FILE.toml", help="Whose required factors to judge by."),
     ] = None,
     slip: Annotated[
         str | None,
@@ -69,10 +70,17 @@ def statics(
     asked = _Asked(slip, model, motion, pga, vary or [], sheet, out, report)
     asked.check()
     check_units(units)
-    changes = [*(set_ or []), *([] if criteria is None else [f"statics.criteria={criteria}"])]
+    changes = [*(set_ or []), *([] if criteria is None else [_judged_by(criteria)])]
     options = (("file", motion and json.dumps(as_given(motion))), ("pga", pga))
     changes += [f"motion.{name}={value}" for name, value in options if value is not None]
     _statics(case, changes, json_, units, asked)
+
+
+def _judged_by(criteria: str) -> str:
+    """Return the change of a case that asks for criteria by their name, or by a file relative to here."""
+    if criteria.endswith(".toml"):
+        return f"statics.criteria_file={json.dumps(as_given(criteria))}"
+    return f"statics.criteria={criteria}"
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from heeltoe.arrays import larger, smaller, where
+from heeltoe.arrays import larger, number, smaller, where
 from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import Edge, cut
@@ -61,8 +61,7 @@ def coefficient(batter: float) -> float:
         Tangent of the angle by which it leans back from the water; negative where it hangs over.
     """
     angle = np.degrees(np.arctan(larger(batter, 0.0)))
-    found: float = np.interp(angle, _ANGLES, _C_M)
-    return found
+    return number(np.interp(angle, _ANGLES, _C_M))
 
 
 def zangar(case: Case, water: Water, *, upstream: bool) -> Zangar:
@@ -82,7 +81,7 @@ def zangar(case: Case, water: Water, *, upstream: bool) -> Zangar:
         second += surface * surface * zero - 2.0 * surface * one + two
         lift += edge.slope * zero
         turning += edge.slope * ((edge.x0 - edge.slope * edge.z0) * zero + edge.slope * by_height)
-    return Zangar(mass, first, second, lift, turning)
+    return Zangar(*map(number, (mass, first, second, lift, turning)))
 
 
 def _moments(t: float) -> tuple[float, float, float]:

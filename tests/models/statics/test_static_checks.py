@@ -8,7 +8,7 @@ import pytest
 
 import heeltoe
 from heeltoe import read_case
-from heeltoe.models.statics.criteria import CRITERIA, criteria
+from heeltoe.models.statics.criteria import CRITERIA, chosen
 from shared.command import command
 from shared.dams import ALL_EXAMPLES, BASE, BLOCK, ENDS, ROOT, SLENDER
 from shared.statics import CLOSE, check, dam, only
@@ -209,7 +209,7 @@ def test_the_documentation_has_the_tables(name):
     ],
 )
 def test_required_sliding_factors(name, loads, choice, factor):
-    rows = [row for row in criteria(name, loads, **choice) if row.check == "sliding"]
+    rows = [row for row in chosen(CRITERIA[name], loads, **choice) if row.check == "sliding"]
     assert [row.required for row in rows] == [factor]
 
 
@@ -219,8 +219,8 @@ def test_every_choice_has_one_sliding_factor():
             for structure in ("critical", "normal"):
                 for information in ("well defined", "ordinary", "limited"):
                     for cohesion in (False, True):
-                        rows = criteria(
-                            name, loads, cohesion=cohesion, structure=structure, site_information=information
+                        rows = chosen(
+                            CRITERIA[name], loads, cohesion=cohesion, structure=structure, site_information=information
                         )
                         count = sum(row.check == "sliding" for row in rows)
                         refused = name == "USACE" and structure == "critical" and information == "limited"

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 _RECORDS = ("motion.file", "motion.vertical.file")
 _MESHES = ("flexible.mesh_above", "flexible.mesh_below")
+_CRITERIA = ("statics.criteria_file",)
 
 
 def unsent(session: Session, fields: dict[str, Any]) -> list[InputError]:
@@ -52,7 +53,7 @@ def _renamed(fields: dict[str, Any], names: dict[str, str]) -> dict[str, Any]:
 
 def named(fields: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any], str]]:
     """Walk the fields that name files: path, block and name in it."""
-    for path in (*_RECORDS, *_MESHES):
+    for path in (*_RECORDS, *_MESHES, *_CRITERIA):
         *blocks, name = path.split(".")
         here: Any = fields
         for each in blocks:

@@ -9,9 +9,10 @@ from heeltoe.case.model import Case
 from heeltoe.mechanics.loads import Resultant, concrete_mass, scaled, static_forces
 from heeltoe.mechanics.virtual_water import moving_force
 from heeltoe.models.statics.contact import Contact
-from heeltoe.models.statics.criteria import Loads, uplift_in_earthquake
+from heeltoe.models.statics.criteria import Loads
 from heeltoe.models.statics.governing import governing
 from heeltoe.models.statics.load_case import Given, Solved, solve_case
+from heeltoe.models.statics.own_criteria import rules_of
 from heeltoe.models.statics.sheet import sources_of, sources_of_inertia
 from heeltoe.models.statics.water import still_water, water_in_earthquake
 from heeltoe.units.sentences import Sentence
@@ -58,7 +59,7 @@ def pseudo_static(case: Case, before: Solved) -> tuple[Solved, ...]:
     """
     horizontal, vertical = case.statics.seismic_coefficient, case.statics.vertical_seismic_coefficient
     assert horizontal is not None
-    law, source = uplift_in_earthquake(case.statics)
+    law, source = rules_of(case).uplift
     still = _contact(case)
     opened = before.settled.heel_crack
     contact = replace(

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from heeltoe.case.options import StaticsChoice
-from heeltoe.models.statics.criteria import Criterion, criteria
+from heeltoe.case.model import Case
+from heeltoe.models.statics.criteria import Criterion
 from heeltoe.models.statics.load_case import LoadCase
+from heeltoe.models.statics.own_criteria import criteria_of
 from heeltoe.units.sentences import Sentence
 
 # A value that meets its limit to rounding meets it.
@@ -24,7 +25,8 @@ class Check:
     load_case
         Name of the load case.
     name
-        "equilibrium", "sliding factor", "flotation factor", "resultant" or "compression".
+        "equilibrium", "sliding factor", "flotation factor", "resultant", "compression" or, by a user's own criteria,
+        "overturning factor".
     value, required
         Factors; of the resultant its distance from the middle of the contact over the width of the contact; of the
         compression the stress over the strength. None where there is no such number.
@@ -66,24 +68,18 @@ class Check:
         return {**vars(self), "margin": self.margin, "sentence": str(self.sentence)}
 
 
-def check_case(found: LoadCase, choice: StaticsChoice) -> tuple[Check, ...]:
-    """Return the checks of a load case by the criteria chosen, equilibrium first.
+def check_case(found: LoadCase, case: Case) -> tuple[Check, ...]:
+    """Return the checks of a load case by the criteria that a case chooses, equilibrium first.
 
     A sliding factor is judged by the factors for cohesion only where cohesion is in its resistance. Of two signs of a
     vertical seismic coefficient each check counts where it is worse.
     """
-    rows = criteria(
-        choice.criteria,
-        found.loads,
-        cohesion=found.cohesive_force_n > 0.0,
-        structure=choice.structure,
-        site_information=choice.site_information,
-    )
+    strength = case.statics.compressive_strength
     checks = [_equilibrium(found)]
-    for row in rows:
+    for row in criteria_of(case, found.loads, cohesion=found.cohesive_force_n > 0.0):
         if row.check == "compression":
-            if choice.compressive_strength is not None:
-                checks.append(_compression(found, row, choice.compressive_strength))
+            if strength is not None:
+                checks.append(_compression(found, row, strength))
         elif row.check == "resultant":
             checks.append(_resultant(found, row))
         else:
@@ -122,10 +118,14 @@ def _equilibrium(found: LoadCase) -> Check:
 
 def _factor(found: LoadCase, row: Criterion) -> Check:
     name = f"{row.check} factor"
-    value = found.sliding_factor if row.check == "sliding" else found.flotation_factor
+    values = {
+        "sliding": (found.sliding_factor, "nothing pushes along the crack"),
+        "overturning": (found.overturning_factor, "nothing turns the block over"),
+        "flotation": (found.flotation_factor, "nothing pushes up"),
+    }
+    value, nothing = values[row.check]
     if value is None:
-        words = "nothing pushes along the crack" if row.check == "sliding" else "nothing pushes up"
-        return _check(found, name, None, row, True, words)
+        return _check(found, name, None, row, True, nothing)
     met = value >= row.required * (1.0 - _ROUNDING)
     digits = _digits(value - row.required)
     words = (
@@ -150,7 +150,7 @@ def _resultant(found: LoadCase, row: Criterion) -> Check:
     place = f"{{eccentricity_m:.{digits}f m}} {side} of" if round(abs(eccentricity), digits) else "in"
     words = (
         f"resultant {place} the middle is {{away_m:.{digits}f m}} "
-        f"{'outside' if away > 0.0 else 'inside'} {_ZONES[row.required]} of {row.source}"
+        f"{'outside' if away > 0.0 else 'inside'} {_zone(row.required)} of {row.source}"
     )
     if found.outcome != "stands":
         words += f", but the block {found.outcome}" if found.outcome == "floats" else ", but the crack opens through"
@@ -162,6 +162,8 @@ def _compression(found: LoadCase, row: Criterion, strength: float) -> Check:
         words = f"no stress to compare with {row.source}: the block does not stand"
         return _check(found, "compression", None, row, False, words)
     stress = max(found.heel_stress_pa, found.toe_stress_pa)
+    if row.largest_pa is not None:
+        row = replace(row, required=min(row.required, row.largest_pa / strength))
     value, allowed = stress / strength, row.required * strength
     met = value <= row.required * (1.0 + _ROUNDING)
     digits = _digits((stress - allowed) / 1e6)
@@ -172,6 +174,10 @@ def _compression(found: LoadCase, row: Criterion, strength: float) -> Check:
     )
     stresses = {"stress_pa": stress, "apart_pa": abs(stress - allowed), "allowed_pa": allowed}
     return _check(found, "compression", value, row, met, words, **stresses)
+
+
+def _zone(share: float) -> str:
+    return _ZONES.get(share) or f"the middle {200.0 * share:.3g} %"
 
 
 def _check(

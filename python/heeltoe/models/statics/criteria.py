@@ -1,4 +1,5 @@
-"""What USACE, USBR, FERC and CDA require of a concrete gravity dam, as tables to choose from.
+"""What USACE, USBR, FERC and CDA, and the defaults of CADAM3D, require of a concrete gravity dam, as tables to choose
+from.
 
 Each row names its document and paragraph. What a row rests on beside the document is in its note: numbers that were
 not compared with the print say so.
@@ -6,10 +7,8 @@ not compared with the print say so.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, TypedDict, Unpack
-
-from heeltoe.case.options import StaticsChoice
 
 Loads = Literal["usual", "unusual", "extreme", "earthquake", "post-earthquake"]
 
@@ -26,9 +25,9 @@ class Criterion:
     loads
         "usual", "unusual" (flood), "extreme" (flood), "earthquake" (pseudo-static) or "post-earthquake".
     check
-        "sliding" and "flotation": factors, at least so much; "resultant": its distance from the middle of the base over
-        the width of the base, at most so much (1/6 the middle third, 1/4 the middle half, 1/2 the base);
-        "compression": stress over the compressive strength, at most so much.
+        "sliding", "flotation" and, of a user's own, "overturning": factors, at least so much; "resultant": its distance
+        from the middle of the base over the width of the base, at most so much (1/6 the middle third, 1/4 the middle
+        half, 1/2 the base); "compression": stress over the compressive strength, at most so much.
     required
         The value.
     document, paragraph
@@ -39,6 +38,8 @@ class Criterion:
         True where it is for resistance with cohesion, False without, None for both.
     structure, site_information
         Which structures and explorations it is for; None for all.
+    largest_pa
+        Of compression: the stress that is never exceeded, however strong the concrete; None without one.
     """
 
     loads: Loads
@@ -50,6 +51,7 @@ class Criterion:
     cohesion: bool | None = None
     structure: str | None = None
     site_information: str | None = None
+    largest_pa: float | None = None
 
     @property
     def source(self) -> str:
@@ -59,7 +61,7 @@ class Criterion:
     @property
     def at_least(self) -> bool:
         """Whether a value must be at least, not at most, the required one."""
-        return self.check in ("sliding", "flotation")
+        return self.check in ("sliding", "overturning", "flotation")
 
 
 class _OnlyFor(TypedDict, total=False):
@@ -152,6 +154,8 @@ _USBR_LOADS: dict[Loads, float] = {
     "earthquake": 1.0,
     "post-earthquake": 1.0,
 }
+_PSI = 6894.757
+_USBR_CAPS: dict[Loads, float] = {"usual": 1500.0 * _PSI, "unusual": 2250.0 * _PSI, "extreme": 2250.0 * _PSI}
 _USBR = (
     *_rows(
         "sliding",
@@ -161,13 +165,16 @@ _USBR = (
         f"{_MEMORY}; within the concrete and at its contact with the rock, in the rock 4.0, 2.7 and 1.3",
         inferred=_POST,
     ),
-    *_rows(
-        "compression",
-        {loads: 1.0 / factor for loads, factor in _USBR_LOADS.items()},
-        _GRAVITY_DAMS,
-        "chapter III, safety factors, 3-20",
-        _MEMORY,
-        inferred=_POST,
+    *(
+        replace(row, largest_pa=_USBR_CAPS.get(row.loads))
+        for row in _rows(
+            "compression",
+            {loads: 1.0 / factor for loads, factor in _USBR_LOADS.items()},
+            _GRAVITY_DAMS,
+            "chapter III, safety factors, 3-20",
+            f"{_MEMORY}; at most 1500 psi under usual loads, 2250 psi under unusual ones",
+            inferred=_POST,
+        )
     ),
 )
 
@@ -187,8 +194,7 @@ _FERC_ROWS = (
         {"usual": 2.0, "unusual": 1.25, "extreme": 1.25, "post-earthquake": 1.0},
         _FERC,
         "section 3-5.3, table 2",
-        f"{_MEMORY}; low hazard",
-        cohesion=True,
+        f"{_MEMORY}; low hazard, for which there is no table 2A",
         structure="normal",
     ),
     *_rows(
@@ -196,8 +202,9 @@ _FERC_ROWS = (
         {"usual": 1.5, "unusual": 1.5, "extreme": 1.3, "post-earthquake": 1.3},
         _FERC,
         "section 3-5.3, table 2A",
-        f"{_MEMORY}; the extreme flood is the probable maximum one",
+        f"{_MEMORY}; high or significant hazard; the extreme flood is the probable maximum one",
         cohesion=False,
+        structure="critical",
     ),
 )
 
@@ -252,12 +259,53 @@ _CDA_ROWS = (
     ),
 )
 
+# What the program suggests; its flood is an extreme one, its unusual case that of idle drains or unusual ice.
+_CADAM = "CADAM3D, default performance indicators"
+_HELP = "read on the help page of the program, which names no guideline; its numbers may be changed there"
+_CADAM_ROWS = (
+    *(
+        row
+        for information, values in (
+            ("well defined", (2.0, 1.5, 1.1, 1.1, 1.5)),
+            ("ordinary", (3.0, 2.0, 1.3, 1.3, 2.0)),
+            ("limited", (3.0, 2.0, 1.3, 1.3, 2.0)),
+        )
+        for row in _rows(
+            "sliding",
+            dict(zip(_three(0.0, 0.0, 0.0), values, strict=True)),
+            _CADAM,
+            f"peak sliding factor, {'with' if information == 'well defined' else 'without'} tests",
+            f"{_HELP}; the page has the larger factors beside the words with tests, CDA (1999) beside no tests",
+            cohesion=True,
+            site_information=information,
+        )
+    ),
+    *_rows(
+        "sliding",
+        dict(zip(_three(0.0, 0.0, 0.0), (1.5, 1.3, 1.0, 1.0, 1.1), strict=True)),
+        _CADAM,
+        "residual sliding factor",
+        _HELP,
+        cohesion=False,
+    ),
+    *_rows("flotation", _three(1.2, 1.1, 1.1), _CADAM, "uplifting factor", _HELP),
+    *_rows("resultant", _three(1.0 / 6.0, 1.0 / 4.0, 1.0 / 2.0), _CADAM, "resultant position", _HELP),
+    *_rows(
+        "compression",
+        dict(zip(_three(0.0, 0.0, 0.0), (0.33, 0.5, 0.67, 0.9, 0.67), strict=True)),
+        _CADAM,
+        "compression at lift joints",
+        f"{_HELP}; at the base 0.25, 0.5, 0.5, 0.67 and 0.5",
+    ),
+)
+
 #: All rows, by the name of the criteria.
 CRITERIA: dict[str, tuple[Criterion, ...]] = {
     "USACE": _USACE,
     "USBR": _USBR,
     "FERC": _FERC_ROWS,
     "CDA": _CDA_ROWS,
+    "CADAM3D": _CADAM_ROWS,
 }
 
 #: What the criteria say of the uplift where the earthquake opens the crack, "unchanged" or "zero", and where that
@@ -267,23 +315,12 @@ UPLIFT_IN_EARTHQUAKE: dict[str, tuple[str, str]] = {
     "USBR": ("zero", "USBR, Design of Small Dams, 3rd edition (1987): zero where the earthquake opens the crack"),
     "FERC": ("unchanged", f"{_FERC}: unchanged by the earthquake"),
     "CDA": ("unchanged", "CDA, Dam Safety Guidelines (1997): unchanged, as where seismicity is low"),
-}
-_CHOSEN = {
-    "unchanged": "unchanged by the earthquake, as the case asks (USACE, FERC)",
-    "zero": "zero where the earthquake opens the crack, as the case asks (USBR)",
-    "full": "at once the reservoir's where the earthquake opens the crack, as the case asks (ICOLD 1986)",
+    "CADAM3D": ("unchanged", f"{_EM_2200}: unchanged by the earthquake, one of the choices of CADAM3D"),
 }
 
 
-def uplift_in_earthquake(choice: StaticsChoice) -> tuple[str, str]:
-    """Return what the uplift does where the earthquake opens the crack, "unchanged", "zero" or "full", and where that
-    stands."""
-    law = choice.uplift_in_earthquake
-    return UPLIFT_IN_EARTHQUAKE[choice.criteria] if law == "criteria" else (law, _CHOSEN[law])
-
-
-def criteria(
-    name: str,
+def chosen(
+    rows: tuple[Criterion, ...],
     loads: Loads,
     *,
     cohesion: bool = False,
@@ -294,8 +331,8 @@ def criteria(
 
     Parameters
     ----------
-    name
-        "USACE", "USBR", "FERC" or "CDA".
+    rows
+        Of some criteria.
     loads
         Case of loads.
     cohesion
@@ -307,7 +344,7 @@ def criteria(
     """
     return tuple(
         row
-        for row in CRITERIA[name]
+        for row in rows
         if row.loads == loads
         and row.cohesion in (None, cohesion)
         and row.structure in (None, structure)
@@ -315,9 +352,8 @@ def criteria(
     )
 
 
-def unread(name: str) -> tuple[str, ...]:
-    """Return which fields of ``[statics]`` these criteria do not ask for."""
-    rows = CRITERIA[name]
+def unread(rows: tuple[Criterion, ...]) -> tuple[str, ...]:
+    """Return which fields of ``[statics]`` criteria do not ask for."""
     asked = {
         "structure": any(row.structure for row in rows),
         "site_information": any(row.site_information for row in rows),

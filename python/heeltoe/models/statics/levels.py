@@ -8,8 +8,8 @@ from scipy.optimize import brentq
 
 from heeltoe.case.model import Case
 from heeltoe.models.statics.cases import at_depth, usual
-from heeltoe.models.statics.criteria import criteria
 from heeltoe.models.statics.load_case import LoadCase
+from heeltoe.models.statics.own_criteria import criteria_of
 
 # Depths that the search for a critical water level looks at: a sign that changes twice between two of them is no level
 # that anyone could keep to.
@@ -30,15 +30,9 @@ def critical_water_levels(case: Case) -> dict[str, float | None]:
     if case.ice is not None:
         lowest = max(lowest, case.ice.depth)
     counted = bool(case.statics.cohesion and case.statics.bonded)
-    choice = case.statics
-    rows = criteria(
-        choice.criteria,
-        "usual",
-        cohesion=counted,
-        structure=choice.structure,
-        site_information=choice.site_information,
-    )
-    required = next(row.required for row in rows if row.check == "sliding")
+    rows = criteria_of(case, "usual", cohesion=counted)
+    # Criteria of a user's own may ask for none.
+    required = next((row.required for row in rows if row.check == "sliding"), None)
     known: dict[float, LoadCase] = {}
 
     def state(depth: float) -> LoadCase:
@@ -62,7 +56,7 @@ def critical_water_levels(case: Case) -> dict[str, float | None]:
 
     margins: dict[str, Callable[[float], float]] = {
         "sliding": sliding(1.0),
-        "sliding_required": sliding(required),
+        "sliding_required": sliding(0.0 if required is None else required),
         "overturning": overturning,
         "flotation": lambda depth: state(depth).normal_force_n,
     }

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any
 
 from heeltoe.case.model import Case
-from heeltoe.case.options import StaticsChoice
 from heeltoe.case.use import unused_fields
 from heeltoe.case.warnings import case_warnings
 from heeltoe.dataframe import dataframe
@@ -19,6 +18,7 @@ from heeltoe.models.statics.checks import Check, check_case, fallen
 from heeltoe.models.statics.criteria import unread
 from heeltoe.models.statics.levels import critical_water_levels
 from heeltoe.models.statics.load_case import LoadCase
+from heeltoe.models.statics.own_criteria import Rules, rules_of
 from heeltoe.references import REFERENCES
 from heeltoe.result.write import build_info, critical_json
 from heeltoe.shown import Shown
@@ -150,14 +150,14 @@ def statics(
         Where the crack does not cut the section in two.
     """
     expect(case, Case, "not-a-case", "case")
-    section, choice = case.cut, case.statics
-    warnings = [*case_warnings(case), *unused_fields(case, ("statics", *beside)), *_unread(choice)]
+    section, choice, rules = case.cut, case.statics, rules_of(case)
+    warnings = [*case_warnings(case), *unused_fields(case, ("statics", *beside)), *_unread(case, rules)]
     before = usual(case)
     solved = [before, *([flood(case)] if choice.flood_depth is not None else [])]
     if choice.seismic_coefficient is not None:
         solved += pseudo_static(case, before)
     cases = [each.load_case for each in solved]
-    checks = [check for each in cases for check in check_case(each, choice)]
+    checks = [check for each in cases for check in check_case(each, case)]
     slip, source = _slip(case, slip_m, slip_source)
     if overturned_about is not None:
         slip, source = None, None
@@ -171,7 +171,7 @@ def statics(
             checks.append(fallen(lost, slip_m=abs(slip), width_m=section.crack_width))
         else:
             cases.append(after.load_case)
-            checks += check_case(after.load_case, choice)
+            checks += check_case(after.load_case, case)
         if source == _UNKNOWN:
             warnings.append(Notice("slip-unknown"))
     warnings += _said_of(case, before.load_case)
@@ -180,7 +180,7 @@ def statics(
         references[REFERENCES["water"]] = None
     return Statics(
         title=case.title,
-        criteria=choice.criteria,
+        criteria=rules.name,
         structure=choice.structure,
         site_information=choice.site_information,
         cases=tuple(cases),
@@ -211,10 +211,10 @@ def _said_of(case: Case, usual: LoadCase) -> list[Notice]:
     return said
 
 
-def _unread(choice: StaticsChoice) -> tuple[Notice, ...]:
+def _unread(case: Case, rules: Rules) -> tuple[Notice, ...]:
     """Say what is given and not asked for by the criteria."""
-    idle = [f"statics.{name}" for name in unread(choice.criteria) if name in choice.model_fields_set]
-    why = f'statics.criteria = "{choice.criteria}"'
+    idle = [f"statics.{name}" for name in unread(rules.rows) if name in case.statics.model_fields_set]
+    why = f'statics.criteria = "{rules.name}"'
     return (Notice("fields-idle", field=idle[0], fields=", ".join(idle), why=why),) if idle else ()
 
 
