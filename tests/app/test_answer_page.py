@@ -76,6 +76,26 @@ def test_looks(places, heard_well):
     assert not heard_well(page)
 
 
+def test_a_telephone_shows_what_is_dragged_and_what_it_does(page):
+    page.set_viewport_size({"width": 390, "height": 760})
+    page.wait_for_selector(SLIP)
+    settled(page)
+    for path in ("crack.friction", "motion.pga"):
+        slider = page.locator(f"[id='slider-{path.replace('.', '-')}']")
+        slider.evaluate("each => each.scrollIntoView({ block: 'end' })")
+        plot, knob = page.locator("#page-answer .plot").bounding_box(), slider.bounding_box()
+        assert -1 <= plot["y"] < plot["y"] + plot["height"] <= knob["y"] < 760
+    # Nothing that is read below lies behind the plot.
+    for part in (".moving svg", ".card[data-details=rigid] [aria-label=Results]"):
+        page.locator(part).evaluate("each => each.scrollIntoView({ block: 'start' })")
+        assert page.locator(part).evaluate(
+            """each => {
+                const { x, y, width } = each.getBoundingClientRect();
+                return each.contains(document.elementFromPoint(x + width / 2, y + 20));
+            }"""
+        )
+
+
 def test_an_elastic_run_is_cancelled(page):
     page.wait_for_selector(SLIP)
     page.click("text=Run the elastic dam")

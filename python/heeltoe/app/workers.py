@@ -82,13 +82,14 @@ class Workers:
         """End all."""
         self._threads.shutdown(wait=False, cancel_futures=True)
         for each in (*self._processes.values(), self._reader):
-            _end(each)
+            _end(each, wait=True)
 
 
-def _end(pool: ProcessPoolExecutor) -> None:
+def _end(pool: ProcessPoolExecutor, *, wait: bool = False) -> None:
+    """End a process, and with `wait` what looks after it, too, which the end of Python would meet half closed."""
     for each in (pool._processes or {}).values():
         each.terminate()
-    pool.shutdown(wait=False, cancel_futures=True)
+    pool.shutdown(wait=wait, cancel_futures=True)
 
 
 def _process() -> ProcessPoolExecutor:

@@ -23,8 +23,8 @@ function curves(answer) {
   return made;
 }
 
-/** @param {Shown[]} shown */
-function traces(shown) {
+/** @param {Shown[]} shown @param {boolean} narrow */
+function traces(shown, narrow) {
   /** @type {object[]} */
   const found = [];
   shown.forEach(({ model, stale, answer }, place) => {
@@ -51,7 +51,7 @@ function traces(shown) {
       }
     }
     if (x.length) {
-      found.push({ x, y, yaxis: AXES.modes, type: "scatter", mode: "lines", name: kind, line: { color: colour(kind), width: shown.length > 2 ? 13 : 18 }, hovertemplate: `${kind}, %{x:.2f} s` });
+      found.push({ x, y, yaxis: AXES.modes, type: "scatter", mode: "lines", name: kind, line: { color: colour(kind), width: narrow ? 9 : shown.length > 2 ? 13 : 18 }, hovertemplate: `${kind}, %{x:.2f} s` });
     }
   }
   return found;
@@ -63,14 +63,14 @@ function traces(shown) {
  */
 function layout(shown, narrow) {
   const { slip, rotation } = shown[0].answer.curves;
-  const titles = /** @type {Record<string, string>} */ ({ ground: "ground [g]", slip: `slip [${slip.unit}]<br>+ downstream`, rotation: `rotation [${rotation.unit}]<br>+ about heel`, modes: "" });
+  const titles = /** @type {Record<string, string>} */ ({ ground: narrow ? "[g]" : "ground [g]", slip: `slip [${slip.unit}]${narrow ? "" : "<br>+ downstream"}`, rotation: `rotation [${rotation.unit}]${narrow ? "" : "<br>+ about heel"}`, modes: "" });
   const end = Math.max(...shown.map(({ answer }) => answer.curves.end));
   const made = /** @type {Record<string, object>} */ ({
     xaxis: { range: [0, end], title: { text: "time [s]" }, anchor: "y4", gridcolor: colour("rule"), zerolinecolor: colour("rule"), linecolor: colour("line") },
   });
   for (const [row, domain] of Object.entries(ROWS)) {
     made[AXES[row].replace("y", "yaxis")] = {
-      domain, title: { text: titles[row], font: { size: 12 } }, gridcolor: colour("rule"), zerolinecolor: colour("line"), nticks: 5, fixedrange: row === "modes",
+      domain, title: { text: titles[row], font: { size: 12 }, standoff: 4 }, gridcolor: colour("rule"), zerolinecolor: colour("line"), nticks: narrow && row === "ground" ? 3 : 5, fixedrange: row === "modes",
       ...(row === "modes" ? { type: "category", categoryarray: shown.map(({ model }) => model).reverse(), categoryorder: "array", showgrid: false, range: [-0.6, shown.length - 0.4] } : { automargin: false }),
     };
   }
@@ -90,7 +90,7 @@ export async function draw(place, shown) {
   const narrow = place.clientWidth < 600;
   const before = /** @type {any} */ (place)._fullLayout;
   if (before && before.width !== place.clientWidth) await plotly.Plots.resize(place);
-  await plotly.react(place, traces(shown), layout(shown, narrow), { responsive: true, displaylogo: false, displayModeBar: narrow ? false : "hover", modeBarButtonsToRemove: ["select2d", "lasso2d", "toImage"] });
+  await plotly.react(place, traces(shown, narrow), layout(shown, narrow), { responsive: true, displaylogo: false, displayModeBar: narrow ? false : "hover", modeBarButtonsToRemove: ["select2d", "lasso2d", "toImage"] });
 }
 
 /**
