@@ -79,6 +79,9 @@ def test_what_is_wrong_is_said_at_its_field(studies):
     studies.fill("#study-samples", "9999999999")
     studies.wait_for_selector("text=/too many|no power/")
     studies.click("button:text-is('Fragility')")
+    studies.fill("#study-correlation", "crack.friction, nothing, 0.4")
+    studies.wait_for_selector("[data-field=correlation] .wrong:not(:empty)")
+    studies.fill("#study-correlation", "")
     studies.wait_for_function("() => /^1,000 runs/.test(document.querySelector('.outlook').textContent)")
 
 

@@ -75,6 +75,22 @@ def test_errors_are_told_at_their_fields(session, form, field):
     assert told["error"]["field"] == field
 
 
+def test_fields_are_drawn_together_and_intervals_have_their_confidence(session):
+    row = {"kind": "uniform", "from": "0.8", "to": "1.2"}
+    vary = [{"path": "crack.friction", **row}, {"path": "uplift.intensity", **row, "from": "0.2", "to": "0.9"}]
+    form = {**FORM, "method": "latin hypercube", "samples": "8", "vary": vary}
+    form |= {"correlation": "crack.friction, uplift.intensity, 0.4;", "limit.opening": "10 mm"}
+    _, study, _ = asked = study_asked({**form, "fragility.confidence": "0.8"}, session)
+    assert study["correlation"] == [["crack.friction", "uplift.intensity", 0.4]]
+    assert study["fragility"]["confidence"] == 0.8
+    assert "8 runs" in look(asked, session.folder / "study-3", 100)["outlook"]
+    for wrong, field in (({"correlation": "crack.friction, x, 0.4"}, "correlation[0]"),
+                         ({"correlation": "crack.friction"}, "correlation[0]"),
+                         ({"fragility.confidence": "2"}, "fragility.confidence")):  # fmt: skip
+        told = look(study_asked({**form, **wrong}, session), session.folder / "study-4", 100)
+        assert told["error"]["field"].startswith(field), wrong
+
+
 def test_plain_numbers_are_in_the_units_that_are_chosen(session):
     session.units = "us"
     row = {"path": "reservoir.depth", "kind": "list", "values": "300, 90 m"}

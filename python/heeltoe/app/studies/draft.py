@@ -109,6 +109,7 @@ def study_asked(asked: object, session: Session) -> tuple[dict[str, Any], dict[s
         if given:
             found[name] = _whole(given)
     found["vary"] = _vary(_list(form, "vary", MOST_FIELDS), session.units)
+    found["correlation"] = _correlation(_text(form, "correlation"))
     motions = _motions(form, session)
     if motions:
         found["motions"] = motions
@@ -118,8 +119,9 @@ def study_asked(asked: object, session: Session) -> tuple[dict[str, Any], dict[s
             "limits": {name: values for name, values in limits.items() if values},
             "measure": _text(form, "fragility.measure") or "pga",
             **_given(form, "fragility.period", "period"),
+            **{name: _numeric(given) for name, given in _given(form, "fragility.confidence", "confidence").items()},
         }
-    study = {name: value for name, value in found.items() if value not in ("", {})}
+    study = {name: value for name, value in found.items() if value not in ("", {}, [])}
     return fields_in_force(session), study, sent_files(session)
 
 
@@ -142,6 +144,12 @@ def _vary(rows: list[Any], units: str) -> dict[str, Any]:
         else:
             raise BadRequestError("kind is a list or a distribution")
     return found
+
+
+def _correlation(text: str) -> list[list[str | float]]:
+    """Return pairs of fields with what they have to do with each other."""
+    pairs = [[part.strip() for part in each.split(",")] for each in text.split(";") if each.strip()]
+    return [[*parts[:2], *map(_numeric, parts[2:])] for parts in pairs]
 
 
 def _numbers() -> tuple[str, ...]:

@@ -39,6 +39,8 @@ export class StudyForm {
     const before = this.root.hasChildNodes() ? this.read() : null;
     this.choices = choices;
     this.vary.fields = choices.fields;
+    this.vary.root.querySelector("[data-field=correlation]")?.remove();
+    this.vary.root.append(this._field("correlation", "Drawn together", "two fields and their rank correlation; several with ; between them", "crack.friction, reservoir.depth, 0.4"));
     this.root.replaceChildren(this._begin(), this._what(choices), this.vary.root, this._motions(choices), this._fragility(choices));
     this.write(before || BEGIN.Grid);
   }
@@ -105,6 +107,7 @@ export class StudyForm {
       element("div", { class: "pair" }, ...limits),
       this._select("fragility.measure", "Over", choices.measures.map((/** @type {string} */ name) => [name, name])),
       this._field("fragility.period", "Period", "of sa", "0.3 s"),
+      this._field("fragility.confidence", "Confidence", "the probability of the intervals", "0.9"),
     );
   }
 
@@ -140,6 +143,7 @@ export class StudyForm {
     const drawn = DRAWN.includes(at("method"));
     this._row("samples").hidden = !drawn;
     this._row("seed").hidden = !drawn;
+    this._row("correlation").hidden = !drawn || at("method") === "sensitivity";
     const find = (/** @type {string} */ name) => /** @type {HTMLElement} */ (this.root.querySelector(name));
     find(".of-records").hidden = at("source") !== "records";
     find(".of-scale").hidden = at("scale.measure") === "";

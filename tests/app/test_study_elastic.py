@@ -1,0 +1,67 @@
+"""A study of elastic dams in the app: cancelled, it leaves no process behind, and goes on where it stopped."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+
+pytest.importorskip("starlette")
+
+from starlette.testclient import TestClient
+
+from heeltoe.app.server import application
+from heeltoe.app.settings import Settings
+
+psutil = pytest.importorskip("psutil")
+
+HOME = "http://127.0.0.1:8642"
+COARSE = {"flexible.elements_across": "2", "flexible.evidence": "none"}
+FRICTION = {"path": "crack.friction", "kind": "list", "values": ", ".join(f"{0.6 + 0.02 * k:.2f}" for k in range(30))}
+STUDY = {"models": ["flexible"], "method": "grid", "source": "case", "vary": [FRICTION]}
+
+
+def processes() -> set[int]:
+    """Return all that this process has begun, and what those have."""
+    return {each.pid for each in psutil.Process().children(recursive=True)}
+
+
+@pytest.mark.slow
+def test_a_study_of_elastic_dams_is_cancelled_and_gone_on_with(tmp_path):
+    with (
+        TestClient(application(Settings("127.0.0.1", 8642, tmp_path)), base_url=HOME) as client,
+        client.websocket_connect("/talk", headers={"host": "127.0.0.1:8642", "origin": HOME}) as tab,
+    ):
+
+        def heard(fits):
+            while not fits(told := tab.receive_json()):
+                assert told["of"] not in ("bad request", "refused", "study refused"), told
+            return told
+
+        tab.send_json({"do": "edit case", "changes": COARSE})
+        tab.send_json({"do": "study look", "study": STUDY})
+        assert heard(lambda told: told["of"] == "study look")["outlook"].startswith("30 runs")
+        before = processes()
+        tab.send_json({"do": "study run", "study": STUDY})
+        running = heard(lambda told: told["of"] == "job" and "of 30 runs" in told["said"])
+        done = int(running["said"].split()[0])
+        assert 0 < done < 30
+        assert len(processes() - before) > 2  # the workers of the study among them
+        tab.send_json({"do": "cancel", "number": running["number"]})
+        heard(lambda told: told["of"] == "job" and told["state"] == "cancelled")
+        deadline = time.monotonic() + 30.0
+        while processes() - before and time.monotonic() < deadline:
+            time.sleep(0.2)
+        assert not processes() - before
+
+        tab.send_json({"do": "study form"})
+        number = heard(lambda told: told["of"] == "study form")["studies"][0]["number"]
+        tab.send_json({"do": "study answers", "number": number})
+        assert not heard(lambda told: told["of"] == "study answers")["complete"]
+        tab.send_json({"do": "study run", "number": number})
+        first = heard(lambda told: told["of"] == "job" and "of 30 runs" in told["said"])
+        assert int(first["said"].split()[0]) > done
+        ended = heard(lambda told: told["of"] == "job" and told["state"] not in ("running", "cancelled"))
+        assert ended["state"] == "done", ended["said"]
+        tab.send_json({"do": "study answers", "number": number})
+        assert heard(lambda told: told["of"] == "study answers")["complete"]
