@@ -21,7 +21,7 @@ _LONG = {
     "random-dams",
     "evidence",
 }
-_LONG_ON_RECORDS = {"table-7.1", "table-7.7", "table-7.8", "table-7.10", "halving", "penalty"}
+_LONG_ON_RECORDS = {"table-7.1", "table-7.7", "table-7.8", "table-7.10", "halving", "penalty", "koyna-chain"}
 _SHORT = [name for name in CASES if name not in _NEED_RECORDS | _LONG | _LONG_ON_RECORDS]
 
 

@@ -219,4 +219,4 @@ class Decoupled(Fields):
     """The block feels the rotation of the crack too."""
     upper_part: Literal["rigid body", "mass on the crack"] = "rigid body"
     """How the part above the crack hangs on the part below it: as a rigid body with its lever arm and its inertia; or,
-    as in Zhu (2004), as its mass alone, spread evenly along the crack."""
+    as in Zhu (2004), as the mass of its concrete alone, spread evenly along the crack."""

@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 
 from heeltoe import GroundMotion, InputError, build_block, read_case, response_spectrum
 from heeltoe.kernel.shaking import Shaking
-from heeltoe.models.decoupled.chain import Chain, attached_mass, bonded_chain, chain, plane_fit
+from heeltoe.models.decoupled.chain import Chain, attached_mass, bonded_chain, chain, face_shares, plane_fit
 from heeltoe.models.decoupled.crack_motion import STRAIGHT, accelerations, crack_motion
 from heeltoe.models.flexible.elastic import dofs
 from heeltoe.models.flexible.mesh.dam import dam_mesh
@@ -122,6 +122,34 @@ def test_a_rigid_motion_of_the_face_is_taken_for_what_it_is():
     bulge[1::2] = (x - middle) ** 2
     assert (fit @ bulge)[[0, 2]] == pytest.approx([0.0, 0.0], abs=1e-9)
     assert (fit @ bulge)[1] == pytest.approx(section.crack_width**2 / 12.0, rel=1e-9)
+
+
+@pytest.mark.parametrize("inclination", ["0 deg", "15 deg"])
+def test_a_mass_on_the_crack_is_spread_evenly(inclination):
+    case = read_case(KOYNA, ["flexible.elements_across=5", f"crack.inclination={inclination}"])
+    mesh = dam_mesh(case).lower
+    shares = face_shares(mesh)
+    along = mesh.nodes[mesh.crack] - mesh.nodes[mesh.crack[0]]
+    s = np.hypot(*along.T) / np.hypot(*along[-1])
+    # Of fields up to quadratic ones the integrals are exact.
+    for a, b in ((0, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 2)):
+        assert s**a @ shares @ s**b == pytest.approx(1.0 / (a + b + 1), rel=1e-9)
+    assert shares == pytest.approx(shares.T, abs=1e-15)
+
+
+def test_the_mass_on_the_crack_is_that_of_the_concrete_above():
+    def first_period(*more):
+        return chain(read_case(KOYNA, ["flexible.elements_across=3", *more])).periods[0]
+
+    on_crack, dry = "decoupled.upper_part=mass on the crack", "reservoir.depth=0m"
+    light = first_period(on_crack, dry)
+    # A dam of twice the density swings in the root of two times the period.
+    assert first_period(on_crack, dry, "concrete.density=5286 kg/m^3") == pytest.approx(math.sqrt(2.0) * light)
+    # Without lever arm and inertia it swings faster; no virtual water of the part above comes with it.
+    assert first_period(dry) > 1.1 * light
+    above = "flexible.virtual_mass=thesis"
+    assert first_period(on_crack, above) == pytest.approx(light, rel=1e-9)
+    assert first_period(above) > 1.02 * first_period(dry)
 
 
 def test_the_attached_mass_has_the_energy_of_the_block():

@@ -181,10 +181,10 @@ def _attached(case: Case, block: Block, mesh: BodyMesh, plane: Sparse) -> Sparse
     if case.decoupled.upper_part == "rigid body":
         # It moves as the fitted plane does.
         return plane.T @ sparse.csr_array(attached_mass(case, block)) @ plane
+    # The mass of the upper portion, as Zhu (2004) says: the virtual water before it is none of it.
     concrete = case.concrete.density * block.section.area
-    horizontal = concrete + block.water.mass
     places = dofs(mesh.crack)
-    shares = sparse.kron(face_shares(mesh), np.diag([horizontal, concrete])).tocoo()
+    shares = sparse.kron(face_shares(mesh), concrete * np.eye(2)).tocoo()
     size = mesh.nodes.size
     return sparse.csr_array((shares.data, (places[shares.row], places[shares.col])), (size, size))
 

@@ -129,6 +129,7 @@ def _crack_level(case: Case, part: Chain, found: CrackMotion, earthquake: Earthq
         "ground_peak_g": motion.pga / g,
         "amplification": found.horizontal.pga / motion.pga if motion.pga else None,
         "felt": felt,
+        "upper_part": case.decoupled.upper_part,
         "periods_s": own.tolist(),
         "damping_ratio": part.damping,
         "modes": int(part.omega.size),

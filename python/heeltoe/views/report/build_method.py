@@ -36,6 +36,10 @@ _ROTATION = {
     "p-delta": "Rotations are small, but the moment of the weight that changes with the rotation counts (P-Delta), "
     "so that the block can overturn.",
 }
+_CARRIED = {
+    "rigid body": "the part above as a rigid body that does not slip",
+    "mass on the crack": "the mass of the concrete above, spread evenly along the crack, as in Zhu (2004)",
+}
 _DAMPING = {
     "relative": "on the motion relative to a rigid slide of the part above along the crack, so that a dam that slides "
     "or rocks as a whole is not held back",
@@ -235,8 +239,8 @@ def _decoupled(writer: _Writer, subject: Subject) -> None:
     ]
     felt = f"The block feels the {' and the '.join(more)} of the crack too." if more else ""
     writer.say(
-        "The part below the crack is elastic and carries the part above as a rigid body that does not slip. Its "
-        "motion at the crack, summed over the modes $k$, shakes the block; what the block does does not act back.",
+        f"The part below the crack is elastic and carries {_CARRIED[case.decoupled.upper_part]}. Its motion at the "
+        "crack, summed over the modes $k$, shakes the block; what the block does does not act back.",
         felt,
     )
     writer.show("crack motion")

@@ -5,6 +5,11 @@ from __future__ import annotations
 from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.units.sentences import written
 
+_ATTACHED = {
+    "rigid body": "the part above attached as a rigid body",
+    "mass on the crack": "the mass of the concrete above on its crack",
+}
+
 
 def crack_lines(response: DecoupledResponse, units: str) -> list[tuple[str, str]]:
     """Return how the crack moves, what vibrates below it, and how finely its motion is sampled."""
@@ -35,7 +40,7 @@ def crack_lines(response: DecoupledResponse, units: str) -> list[tuple[str, str]
         ),
         (
             "periods below",
-            f"{periods or 'none above 0.005'} s, of the part below with the part above attached; "
+            f"{periods or 'none above 0.005'} s, of the part below with {_ATTACHED[level['upper_part']]}; "
             f"{level['modes']} modes, {100.0 * level['damping_ratio']:.3g} % damping in each",
         ),
         ("dam without a crack", f"{whole}, all of it elastic"),
