@@ -15,6 +15,8 @@ from types import ModuleType
 
 from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.motion.records import seismology
+from heeltoe.motion.records.archive import LARGEST_BYTES, is_archive, unpacked
 from heeltoe.motion.records.catalog import find
 from heeltoe.motion.records.channel import choose, numbered
 from heeltoe.motion.records.formats import (
@@ -59,8 +61,8 @@ READERS: tuple[ModuleType, ...] = (
 )
 
 _NOTHING_TOLD = Told()
-# No record comes near; what is larger is something else.
-_LARGEST_BYTES = 64_000_000
+# What a file of an archive may be beside a record: a readme, a picture, the velocity, or the record uncorrected.
+_NO_RECORD = {"record-format", "record-format-later", "record-binary", "record-empty", "record-not-acceleration"}
 
 
 def read_record(
@@ -109,7 +111,8 @@ def read_record(
         return synthetic(text, gravity=gravity, field=f"{field}.file")
     place = _place(path, field)
     data, name = _load(place)
-    return called(read_text(data, name, channel, Told(unit, time_step, gravity, field, assume)), place, text)
+    told = Told(unit, time_step, gravity, field, assume)
+    return called(_chosen(_records(data, name, place), name, channel, told), place, text)
 
 
 def read_channels(
@@ -122,8 +125,10 @@ def read_channels(
     assume: bool = True,
 ) -> list[GroundMotion]:
     """Read all channels of a file, to look at them; see :func:`read_record`. Most files have one."""
-    data, name = _load(_place(path, field))
-    return read_text_channels(data, name, Told(unit, time_step, gravity, field, assume))
+    place = _place(path, field)
+    data, name = _load(place)
+    records = _records(data, name, place)
+    return [to_motion(raw, name, len(records), Told(unit, time_step, gravity, field, assume)) for raw in records]
 
 
 def called(motion: GroundMotion, path: Path, given: str) -> GroundMotion:
@@ -135,7 +140,10 @@ def called(motion: GroundMotion, path: Path, given: str) -> GroundMotion:
 
 def read_text(data: bytes, name: str, channel: str | int | None = None, told: Told = _NOTHING_TOLD) -> GroundMotion:
     """Read a record from the bytes of its file; see :func:`read_record`."""
-    records = _records(data, name)
+    return _chosen(_records(data, name), name, channel, told)
+
+
+def _chosen(records: list[RawRecord], name: str, channel: str | int | None, told: Told) -> GroundMotion:
     return to_motion(choose(records, channel, name, f"{told.field}.channel"), name, len(records), told)
 
 
@@ -157,19 +165,41 @@ def _load(path: str | os.PathLike[str]) -> tuple[bytes, str]:
         # A device or a pipe may never end.
         if not stat.S_ISREG(status.st_mode):
             raise InputError("record-unreadable", str(path), reason="it is not a file")
-        if status.st_size > _LARGEST_BYTES:
+        if status.st_size > LARGEST_BYTES:
             raise InputError("record-large", str(path), f"{status.st_size / 1e6:.0f} MB")
         return path.read_bytes(), path.name
     except (OSError, ValueError) as error:
         raise InputError("record-unreadable", str(path), reason=getattr(error, "strerror", None) or error) from None
 
 
-def _records(data: bytes, name: str) -> list[RawRecord]:
-    """The channels of a file, numbered."""
-    return numbered(_read(data, name))
+def _records(data: bytes, name: str, place: Path | None = None) -> list[RawRecord]:
+    """The channels of a file, or of all the files in an archive, numbered."""
+    stations = seismology.beside(place) if place is not None else []
+    if not is_archive(data):
+        return numbered(_read(data, name, stations))
+    files = unpacked(data, name)
+    stations += [content for _, content in files if seismology.is_station_xml(content)]
+    records: list[RawRecord] = []
+    refused: list[InputError] = []
+    for own, content in files:
+        if len(files) > 1 and seismology.is_station_xml(content):
+            continue
+        try:
+            records += _read(content, own, stations)
+        except InputError as error:
+            if len(files) == 1 or error.code not in _NO_RECORD:
+                raise
+            refused.append(error)
+    if not records:
+        raise refused[0] if refused else InputError("record-archive-empty", name)
+    return numbered(records)
 
 
-def _read(data: bytes, name: str) -> list[RawRecord]:
+def _read(data: bytes, name: str, stations: list[bytes]) -> list[RawRecord]:
+    if is_archive(data):
+        raise InputError("record-archive", name, reason="it stands in another one")
+    if seismology.is_miniseed(data) or seismology.is_sac(data):
+        return seismology.read(data, name, stations)
     lines = _lines(data, name)
     reader = next((reader for reader in READERS if reader.matches(lines)), None)
     if reader is None:

@@ -29,7 +29,25 @@ MADE_TO_ORDER = (
     "synthetic:M6.5,20km,seed=1",
     "made to order: magnitude, distance, seed; also vs30=760, fault=reverse, scatter=yes, step=0.005, corner=0.1",
 )
-_RECORD_ENDINGS = {".txt", ".at2", ".dat", ".csv", ".v2", ".v2c", ".smc", ".acc", ""} | {
+_RECORD_ENDINGS = {
+    ".txt",
+    ".at2",
+    ".dat",
+    ".csv",
+    ".v2",
+    ".v2c",
+    ".smc",
+    ".acc",
+    ".asc",
+    ".v1",
+    ".v1a",
+    ".v2a",
+    ".mseed",
+    ".sac",
+    ".zip",
+    ".gz",
+    "",
+} | {
     f".{direction}{sensor}"
     for direction in ("ns", "ew", "ud")
     for sensor in ("", "1", "2")  # K-NET and KiK-net

@@ -1,0 +1,165 @@
+"""miniSEED and SAC, by obspy: the one with the sensitivity of its instrument from a StationXML, the other in a unit
+that its file does not state."""
+
+from __future__ import annotations
+
+import io
+import re
+import struct
+import warnings
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from heeltoe.errors import InputError
+from heeltoe.motion.records.raw import RawRecord, peaked
+
+_MINISEED = re.compile(rb"\d{6}[DRQM][ \0]")
+# Of SAC: where a header states its version, and which ones there are.
+_VERSION, _VERSIONS, _HEADER = 304, (6, 7), 632
+_NO_NUMBER = -12345.0
+_OTHERS = {6: "displacement", 7: "velocity", 50: "velocity in volts"}
+_LARGEST_XML = 20_000_000
+_ACCELERATION = re.compile(r"(?P<unit>n|u|m|c)?m/(?:s\*\*2|s\^2|s/s|s2|sec\*\*2)", re.IGNORECASE)
+_PARTS = {"": 1.0, "c": 1e-2, "m": 1e-3, "u": 1e-6, "n": 1e-9}
+
+
+def is_miniseed(data: bytes) -> bool:
+    """Whether a file opens as miniSEED does."""
+    return _MINISEED.match(data) is not None
+
+
+def is_sac(data: bytes) -> bool:
+    """Whether a file has the header of SAC."""
+    if len(data) < _HEADER:
+        return False
+    return any(struct.unpack_from(f"{order}i", data, _VERSION)[0] in _VERSIONS for order in "<>")
+
+
+def is_station_xml(data: bytes) -> bool:
+    """Whether a file describes stations and their instruments."""
+    return b"<FDSNStationXML" in data[:2000]
+
+
+def beside(path: Path) -> list[bytes]:
+    """Return the StationXML that lies beside a file under its name."""
+    found = path.with_suffix(".xml")
+    try:
+        if found.is_file() and found.stat().st_size <= _LARGEST_XML:
+            return [found.read_bytes()]
+    except (OSError, ValueError):
+        pass
+    return []
+
+
+def read(data: bytes, name: str, stations: list[bytes]) -> list[RawRecord]:
+    """Read every channel of a file of either format.
+
+    Parameters
+    ----------
+    data
+        The file.
+    name
+        Of it.
+    stations
+        StationXML that may describe its instruments.
+
+    Raises
+    ------
+    InputError
+        Where obspy is not installed, the file is damaged, or its counts cannot be turned to accelerations.
+    """
+    if find_spec("obspy") is None:
+        raise InputError("record-package", name)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        import obspy
+
+        seed = is_miniseed(data)
+        try:
+            stream = obspy.read(io.BytesIO(data), format="MSEED" if seed else "SAC")
+            stream.merge(method=-1)
+        # A damaged file ends in whatever the reader stumbles over.
+        except Exception:
+            raise InputError("record-header", name, "channel") from None
+        ids = [trace.id for trace in stream]
+        twice = next((each for each in ids if ids.count(each) > 1), None)
+        if twice is not None:
+            raise InputError("record-gaps", name, twice)
+        return [_of_counts(each, name, stations) if seed else _of_sac(each, name) for each in stream]
+
+
+def _of_counts(trace: Any, name: str, stations: list[bytes]) -> RawRecord:
+    values = np.asarray(trace.data, dtype=np.float64)
+    about = {"station": f"{trace.stats.network}.{trace.stats.station}", "component": str(trace.stats.channel)}
+    about["date"] = trace.stats.starttime.strftime("%Y-%m-%d %H:%M:%S")
+    step = float(trace.stats.delta)
+    if not stations and trace.data.dtype.kind == "f":
+        # Somebody has turned it to a unit that miniSEED has no place for.
+        return RawRecord(values, time_step=step, about=about, format="miniSEED")
+    sensitivity, part = _sensitivity(trace, name, stations)
+    with np.errstate(over="ignore", invalid="ignore"):
+        values = values * (part / sensitivity)
+        offset = float(values.mean()) if values.size else 0.0
+        values = values - offset
+    said = (f"counts over {sensitivity:.6g} of its StationXML", f"mean of {offset:.5g} m/s2 taken out")
+    return RawRecord(
+        values,
+        time_step=step,
+        unit="m/s^2",
+        about=about,
+        processing=said,
+        uncorrected="it is in counts, as its instrument gave it",
+        format="miniSEED",
+    )
+
+
+def _sensitivity(trace: Any, name: str, stations: list[bytes]) -> tuple[float, float]:
+    """Counts for each unit of acceleration, and that unit in m/s2."""
+    import obspy
+
+    if not stations:
+        raise InputError("record-response", name, f"{Path(name).stem}.xml", reason="there is no StationXML")
+    for text in stations:
+        # No station needs entities, and some of them never end.
+        if b"<!DOCTYPE" in text or b"<!ENTITY" in text:
+            continue
+        try:
+            response = obspy.read_inventory(io.BytesIO(text), format="STATIONXML").get_response(
+                trace.id, trace.stats.starttime
+            )
+            found = response.instrument_sensitivity
+            value, unit = float(found.value), str(found.input_units)
+        except Exception:
+            continue
+        if not (np.isfinite(value) and value != 0.0):
+            continue
+        measured = _ACCELERATION.fullmatch(unit.strip())
+        if measured is None:
+            quantity = "velocity" if re.fullmatch(r"[nuc]?m/s(?:ec)?", unit.strip(), re.IGNORECASE) else unit[:20]
+            raise InputError("record-not-acceleration", name, quantity)
+        return value, _PARTS[(measured["unit"] or "").lower()]
+    reason = f"no StationXML describes {trace.id} at that time"
+    raise InputError("record-response", name, f"{Path(name).stem}.xml", reason=reason)
+
+
+def _of_sac(trace: Any, name: str) -> RawRecord:
+    header = trace.stats.sac
+    if (quantity := _OTHERS.get(int(header.get("idep", 0)))) is not None:
+        raise InputError("record-not-acceleration", name, quantity)
+    values = np.asarray(trace.data, dtype=np.float64)
+    extremes = [float(header.get(key, _NO_NUMBER)) for key in ("depmin", "depmax")]
+    known = all(np.isfinite(each) and each != _NO_NUMBER for each in extremes)
+    return RawRecord(
+        values,
+        time_step=float(trace.stats.delta),
+        about={
+            "station": f"{trace.stats.network}.{trace.stats.station}",
+            "component": str(trace.stats.channel),
+            "date": trace.stats.starttime.strftime("%Y-%m-%d %H:%M:%S"),
+        },
+        warnings=peaked(values, f"{max(map(abs, extremes)):.6e}", name) if known else (),
+        format="SAC",
+    )

@@ -1,0 +1,210 @@
+"""Records in archives, and those that obspy reads: what comes out, and what is refused, whatever an archive says."""
+
+from __future__ import annotations
+
+import gzip
+import io
+import random
+import zipfile
+
+import numpy as np
+import pytest
+
+from heeltoe import InputError, read_channels, read_record
+from heeltoe.motion.records import archive, read_text, read_text_channels, seismology
+from heeltoe.motion.records.to_motion import Told
+from shared.record_samples import GAL, WAVE, G, csmip
+from shared.records_of_the_world import esm
+
+COUNTS = np.rint(1e6 * G * WAVE).astype(np.int32) + 5000
+
+
+def zipped(files: dict[str, bytes], method: int = zipfile.ZIP_DEFLATED) -> bytes:
+    whole = io.BytesIO()
+    with zipfile.ZipFile(whole, "w", method) as packed:
+        for name, content in files.items():
+            packed.writestr(name, content)
+    return whole.getvalue()
+
+
+def miniseed(counts: np.ndarray = COUNTS, *, gap: bool = False) -> bytes:
+    obspy = pytest.importorskip("obspy")
+    header = {"network": "XY", "station": "ABC", "channel": "HNE", "sampling_rate": 100.0}
+    traces = [obspy.Trace(counts, header)]
+    if gap:
+        traces.append(obspy.Trace(counts, header | {"starttime": obspy.UTCDateTime(100.0)}))
+    whole = io.BytesIO()
+    obspy.Stream(traces).write(whole, format="MSEED")
+    return whole.getvalue()
+
+
+def sac(**header: float) -> bytes:
+    obspy = pytest.importorskip("obspy")
+    trace = obspy.Trace((G * WAVE).astype(np.float32), {"channel": "HNE", "sampling_rate": 100.0, "sac": header})
+    whole = io.BytesIO()
+    trace.write(whole, format="SAC")
+    return whole.getvalue()
+
+
+def station_xml(units: str = "M/S**2", sensitivity: float = 1e6) -> bytes:
+    return f"""<?xml version="1.0" encoding="UTF-8"?>
+<FDSNStationXML xmlns="http://www.fdsn.org/xml/station/1" schemaVersion="1.1">
+<Source>nobody</Source><Created>1970-01-01T00:00:00</Created>
+<Network code="XY"><Station code="ABC"><Latitude>35</Latitude><Longitude>-120</Longitude><Elevation>0</Elevation>
+<Site><Name>Empty Valley</Name></Site>
+<Channel code="HNE" locationCode="" startDate="1960-01-01T00:00:00"><Latitude>35</Latitude><Longitude>-120</Longitude>
+<Elevation>0</Elevation><Depth>0</Depth><SampleRate>100</SampleRate>
+<Response><InstrumentSensitivity><Value>{sensitivity}</Value><Frequency>1</Frequency>
+<InputUnits><Name>{units}</Name></InputUnits><OutputUnits><Name>COUNTS</Name></OutputUnits></InstrumentSensitivity>
+</Response></Channel></Station></Network></FDSNStationXML>
+""".encode()
+
+
+def refused(data: bytes, name: str = "a.zip") -> InputError:
+    with pytest.raises(InputError) as caught:
+        read_text_channels(data, name, Told(assume=True))
+    return caught.value
+
+
+# Archives
+
+
+def test_what_is_packed_is_read_as_what_is_not(tmp_path):
+    plain = read_text(esm().encode(), "a.asc")
+    packed = read_text(gzip.compress(esm().encode()), "a.asc.gz")
+    assert packed.acceleration.tobytes() == plain.acceleration.tobytes()
+    twice = gzip.compress(esm()[:900].encode()) + gzip.compress(esm()[900:].encode())
+    assert read_text(twice, "a.asc.gz").acceleration.tobytes() == plain.acceleration.tobytes()
+    (tmp_path / "a.zip").write_bytes(zipped({"../../etc/a.asc": esm().encode()}))
+    assert read_record(tmp_path / "a.zip").acceleration.tobytes() == plain.acceleration.tobytes()
+    assert sorted(each.name for each in tmp_path.iterdir()) == ["a.zip"]
+
+
+def test_the_components_of_an_archive_are_its_channels():
+    files = {f"{way}.asc": esm(share * GAL, STREAM=way).encode() for way, share in (("HNE", 1.0), ("HNZ", 0.5))}
+    others = {"readme.txt": b"read me\n", "v.asc": esm(DATA_TYPE="VELOCITY").encode(), "x.png": b"\x89PNG\x00"}
+    data = zipped(others | files)
+    assert [(each.channel, each.component) for each in read_text_channels(data, "a.zip")] == [
+        ("1", "HNE"),
+        ("2", "HNZ"),
+    ]
+    assert read_text(data, "a.zip", "hnz").pga == pytest.approx(0.5 * G * np.abs(WAVE).max(), rel=1e-5)
+    with pytest.raises(InputError, match=r"a\.zip: has several channels"):
+        read_text(data, "a.zip")
+    # What is there to be read, and damaged, is not left out.
+    torn = zipped(files | {"c.V2": csmip({"UP": GAL}).replace("12.", "1x.", 5).encode()})
+    assert refused(torn).code == "record-number"
+
+
+def test_archives_that_lie_or_never_end(monkeypatch):
+    bomb = zipped({"a.txt": b"0\n" * 1_000_000})
+    assert len(bomb) < 10_000
+    monkeypatch.setattr(archive, "LARGEST_BYTES", 1_000_000)
+    assert refused(bomb).code == "record-large"
+    assert refused(gzip.compress(b"0\n" * 1_000_000), "a.gz").code == "record-large"
+    assert "it holds 300 files" in str(refused(zipped({f"{k}.txt": b"" for k in range(300)})))
+    lying = bytearray(zipped({"a.txt": b"0 0.1\n" * 400_000}))
+    at = lying.index(b"PK\x01\x02") + 24
+    lying[at : at + 4] = (100).to_bytes(4, "little")
+    assert refused(bytes(lying)).code in ("record-large", "record-archive")
+
+
+def test_archives_that_cannot_be_read():
+    good = zipped({"a.asc": esm().encode()})
+    assert refused(good[:-30]).code == "record-archive"
+    assert refused(gzip.compress(esm().encode())[:-100], "a.gz").code == "record-archive"
+    assert "it stands in another one" in str(refused(zipped({"b.zip": good})))
+    assert refused(zipped({})).code == "record-archive-empty"
+    assert refused(zipped({"readme.txt": b"read me\n"})).code == "record-format"
+    encrypted = bytearray(good)
+    encrypted[6] |= 1
+    encrypted[good.index(b"PK\x01\x02") + 8] |= 1
+    assert "encrypted" in str(refused(bytes(encrypted)))
+
+
+# miniSEED and SAC
+
+
+def test_counts_are_turned_by_the_sensitivity_of_the_instrument(tmp_path):
+    (tmp_path / "a.mseed").write_bytes(miniseed())
+    assert refused(miniseed(), "a.mseed").code == "record-response"
+    (tmp_path / "a.xml").write_bytes(station_xml())
+    motion = read_record(tmp_path / "a.mseed")
+    assert motion.acceleration == pytest.approx(G * WAVE, abs=2e-6)
+    assert (motion.format, motion.component, motion.station) == ("miniSEED", "HNE", "XY.ABC")
+    assert motion.processing == ("counts over 1e+06 of its StationXML", "mean of 0.005 m/s2 taken out")
+    assert [each.code for each in motion.warnings] == ["record-uncorrected"]
+    together = zipped({"a.mseed": miniseed(), "station.xml": station_xml()})
+    assert read_text(together, "a.zip").acceleration == pytest.approx(motion.acceleration)
+    milli = zipped({"a.mseed": miniseed(), "station.xml": station_xml("mm/s^2", 1e3)})
+    assert read_text(milli, "a.zip").acceleration == pytest.approx(motion.acceleration)
+
+
+@pytest.mark.parametrize(
+    ("files", "code"),
+    [
+        ({"a.mseed": miniseed(), "s.xml": station_xml("M/S")}, "record-not-acceleration"),
+        ({"a.mseed": miniseed(), "s.xml": station_xml().replace(b'"ABC"', b'"DEF"')}, "record-response"),
+        ({"a.mseed": miniseed(), "s.xml": station_xml(sensitivity=0.0)}, "record-response"),
+        ({"a.mseed": miniseed(), "s.xml": station_xml().replace(b"<FDSN", b"<!DOCTYPE x><FDSN", 1)}, "record-response"),
+        ({"a.mseed": miniseed(gap=True), "s.xml": station_xml()}, "record-gaps"),
+    ],
+)
+def test_counts_that_cannot_be_turned(files, code):
+    assert refused(zipped(files)).code == code
+
+
+def test_values_that_are_no_counts_are_in_the_unit_that_is_told():
+    data = miniseed((G * WAVE).astype(np.float32))
+    with pytest.raises(InputError, match="does not state its unit"):
+        read_text(data, "a.mseed")
+    assert read_text(data, "a.mseed", told=Told(unit="m/s^2")).pga == pytest.approx(G * np.abs(WAVE).max(), rel=1e-6)
+
+
+def test_sac():
+    motion = read_text(sac(), "a.sac", told=Told(unit="m/s^2"))
+    assert motion.acceleration == pytest.approx(G * WAVE, abs=1e-6)
+    assert (motion.format, motion.dt, motion.component) == ("SAC", pytest.approx(0.01), "HNE")
+    assert refused(sac(idep=7), "a.sac").code == "record-not-acceleration"
+    other = bytearray(sac())
+    other[4:8] = np.float32(99.0).tobytes()  # depmin
+    assert "record-peak" in {each.code for each in read_text(bytes(other), "a", told=Told(unit="g")).warnings}
+
+
+def test_without_obspy_the_remedy_is_said(tmp_path, monkeypatch):
+    (tmp_path / "a.mseed").write_bytes(miniseed())
+    monkeypatch.setattr(seismology, "find_spec", lambda name: None)
+    with pytest.raises(InputError, match=r"a\.mseed: needs the package obspy.*pip install 'heeltoe\[seismology\]'"):
+        read_channels(tmp_path / "a.mseed")
+
+
+@pytest.mark.parametrize("sample", ["zip", "gz", "miniseed", "sac"])
+def test_whatever_is_done_to_them(sample):
+    """A clear refusal, or finite values."""
+    packed = {"a.mseed": miniseed(), "s.xml": station_xml()}
+    data = {
+        "zip": zipped({"a.asc": esm().encode()}),
+        "gz": gzip.compress(esm().encode()),
+        "miniseed": zipped(packed, zipfile.ZIP_STORED),
+        "sac": sac(),
+    }[sample]
+    rng = random.Random(sample)
+    outcomes = set()
+    for _ in range(150):
+        other = bytearray(data)
+        for _ in range(rng.randint(1, 3)):
+            at = rng.randrange(len(other))
+            if rng.random() < 0.7:
+                other[at] ^= 1 << rng.randrange(8)
+            else:
+                del other[at : at + rng.randrange(100)]
+        try:
+            motions = read_text_channels(bytes(other), "a", Told(unit=None if sample != "sac" else "m/s^2"))
+        except InputError as error:
+            outcomes.add("refused" if "\n" not in str(error) else "in two lines")
+            continue
+        outcomes.add("read")
+        for motion in motions:
+            assert np.isfinite([motion.pga, motion.pgv, motion.pgd, motion.dt]).all()
+    assert "refused" in outcomes
+    assert "in two lines" not in outcomes
