@@ -11,6 +11,7 @@ import shapely
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 from numpy.typing import ArrayLike
 
@@ -174,6 +175,10 @@ class Canvas:
     def keep_off(self, places: ArrayLike) -> None:
         """Keep labels off a line that is drawn already [m]."""
         self._take(self.points(places))
+
+    def keep_off_text(self, drawn: Text) -> None:
+        """Keep labels off a text that is drawn already."""
+        self.taken.append(drawn.get_window_extent(self._renderer()).padded(2.0))
 
     def _renderer(self) -> Any:
         figure: Any = self.axes.figure

@@ -144,9 +144,14 @@ def remarks(found: Statics, units: str, number_of: Callable[[str], str]) -> Note
         for text in filter(None, check.note.split("; ")):
             if number not in notes.setdefault(text, []):
                 notes[text].append(number)
-    remarks = [f"{each.name}: {text.text(units)}." for each in found.cases for text in each.assumptions]
+    said: dict[str, list[str]] = {}
+    for each in found.cases:
+        for taken in each.assumptions:
+            said.setdefault(taken.text(units), []).append(each.name)
+    # The ways of the earthquake share nearly all.
+    remarks = [f"{of[0] if len(of) == 1 else of[0].split()[0]}: {text}." for text, of in said.items()]
     remarks += [f"{', '.join(sorted(numbers))}: {note}." for note, numbers in notes.items()]
-    return Notes("note", "Taken for granted", tuple((text,) for text in dict.fromkeys(remarks)))
+    return Notes("note", "Taken for granted", tuple((text,) for text in remarks))
 
 
 def _levels(subject: Subject) -> Table:

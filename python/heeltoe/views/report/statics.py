@@ -143,7 +143,7 @@ def _answer(subject: _Subject) -> Section:
         subject.figures.get("section"),
         Notes("warning", "Before using these numbers", warnings) if warnings else None,
         Table(
-            ("", ""),
+            ("", "value"),
             tuple((label.capitalize(), glued(text)) for label, text in basis(joint.statics, units)),
             f"What the checks rest on, crack at {subject.at(joint)}.",
             "ll",

@@ -215,12 +215,16 @@ def _checks(checks: tuple[Check, ...]) -> Table:
     table.add_column("")
     table.add_column("by", justify="right")
     numbers = _sources(checks)
+    last = ""
     for check in checks:
+        # Long names of load cases stand once, or every row would take two.
         table.add_row(
-            *check_cells(check),
+            "" if check.load_case == last else check.load_case,
+            *check_cells(check)[1:],
             "met" if check.met else "[bold red]fails[/]",
             str(numbers.get(check.source, "")),
         )
+        last = check.load_case
     return table
 
 

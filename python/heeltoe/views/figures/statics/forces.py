@@ -15,6 +15,7 @@ from heeltoe.geometry.section import CutSection
 from heeltoe.models.statics.cases import flooded
 from heeltoe.models.statics.load_case import LoadCase
 from heeltoe.models.statics.sheet import ForceLine
+from heeltoe.units.sentences import quantity
 from heeltoe.units.systems import Units, unit_system
 from heeltoe.units.write import number, scaled
 from heeltoe.views.figures.canvas import Canvas
@@ -75,9 +76,9 @@ def forces_figure(case: Case, found: LoadCase, units: str = "si") -> Figure:
     canvas.look_at(low - np.array([left, below]) * size, high + np.array([0.42, 0.1]) * size)
     axes.set_axis_off()
     draw_bodies(canvas, drawn)
-    depth = _draw_pressures(canvas, drawn, found, system)
+    _draw_arms(canvas, section, (heights, widths), system)
+    _draw_pressures(canvas, drawn, found, system)
     _draw_crack(canvas, section, found)
-    _draw_arms(canvas, section, (heights, widths), depth, system)
     _draw_arrows(canvas, section, found, arrows, system)
     stress = figure.add_axes((0.1, 0.42 / _HEIGHT, 0.87, panel - 0.05))
     draw_stresses(stress, found, system)
@@ -85,7 +86,7 @@ def forces_figure(case: Case, found: LoadCase, units: str = "si") -> Figure:
 
 
 def _at(case: Case, units: Units) -> str:
-    return scaled(case.crack.elevation, units.scale("length"), 4)
+    return quantity(case.crack.elevation, ".5g m", units.name)
 
 
 def _arrows(found: LoadCase, section: CutSection) -> Iterator[_Arrow]:
@@ -108,9 +109,13 @@ def _on(line: ForceLine, section: CutSection, place: float, *, up: bool) -> Floa
     name = line.name.split(" ")[0]
     if name in _BODY:
         return np.array([heel[0] + place, section.centroid[1]] if up else [section.centroid[0], heel[1] + place])
+    faces = {**dict.fromkeys(_UPSTREAM, section.upstream_face), "tailwater": section.downstream_face}
+    if name not in faces and not up:
+        # Along the crack a force acts anywhere: beside what it does across.
+        x = section.crack_width / 2.0 if line.distance_m is None else line.distance_m
+        return np.array([heel[0] + x, heel[1] + place])
     if name == "nappe":
         return np.array([heel[0] + place, section.crest_elevation])
-    faces = {**dict.fromkeys(_UPSTREAM, section.upstream_face), "tailwater": section.downstream_face}
     face = faces.get(name, np.array([section.heel, section.toe])) - heel
     along, across = (0, 1) if up else (1, 0)
     order = np.argsort(face[:, along], kind="stable")
@@ -148,9 +153,8 @@ def _draw_crack(canvas: Canvas, section: CutSection, found: LoadCase) -> None:
     canvas.label("toe", heel + end * along, first=(1, -1))
 
 
-def _draw_pressures(canvas: Canvas, case: Case, found: LoadCase, units: Units) -> float:
-    """Draw the pressure of the water on both faces and in the crack to one scale; return how deep it goes below the
-    crack [m]."""
+def _draw_pressures(canvas: Canvas, case: Case, found: LoadCase, units: Units) -> None:
+    """Draw the pressure of the water on both faces and in the crack to one scale."""
     section, points = case.cut, np.array(found.pressures)
     faces = []
     for water, face, side in (
@@ -162,7 +166,7 @@ def _draw_pressures(canvas: Canvas, case: Case, found: LoadCase, units: Units) -
             faces.append((wet, water.density * case.gravity * (section.base_elevation + water.depth - wet[:, 1]), side))
     most = max([float(points[:, 1].max()), *(float(p.max(initial=0.0)) for _, p, _ in faces)])
     if most <= 0.0:
-        return 0.0
+        return
     per, scale = _DEEPEST * canvas.size / most, units.scale("pressure", most)
     look = {"facecolor": "none", "edgecolor": _WATER, "linewidth": 0.7, "zorder": 2.5}
     for wet, pressure, side in faces:
@@ -184,7 +188,6 @@ def _draw_pressures(canvas: Canvas, case: Case, found: LoadCase, units: Units) -
         if height > 1e-6 * most and key not in said:
             said.add(key)
             canvas.label(scaled(height, scale), place, _WATER, first=(-1 if x <= 0.0 else 1, -1))
-    return float(per * points[:, 1].max())
 
 
 def _wet(face: Floats, level: float) -> Floats:
@@ -199,16 +202,14 @@ def _wet(face: Floats, level: float) -> Floats:
     return np.array([point for point in found if point[1] <= level + 1e-9] or [face[0]])
 
 
-def _draw_arms(
-    canvas: Canvas, section: CutSection, arms: tuple[list[tuple[float, str]], ...], depth: float, units: Units
-) -> None:
+def _draw_arms(canvas: Canvas, section: CutSection, arms: tuple[list[tuple[float, str]], ...], units: Units) -> None:
     """Draw the arms of the horizontal forces at the left, those of the vertical ones below."""
     heights, widths = arms
     heel, size, length = np.array(section.heel), canvas.size, units.scale("length")
     for place, (arm, _) in enumerate(heights, start=1):
         away = np.array([-(0.40 + _STEP * place) * size, 0.0])
         _dimension(canvas, heel + away, np.array([0.0, arm]), number(length(arm), 4))
-    lowest = depth + 0.06 * size + max(0.0, heel[1] - section.polygon[:, 1].min())
+    lowest = (_DEEPEST + 0.05) * size + max(0.0, heel[1] - section.polygon[:, 1].min())
     for place, (arm, names) in enumerate(widths, start=1):
         away = np.array([0.0, -(lowest + _STEP * place * size)])
         _dimension(canvas, heel + away, np.array([arm, 0.0]), f"{names} {number(length(arm), 4)}")
@@ -221,7 +222,7 @@ def _dimension(canvas: Canvas, start: Floats, arm: Floats, text: str) -> None:
     canvas.keep_off(np.stack([start, start + arm]))
     upright = bool(arm[1])
     last = ends[int(np.argmax(ends[:, 1 if upright else 0]))]
-    canvas.axes.annotate(
+    drawn = canvas.axes.annotate(
         text,
         last,
         xytext=(0.0, 4.0) if upright else (4.0, 0.0),
@@ -234,6 +235,7 @@ def _dimension(canvas: Canvas, start: Floats, arm: Floats, text: str) -> None:
         bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.4},
         zorder=7,
     )
+    canvas.keep_off_text(drawn)
 
 
 def _draw_arrows(canvas: Canvas, section: CutSection, found: LoadCase, arrows: list[_Arrow], units: Units) -> None:
