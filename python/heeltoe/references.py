@@ -34,6 +34,7 @@ REFERENCES = {
         'N. C. Nigam and P. C. Jennings, "Calculation of response spectra from strong-motion earthquake records", '
         "Bulletin of the Seismological Society of America 59 (1969), 909-922"
     ),
+    "dynamic tension": 'J. M. Raphael, "Tensile strength of concrete", ACI Journal 81 (1984), 158-165',
     "coulomb": (
         'J. J. Moreau, "Unilateral contact and dry friction in finite freedom dynamics", in Nonsmooth Mechanics and '
         "Applications, CISM 302, Springer, 1988, 1-82; M. Jean, "

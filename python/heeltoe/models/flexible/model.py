@@ -134,4 +134,6 @@ def _references(case: Case, dam: FlexibleDam) -> tuple[str, ...]:
         keys.append("sloped water")
     if dam.water is not None:
         keys.append(case.uplift.during_shaking)
+    if case.concrete.tensile_strength is not None:
+        keys.append("dynamic tension")
     return cited(*keys)

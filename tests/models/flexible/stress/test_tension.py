@@ -42,6 +42,7 @@ def test_a_tension_beyond_the_strength_is_warned_of():
     assert strong.tension["strength"]["share_beyond"] == 0.0
     assert strong.tension["stress_pa"] == tension["stress_pa"]
     assert "tension-exceeds" not in codes(strong)
+    assert any("Raphael" in each for each in weak.references)
     # The static strength is what counts before the earthquake.
     assert not strength["exceeds_before_shaking"]
 
