@@ -43,8 +43,8 @@ def test_the_last_sound_case_stays_while_a_field_is_wrong(session):
 
 
 def test_what_only_the_geometry_tells_is_at_its_field(session):
-    edit(session, {"reservoir.depth": "101 m"})
-    assert wrong(session) == ["reservoir.depth"]
+    edit(session, {"silt.depth": "101 m"})
+    assert wrong(session) == ["silt.depth"]
     edit(session, {"crack.elevation": "120 m"})
     assert wrong(session) == ["crack.elevation"]
 

@@ -56,6 +56,8 @@ def test_sliders_stand_where_the_case_is_and_change_it(units):
         assert slider.least <= slider.value <= slider.most + slider.step
         case.with_(change(slider, slider.most, case))
         case.with_(change(slider, slider.least, case))
+    [above] = [each for each in sliders(case.with_({"reservoir.depth": "103 m"}), "si") if "depth" in each.path]
+    assert (above.value, above.most) == (103.0, 103.0)
     with_drains = case.with_(change(sliders(case, units)[-1], 0.5, case))
     assert (with_drains.uplift.pattern, with_drains.uplift.drain_efficiency) == ("drained", 0.5)
 

@@ -57,13 +57,14 @@ def serve(host: str, port: int | None, *, public: bool, browser: bool, say: Call
         if hasattr(signal, "SIGPIPE"):
             signal.signal(signal.SIGPIPE, signal.SIG_IGN)
         # Ctrl-C ends it, as is said, from the first moment and where what started it had that ignored.
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-        with contextlib.suppress(KeyboardInterrupt):
-            say(address)
-            asyncio.run(_run(settings, listening, address if browser else ""))
+        # Until the server minds it itself it is noted: it would meet things half made.
+        interrupts: list[int] = []
+        signal.signal(signal.SIGINT, lambda number, _: interrupts.append(number))
+        say(address)
+        asyncio.run(_run(settings, listening, address if browser else "", interrupts))
 
 
-async def _run(settings: Settings, listening: socket.socket, open_at: str) -> None:
+async def _run(settings: Settings, listening: socket.socket, open_at: str, interrupts: list[int]) -> None:
     import uvicorn
 
     from heeltoe.app.server import application
@@ -77,6 +78,8 @@ async def _run(settings: Settings, listening: socket.socket, open_at: str) -> No
         timeout_graceful_shutdown=_PATIENCE_S,
     )
     server = uvicorn.Server(config)
+    if interrupts:
+        return
     if open_at:
         # The socket listens already: what comes before the server is there waits for it.
         asyncio.get_running_loop().run_in_executor(None, webbrowser.open, open_at)

@@ -49,7 +49,7 @@ def sliders(case: Case, units: str) -> list[Slider]:
     no_water = "" if case.reservoir else "The case has no reservoir."
     return [
         _with(Slider("crack.friction", "Friction coefficient", 0.3, 2.0, 0.01, crack.mu_static)),
-        _water(case, units),
+        _with(_water(case, units)),
         _with(Slider("crack.restitution", "Restitution", 0.0, 1.0, 0.01, crack.restitution)),
         _with(Slider("motion.pga", "Peak acceleration", 0.02, 1.0, 0.01, pga or 0.4, "g")),
         Slider("uplift.drain_efficiency", "Drain efficiency", 0.0, 1.0, 0.01, efficiency or 0.0, off=no_water),
