@@ -76,15 +76,15 @@ def place_said(found: Mapping[str, Any]) -> str:
 
 
 def share_beyond(dam: FlexibleDam, parts: Sequence[PartEnvelope], strength: float) -> float:
-    """Return which part of the section has had more tension than `strength` [Pa]: that of its elements of which more
-    than half the corners have, where the stress has a bound."""
+    """Return which part of the section has had more tension than `strength` [Pa], where the stress has a bound: of each
+    element as much as of its corners."""
     beyond, whole = 0.0, 0.0
     for body, part in zip(dam.bodies, parts, strict=True):
         corners = body.mesh.elements[:, :4]
         over = (part.bounded & (part.tension > strength))[np.searchsorted(part.nodes, corners)]
         x, z = np.moveaxis(body.mesh.nodes[corners], 2, 0)
         area = np.abs(np.sum(x * np.roll(z, -1, axis=1) - z * np.roll(x, -1, axis=1), axis=1)) / 2.0
-        beyond += float(area[over.mean(axis=1) > 0.5].sum())
+        beyond += float(area @ over.mean(axis=1))
         whole += float(area.sum())
     return beyond / whole
 
