@@ -30,6 +30,12 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
         "{name} moves the ground at {value} or by {displacement}, more than {limit} or {farthest}: no earthquake does",
         "check its time step and its unit, or take its drift out by motion.processing (baseline or band-pass)",
     ),
+    "motion-one": ("is of one motion, and here are {value}", "give one file, or choose one by --channel"),
+    "target-form": (
+        "{value} names no spectrum",
+        "write for example en1998:0.3g,B, asce7:0.9g,0.4g,8s, or the file of a table",
+    ),
+    "target-unit": ("does not state the unit of its accelerations", "say it above them, as in # period [s], Sa [g]"),
     "record-archive": ("is an archive that cannot be read ({reason})", "unpack it and give the record"),
     "record-archive-empty": ("holds no record that can be read", "give an archive of records"),
     "record-package": ("needs the package obspy, which is not installed", "pip install 'heeltoe[seismology]'"),

@@ -3,36 +3,50 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from heeltoe.cli.common import UnitsName, say_file
+from heeltoe.cli.common import JsonPath, UnitsName, check_json, finish
 from heeltoe.cli.streams import console
 from heeltoe.errors import InputError
 from heeltoe.plain import plain
-from heeltoe.units.parse import STANDARD_GRAVITY
+from heeltoe.units.parse import STANDARD_GRAVITY, parse
 from heeltoe.units.systems import unit_system
 
+_ABOUT = ("event", "station", "component", "date", "channel", "format", "units_as_read")
+
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from heeltoe.motion.ground_motion import GroundMotion
+    from heeltoe.motion.matching import Misfit
 
 
 def motion(
-    file: Annotated[str | None, typer.Argument(metavar="FILE-or-NAME")] = None,
+    files: Annotated[list[str] | None, typer.Argument(metavar="FILE-or-NAME...")] = None,
     unit: Annotated[str | None, typer.Option(help="Unit of a file that does not state it: g, cm/s^2, ...")] = None,
     time_step: Annotated[str | None, typer.Option(metavar="0.01s", help="Of a file that does not state it.")] = None,
     channel: Annotated[str | None, typer.Option(help="Of a file of several: its number or direction.")] = None,
+    match: Annotated[
+        str | None, typer.Option(metavar="en1998:0.3g,B | asce7:0.9g,0.4g,8s | FILE", help="Match it to this spectrum.")
+    ] = None,
+    out: Annotated[Path | None, typer.Option(metavar="FILE.txt", help="Write the motion in two columns, in g.")] = None,
     figure: Annotated[
         Path | None, typer.Option(metavar="FILE.png", help="Where to draw it; NAME.motion.png here if not said.")
     ] = None,
     no_figure: Annotated[bool, typer.Option("--no-figure", help="Do not draw it.")] = False,
+    json_: JsonPath = None,
     units: UnitsName = "si",
     list_: Annotated[bool, typer.Option("--list", help="List the records that can be used by name.")] = False,
 ) -> None:
-    """Say what is in a record: peaks, measures, origin, warnings; and draw it."""
+    """Say what is in a record, or in the components of one: peaks, measures, origin, warnings; and draw it.
+
+    PEER AT2, COSMOS and CSMIP V2, USGS SMC, K-NET, ESM and ITACA ASC, AFAD, GeoNet V1A and V2A, USC V2, CSMNC, UNAM,
+    BHRC and RENADIC V1, columns with or without a header, miniSEED and SAC (heeltoe[seismology]), all of these in zip
+    or gz.
+    """
     from heeltoe.motion.records.catalog import available
-    from heeltoe.views.terminal.motion import print_motion
 
     words = console()
     unit_system(units, "--units")
@@ -40,24 +54,93 @@ def motion(
         for name, where in available():
             words.print(f"{plain(name):40s} {plain(where)}", soft_wrap=True, markup=False)
         return
-    if file is None:
+    if not files:
         raise InputError("record-missing", "FILE-or-NAME")
-    motions = _motions(file, unit, time_step, channel)
-    written = None
-    if len(motions) == 1 and not no_figure:
-        from heeltoe.views.figures.motion import write_motion_figure
+    check_json(json_)
+    motions = [each for file in files for each in _motions(file, unit, time_step, channel)]
+    misfits: list[Misfit] = []
+    if match is not None:
+        motions, misfits = _matched(motions, match)
+    written = _written(motions, out, None if no_figure else figure, not no_figure, len(files) > 1, units)
+    data = {} if json_ is None else _json(motions, misfits)
+    finish(data, json_, written, lambda shown: _show(motions, misfits, shown, units, len(files) > 1))
 
-        place = figure or Path(f"{_file_name(motions[0].name)}.motion.png")
-        if place.suffix.lower() not in (".png", ".svg", ".pdf"):
-            raise InputError("figure-format", "--figure", place)
-        written = write_motion_figure(motions[0], STANDARD_GRAVITY, place, units)
-    for each in motions:
+
+def _show(motions: list[GroundMotion], misfits: list[Misfit], words: Console, units: str, components: bool) -> None:
+    from heeltoe.motion.check import check_pair
+    from heeltoe.views.terminal.common import print_warnings
+    from heeltoe.views.terminal.motion import print_motion
+
+    for k, each in enumerate(motions):
         print_motion(each, words, units)
+        if misfits:
+            words.print(f"  {misfits[k]}", soft_wrap=True, markup=False)
         words.print()
-    if written:
-        say_file("wrote", written, words)
+    if components:
+        said = [each.text(units) for other in motions[1:] for each in check_pair(motions[0], other)]
+        print_warnings(tuple(dict.fromkeys(said)), words)
     elif len(motions) > 1:
         words.print(f"{len(motions)} channels; --channel NUMBER shows and draws one", soft_wrap=True)
+
+
+def _json(motions: list[GroundMotion], misfits: list[Misfit]) -> dict[str, Any]:
+    """What is said of each motion, with its response spectrum."""
+    from heeltoe.motion.spectrum import response_spectrum
+    from heeltoe.result.write import motion_json
+
+    said = []
+    for k, each in enumerate(motions):
+        spectrum = response_spectrum(each)
+        said.append(
+            {
+                **motion_json(each, STANDARD_GRAVITY),
+                **{name: getattr(each, name) for name in _ABOUT},
+                "warnings": [warning.to_json() for warning in each.warnings],
+                "spectrum": {
+                    "damping": spectrum.damping,
+                    "period_s": spectrum.period.tolist(),
+                    "pseudo_acceleration_m_s2": spectrum.pseudo_acceleration.tolist(),
+                },
+                **({"misfit": {"rms": misfits[k].rms, "largest": misfits[k].largest}} if misfits else {}),
+            }
+        )
+    return {"motions": said}
+
+
+def _matched(motions: list[GroundMotion], text: str) -> tuple[list[GroundMotion], list[Misfit]]:
+    """Match each motion to a spectrum, as far as that goes and the motion lasts."""
+    from heeltoe.motion.matching import match
+    from heeltoe.motion.target_names import target_of
+
+    target = target_of(text, "--match")
+    shortest, longest = max(0.1, target.shortest), min(3.0, target.longest)
+    pairs = [match(each, target, shortest=shortest, longest=longest) for each in motions]
+    return [each for each, _ in pairs], [misfit for _, misfit in pairs]
+
+
+def _written(
+    motions: list[GroundMotion], out: Path | None, figure: Path | None, drawn: bool, components: bool, units: str
+) -> list[Path]:
+    """Write the figures, one for each component, and the motion itself where that is wanted."""
+    from heeltoe.views.figures.motion import write_motion_figure
+    from heeltoe.whole import write_text
+
+    for option, given in (("--figure", figure), ("--out", out)):
+        if given is not None and len(motions) > 1:
+            raise InputError("motion-one", option, f"{len(motions)} motions")
+    if figure is not None and figure.suffix.lower() not in (".png", ".svg", ".pdf"):
+        raise InputError("figure-format", "--figure", figure)
+    written = []
+    if drawn and (components or len(motions) == 1):
+        for each in motions:
+            place = figure or Path(f"{_file_name(each.name)}.motion.png")
+            written.append(write_motion_figure(each, STANDARD_GRAVITY, place, units))
+    if out is not None:
+        rows = zip(motions[0].time, motions[0].acceleration / STANDARD_GRAVITY, strict=True)
+        said = f"# processing: {'; '.join(motions[0].processing)}\n" if motions[0].processing else ""
+        text = f"{said}# time [s], acceleration [g]\n" + "".join(f"{t:.6f} {a:.9e}\n" for t, a in rows)
+        written.append(write_text(out, text, "--out"))
+    return written
 
 
 def _motions(file: str, unit: str | None, time_step: str | None, channel: str | None) -> list[GroundMotion]:
@@ -65,7 +148,6 @@ def _motions(file: str, unit: str | None, time_step: str | None, channel: str | 
     from heeltoe.motion.records import read_channels, read_record
     from heeltoe.motion.records.catalog import find
     from heeltoe.motion.scenario import PREFIX, synthetic
-    from heeltoe.units.parse import parse
 
     if file.startswith(PREFIX):
         for option, value in (("--unit", unit), ("--time-step", time_step), ("--channel", channel)):

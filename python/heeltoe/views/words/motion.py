@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from heeltoe.errors import InputError
-from heeltoe.motion.check import check, check_record
+from heeltoe.motion.check import check, check_moved, check_record
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import measures
 from heeltoe.plain import plain
@@ -63,4 +63,9 @@ def suspicions(motion: GroundMotion, units: str = "si", gravity: float = STANDAR
             said += [each.text(units) for each in look(motion, gravity)]
         except InputError as error:
             said.append(str(error))
+    try:
+        # That a record is uncorrected stands among its own warnings.
+        check_moved(motion.corrected(), "motion")
+    except InputError as error:
+        said.append(str(error))
     return tuple(dict.fromkeys(said))

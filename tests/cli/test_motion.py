@@ -1,0 +1,90 @@
+"""``heeltoe motion``: one record, the components of one, a match to a spectrum, and all of it as JSON."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+from heeltoe import InputError, read_record
+from heeltoe.motion.target_names import target_of
+from shared.command import command
+from shared.record_samples import GAL, knet
+from shared.records_of_the_world import esm
+
+G = 9.80665
+
+
+@pytest.fixture
+def records(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name, way, share in (("a.asc", "HNE", 1.0), ("b.asc", "HNN", 0.7), ("c.asc", "HNZ", 0.5)):
+        (tmp_path / name).write_text(esm(share * GAL, STREAM=way, SAMPLING_INTERVAL_S="0.02"))
+    return tmp_path
+
+
+def test_three_components_in_one_go(records):
+    run = command("motion", "a.asc", "b.asc", "c.asc", "--json", "-", "--units", "us", cwd=records)
+    assert run.returncode == 0, run.stderr
+    said = json.loads(run.stdout)["motions"]
+    assert [each["component"] for each in said] == ["HNE", "HNN", "HNZ"]
+    assert said[0]["pga_g"] == pytest.approx(np.abs(GAL).max() / 100.0 / G, rel=1e-6)
+    assert len(said[0]["spectrum"]["period_s"]) == len(said[0]["spectrum"]["pseudo_acceleration_m_s2"]) > 50
+    assert said[0]["format"] == "ESM ASC"
+    assert "in/s" in run.stderr or "ft/s" in run.stderr
+    assert sorted(each.name for each in records.glob("*.png")) == [f"{name}.motion.png" for name in "abc"]
+
+
+def test_components_of_two_earthquakes_are_told(records):
+    (records / "d.asc").write_text(esm(EVENT_NAME="ELSEWHERE", EVENT_DATE_YYYYMMDD="19990101"))
+    run = command("motion", "a.asc", "d.asc", "--no-figure", cwd=records)
+    assert "not of the earthquake of the horizontal motion" in " ".join(run.stdout.split())
+
+
+def test_a_match_is_written_as_a_record(records):
+    (records / "s.txt").write_text("# period [s], Sa [g]\n0.1, 0.5\n0.5, 0.5\n3, 0.08\n")
+    run = command(
+        "motion", "a.asc", "--match", "s.txt", "--out", "m.txt", "--no-figure", "--json", "m.json", cwd=records
+    )
+    assert run.returncode == 0, run.stderr
+    assert "off the target by" in run.stdout
+    said = json.loads((records / "m.json").read_text())["motions"][0]
+    assert 0.0 < said["misfit"]["rms"] <= said["misfit"]["largest"]
+    matched = read_record(records / "m.txt")
+    assert matched.pga / G == pytest.approx(said["pga_g"], rel=1e-6)
+    assert "matched by wavelets to s" in matched.processing[0]
+
+
+def test_targets():
+    assert target_of("en1998: 0.3 g, B", "--match")(0.3) == pytest.approx(0.3 * G * 1.2 * 2.5)
+    assert target_of("en1998:0.3g,B,2", "--match")(0.1) == pytest.approx(0.3 * G * 1.35 * 2.5)
+    assert target_of("asce7:0.9g,0.4g,8s", "--match")(1.0) == pytest.approx(0.4 * G)
+
+
+@pytest.mark.parametrize("text", ["en1998:0.3g", "en1998:0.3g,B,3", "asce7:1g", "nowhere.txt", "x\0y"])
+def test_texts_that_name_no_spectrum(text):
+    with pytest.raises(InputError, match=r"--match: .* names no spectrum; write for example en1998"):
+        target_of(text, "--match")
+
+
+def test_a_table_without_a_unit_or_rows(tmp_path):
+    (tmp_path / "a.txt").write_text("0.1 0.5\n1 0.3\n")
+    with pytest.raises(InputError, match="does not state the unit of its accelerations"):
+        target_of(str(tmp_path / "a.txt"), "--match")
+    (tmp_path / "b.txt").write_text("# Sa [g], units: g\n")
+    with pytest.raises(InputError, match="is no table of a spectrum"):
+        target_of(str(tmp_path / "b.txt"), "--match")
+
+
+@pytest.mark.parametrize("option", ["--out", "--figure"])
+def test_one_file_for_several_motions_is_refused(records, option):
+    run = command("motion", "a.asc", "b.asc", option, "x.png", cwd=records)
+    assert run.returncode == 2
+    assert f"{option}: is of one motion, and here are 2 motions" in run.stderr
+    assert not list(records.glob("*.png"))
+
+
+def test_a_record_of_counts_is_still_read(records):
+    (records / "k.NS").write_text(knet())
+    assert command("motion", "k.NS", "--no-figure", cwd=records).returncode == 0
