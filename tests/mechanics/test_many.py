@@ -104,6 +104,21 @@ def test_examples(path):
     compare(case, columns)
 
 
+@pytest.mark.parametrize("corners", [LEDGES, POINTED, DIPPED])
+@pytest.mark.parametrize(("nappe", "pressure"), [("none", "westergaard"), ("weight", "zangar"), ("falling", "zangar")])
+def test_water_above_the_crest_of_some_rows(corners, nappe, pressure):
+    top = max(z for _, z in corners)
+    above = {"depth": "1 m", "nappe": nappe, "hydrodynamic": pressure, "follows_vertical_motion": True}
+    below = {"depth": "1 m", "hydrodynamic": pressure}
+    fields = {"section": polygon(corners), "crack": {"friction": 1.0}, "reservoir": above, "tailwater": below}
+    columns = {
+        "crack.elevation": np.linspace(0.0, 0.7 * top, 9),
+        "reservoir.depth": np.linspace(1.9, 0.2, 9) * top,
+        "tailwater.depth": np.linspace(0.0, 1.4, 9) * top,
+    }
+    compare(read_case(fields), columns)
+
+
 @settings(max_examples=25, deadline=None)
 @given(dams(), st.integers(0, 2**32 - 1), st.sampled_from([0.0, 0.0, 4.0, -6.0]), st.booleans(), st.booleans())
 def test_any_section(corners, seed, inclination, anchored, follows):

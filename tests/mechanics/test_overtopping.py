@@ -84,6 +84,7 @@ def test_a_flood_above_the_crest_stands_in_its_sheet():
     assert lines["nappe"].vertical_n == pytest.approx(-1000 * G * 4.0)
     assert lines["nappe"].distance_m == pytest.approx(4.0 / 3.0 - 7.0)
     assert str(lines["nappe"].source) == "2 m of water over the upstream edge of the crest, 0 m over the downstream one"
+    assert str(flood.assumptions[1]) == 'the water 2 m above the crest presses on it by reservoir.nappe = "falling"'
     assert math.fsum(line.vertical_n for line in lines.values()) == pytest.approx(flood.sheet().sum.vertical_n)
 
 

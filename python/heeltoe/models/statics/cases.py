@@ -26,8 +26,14 @@ def usual(case: Case) -> Solved:
 def flood(case: Case) -> Solved:
     """Return the case of the flood; the ice is gone then."""
     choice = case.statics
+    assert choice.flood_depth is not None
     text = f"reservoir {{depth_m:g m}} deep, an {choice.flood_rarity} load"
     said = [Sentence.of(text, depth_m=choice.flood_depth)]
+    over = choice.flood_depth - (case.cut.crest_elevation - case.cut.base_elevation)
+    if over > 0.0:
+        nappe = case.reservoir.nappe if case.reservoir else "none"
+        text = 'the water {over_m:.3g m} above the crest presses on it by reservoir.nappe = "{nappe}"'
+        said.append(Sentence.of(text, over_m=over, nappe=nappe))
     if case.ice is not None:
         said.append(Sentence("no ice in the flood"))
     return _still("flood", choice.flood_rarity, flooded(case), tuple(said))

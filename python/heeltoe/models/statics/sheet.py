@@ -13,7 +13,7 @@ from typing import Any
 
 from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
-from heeltoe.mechanics.loads import Resultant, concrete_mass, nappe_heads, total, water_above_crack
+from heeltoe.mechanics.loads import Resultant, concrete_mass, nappe_heads, silt, total, water_above_crack
 from heeltoe.units.sentences import Sentence
 
 # A part of a force that is so small beside the others is rounding, and has no arm.
@@ -130,10 +130,11 @@ def sources_of(case: Case) -> dict[str, Sentence]:
     if case.ice is not None:
         said["ice"] = Sentence.of("{push_n:g kN/m}, {depth_m:g m} below the surface", **_ice(case))
     if case.silt is not None:
-        text = "silt {depth_m:g m} deep as a fluid of {sideways:g kg/m³} sideways, {down:g kg/m³} in its weight"
-        said["silt"] = Sentence.of(
-            text, depth_m=case.silt.depth, sideways=case.silt.horizontal_density, down=case.silt.vertical_density
-        )
+        text = "silt {depth_m:g m} deep as a fluid of {sideways:g kg/m³} sideways"
+        # Before a vertical face it has no weight on the dam.
+        text += ", {down:g kg/m³} in its weight" if silt(case).vertical else ""
+        densities = {"sideways": case.silt.horizontal_density, "down": case.silt.vertical_density}
+        said["silt"] = Sentence.of(text, depth_m=case.silt.depth, **densities)
     if case.anchors:
         said["anchors"] = Sentence("prestress along their axes, where they cross the crack")
     return said
