@@ -43,7 +43,7 @@ def history_figure(motion: GroundMotion, vertical: GroundMotion | None, gravity:
 def draw_history(panels: Sequence[Axes], motion: GroundMotion, gravity: float, units: Units) -> None:
     """Draw acceleration, velocity and displacement over time, with their peaks, into three panels."""
     velocity, displacement = velocity_displacement(motion)
-    speed, length = units.scale("velocity"), units.scale("length")
+    speed, length = units.scale("velocity"), units.scale("displacement", motion.pgd)
     rows = (
         ("acceleration", "PGA", motion.acceleration / gravity, motion.pga / gravity, "g"),
         ("velocity", "PGV", speed(velocity), speed(motion.pgv), speed.unit),

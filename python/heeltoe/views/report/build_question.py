@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.result.verdict import advice, verdict
@@ -21,6 +24,7 @@ from heeltoe.views.report.content import (
 )
 from heeltoe.views.report.subject import Run, Subject
 from heeltoe.views.words.warnings import listed
+from heeltoe.warnings import Notice
 
 # Static checks that are not met and have room on page one; the others are counted there.
 _MOST_MISSED = 3
@@ -101,7 +105,22 @@ def _not_met(subject: Subject) -> Block | None:
 
 def warnings(subject: Subject) -> tuple[str, ...]:
     """Return every warning once; those of one of two models say whose they are."""
-    return listed([run.response for run in subject.runs], subject.units)
+    responses = [run.response for run in subject.runs]
+    if subject.statics is not None:
+        responses = [replace(each, warnings=tuple(_beside_statics(each.warnings))) for each in responses]
+    return listed(responses, subject.units)
+
+
+def _beside_statics(notices: Sequence[Notice]) -> Iterator[Notice]:
+    """Return warnings for a report that has the static checks, which make use of their own fields."""
+    for notice in notices:
+        said = dict(notice.quantities)
+        if notice.code != "fields-unused":
+            yield notice
+            continue
+        fields = [path for path in said["fields"].split(", ") if not path.startswith("statics.")]
+        if fields:
+            yield Notice(notice.code, **{**said, "fields": ", ".join(fields)})
 
 
 def _warnings(subject: Subject) -> Block | None:

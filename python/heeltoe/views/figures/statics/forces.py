@@ -71,6 +71,7 @@ def forces_figure(case: Case, found: LoadCase, units: str = "si") -> Figure:
     arrows = list(_arrows(found, section))
     heights, widths = _arms(arrows, up=False), _arms(arrows, up=True)
     low, high = section.polygon.min(axis=0), section.polygon.max(axis=0)
+    high[1] = max(high[1], section.base_elevation + (drawn.reservoir.depth if drawn.reservoir else 0.0))
     left = 0.46 + _STEP * len(heights)
     below = 0.10 + _DEEPEST + _STEP * len(widths)
     canvas.look_at(low - np.array([left, below]) * size, high + np.array([0.42, 0.1]) * size)
