@@ -196,7 +196,7 @@ def test_the_command_writes_all_of_it(tmp_path):
     assert json.loads(said.stdout)["slip_source"] == "statics.residual_slip"
     assert "M about heel" in said.stderr
     names = {path.name for path in (tmp_path / "out").iterdir()}
-    assert {"result.json", "sheet.csv", "checks.csv", "forces-usual.png", "statics.png"} <= names
+    assert {"result.json", "sheet.csv", "checks.csv", "forces-usual.png", "checks.png"} <= names
     # The model asked for says the slip, whatever the case gives, and is named.
     said = command("statics", place, "--model", "rigid", "--pga", "0.6g", "--json", "-")
     assert json.loads(said.stdout)["slip_source"].startswith("rigid model, ")

@@ -108,7 +108,7 @@ def statics_document(
 def _caption(name: str, cases: Mapping[str, str]) -> str:
     if name == "section":
         return "Section of the dam with its crack, water levels and the usual forces."
-    if name == "statics":
+    if name == "checks":
         return "How far each check is met: from 1 on it is."
     case = cases[name]
     return (
@@ -197,7 +197,7 @@ def _checks(subject: _Subject, joint: Joint) -> Section:
         f"Checks, crack at {subject.at(joint)}; B: width of the contact, f: compressive strength.",
         "llrrlr",
     )
-    blocks = (table, subject.figures.get("statics"), remarks(found, subject.units, number))
+    blocks = (table, subject.figures.get("checks"), remarks(found, subject.units, number))
     return Section("Checks", without_gaps(*blocks))
 
 

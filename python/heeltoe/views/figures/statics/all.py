@@ -20,7 +20,7 @@ def statics_figures(found: Joints, units: str = "si") -> Figures:
     joint = found.governing
     drawings: dict[str, Callable[[], Figure]] = {
         "section": lambda: section_figure(joint.case, units),
-        "statics": lambda: statics_figure(joint.statics),
+        "checks": lambda: statics_figure(joint.statics),
     }
     for each in joint.statics.cases:
         drawings[f"forces-{slug(each.name)}"] = partial(forces_figure, joint.case, each, units)
