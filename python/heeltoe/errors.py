@@ -9,7 +9,9 @@ is about, the value that was found, and the remedy, and renders as one line:
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 
+from heeltoe.errors_of_dams import OF_DAMS
 from heeltoe.errors_of_records import OF_RECORDS
 from heeltoe.errors_of_statics import OF_STATICS
 from heeltoe.errors_of_studies import OF_STUDIES
@@ -57,15 +59,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "fields-conflict": ('cannot stand beside "{other}"', "keep one of them"),
     "needs-other": ("has no meaning without {other}", "give that, or remove this"),
     "contradiction": ("{value} contradicts {other}", "keep one of them"),
-    "anchor-outside": ("{value} is beyond the toe: the crack is {width} wide", "give a distance from 0 m to {width}"),
-    "section-incomplete": ("is required and not there", "give {fields}, or a polygon"),
-    "neck-above-crest": ("{value} is above the crest at {height}", "give a height up to {height}"),
-    "section-size": ("{value} is no size of a dam", "give a section of 1 mm to 10 km"),
-    "polygon-corners": ("has {value} different corners", "give at least 3"),
-    "polygon-crossing": (
-        "the outline {value} crosses or touches itself",
-        "give the corners in order around the section",
-    ),
     "frame-step": (
         "{value} is no spacing for the histories of the flexible model",
         "give {shortest} to {end}; it keeps all modes at each of them",
@@ -77,23 +70,6 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "step-stiff": (
         "is so stiff that a time step would have to be below {step}",
         "give a wider uplift.opening or a softer anchor, or a flexible.time_step of that size",
-    ),
-    "crack-outside": ("{value} is outside the section", "give an elevation from 0 m to below {height}"),
-    "crack-pieces": (
-        "the line at {value} meets the section in several pieces",
-        "give an elevation with one piece of concrete",
-    ),
-    "crack-no-width": ("the section has no width at {value}", "give an elevation where it has one"),
-    "friction-missing": ("is required and not there", "give friction, or both static_friction and kinetic_friction"),
-    "friction-order": ("{value} is below kinetic_friction, {kinetic}", "give a static_friction of at least {kinetic}"),
-    "uplift-option-foreign": (
-        'does not belong to the pattern "{pattern}"',
-        'remove it or choose the pattern "{owner}"',
-    ),
-    "uplift-option-missing": ('is required by the pattern "{pattern}"', "give it or choose another pattern"),
-    "uplift-profile": (
-        "the distances {value} do not ascend from 0 to 1",
-        "give them in order, the heel at 0 and the toe at 1",
     ),
     "motion-source": ("has no source", "give file or points"),
     "motion-points": ("the times {value} do not ascend", "give at least two points in order of time"),
@@ -300,6 +276,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     ),
     "cannot-write": ("{value} cannot be written ({reason})", "give a place where you may write"),
     **OF_STATICS,
+    **OF_DAMS,
     **OF_RECORDS,
     **OF_STUDIES,
 }
@@ -343,6 +320,11 @@ class InputError(HeeltoeError):
         What was found there, as the user wrote it.
     **context
         Whatever else the texts of the catalogue name.
+
+    Attributes
+    ----------
+    others
+        What else is wrong, found with it.
     """
 
     def __init__(self, code: str, field: str, value: object = "", **context: object) -> None:
@@ -353,7 +335,15 @@ class InputError(HeeltoeError):
         context["value"] = value
         self.problem = problem.format(**context)
         self.remedy = remedy.format(**context)
+        self.others: tuple[InputError, ...] = ()
         super().__init__(str(self))
+
+    def with_others(self, others: Iterable[InputError]) -> InputError:
+        """Return the same with what else is wrong, which Python shows below it."""
+        for each in others:
+            self.others += (each,)
+            self.add_note(str(each))
+        return self
 
     def __str__(self) -> str:
         return plain(f"{self.field}: {self.problem}; {self.remedy}", _LONGEST)

@@ -214,6 +214,27 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "a tension of {stress_pa:.3g MPa} before the earthquake exceeds the {strength_pa:.3g MPa} that the concrete "
         "bears: the dam is cracked elsewhere, too, or its loads are not these",
     ),
+    "anchor-misses": (
+        "caution",
+        "anchors",
+        "{field}: anchor {number:d} does not cross the crack, and holds nothing there",
+    ),
+    "anchor-head-wet": (
+        "note",
+        "anchors",
+        "{field}: the head of anchor {number:d} is on the {side} face {depth_m:.3g m} below the water, at an elevation "
+        "of {elevation_m:.4g m}",
+    ),
+    "anchor-head-outside": (
+        "caution",
+        "anchors",
+        "{field}: the head of anchor {number:d} is {distance_m:.3g m} outside the dam",
+    ),
+    "drains-miss": (
+        "caution",
+        "uplift.drain_x",
+        "{field}: the drains do not cross the crack, whose water they leave as it is without drains",
+    ),
     "faces-penetrate": (
         "caution",
         "flexible.contactors",

@@ -7,6 +7,7 @@ import json
 from collections.abc import Callable, Sequence
 from typing import Any
 
+import ezdxf
 import pytest
 
 from heeltoe import InputError, read_case, run, statics_of_sections
@@ -56,6 +57,20 @@ def records(tmp_path_factory) -> dict[str, tuple[Fields, Any]]:
             f"{block}.points": ({}, [["0 s", "0 g"], ["0.2 s", "0.5 g"], ["0.4 s", "0 g"]]),
             f"{block}.pga": ({}, "0.5 g"),
         }
+    for name, text in {
+        "a.csv": "x [m],z [m]\n0,0\n26,0\n5,30\n0,30\n",
+        "b.csv": "x [m],z [m]\n-2,0\n26,0\n5,30\n0,30\n",
+        "bare.csv": "0,0\n26,0\n5,30\n0,30\n",
+    }.items():
+        (place / name).write_text(text)
+    drawing = ezdxf.new("R2010", units=6)
+    for layer, base in (("A", 26.0), ("B", 27.0)):
+        corners = [(0.0, 0.0), (base, 0.0), (5.0, 30.0), (0.0, 30.0)]
+        drawing.modelspace().add_lwpolyline(corners, close=True, dxfattribs={"layer": layer})
+    drawing.saveas(place / "two.dxf")
+    found["section.file"] = ({"section": {"file": str(place / "a.csv")}}, str(place / "b.csv"))
+    found["section.layer"] = ({"section": {"file": str(place / "two.dxf"), "layer": "A"}}, "B")
+    found["section.unit"] = ({"section": {"file": str(place / "bare.csv"), "unit": "m"}}, "dam")
     found["motion.duration"] = ({}, "0.35 s")
     found["motion.allow_zero"] = ({"motion": {"points": flat}}, True)
     return found

@@ -34,6 +34,8 @@ def test_what_the_new_case_comments_out_is_sound(tmp_path):
     # Every commented field put in force, one at a time: none may be unknown, or have a wrong unit or value.
     # Alone, some have nothing to belong to.
     fine = {None, "needs-other", "missing-field", "fields-conflict", "uplift-option-foreign", "friction-missing"}
+    # Drawings that are not there.
+    fine.add("section-file-missing")
     lines = new_case_text("x").splitlines()
     header, tried = -1, 0
     for number, line in enumerate(lines):

@@ -83,9 +83,30 @@ BASE: Fields = {
     },
 }
 GONE = object()
+FACES: Fields = {
+    "height": "30 m",
+    "crest_width": "5 m",
+    "upstream": [["0 m", 0.2], ["10 m", 0.0]],
+    "downstream": [["0 m", 0.8], ["25 m", 0.0]],
+}
+ENDS: Fields = {
+    "head_x": "2 m",
+    "head_elevation": "30 m",
+    "foot_x": "6 m",
+    "foot_elevation": "2 m",
+    "prestress": "300 kN/m",
+    "axial_stiffness": "20 MN/m/m",
+}
 #: For fields that stand only in another case than the base, or have no value there: what changes first, then the value.
 HELPED: dict[str, tuple[Fields, Any]] = {
     "title": ({}, "another"),
+    "section.upstream": ({"section": FACES}, [["0 m", 0.1], ["12 m", 0.0]]),
+    "section.downstream": ({"section": FACES}, [["0 m", 0.7], ["25 m", 0.0]]),
+    **{
+        f"anchors[0].{name}": ({"anchors": [ENDS]}, value)
+        for name, value in (("head_x", "3 m"), ("head_elevation", "28 m"), ("foot_x", "7 m"), ("foot_elevation", "1 m"))
+    },
+    "uplift.drain_x": ({"uplift.drain_position": GONE, "uplift.drain_x": "3 m"}, "4 m"),
     "section.polygon": (
         {"section": {"polygon": [["0 m", "0 m"], ["26 m", "0 m"], ["5 m", "30 m"], ["0 m", "30 m"]]}},
         [["-2 m", "0 m"], ["26 m", "0 m"], ["5 m", "30 m"], ["0 m", "30 m"]],

@@ -14,6 +14,10 @@ from heeltoe.errors import InputError, shown
 #: ``"crack.friction=1.0"``, ``{"crack.friction": 1.0}``, ``{"crack": {"friction": 1.0}}``, or several of these.
 Changes = str | Mapping[str, Any] | Sequence[str | Mapping[str, Any]]
 
+# Of a section: what its several forms are made of.
+_SIZES, _DIMENSIONS = ("height", "crest_width"), ("neck_height", "neck_width", "base_width")
+_FACES, _FILE = ("upstream", "downstream"), ("file", "layer", "unit")
+
 # An override says how it shall be now: what the file says in the other form of the same thing goes.
 _REPLACES = {
     # Channel, unit and time step belong to the file that goes; taken for another one's they would spoil it silently.
@@ -21,6 +25,16 @@ _REPLACES = {
     "motion.points": ("motion.file", "motion.channel", "motion.unit", "motion.time_step"),
     "motion.vertical.file": tuple(f"motion.vertical.{name}" for name in ("points", "channel", "unit", "time_step")),
     "motion.vertical.points": tuple(f"motion.vertical.{name}" for name in ("file", "channel", "unit", "time_step")),
+    **{
+        f"section.{name}": tuple(f"section.{other}" for other in others)
+        for name, others in {
+            "polygon": (*_SIZES, *_DIMENSIONS, *_FACES, *_FILE),
+            "file": (*_SIZES, *_DIMENSIONS, *_FACES, "polygon"),
+            **dict.fromkeys(_FACES, (*_DIMENSIONS, *_FILE, "polygon")),
+        }.items()
+    },
+    "uplift.drain_position": ("uplift.drain_x",),
+    "uplift.drain_x": ("uplift.drain_position",),
     "statics.criteria": ("statics.criteria_file",),
     "statics.criteria_file": ("statics.criteria",),
     "crack.friction": ("crack.static_friction", "crack.kinetic_friction"),
@@ -71,7 +85,7 @@ def _of_other_patterns(path: Sequence[str], value: Any) -> tuple[str, ...]:
     if list(path) != ["uplift", "pattern"]:
         return ()
     gone = [f"uplift.{option}" for option, pattern in UPLIFT_OPTIONS.items() if pattern != value]
-    return (*gone, "statics.drain_diameter") if value != "drained" else tuple(gone)
+    return (*gone, "uplift.drain_x", "statics.drain_diameter") if value != "drained" else tuple(gone)
 
 
 def _split_all(changes: Changes) -> Iterator[tuple[list[str], Any]]:

@@ -6,65 +6,20 @@ is checked by :func:`heeltoe.case.read.read_case`."""
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, Self
+from collections.abc import Iterator
+from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
 from heeltoe.case.fields import STEEPEST, Fields, Fraction, FrictionCoefficient, Head, Truth
 from heeltoe.case.quantities import Angle, Density, DimensionlessNumber, Length, LineForce, Pressure, Stiffness
-from heeltoe.case.sentences import collected
+from heeltoe.case.sentences import gathered
 from heeltoe.errors import InputError, shown
 
-
-class Section(Fields):
-    """The section of the dam: five dimensions, or any polygon; x points downstream, z up.
-
-    The dimensions describe a dam with a vertical upstream face at x = 0. Its downstream face runs straight
-    from the base to the neck and straight on to the crest (Zhu 2004); without a neck it is one straight line.
-    """
-
-    height: Annotated[Length, Field(gt=0.0)] | None = None
-    """From the base to the crest."""
-    crest_width: Annotated[Length, Field(ge=0.0)] | None = None
-    """Width at the crest."""
-    neck_height: Annotated[Length, Field(gt=0.0)] | None = None
-    """From the base to the neck, where the slope of the downstream face changes."""
-    neck_width: Annotated[Length, Field(gt=0.0)] | None = None
-    """Width at the neck."""
-    base_width: Annotated[Length, Field(gt=0.0)] | None = None
-    """Width at the base."""
-    polygon: tuple[tuple[Length, Length], ...] | None = None
-    """Corners [x, z] in order around the section, either way."""
-
-    @model_validator(mode="after")
-    @collected
-    def _one_form(self) -> Self:
-        form = {"height": self.height, "crest_width": self.crest_width, "base_width": self.base_width}
-        neck = {"neck_height": self.neck_height, "neck_width": self.neck_width}
-        given = [name for name, value in (form | neck).items() if value is not None]
-        if self.polygon is not None and given:
-            raise InputError("fields-conflict", given[0], other="polygon")
-        if self.polygon is not None:
-            return self
-        # Half a neck is a slip of the pen, no neck is a plain trapezoid.
-        wanted = form | neck if neck.keys() & set(given) else form
-        for name, value in wanted.items():
-            if value is None:
-                raise InputError("section-incomplete", name, fields=", ".join(wanted))
-        if self.neck_height is not None and self.height is not None and self.neck_height > self.height:
-            raise InputError("neck-above-crest", "neck_height", f"{self.neck_height:g} m", height=f"{self.height:g} m")
-        return self
-
-    def vertices(self) -> tuple[tuple[float, float], ...]:
-        """Return the corners (x, z) [m] around the section, as given or counter-clockwise from the heel."""
-        if self.polygon is not None:
-            return self.polygon
-        # The validator has seen that these are there.
-        assert self.height is not None
-        assert self.crest_width is not None
-        assert self.base_width is not None
-        neck = () if self.neck_width is None or self.neck_height is None else ((self.neck_width, self.neck_height),)
-        return (0.0, 0.0), (self.base_width, 0.0), *neck, (self.crest_width, self.height), (0.0, self.height)
+#: The fields of an anchor that is given by its ends.
+ANCHOR_ENDS = ("head_x", "head_elevation", "foot_x", "foot_elevation")
+#: Of an anchor to the normal of the crack [rad].
+STEEPEST_ANCHOR = 1.2
 
 
 class Concrete(Fields):
@@ -102,18 +57,18 @@ class Crack(Fields):
     The default is that of Zhu (2004)."""
 
     @model_validator(mode="after")
-    @collected
-    def _one_friction(self) -> Self:
+    @gathered
+    def _one_friction(self) -> Iterator[InputError]:
         pair = {"static_friction": self.static_friction, "kinetic_friction": self.kinetic_friction}
         given = [name for name, value in pair.items() if value is not None]
         if self.friction is not None and given:
-            raise InputError("fields-conflict", "friction", other=given[0])
+            yield InputError("fields-conflict", "friction", other=given[0])
         if self.friction is None and len(given) < 2:
-            missing = next((name for name in pair if given and name not in given), "friction")
-            raise InputError("friction-missing", missing)
-        if self.mu_static < self.mu_kinetic:
-            raise InputError("friction-order", "static_friction", f"{self.mu_static:g}", kinetic=f"{self.mu_kinetic:g}")
-        return self
+            yield InputError(
+                "friction-missing", next((name for name in pair if given and name not in given), "friction")
+            )
+        elif self.mu_static < self.mu_kinetic:
+            yield InputError("friction-order", "static_friction", f"{self.mu_static:g}", kinetic=f"{self.mu_kinetic:g}")
 
     @property
     def mu_static(self) -> float:
@@ -178,12 +133,22 @@ class Silt(Fields):
 
 
 class Anchor(Fields):
-    """An anchor or a row of bars across the crack, per metre of dam."""
+    """An anchor or a row of bars across the crack, per metre of dam: by its place on the crack, or by its two ends."""
 
-    distance: Annotated[Length, Field(ge=0.0)]
-    """From the heel along the crack."""
-    inclination: Annotated[Angle, Field(ge=-1.2, le=1.2)] = Field(default="0 deg", validate_default=True)
+    distance: Annotated[Length, Field(ge=0.0)] | None = None
+    """From the heel along the crack; the anchor moves where the crack is moved."""
+    inclination: Annotated[Angle, Field(ge=-STEEPEST_ANCHOR, le=STEEPEST_ANCHOR)] = Field(
+        default="0 deg", validate_default=True
+    )
     """Of its axis to the normal of the crack; positive where its upper end leans downstream."""
+    head_x: Length | None = None
+    """Of its upper end, in place of `distance` and `inclination`, as are the next three: x of the section."""
+    head_elevation: Length | None = None
+    """Of its upper end, above the lowest point of the section."""
+    foot_x: Length | None = None
+    """Of its lower end."""
+    foot_elevation: Length | None = None
+    """Of its lower end; below zero in the rock."""
     prestress: Annotated[LineForce, Field(ge=0.0, le=1e9)] = Field(default="0 kN/m", validate_default=True)
     """Tension while the crack is closed and has not slipped."""
     axial_stiffness: Annotated[Stiffness, Field(ge=0.0, le=1e13)] = Field(default="0 MN/m/m", validate_default=True)
@@ -194,11 +159,25 @@ class Anchor(Fields):
     """Tension it is good for; more is warned about."""
 
     @model_validator(mode="after")
-    @collected
-    def _does_something(self) -> Self:
+    @gathered
+    def _sound(self) -> Iterator[InputError]:
+        given = [name for name in ANCHOR_ENDS if getattr(self, name) is not None]
+        if given:
+            yield from (InputError("anchor-form", name) for name in ANCHOR_ENDS if name not in given)
+            crack = [name for name in ("distance", "inclination") if name in self.model_fields_set]
+            yield from (InputError("fields-conflict", name, other=given[0]) for name in crack)
+        elif self.distance is None:
+            yield InputError("anchor-form", "distance")
         if not (self.prestress or self.axial_stiffness or self.shear_stiffness):
-            raise InputError("needs-other", "distance", other="prestress, axial_stiffness or shear_stiffness")
-        return self
+            field = "distance" if not given else given[0]
+            yield InputError("needs-other", field, other="prestress, axial_stiffness or shear_stiffness")
+
+    @property
+    def ends(self) -> tuple[tuple[float, float], tuple[float, float]] | None:
+        """Head and foot (x, elevation) [m]; None of an anchor that is given by its place on the crack."""
+        if self.head_x is None or self.head_elevation is None or self.foot_x is None or self.foot_elevation is None:
+            return None
+        return (self.head_x, self.head_elevation), (self.foot_x, self.foot_elevation)
 
 
 UpliftPattern = Literal["none", "uniform", "triangular", "cut-off", "drained", "profile"]
@@ -210,6 +189,9 @@ UPLIFT_OPTIONS = {
     "drain_efficiency": "drained",
     "points": "profile",
 }
+
+#: Two ways to say where drains are.
+DRAINS = ("drain_position", "drain_x")
 
 
 def pattern_of(name: object) -> object:
@@ -229,6 +211,9 @@ class Uplift(Fields):
     """Of `cut-off`: the part of the crack width, from the heel, that is under pressure."""
     drain_position: Annotated[DimensionlessNumber, Field(gt=0.0, lt=1.0)] | None = None
     """Of `drained`: distance of the drains from the heel, as a part of the crack width."""
+    drain_x: Length | None = None
+    """Of `drained`, in place of `drain_position`: x of vertical drains in the section, which stay where they are when
+    the crack is moved."""
     drain_efficiency: Fraction | None = None
     """Of `drained`: 0 leaves the heel's head at the drains, 1 brings it down to the tailwater's; USBR assumes
     2/3 for drains that work."""
@@ -243,23 +228,25 @@ class Uplift(Fields):
     a millimetre where it is not given."""
 
     @model_validator(mode="after")
-    @collected
-    def _options_of_the_pattern(self) -> Self:
-        for option, pattern in UPLIFT_OPTIONS.items():
+    @gathered
+    def _options_of_the_pattern(self) -> Iterator[InputError]:
+        for option, pattern in {**UPLIFT_OPTIONS, "drain_x": "drained"}.items():
             value = getattr(self, option)
             if value is not None and pattern != self.pattern:
-                raise InputError("uplift-option-foreign", option, shown(value), pattern=self.pattern, owner=pattern)
-            if value is None and pattern == self.pattern:
-                raise InputError("uplift-option-missing", option, pattern=pattern)
+                yield InputError("uplift-option-foreign", option, shown(value), pattern=self.pattern, owner=pattern)
+            replaced = option in DRAINS and any(getattr(self, each) is not None for each in DRAINS)
+            if value is None and pattern == self.pattern and not replaced and option != "drain_x":
+                yield InputError("uplift-option-missing", option, pattern=pattern)
+        if self.drain_position is not None and self.drain_x is not None:
+            yield InputError("fields-conflict", "drain_position", other="drain_x")
         if self.points is not None:
             fractions = [fraction for fraction, _ in self.points]
             if len(fractions) < 2 or fractions[0] != 0.0 or fractions[-1] != 1.0 or fractions != sorted(fractions):
-                raise InputError("uplift-profile", "points", shown(fractions))
+                yield InputError("uplift-profile", "points", shown(fractions))
         if self.during_shaking == "constant" and self.opening is not None:
-            raise InputError("needs-other", "opening", other="a during_shaking that changes the pressure")
+            yield InputError("needs-other", "opening", other="a during_shaking that changes the pressure")
         if self.during_shaking in ("zero while open", "follows opening") and self.pattern == "none":
-            raise InputError("contradiction", "during_shaking", shown(self.during_shaking), other='pattern = "none"')
-        return self
+            yield InputError("contradiction", "during_shaking", shown(self.during_shaking), other='pattern = "none"')
 
     @property
     def opening_of_change(self) -> float:

@@ -11,14 +11,17 @@ import numpy as np
 import shapely
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
+from heeltoe.case.at_crack import AnchorAtCrack, anchor_at_crack, flat, too_flat, uplift_at_crack
 from heeltoe.case.changes import apply
-from heeltoe.case.dam import Anchor, Concrete, Crack, Ice, Reservoir, Section, Silt, Uplift, Water
+from heeltoe.case.dam import Anchor, Concrete, Crack, Ice, Reservoir, Silt, Uplift, Water
 from heeltoe.case.fields import Fields
 from heeltoe.case.motion import Motion
 from heeltoe.case.options import Analysis, Decoupled, Flexible, Limits, StaticsChoice
 from heeltoe.case.project import Project
 from heeltoe.case.quantities import Gravity
-from heeltoe.case.sentences import all_errors, collected, first_error
+from heeltoe.case.section import Section
+from heeltoe.case.section_file import with_section_read
+from heeltoe.case.sentences import all_errors, gathered
 from heeltoe.errors import InputError
 from heeltoe.geometry.levels import cut_levels
 from heeltoe.geometry.section import ON_LINE, CutSection, cut, outline, outside
@@ -85,41 +88,37 @@ class Case(Shown, Fields):
     __str__ = __repr__
 
     @model_validator(mode="after")
-    @collected
-    def _agree(self) -> Self:
+    @gathered
+    def _agree(self) -> Iterator[InputError]:
         if self.reservoir is None:
             for name in ("ice", "silt"):
                 if getattr(self, name) is not None:
-                    raise InputError("needs-other", name, other="a reservoir")
+                    yield InputError("needs-other", name, other="a reservoir")
             if self.uplift.during_shaking == "full while open":
-                raise InputError("needs-other", "uplift.during_shaking", other="a reservoir")
+                yield InputError("needs-other", "uplift.during_shaking", other="a reservoir")
         elif self.ice is not None and self.ice.depth >= self.reservoir.depth:
-            raise InputError("ice-depth", "ice.depth", f"{self.ice.depth:g} m", depth=f"{self.reservoir.depth:g} m")
+            yield InputError("ice-depth", "ice.depth", f"{self.ice.depth:g} m", depth=f"{self.reservoir.depth:g} m")
         for name in ("reservoir", "tailwater"):
             water = getattr(self, name)
             if water and water.follows_vertical_motion and self.motion and not self.motion.vertical:
-                raise InputError("needs-other", f"{name}.follows_vertical_motion", other="motion.vertical")
+                yield InputError("needs-other", f"{name}.follows_vertical_motion", other="motion.vertical")
         if self.statics.drain_diameter is not None and self.uplift.pattern != "drained":
-            raise InputError("needs-other", "statics.drain_diameter", other='uplift.pattern = "drained"')
-        return self
+            yield InputError("needs-other", "statics.drain_diameter", other='uplift.pattern = "drained"')
 
     @classmethod
-    def of(cls, fields: Mapping[str, Any]) -> Case:
-        """Return the case of some fields, as a file has them.
+    def of(cls, fields: Mapping[str, Any], directory: Path | None = None) -> Case:
+        """Return the case of some fields, as a file has them, with relative paths from a directory, the current one
+        where none is given.
 
         Raises
         ------
         InputError
-            The first thing that is wrong, and how many more there are.
+            The first thing that is wrong, with the others.
         """
-        try:
-            case = cls.model_validate(fields)
-        except ValidationError as found:
-            raise first_error(found, cls) from None
-        for wrong, error in misfits(case):
-            if wrong:
-                raise error()
-        return case
+        case, wrong = problems(fields, directory or Path())
+        if case is None:
+            raise wrong[0].with_others(wrong[1:])
+        return case.based_in(directory or Path())
 
     def with_(self, *changes: str | Mapping[str, Any]) -> Case:
         """Return the case with some fields changed, read and checked as from a file; this one stays as it is.
@@ -139,7 +138,7 @@ class Case(Shown, Fields):
         """
         fields = self.model_dump(mode="json", exclude_unset=True)
         apply(fields, changes)
-        return Case.of(fields).based_in(self.base_directory)
+        return Case.of(fields, self.base_directory)
 
     _base_directory: Path = PrivateAttr(default_factory=Path)
 
@@ -173,11 +172,22 @@ class Case(Shown, Fields):
             return cut_levels(self.outline, np.asarray(elevation), inclination)
         return cut(self.outline, elevation, inclination)
 
+    @cached_property
+    def anchors_at_crack(self) -> tuple[AnchorAtCrack, ...]:
+        """The anchors by their distance from the heel and their inclination to the normal of the crack; those that do
+        not cross it do nothing."""
+        return tuple(anchor_at_crack(each, self.cut) for each in self.anchors)
+
+    @cached_property
+    def uplift_at_crack(self) -> Uplift:
+        """The uplift with its drains on the crack."""
+        return uplift_at_crack(self.uplift, self.cut)
+
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
-        """Return a copy with other fields; a cut made before holds for the same section and crack only."""
+        """Return a copy with other fields; what was made of those before goes."""
         copy = super().model_copy(update=update, deep=deep)
-        if update and not update.keys().isdisjoint({"section", "crack"}):
-            for made in ("outline", "cut"):
+        for made, of in _MADE_OF.items():
+            if update and not update.keys().isdisjoint(of):
                 copy.__dict__.pop(made, None)
         return copy
 
@@ -188,25 +198,78 @@ class Case(Shown, Fields):
         return copy
 
 
-def problems(fields: Mapping[str, Any]) -> tuple[Case | None, list[InputError]]:
-    """Return the case of some fields, as a file has them, and all that is wrong with them; None where anything is."""
+# What is made of which fields, and kept.
+_MADE_OF = {
+    "outline": {"section"},
+    "cut": {"section", "crack"},
+    "anchors_at_crack": {"section", "crack", "anchors"},
+    "uplift_at_crack": {"section", "crack", "uplift"},
+}
+# In the place of a section or a crack that is wrong, so that the rest can be looked at.
+_SECTION, _CRACK = {"height": "1 m", "crest_width": "1 m", "base_width": "1 m"}, {"friction": 1.0}
+# What has no meaning without another block.
+_OF_OTHERS = {"reservoir": ("ice", "silt")}
+
+
+def problems(fields: Mapping[str, Any], directory: Path | None) -> tuple[Case | None, list[InputError]]:
+    """Return the case of some fields, as a file has them, and all that is wrong with them; None where anything is.
+
+    Parameters
+    ----------
+    fields
+        As a file has them.
+    directory
+        Where relative paths start; None where no file is to be read.
+    """
+    wrong: list[InputError] = []
     try:
-        case = Case.model_validate(fields)
-    except ValidationError as found:
-        return None, all_errors(found, Case)
-    try:
-        wrong = [error() for is_so, error in misfits(case) if is_so]
+        read = with_section_read(fields, directory)
     except InputError as error:
-        wrong = [error]
+        read, wrong = {**fields, "section": _SECTION}, [error, *error.others]
+    try:
+        case = Case.model_validate(read)
+    except ValidationError as found:
+        wrong += all_errors(found, Case)
+        return None, [*wrong, *_further(read, wrong)]
+    if not wrong:
+        wrong = _misfits(case)
     return (None if wrong else case), wrong
+
+
+def _further(fields: Mapping[str, Any], wrong: list[InputError]) -> list[InputError]:
+    """Return what the section rules out of the blocks that are sound by themselves."""
+    gone = {error.field.partition(".")[0].partition("[")[0] for error in wrong}
+    gone |= {name for block in gone for name in _OF_OTHERS.get(block, ())}
+    if "section" in gone:
+        return []
+    left = {name: value for name, value in fields.items() if name not in gone}
+    if "crack" in gone:
+        # What lies on the crack cannot be looked at.
+        left = {name: value for name, value in left.items() if name != "anchors"} | {"crack": _CRACK}
+    try:
+        return _misfits(Case.model_validate(left))
+    except ValidationError:
+        return []
+
+
+def _misfits(case: Case) -> list[InputError]:
+    wrong = []
+    try:
+        for is_so, error in misfits(case):
+            if is_so:
+                wrong.append(error())
+    except InputError as error:
+        wrong.append(error)
+    return wrong
 
 
 def misfits(case: Case) -> Iterator[tuple[bool, Callable[[], InputError]]]:
     """Walk what the section rules out, whether it is so, row by row where the numbers of the case are columns, and what
     is to be said then: silt above the crest, water farther above it than the dam is high, ice that nothing holds there,
     sections outside the dam and anchors beyond the toe."""
-    section, choice = case.cut, case.statics
-    height = section.crest_elevation - section.base_elevation
+    choice = case.statics
+    _, base, _, crest = case.outline.bounds
+    height = crest - base
     surfaces = {
         "reservoir.depth": case.reservoir.depth if case.reservoir else None,
         "tailwater.depth": case.tailwater.depth if case.tailwater else None,
@@ -224,9 +287,13 @@ def misfits(case: Case) -> Iterator[tuple[bool, Callable[[], InputError]]]:
     for place, joint in enumerate(choice.sections):
         field = f"statics.sections[{place}].elevation"
         yield outside(case.outline, joint.elevation), partial(_outside, field, joint.elevation, height)
+    section = case.cut
     for place, anchor in enumerate(case.anchors):
-        far = partial(_beyond_toe, f"anchors[{place}].distance", anchor.distance, section.crack_width)
-        yield anchor.distance > section.crack_width * (1.0 + ON_LINE), far
+        if anchor.distance is not None:
+            far = partial(_beyond_toe, f"anchors[{place}].distance", anchor.distance, section.crack_width)
+            yield anchor.distance > section.crack_width * (1.0 + ON_LINE), far
+        else:
+            yield too_flat(anchor, section), partial(flat, place, anchor, section)
 
 
 def _outside(field: str, elevation: float, height: float) -> InputError:

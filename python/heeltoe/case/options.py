@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Annotated, Literal, Self, get_args
 
 from pydantic import BeforeValidator, Field, model_validator
 
 from heeltoe.case.fields import Count, Fields, Fraction, FrictionCoefficient, Head, TimeSpan, Truth
 from heeltoe.case.quantities import DimensionlessNumber, Duration, Length, MemorySize, Pressure
-from heeltoe.case.sentences import collected
+from heeltoe.case.sentences import gathered
 from heeltoe.errors import InputError, shown
 
 Evidence = Literal["full", "step", "none"]
@@ -65,13 +66,12 @@ class Flexible(Fields):
     """Of `idce`: Newmark's beta; (gamma + 1/2)^2 / 4 where it is not given."""
 
     @model_validator(mode="after")
-    @collected
-    def _go_together(self) -> Self:
+    @gathered
+    def _go_together(self) -> Iterator[InputError]:
         if self.contact == "idce" and self.damping in ("relative", "modal"):
-            raise InputError("contradiction", "damping", shown(self.damping), other='contact = "idce"')
+            yield InputError("contradiction", "damping", shown(self.damping), other='contact = "idce"')
         if not self.damping_on_water and self.damping != "relative":
-            raise InputError("contradiction", "damping_on_water", "false", other=f'damping = "{self.damping}"')
-        return self
+            yield InputError("contradiction", "damping_on_water", "false", other=f'damping = "{self.damping}"')
 
     def with_evidence(self, evidence: str) -> Self:
         """Return the same with other evidence.
@@ -183,31 +183,30 @@ class StaticsChoice(Fields):
     """Lift joints to judge, the base among them where it is listed: elevations, or tables with what differs there."""
 
     @model_validator(mode="after")
-    @collected
-    def _belong_together(self) -> Self:
+    @gathered
+    def _belong_together(self) -> Iterator[InputError]:
         for name in ("cohesion", "tensile_strength"):
             if getattr(self, name) and not self.bonded:
-                raise InputError("needs-other", name, other="a part of the crack that is bonded (statics.bonded)")
+                yield InputError("needs-other", name, other="a part of the crack that is bonded (statics.bonded)")
         if self.flood_tailwater is not None and self.flood_depth is None:
-            raise InputError("needs-other", "flood_tailwater", other="flood_depth")
+            yield InputError("needs-other", "flood_tailwater", other="flood_depth")
         if self.vertical_seismic_coefficient and self.seismic_coefficient is None:
-            raise InputError("needs-other", "vertical_seismic_coefficient", other="seismic_coefficient")
+            yield InputError("needs-other", "vertical_seismic_coefficient", other="seismic_coefficient")
         if self.uplift_in_earthquake != "criteria" and self.seismic_coefficient is None:
-            raise InputError("needs-other", "uplift_in_earthquake", other="seismic_coefficient")
+            yield InputError("needs-other", "uplift_in_earthquake", other="seismic_coefficient")
         if self.flood_rarity == "extreme" and self.flood_depth is None:
-            raise InputError("needs-other", "flood_rarity", other="flood_depth")
+            yield InputError("needs-other", "flood_rarity", other="flood_depth")
         elevations = [section.elevation for section in self.sections]
         twice = next((each for each in elevations if elevations.count(each) > 1), None)
         if twice is not None:
-            raise InputError("sections-twice", "sections", f"{twice:g} m")
+            yield InputError("sections-twice", "sections", f"{twice:g} m")
         if self.criteria_file is not None and "criteria" in self.model_fields_set:
-            raise InputError("fields-conflict", "criteria", other="criteria_file")
+            yield InputError("fields-conflict", "criteria", other="criteria_file")
         own = self.criteria_file is not None
         if not own and self.criteria == "USACE" and self.site_information == "limited" and self.structure == "critical":
             # USACE has no factors for these: the site must be explored.
             other = 'structure = "critical" under USACE'
-            raise InputError("contradiction", "site_information", shown(self.site_information), other=other)
-        return self
+            yield InputError("contradiction", "site_information", shown(self.site_information), other=other)
 
 
 class Decoupled(Fields):

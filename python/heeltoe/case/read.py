@@ -47,7 +47,7 @@ def read_case(source: str | os.PathLike[str] | Mapping[str, Any], changes: Chang
     Raises
     ------
     InputError
-        The first thing that is wrong, and how many more there are.
+        The first thing that is wrong, with the others.
     """
     if isinstance(source, Mapping):
         fields, directory = copy.deepcopy(dict(source)), Path()
@@ -57,7 +57,7 @@ def read_case(source: str | os.PathLike[str] | Mapping[str, Any], changes: Chang
     else:
         raise InputError("case-source", "source", kind=type(source).__name__)
     apply(fields, changes)
-    return Case.of(fields).based_in(directory)
+    return Case.of(fields, directory)
 
 
 def case_schema() -> dict[str, Any]:

@@ -20,6 +20,7 @@ from heeltoe.plain import harmless
 
 P = typing.ParamSpec("P")
 R = typing.TypeVar("R")
+M = typing.TypeVar("M", bound=BaseModel)
 
 _BOUNDS = {"gt": "above", "ge": "of at least", "lt": "below", "le": "of at most"}
 # Types that pydantic names in its error codes, as people call them.
@@ -41,15 +42,31 @@ def collected(check: Callable[P, R]) -> Callable[P, R]:
         try:
             return check(*args, **kwargs)
         except InputError as error:
-            # Pydantic can hand on no halves of letters.
-            context = {"text": harmless(f"{error.problem}; {error.remedy}"), "error": error}
-            raise PydanticCustomError("input_error", "{text}", context) from None
+            raise _handed_on(error) from None
+
+    return inner
+
+
+def _handed_on(error: InputError, others: Sequence[InputError] = ()) -> PydanticCustomError:
+    # Pydantic can hand on no halves of letters.
+    context = {"text": harmless(f"{error.problem}; {error.remedy}"), "error": error, "others": others}
+    return PydanticCustomError("input_error", "{text}", context)
+
+
+def gathered(check: Callable[[M], Iterator[InputError]]) -> Callable[[M], M]:
+    """Make a validator of a block of what walks all that is wrong with it, fields relative to it."""
+
+    def inner(block: M) -> M:
+        wrong = list(check(block))
+        if wrong:
+            raise _handed_on(wrong[0], wrong[1:])
+        return block
 
     return inner
 
 
 def first_error(found: ValidationError, model: type[BaseModel]) -> InputError:
-    """Return the problem to be told, and how many more there are.
+    """Return the problem to be told first, with the others.
 
     Parameters
     ----------
@@ -65,17 +82,28 @@ def first_error(found: ValidationError, model: type[BaseModel]) -> InputError:
         missing.
     """
     error, *others = all_errors(found, model)
-    more = len(others)
-    if more:
-        error.remedy += f" (and {more} more problem{'s' if more > 1 else ''})"
-    return error
+    return error.with_others(others)
 
 
 def all_errors(found: ValidationError, model: type[BaseModel]) -> list[InputError]:
     """Return all problems that pydantic gathered, fields that do not exist first; see :func:`first_error`."""
     details = found.errors(include_url=False)
     details.sort(key=lambda detail: detail["type"] != "extra_forbidden")
-    return [_translated(detail, model) for detail in details]
+    return [error for detail in details for error in _all_translated(detail, model)]
+
+
+def _all_translated(detail: ErrorDetails, model: type[BaseModel]) -> list[InputError]:
+    """Return what one complaint says, and what a check of ours has found with it."""
+    first = _translated(detail, model)
+    path = _path(detail["loc"], model)
+    others = detail.get("ctx", {}).get("others", ())
+    for each in others:
+        each.field = _joined(path, each.field)
+    return [first, *others]
+
+
+def _joined(path: str, field: str) -> str:
+    return ".".join(part for part in (path, field) if part)
 
 
 def _translated(detail: ErrorDetails, model: type[BaseModel]) -> InputError:
@@ -84,7 +112,7 @@ def _translated(detail: ErrorDetails, model: type[BaseModel]) -> InputError:
     path = _path(location, model)
     if kind == "input_error":
         error: InputError = context["error"]
-        error.field = ".".join(part for part in (path, error.field) if part)
+        error.field = _joined(path, error.field)
         return error
     if kind == "extra_forbidden":
         return InputError("unknown-field", path, shown(value), suggestion=_suggestion(location, model))

@@ -16,6 +16,9 @@ title = {title}
 # gravity = "9.80665 m/s^2"        # one g, of the weight and of motions given in g
 # Anchors or bars across the crack, each with at least one of prestress, axial_stiffness and shear_stiffness:
 # anchors = [{{ distance = "5 m", prestress = "2 MN/m", inclination = "0 deg", capacity = "4 MN/m" }}]
+# on the crack, from the heel; or by their ends in the section, whatever the crack is: x, and elevation above the base
+# anchors = [{{ head_x = "3 m", head_elevation = "99 m", foot_x = "9 m", foot_elevation = "-9 m", \
+prestress = "2 MN/m" }}]
 
 # [project]                        # the title block of the report, in your own words
 # name = "Safety review"
@@ -31,6 +34,14 @@ crest_width = "8 m"
 neck_height = "90 m"               # where the slope of the downstream face changes; leave out both
 neck_width = "8 m"                 # lines of the neck for a face that is straight from base to crest
 base_width = "80 m"
+# Or, in place of neck and base, the slopes of both faces below a crest whose upstream edge is at x = 0: each from an
+# elevation on, horizontal per vertical:
+# upstream = [["0 m", 0.1], ["40 m", 0.0]]
+# downstream = [["0 m", 0.8], ["90 m", 0.0]]
+# Or the corners in a file, a drawing (DXF) with the section as a closed polyline, or a table (CSV) of x and z:
+# file = "dam.dxf"
+# layer = "SECTION"                # of a drawing with several closed polylines
+# unit = "m"                       # of a file that does not state it
 # Or any other section, by its corners [x, z] in order:
 # polygon = [["0 m", "0 m"], ["80 m", "0 m"], ["8 m", "90 m"], ["8 m", "100 m"], ["0 m", "100 m"]]
 
@@ -73,6 +84,7 @@ pattern = "triangular"             # or none, uniform, cut-off, drained, profile
 # intensity = 1.0                  # factor on the pressure
 # extent = 0.5                     # cut-off: part of the width under pressure
 # drain_position = 0.1             # drained: distance from the heel as a part of the width
+# drain_x = "6 m"                  # drained, in place of drain_position: vertical drains at this x of the section
 # drain_efficiency = 0.667         # drained: 0 no effect on the head there, 1 down to the tailwater's
 # points = [[0.0, "95 m"], [1.0, "0 m"]]   # profile: distance as above, head of water
 # during_shaking = "constant"      # or "zero while open", "full while open", "follows opening"

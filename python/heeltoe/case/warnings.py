@@ -2,9 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+import shapely
+
+from heeltoe.case.at_crack import anchor_line, crosses, drains
 from heeltoe.case.model import Case
+from heeltoe.geometry.crossing import on_face
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.warnings import Notice
+
+# What is so near a face, as a part of the height of the dam, is on it.
+_ON_FACE = 1e-3
 
 
 def case_warnings(case: Case) -> tuple[Notice, ...]:
@@ -43,7 +52,34 @@ def case_warnings(case: Case) -> tuple[Notice, ...]:
         said.append(Notice("tailwater-below-crack"))
     if case.tailwater and case.tailwater.depth > upstream:
         said.append(Notice("tailwater-deeper"))
-    return tuple(said)
+    return (*said, *_about_the_anchors(case))
+
+
+def _about_the_anchors(case: Case) -> Iterator[Notice]:
+    """Walk what is to be said of where anchors and drains are."""
+    section, whole = case.cut, case.outline
+    if case.uplift.drain_x is not None and not drains(case.uplift.drain_x, section)[0]:
+        yield Notice("drains-miss")
+    near = _ON_FACE * (section.crest_elevation - section.base_elevation)
+    faces = {
+        "upstream": (section.upstream_face, case.reservoir),
+        "downstream": (section.downstream_face, case.tailwater),
+    }
+    for place, anchor in enumerate(case.anchors):
+        field, number = f"anchors[{place}]", place + 1
+        found = crosses(anchor, section)
+        if found is not None and not found.there:
+            yield Notice("anchor-misses", field=field, number=number)
+            continue
+        head, _ = anchor_line(anchor, section, 0.0)
+        away = float(shapely.distance(whole, shapely.Point(head)))
+        if away > near:
+            yield Notice("anchor-head-outside", field=field, number=number, distance_m=away)
+        for side, (face, water) in faces.items():
+            below = section.base_elevation + water.depth - head[1] if water else 0.0
+            if below > near and on_face(face, head, near):
+                up = head[1] - section.base_elevation
+                yield Notice("anchor-head-wet", field=field, number=number, side=side, depth_m=below, elevation_m=up)
 
 
 def concrete_warnings(case: Case) -> tuple[Notice, ...]:

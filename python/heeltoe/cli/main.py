@@ -38,7 +38,8 @@ def main() -> None:
         with streams():
             app()
     except InputError as error:
-        print(f"heeltoe: {error}", file=sys.stderr)
+        for each in (error, *error.others):
+            print(f"heeltoe: {each}", file=sys.stderr)
         sys.exit(BAD_INPUT)
     except MemoryError:
         _no_memory()

@@ -156,7 +156,7 @@ def silt(case: Case) -> Resultant:
 def prestress(case: Case) -> Resultant:
     """Return the prestress of all anchors on the part above the crack, which they pull towards the part below."""
     forces = []
-    for anchor in case.anchors:
+    for anchor in case.anchors_at_crack:
         along, across = -math.sin(anchor.inclination), -math.cos(anchor.inclination)
         x, z = case.cut.from_crack_frame(along, across)
         pull, turning = anchor.prestress, anchor.prestress * across * anchor.distance
@@ -183,7 +183,7 @@ def uplift_profile(case: Case) -> Floats:
 
 def _uplift_points(case: Case) -> list[tuple[float, float]]:
     """Return the points of :func:`uplift_profile`."""
-    given = case.uplift
+    given = case.uplift_at_crack
     heel, toe = _pressure(case, case.reservoir), _pressure(case, case.tailwater, toe=True)
     extent, position, efficiency = (
         0.0 if option is None else option for option in (given.extent, given.drain_position, given.drain_efficiency)

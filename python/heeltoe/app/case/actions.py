@@ -87,7 +87,7 @@ async def step(desk: Desk, asked: Asked) -> dict[str, Any]:
 
 async def corners(desk: Desk, asked: Asked) -> dict[str, Any]:
     """Say the section by its corners, in the place of its dimensions."""
-    from heeltoe.app.case.draft import case_of
+    from heeltoe.app.case.draft import case_of, fields_of, valued
     from heeltoe.app.case.draft import edit as change
     from heeltoe.app.case.handles import corners_of
 
@@ -95,7 +95,7 @@ async def corners(desk: Desk, asked: Asked) -> dict[str, Any]:
 
     def said() -> None:
         case = case_of(session)
-        if case is not None and case.section.polygon is None:
+        if case is not None and valued(fields_of(session)[0], "section.polygon") is None:
             change(session, {"section": {"polygon": corners_of(case, session.units)}})
 
     return await _done(desk, said)

@@ -196,8 +196,8 @@ def _read(session: Session, fields: dict[str, Any]) -> tuple[Case | None, list[I
     foreign = unsent(session, fields)
     if foreign:
         # Nobody looks for these.
-        return None, foreign + problems(fields)[1]
-    case, errors = problems(of_this_machine(session, fields))
+        return None, foreign + problems(fields, None)[1]
+    case, errors = problems(of_this_machine(session, fields), session.folder)
     return (None if case is None else case.based_in(session.folder)), errors
 
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 import shapely
 
+from heeltoe.case.at_crack import anchor_line
 from heeltoe.case.model import Case
 from heeltoe.geometry.beside import beside
 from heeltoe.mechanics.loads import uplift_profile
@@ -77,19 +77,14 @@ def _uplift(case: Case, size: float) -> list[list[float]]:
 def _lines(case: Case, size: float) -> Iterator[tuple[str, list[list[float]]]]:
     section = case.cut
     yield "crack", [list(section.heel), list(section.toe)]
-    position = case.uplift.drain_position
+    position = case.uplift_at_crack.drain_position
     if position is not None:
         x, z = section.from_crack_frame(position * section.crack_width, 0.0)
         foot = [section.heel[0] + x, section.heel[1] + z]
         yield "drain", [foot, [foot[0], foot[1] + 0.3 * section.height]]
-    upper = shapely.Polygon(section.polygon)
     for anchor in case.anchors:
-        start = np.array(section.heel) + section.from_crack_frame(anchor.distance, 0.0)
-        axis = np.array(section.from_crack_frame(math.sin(anchor.inclination), math.cos(anchor.inclination)))
-        inside = shapely.intersection(upper, shapely.LineString([start, start + 4.0 * size * axis]))
-        ends = shapely.get_coordinates(inside)
-        end = ends[np.argmax((ends - start) @ axis)] if len(ends) else start
-        yield "anchor", [(start - 0.15 * size * axis).tolist(), end.tolist()]
+        end, start = anchor_line(anchor, section, 0.15 * size)
+        yield "anchor", [list(start), list(end)]
 
 
 def _notes(case: Case, units: str) -> Iterator[dict[str, Any]]:

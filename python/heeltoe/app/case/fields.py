@@ -32,6 +32,8 @@ _LABELS = {
 }
 _CELLS = {
     "section.polygon": ("x", "z"),
+    "section.upstream": ("Elevation", "Slope"),
+    "section.downstream": ("Elevation", "Slope"),
     "uplift.points": ("Distance", "Head"),
     "motion.points": ("Time", "Acceleration"),
 }

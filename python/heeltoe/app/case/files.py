@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from heeltoe.app.sessions import Session
 
 _RECORDS = ("motion.file", "motion.vertical.file")
-_MESHES = ("flexible.mesh_above", "flexible.mesh_below")
+_MESHES = ("flexible.mesh_above", "flexible.mesh_below", "section.file")
 _CRITERIA = ("statics.criteria_file",)
 
 

@@ -91,7 +91,12 @@ def moved(
         elif way.axis in by:
             changes[way.field] = way.text(way.value + by[way.axis] * way.step)
     if any("[" in path for path in changes):
-        return _in_lists(fields or case.model_dump(mode="json", exclude_unset=True), changes)
+        own = case.model_dump(mode="json", exclude_unset=True)
+        given = fields or own
+        if case.section.polygon is not None and "polygon" not in given["section"]:
+            # Corners from a file are the case's own from now on.
+            given = {**given, "section": own["section"]}
+        return _in_lists(given, changes)
     return changes
 
 
@@ -173,7 +178,8 @@ def _dimensions(case: Case, units: str) -> Iterator[Handle]:
     small, wide = lengths.step * lengths.metres, 3.0 * lengths.size
     depths = [each.depth for each in (case.reservoir, case.tailwater, case.silt) if each is not None]
     depths += [each for each in (case.statics.flood_depth, case.statics.flood_tailwater) if each is not None]
-    lowest = max(neck, case.crack.elevation + small, *depths, small)
+    breaks = [level for face in (section.upstream, section.downstream) for level, _ in face or ()]
+    lowest = max(neck, *(level + small for level in breaks), case.crack.elevation + small, *depths, small)
     yield Handle(
         "crest",
         "Crest",
@@ -193,6 +199,8 @@ def _dimensions(case: Case, units: str) -> Iterator[Handle]:
                 lengths.way("z", "section.neck_height", neck, (small, height - small)),
             ),
         )
+    if section.base_width is None:
+        return
     yield Handle(
         "base",
         "Downstream end of the base",
@@ -253,7 +261,14 @@ def _along_crack(case: Case, units: str) -> Iterator[Handle]:
     if position is not None:
         way = Way("x", "uplift.drain_position", position, 0.01, 0.99, 0.01, left, right - left)
         yield Handle("drains", "Drains", at(position), (way,))
+    if case.uplift.drain_x is not None:
+        x = case.uplift.drain_x
+        part = min(max((x - left) / (right - left), 0.0), 1.0)
+        yield Handle("drains", "Drains", at(part), (lengths.way("x", "uplift.drain_x", x, (left, right)),))
     for place, anchor in enumerate(case.anchors):
+        # What is given by its ends moves by their numbers.
+        if anchor.distance is None:
+            continue
         part = anchor.distance / section.crack_width
         way = Way(
             "x", f"anchors[{place}].distance", anchor.distance / lengths.metres, 0.0,

@@ -80,7 +80,7 @@ def refusal(case: Case, motion: Mapping[str, Any], folder: Path) -> dict[str, An
 
 def _with_motion(case: Case, motion: Mapping[str, Any], folder: Path) -> Case:
     fields = case.model_dump(mode="json", exclude_unset=True)
-    return Case.of({**fields, "motion": dict(motion)}).based_in(folder)
+    return Case.of({**fields, "motion": dict(motion)}, folder)
 
 
 def look(case: Case, motion: Mapping[str, Any], folder: Path, units: str) -> dict[str, Any]:

@@ -78,7 +78,7 @@ def following_water(case: Case, bodies: tuple[Body, ...]) -> FollowingWater | No
 def crack_anchors(case: Case, bodies: tuple[Body, ...]) -> tuple[CrackAnchor, ...]:
     """Return the anchors of a case that have a stiffness; prestress alone is a constant load."""
     found = []
-    for place, anchor in enumerate(case.anchors):
+    for place, anchor in enumerate(case.anchors_at_crack):
         if not (anchor.axial_stiffness or anchor.shear_stiffness):
             continue
         name = "axial_stiffness" if anchor.axial_stiffness else "shear_stiffness"

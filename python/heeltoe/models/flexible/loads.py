@@ -128,7 +128,7 @@ def crack_point(mesh: BodyMesh, section: CutSection, distance: float) -> tuple[I
 def anchor_forces(mesh: BodyMesh, case: Case, *, above: bool) -> Floats:
     """Return the prestress of all anchors on the crack face of a body, shape (2 n,) [N/m]: towards the other one."""
     forces = np.zeros(mesh.nodes.size)
-    for anchor in case.anchors:
+    for anchor in case.anchors_at_crack:
         found, shares = crack_point(mesh, case.cut, anchor.distance)
         down, up = case.cut.from_crack_frame(-math.sin(anchor.inclination), -math.cos(anchor.inclination))
         pull = anchor.prestress if above else -anchor.prestress

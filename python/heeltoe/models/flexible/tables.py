@@ -21,7 +21,7 @@ def anchors_of(case: Case, run: DamRun) -> list[dict[str, float | None]]:
     """Return the largest tension [N] of each anchor, and what it is good for."""
     tensions = iter(run.tension)
     found: list[dict[str, float | None]] = []
-    for anchor in case.anchors:
+    for anchor in case.anchors_at_crack:
         stiff = anchor.axial_stiffness or anchor.shear_stiffness
         tension = next(tensions) if stiff else anchor.prestress
         found.append({"distance_m": anchor.distance, "peak_tension_n": tension, "capacity_n": anchor.capacity})

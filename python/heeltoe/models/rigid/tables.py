@@ -38,7 +38,7 @@ def with_openings(found: dict[str, Floats], case: Case, width: Floats) -> dict[s
 
 def tensions(case: Case, run: BlockRun) -> list[float]:
     """Return the largest tension of each anchor [N/m]: its prestress where nothing varies."""
-    return [anchor.prestress for anchor in case.anchors] if run.tension is None else run.tension.tolist()
+    return [anchor.prestress for anchor in case.anchors_at_crack] if run.tension is None else run.tension.tolist()
 
 
 def references_of(case: Case, block: Block, run: BlockRun) -> tuple[str, ...]:
@@ -91,7 +91,7 @@ def summary_of(case: Case, block: Block, run: BlockRun) -> dict[str, Any]:
         "overturned_about": about if run.outcome == "overturned" else None,
         "anchors": [
             {"distance_m": anchor.distance, "peak_tension_n": float(peak), "capacity_n": anchor.capacity}
-            for anchor, peak in zip(case.anchors, tensions(case, run), strict=True)
+            for anchor, peak in zip(case.anchors_at_crack, tensions(case, run), strict=True)
         ],
     }
 

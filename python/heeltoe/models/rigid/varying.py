@@ -69,7 +69,7 @@ def varying(case: Case, block: Block) -> Varying:
             anchor.axial_stiffness,
             anchor.shear_stiffness,
         )
-        for anchor in case.anchors
+        for anchor in case.anchors_at_crack
     ]
     return Varying(
         numbers=np.array([numbers[name] for name in VARYING]),

@@ -78,7 +78,7 @@ def warnings_of(case: Case, block: Block, run: BlockRun) -> list[Notice]:
     # Integration is exact to a part of the crack's width, of which tiny motions are a tiny part.
     if raw["energy_residual"] > (1e-9 if run.exact else 1e-6):
         said.append(Notice("energy-open", residual=raw["energy_residual"]))
-    for anchor, peak in zip(case.anchors, tensions(case, run), strict=True):
+    for anchor, peak in zip(case.anchors_at_crack, tensions(case, run), strict=True):
         if anchor.capacity is not None and peak > anchor.capacity:
             said.append(
                 Notice("anchor-overloaded", distance_m=anchor.distance, tension_n=peak, capacity_n=anchor.capacity)

@@ -7,6 +7,7 @@ import shapely
 from matplotlib.figure import Figure
 
 from heeltoe.arrays import Floats
+from heeltoe.case.at_crack import anchor_line
 from heeltoe.case.model import Case
 from heeltoe.geometry.beside import beside
 from heeltoe.geometry.section import CutSection
@@ -161,17 +162,9 @@ def draw_crack(canvas: Canvas, section: CutSection, *, small: bool) -> None:
 
 def _draw_anchors(canvas: Canvas, case: Case) -> Floats | None:
     """Draw the anchors across the crack, up to where they leave the section; return the upper end of the first [m]."""
-    section, whole = case.cut, case.outline
-    upper = shapely.Polygon(section.polygon)
-    reach = 2.0 * max(whole.bounds[2] - whole.bounds[0], whole.bounds[3] - whole.bounds[1])
     ends = []
     for anchor in case.anchors:
-        along = np.array(section.from_crack_frame(anchor.distance, 0.0))
-        axis = np.array(section.from_crack_frame(np.sin(anchor.inclination), np.cos(anchor.inclination)))
-        start = np.array(section.heel) + along
-        inside = shapely.intersection(upper, shapely.LineString([start, start + reach * axis]))
-        end = max(shapely.get_coordinates(inside), key=lambda point: float((point - start) @ axis))
-        deep = start - 0.22 * canvas.size * axis
+        end, deep = map(np.array, anchor_line(anchor, case.cut, 0.22 * canvas.size))
         canvas.line([deep, end], keep_off=True, color="#B22222", linewidth=1.2, linestyle="-.", zorder=5)
         canvas.line([end], color="#B22222", marker="s", markersize=4, zorder=5)
         canvas.line([deep], color="#B22222", marker="v", markersize=4, zorder=5)

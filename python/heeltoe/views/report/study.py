@@ -111,7 +111,7 @@ def study_subject(
     from heeltoe.views.figures.section import section_figure
     from heeltoe.views.figures.studies.all import study_figures
 
-    case = Case.of(found.told["case"]).based_in(directory)
+    case = Case.of(found.told["case"], directory)
     drawn = {"section": section_figure(case, units), **(study_figures(found, units) if figures is None else figures)}
     blocks = {name: drawing(name, figure, _CAPTIONS[name]) for name, figure in drawn.items()}
     return StudySubject(found, case, Numbers(found.to_json(), units), blocks, command)

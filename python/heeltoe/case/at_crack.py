@@ -1,0 +1,110 @@
+"""Anchors and drains that are given in the dam's coordinates, as the crack has them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from heeltoe.arrays import number
+from heeltoe.case.dam import STEEPEST_ANCHOR, Anchor, Uplift
+from heeltoe.errors import InputError
+from heeltoe.geometry.crossing import Crossing, Place, crossing, head
+from heeltoe.geometry.section import CutSection
+
+
+@dataclass(frozen=True)
+class AnchorAtCrack:
+    """An anchor as the crack has it; SI units, see :class:`heeltoe.case.dam.Anchor`.
+
+    Attributes
+    ----------
+    distance
+        From the heel along the crack.
+    inclination
+        To the normal of the crack, positive where its upper end leans downstream.
+    prestress, axial_stiffness, shear_stiffness
+        As given; nothing of one that does not cross the crack.
+    capacity
+        As given.
+    """
+
+    distance: float
+    inclination: float
+    prestress: float
+    axial_stiffness: float
+    shear_stiffness: float
+    capacity: float | None
+
+
+def anchor_at_crack(anchor: Anchor, section: CutSection) -> AnchorAtCrack:
+    """Return an anchor as a crack has it."""
+    found = crosses(anchor, section)
+    given = (anchor.prestress, anchor.axial_stiffness, anchor.shear_stiffness)
+    if found is None:
+        assert anchor.distance is not None
+        return AnchorAtCrack(anchor.distance, anchor.inclination, *given, anchor.capacity)
+    distance, *forces = (number(np.where(found.there, each, 0.0)) for each in (found.distance, *given))
+    if np.all(found.there):
+        forces = list(given)
+    return AnchorAtCrack(distance, _angle(found), forces[0], forces[1], forces[2], anchor.capacity)
+
+
+def _angle(found: Crossing) -> float:
+    # Cracks of columns have one inclination, as has the anchor.
+    angles = np.unique(np.where(found.there, found.inclination, 0.0))
+    return float(angles[np.abs(angles).argmax()])
+
+
+def crosses(anchor: Anchor, section: CutSection) -> Crossing | None:
+    """Return where an anchor that is given by its ends crosses the crack; None of one that is given on the crack."""
+    if anchor.ends is None:
+        return None
+    (x, up), (foot_x, foot_up) = anchor.ends
+    base = section.base_elevation
+    return crossing(section, (x, base + up), (foot_x, base + foot_up))
+
+
+def too_flat(anchor: Anchor, section: CutSection) -> bool:
+    """Whether an anchor crosses the crack at too flat an angle."""
+    found = crosses(anchor, section)
+    return found is not None and abs(_angle(found)) > STEEPEST_ANCHOR
+
+
+def flat(place: int, anchor: Anchor, section: CutSection) -> InputError:
+    """Return what is to be said of such an anchor."""
+    found = crosses(anchor, section)
+    angle = 0.0 if found is None else math.degrees(abs(_angle(found)))
+    most = f"{math.degrees(STEEPEST_ANCHOR):.3g} deg"
+    return InputError("anchor-flat", f"anchors[{place}].foot_x", f"{angle:.3g} deg", most=most)
+
+
+def uplift_at_crack(uplift: Uplift, section: CutSection) -> Uplift:
+    """Return the uplift with its drains on the crack; as without drains where they do not cross it."""
+    if uplift.drain_x is None:
+        return uplift
+    there, position = drains(uplift.drain_x, section)
+    # Halfway down the triangle is where drains in the middle change nothing.
+    found = {"drain_position": np.where(there, position, 0.5)}
+    found["drain_efficiency"] = np.where(there, uplift.drain_efficiency or 0.0, 0.5)
+    return uplift.model_copy(update={name: number(value) for name, value in found.items()})
+
+
+def drains(x: float, section: CutSection) -> tuple[bool, float]:
+    """Return whether vertical drains cross the crack, and where, as a part of its width from the heel."""
+    (left, _), (right, _) = section.heel, section.toe
+    position = (x - left) / (right - left)
+    return (position > 0.0) & (position < 1.0), position
+
+
+def anchor_line(anchor: Anchor, section: CutSection, below: float) -> tuple[Place, Place]:
+    """Return head and foot of an anchor (x, z) [m]: as they are given, or where its axis leaves the part above the
+    crack, and a place so far `below` the crack."""
+    if anchor.ends is not None:
+        (x, up), (foot_x, foot_up) = anchor.ends
+        return (x, section.base_elevation + up), (foot_x, section.base_elevation + foot_up)
+    assert anchor.distance is not None
+    along, across = math.sin(anchor.inclination), math.cos(anchor.inclination)
+    x, z = section.from_crack_frame(anchor.distance - below * along, -below * across)
+    return head(section, anchor.distance, anchor.inclination), (section.heel[0] + x, section.heel[1] + z)

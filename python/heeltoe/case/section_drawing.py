@@ -1,0 +1,80 @@
+"""The closed polyline of a section in a drawing (DXF)."""
+
+from __future__ import annotations
+
+import logging
+from collections import Counter
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from heeltoe.errors import InputError, shown
+from heeltoe.plain import plain
+
+Corners = list[tuple[float, float]]
+
+# What $INSUNITS of a drawing says.
+_UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m", 10: "yd", 14: "dm", 21: "survey_foot"}
+_MOST_NAMES = 8
+
+
+def corners_of_drawing(path: Path, layer: str | None) -> tuple[Corners, str]:
+    """Return the corners of the closed polyline of a drawing as they stand, and the unit that it states; empty where
+    it states none.
+
+    Parameters
+    ----------
+    path
+        Of the file.
+    layer
+        Where the polyline is; needed where there are several.
+
+    Raises
+    ------
+    InputError
+        Where it is no drawing, or has no closed polyline, several, or one with arcs.
+    """
+    drawing = _read(path)
+    closed = list(_closed(drawing))
+    on_layers = Counter(each.dxf.layer for each in closed)
+    # Names of layers are the same in large and small letters.
+    mine = [each for each in closed if layer is None or each.dxf.layer.lower() == layer.lower()]
+    known = ", ".join(f"{shown(name)} ({count})" for name, count in on_layers.most_common(_MOST_NAMES)) or "none"
+    if not mine and layer is not None:
+        raise InputError("drawing-layer", "section.layer", shown(layer), layers=known)
+    if not mine:
+        raise InputError("drawing-empty", "section.file")
+    if len(mine) > 1:
+        raise InputError("drawing-several", "section.file" if layer else "section.layer", len(mine), layers=known)
+    if mine[0].has_arc:
+        raise InputError("drawing-arcs", "section.file", shown(mine[0].dxf.layer))
+    lightweight = mine[0].dxftype() == "LWPOLYLINE"
+    points = mine[0].vertices_in_wcs() if lightweight else mine[0].points_in_wcs()
+    return [(float(point.x), float(point.y)) for point in points], _UNITS.get(drawing.units, "")
+
+
+def _read(path: Path) -> Any:
+    try:
+        from ezdxf.filemanagement import readfile
+    except ImportError:
+        raise InputError("drawing-package", "section.file", "ezdxf") from None
+    # It would tell on standard error what it makes of a broken file.
+    logging.getLogger("ezdxf").setLevel(logging.CRITICAL)
+    try:
+        return readfile(path)
+    except Exception as error:  # ezdxf passes on whatever a broken file leads to
+        reason = plain(str(error)) or type(error).__name__
+        raise InputError("drawing-unreadable", "section.file", reason=reason) from None
+
+
+def _closed(drawing: Any) -> Iterator[Any]:
+    """Walk the closed polylines of the plane."""
+    for each in drawing.modelspace().query("LWPOLYLINE POLYLINE"):
+        if each.dxftype() == "LWPOLYLINE":
+            points = [(x, y) for x, y, *_ in each.get_points()]
+        elif each.is_2d_polyline:
+            points = [(point.x, point.y) for point in each.points()]
+        else:
+            continue
+        if len(points) > 2 and (each.is_closed or points[0] == points[-1]):
+            yield each

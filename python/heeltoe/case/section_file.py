@@ -1,0 +1,154 @@
+"""The corners of a section from a file: a drawing in DXF, or a table in CSV, told apart by what is in it."""
+
+from __future__ import annotations
+
+import math
+import os
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from heeltoe.errors import InputError, shown
+from heeltoe.units.parse import parse
+
+Corners = list[tuple[float, float]]
+
+#: What is read of a section's block where that names a file.
+FILE_FIELDS = ("file", "layer", "unit")
+_LARGEST, _MOST_CORNERS = 10_000_000, 10_000
+# Every DXF begins with a group code, 0 or that of a comment, or says that it is binary.
+_DXF = re.compile(rb"(?:\xef\xbb\xbf)?\s*(?:0\s*\r?\n\s*SECTION|999\s*\r?\n)|AutoCAD Binary DXF", re.IGNORECASE)
+_UNIT = re.compile(r"[\[(]\s*([^\])]+?)\s*[\])]|_(m|mm|cm|ft|in)\s*$")
+_UP = ("z", "y", "elevation", "level", "height")
+
+
+def with_section_read(fields: Mapping[str, Any], directory: Path | None) -> Mapping[str, Any]:
+    """Return the fields of a case with the corners in the place of the file that its section names, if it names one.
+
+    Parameters
+    ----------
+    fields
+        As a case file has them.
+    directory
+        Where the path of the file starts; None where none is to be read.
+
+    Raises
+    ------
+    InputError
+        Where the file gives no corners, or other fields of a section stand beside it.
+    """
+    section = fields.get("section")
+    if not isinstance(section, Mapping) or not isinstance(section.get("file"), str) or not section["file"]:
+        return fields
+    beside = [str(name) for name in section if name not in FILE_FIELDS and section[name] is not None]
+    if beside:
+        first, *others = (InputError("fields-conflict", f"section.{name}", other="file") for name in beside)
+        raise first.with_others(others)
+    layer, unit = section.get("layer"), section.get("unit")
+    for name, value in (("layer", layer), ("unit", unit)):
+        if value is not None and not (isinstance(value, str) and value):
+            raise InputError("wrong-type", f"section.{name}", shown(value), expected="a text in quotes")
+    if directory is None:
+        raise InputError("section-file-unread", "section.file", shown(section["file"]))
+    corners = read_corners(directory / os.path.expanduser(section["file"]), layer, unit)
+    return {**fields, "section": {"polygon": [[f"{x!r} m", f"{z!r} m"] for x, z in corners]}}
+
+
+def read_corners(path: Path, layer: str | None = None, unit: str | None = None) -> Corners:
+    """Return the corners (x, z) of a section in a file [m].
+
+    Parameters
+    ----------
+    path
+        Of the file.
+    layer
+        Of a drawing: where its closed polyline is; needed where there are several.
+    unit
+        Of the numbers, in place of the one that the file states.
+
+    Raises
+    ------
+    InputError
+        Where it cannot be read, is not bounded, or does not say one section.
+    """
+    try:
+        with path.open("rb") as file:
+            content = file.read(_LARGEST + 1)
+    except FileNotFoundError:
+        raise InputError("section-file-missing", "section.file", path) from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise InputError("section-file-unreadable", "section.file", path, reason=reason) from None
+    if len(content) > _LARGEST:
+        raise InputError("section-file-large", "section.file", f"{_LARGEST // 10**6} MB")
+    if _DXF.match(content):
+        from heeltoe.case.section_drawing import corners_of_drawing
+
+        found, stated = corners_of_drawing(path, layer)
+    else:
+        if layer is not None:
+            raise InputError("needs-other", "section.layer", other="a drawing (DXF)")
+        found, stated = _corners_of_table(content)
+    if len(found) > 1 and found[0] == found[-1]:
+        found = found[:-1]
+    if len(found) > _MOST_CORNERS:
+        raise InputError("section-file-large", "section.file", f"{_MOST_CORNERS} corners")
+    if len(found) < 3:
+        raise InputError("polygon-corners", "section.file", len(found))
+    if unit is None and not stated:
+        raise InputError("section-unit-missing", "section.unit")
+    one = parse(f"1 {unit or stated}", "length", "section.unit" if unit else "section.file")
+    return [(x * one, z * one) for x, z in found]
+
+
+def _corners_of_table(content: bytes) -> tuple[Corners, str]:
+    """Return the numbers of a table as they stand, and the unit that its head states."""
+    try:
+        lines = content.decode("utf-8-sig").splitlines()
+    except UnicodeDecodeError:
+        raise InputError("section-file-kind", "section.file") from None
+    rows = [(number, line) for number, line in enumerate(lines, start=1) if line.split("#")[0].strip()]
+    if not rows:
+        raise InputError("section-file-kind", "section.file")
+    cells = [(number, _cells(line.split("#")[0])) for number, line in rows]
+    columns, stated, width = (0, 1), "", 2
+    if any(_number(each) is None for each in cells[0][1]):
+        columns, stated = _head(cells[0][1])
+        width, cells = len(cells[0][1]), cells[1:]
+    found: Corners = []
+    for number, row in cells:
+        x, z = (_number(row[place]) if len(row) == width else None for place in columns)
+        if x is None or z is None:
+            raise InputError("section-row", "section.file", shown(" ".join(row)), number=number)
+        found.append((x, z))
+    return found, stated
+
+
+def _cells(line: str) -> list[str]:
+    """Return the cells of a row; where these are divided by semicolons, a comma is one of decimals."""
+    if ";" in line:
+        return [each.strip().replace(",", ".") for each in line.split(";")]
+    return [each.strip() for each in line.split(",")] if "," in line else line.split()
+
+
+def _number(cell: str) -> float | None:
+    try:
+        value = float(cell)
+    except ValueError:
+        return None
+    return value if math.isfinite(value) and "_" not in cell else None
+
+
+def _head(cells: Sequence[str]) -> tuple[tuple[int, int], str]:
+    """Return the columns of x and z, and the unit that both state."""
+    units = {found[1] or found[2] for cell in cells if (found := _UNIT.search(cell))}
+    names = [_UNIT.sub("", cell).strip().lower() for cell in cells]
+    if len(units) > 1:
+        raise InputError("section-head", "section.file", shown(", ".join(cells)))
+    up = next((names.index(name) for name in _UP if name in names), None)
+    if "x" in names and up is not None:
+        return (names.index("x"), up), next(iter(units), "")
+    if len(cells) != 2:
+        raise InputError("section-head", "section.file", shown(", ".join(cells)))
+    return (0, 1), next(iter(units), "")
