@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import os
 import secrets
 import signal
 import socket
@@ -49,6 +50,9 @@ def serve(host: str, port: int | None, *, public: bool, browser: bool, say: Call
             raise InputError("app-package", "heeltoe app", package)
     if not is_loopback(host) and not public:
         raise InputError("app-public", "--host", host)
+    # Matrices that follow a slider are small: further threads win nothing there, and keep a core busy with waiting that
+    # the browser needs. Heard when NumPy is loaded, here and in the processes beside.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     with contextlib.closing(_listen(host, port)) as listening, tempfile.TemporaryDirectory(prefix="heeltoe-") as folder:
         token = "" if is_loopback(host) else secrets.token_urlsafe(24)
         settings = Settings(host, listening.getsockname()[1], Path(folder), token)

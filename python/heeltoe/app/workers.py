@@ -13,6 +13,8 @@ from concurrent.futures.process import BrokenProcessPool
 from typing import Any
 
 THREADS = 4
+# How far the processes beside stand back.
+_NICE = 5
 
 
 class WorkerLostError(Exception):
@@ -98,7 +100,10 @@ def _process() -> ProcessPoolExecutor:
 
 
 def _quietly() -> None:
-    """Leave Ctrl-C to the server."""
+    """Leave Ctrl-C to the server, and let it and the browser go first: what they do is waited for most."""
+    import os
     import signal
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if hasattr(os, "nice"):
+        os.nice(_NICE)

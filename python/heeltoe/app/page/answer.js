@@ -5,11 +5,13 @@ import { DamInMotion } from "./dam.js";
 import { byId, element } from "./dom.js";
 import { FlexibleRun } from "./flexible.js";
 import { cursor, draw, loadPlotly, onMoment } from "./plot.js";
+import { KINDS } from "./plot/lines.js";
 import { showSliders } from "./sliders.js";
 
 const LIVE = ["rigid", "decoupled"];
-const KINDS = ["rest", "slide", "rock", "slide-rock", "drift"];
 const SPOKEN_AFTER_MS = 700;
+/** How long no answer has come when the plot is drawn with axes of its own. */
+const RESTS_AFTER_MS = 300;
 
 /** @param {import("./talk.js").Talk} talk */
 export function answerPage(talk) {
@@ -26,7 +28,10 @@ export function answerPage(talk) {
   const positions = new Map();
   let drawing = false;
   let wanted = false;
+  let moving = false;
+  let resting = 0;
   let speaking = 0;
+  const size = { width: 0, height: 0 };
   const cards = /** @type {Record<string, Card>} */ ({ rigid: new Card("rigid"), decoupled: new Card("decoupled") });
   const controls = element("div", { class: "controls" });
   const plot = element("div", { class: "plot", role: "figure", "aria-label": "Ground acceleration, slip, rotation and modes of motion over time" });
@@ -39,6 +44,11 @@ export function answerPage(talk) {
   const spread = new Spread(talk, () => values);
   const statics = new StaticChecks(talk, () => values);
   const ready = loadPlotly();
+  new ResizeObserver(([{ contentRect }]) => {
+    size.width = Math.floor(contentRect.width);
+    size.height = Math.floor(contentRect.height);
+    redraw();
+  }).observe(plot);
 
   /** @param {number} time */
   function ask(time) {
@@ -69,6 +79,7 @@ export function answerPage(talk) {
   function take(answer) {
     const at = positions.get(answer.serial) || 0;
     for (const [serial, place] of positions) if (place < at - 1) positions.delete(serial);
+    const had = Boolean(answers[answer.of] && answers[answer.of].curves);
     answers[answer.of] = { ...answer, position: at };
     cards[answer.of].show(answer);
     // What is older than the newest answer of any model stands beside a number that it does not belong to.
@@ -79,7 +90,8 @@ export function answerPage(talk) {
       if (answers[model]) answers[model].stale = old;
     }
     if (answer.of === "rigid") faults(answer);
-    redraw();
+    // What has no curves, before and now, leaves the plot as it is.
+    if (answer.of === "rigid" || answer.curves || had) redraw(true);
     speak();
   }
 
@@ -100,8 +112,10 @@ export function answerPage(talk) {
     }, SPOKEN_AFTER_MS);
   }
 
-  function redraw() {
+  /** @param {boolean} [more] Whether a slider moves, and more is to come. */
+  function redraw(more = false) {
     wanted = true;
+    moving = more;
     if (!drawing) requestAnimationFrame(drawNow);
     drawing = true;
   }
@@ -113,16 +127,16 @@ export function answerPage(talk) {
       .filter((model) => answers[model] && answers[model].curves)
       .map((model) => ({ model, stale: Boolean(answers[model].stale), answer: answers[model] }));
     plot.hidden = shown.length === 0;
-    // First, as it takes some of the room.
-    dam.show(shown);
-    if (shown.length && plot.clientWidth) {
-      await draw(plot, shown);
+    clearTimeout(resting);
+    if (shown.length && size.width) {
+      if (await draw(plot, shown, size, moving)) resting = setTimeout(redraw, RESTS_AFTER_MS);
       cursor(plot, dam.time);
       onMoment(plot, (time) => dam.goTo(time));
     }
+    dam.show(shown);
     measure();
     drawing = false;
-    if (wanted) redraw();
+    if (wanted) redraw(moving);
   }
 
   /** Note how long it took from the event of a slider to the plot, by the browser's clock. */
@@ -150,7 +164,7 @@ export function answerPage(talk) {
   return {
     name: "answer",
     label: "Answer",
-    redraw,
+    redraw: () => redraw(),
     /** @param {HTMLElement} root */
     mount(root) {
       const key = KINDS.map((kind) => {
@@ -164,7 +178,7 @@ export function answerPage(talk) {
       const over = element("div", {}, plot, element("p", { class: "key" }, "Modes of motion:", ...key));
       const more = element("div", { class: "cards" }, spread.root, statics.root);
       root.append(element("div", { class: "answer" }, controls, element("div", {}, verdicts, element("div", { class: "over-time" }, over, dam.root), details, more)));
-      return redraw;
+      return () => redraw();
     },
   };
 }

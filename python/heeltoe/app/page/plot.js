@@ -1,57 +1,36 @@
 /** The answer over time: ground, slip, rotation and modes of every model, on one time axis that zooms. */
 import { colour } from "./dom.js";
-import { unpack } from "./unpack.js";
+import { AXES, KINDS, lines, spans, thickness } from "./plot/lines.js";
+import { drawQuickly, following, forget, roomy } from "./plot/quick.js";
 
-/** @typedef {{model: string, stale: boolean, answer: any}} Shown */
+/** @typedef {import("./plot/lines.js").Shown} Shown */
+/** @typedef {{width: number, height: number}} Size */
 
-const KINDS = ["rest", "slide", "rock", "slide-rock", "drift"];
-const DASHES = /** @type {Record<string, string>} */ ({ rigid: "solid", decoupled: "solid", flexible: "dash" });
 /** From the top; parts of the height. */
 const ROWS = /** @type {Record<string, [number, number]>} */ ({ ground: [0.87, 1], slip: [0.48, 0.83], rotation: [0.17, 0.44], modes: [0, 0.13] });
-const AXES = /** @type {Record<string, string>} */ ({ ground: "y", slip: "y2", rotation: "y3", modes: "y4" });
-
-/** @type {WeakMap<object, Record<string, Float32Array>>} */
-const unpacked = new WeakMap();
-
-/** @param {any} answer */
-function curves(answer) {
-  const known = unpacked.get(answer);
-  if (known) return known;
-  const { time, ground, slip, rotation } = answer.curves;
-  const made = { time: unpack(time), ground: unpack(ground.values), slip: unpack(slip.values), rotation: unpack(rotation.values) };
-  unpacked.set(answer, made);
-  return made;
-}
+/** Narrower than this the plot has less around it [px]. */
+const NARROW = 600;
 
 /** @param {Shown[]} shown @param {boolean} narrow */
 function traces(shown, narrow) {
   /** @type {object[]} */
-  const found = [];
-  shown.forEach(({ model, stale, answer }, place) => {
-    const data = curves(answer);
-    for (const row of ["ground", "slip", "rotation"]) {
-      if (row === "ground" && place > 0) continue;
-      found.push({
-        x: data.time, y: data[row], yaxis: AXES[row], type: "scatter", mode: "lines", name: row === "ground" ? row : model,
-        opacity: stale ? 0.3 : 1, hovertemplate: `%{y:.4g} at %{x:.2f} s`,
-        line: { color: colour(row === "ground" ? row : model), width: row === "slip" ? 2 : 1.1, dash: row === "ground" ? "solid" : DASHES[model] },
-      });
-    }
-  });
+  const found = lines(shown).map(({ row, of, stale, width, dash, x, y }) => ({
+    x, y, yaxis: AXES[row], type: "scatter", mode: "lines", name: of, opacity: stale ? 0.3 : 1, hovertemplate: `%{y:.4g} at %{x:.2f} s`,
+    line: { color: colour(of), width, dash: dash ? "dash" : "solid", simplify: false },
+  }));
   for (const kind of KINDS) {
     /** @type {(number | null)[]} */
     const x = [];
     /** @type {string[]} */
     const y = [];
-    for (const { model, answer } of shown) {
-      for (const span of answer.ribbon) {
-        if (span.kind !== kind) continue;
-        x.push(span.start, span.end, null);
-        y.push(model, model, model);
+    for (const each of shown) {
+      for (const { start, end } of spans(each, kind)) {
+        x.push(start, end, null);
+        y.push(each.model, each.model, each.model);
       }
     }
     if (x.length) {
-      found.push({ x, y, yaxis: AXES.modes, type: "scatter", mode: "lines", name: kind, line: { color: colour(kind), width: narrow ? 9 : shown.length > 2 ? 13 : 18 }, hovertemplate: `${kind}, %{x:.2f} s` });
+      found.push({ x, y, yaxis: AXES.modes, type: "scatter", mode: "lines", name: kind, line: { color: colour(kind), width: thickness(shown, narrow), simplify: false }, hovertemplate: `${kind}, %{x:.2f} s` });
     }
   }
   return found;
@@ -59,9 +38,11 @@ function traces(shown, narrow) {
 
 /**
  * @param {Shown[]} shown
- * @param {boolean} narrow
+ * @param {Size} size Said, as a plot that finds it itself waits a tenth of a second for it.
+ * @param {Record<string, [number, number]>} ranges Of the rows that do not follow what is drawn.
  */
-function layout(shown, narrow) {
+function layout(shown, size, ranges) {
+  const narrow = size.width < NARROW;
   const { slip, rotation } = shown[0].answer.curves;
   const titles = /** @type {Record<string, string>} */ ({ ground: narrow ? "[g]" : "ground [g]", slip: `slip [${slip.unit}]${narrow ? "" : "<br>+ downstream"}`, rotation: `rotation [${rotation.unit}]${narrow ? "" : "<br>+ about heel"}`, modes: "" });
   const end = Math.max(...shown.map(({ answer }) => answer.curves.end));
@@ -72,25 +53,38 @@ function layout(shown, narrow) {
     made[AXES[row].replace("y", "yaxis")] = {
       domain, title: { text: titles[row], font: { size: 12 }, standoff: 4 }, gridcolor: colour("rule"), zerolinecolor: colour("line"), nticks: narrow && row === "ground" ? 3 : 5, fixedrange: row === "modes",
       ...(row === "modes" ? { type: "category", categoryarray: shown.map(({ model }) => model).reverse(), categoryorder: "array", showgrid: false, range: [-0.6, shown.length - 0.4] } : { automargin: false }),
+      ...(ranges[row] ? { range: ranges[row] } : {}),
     };
   }
   return {
-    ...made, uirevision: "kept", showlegend: false, dragmode: narrow ? false : "zoom", hovermode: "closest",
+    ...made, ...size, uirevision: "kept", showlegend: false, dragmode: narrow ? false : "zoom", hovermode: "closest",
     margin: { l: narrow ? 66 : 84, r: 12, t: 8, b: 42 }, paper_bgcolor: colour("page"), plot_bgcolor: colour("page"),
     font: { color: colour("text"), family: "system-ui, sans-serif", size: narrow ? 11 : 13 },
   };
 }
 
+/** How a plot was drawn last, and while a slider moves which of its rows have to show all. @type {WeakMap<HTMLElement, {like: string, rows: string[] | null}>} */
+const last = new WeakMap();
+
 /**
  * @param {HTMLElement} place
  * @param {Shown[]} shown Those with curves; at least one.
+ * @param {Size} size
+ * @param {boolean} moving Whether more is to come at once: then it is drawn on the axes that stand.
+ * @returns {Promise<boolean>} Whether it has to be drawn anew once it rests.
  */
-export async function draw(place, shown) {
+export async function draw(place, shown, size, moving) {
   const plotly = /** @type {any} */ (window).Plotly;
-  const narrow = place.clientWidth < 600;
-  const before = /** @type {any} */ (place)._fullLayout;
-  if (before && before.width !== place.clientWidth) await plotly.Plots.resize(place);
-  await plotly.react(place, traces(shown, narrow), layout(shown, narrow), { responsive: true, displaylogo: false, displayModeBar: narrow ? false : "hover", modeBarButtonsToRemove: ["select2d", "lasso2d", "toImage"] });
+  const like = JSON.stringify([size, shown.map(({ model, answer: { curves: { end, slip, rotation } } }) => [model, end, slip.unit, rotation.unit])]);
+  const before = last.get(place);
+  const quick = moving && before !== undefined && before.like === like;
+  const rows = quick ? before.rows || following(place) : null;
+  last.set(place, { like, rows });
+  if (rows && drawQuickly(place, shown, rows, size.width < NARROW)) return true;
+  const narrow = size.width < NARROW;
+  await plotly.react(place, traces(shown, narrow), layout(shown, size, roomy(shown, rows || [])), { displaylogo: false, displayModeBar: narrow ? false : "hover", modeBarButtonsToRemove: ["select2d", "lasso2d", "toImage"] });
+  forget(place);
+  return rows !== null;
 }
 
 /**
