@@ -65,6 +65,8 @@ restitution = 0.5                  # of a rocking block's impacts: 0 stays down,
 depth = "95 m"                     # above the lowest point of the section
 # density = "1000 kg/m^3"
 # follows_vertical_motion = false  # pressure on the faces times 1 + a_v / g; needs motion.vertical
+# hydrodynamic = "westergaard"     # pressure of water that moves; or "zangar", for a face of one slope
+# nappe = "none"                   # of water above the crest, on it; or "weight", "falling"
 # virtual_mass_rotates = true      # of a rigid block, spread over the face; false: in one point, as in Zhu (2004)
 
 # [tailwater]
@@ -144,6 +146,8 @@ pga = "0.4 g"                      # leave out to take the record as it is
 
 # [statics]                        # of `heeltoe statics`
 # criteria = "USACE"               # or USBR, FERC, CDA
+# criteria_file = "mine.toml"      # in place of criteria: factors of your own
+# sections = ["0 m", "30 m"]       # lift joints to judge, the base among them
 # structure = "critical"           # or normal
 # site_information = "ordinary"    # or "well defined" (by tests), limited
 # bonded = 0.5                     # part of the width, from the toe, that is not cracked
@@ -155,6 +159,7 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # flood_rarity = "unusual"         # or extreme
 # seismic_coefficient = 0.1        # of the pseudo-static check, in g
 # vertical_seismic_coefficient = 0.05
+# uplift_in_earthquake = "criteria"    # where that opens the crack; or "unchanged", "zero", "full"
 # residual_friction = 0.8          # after the earthquake
 # residual_slip = "100 mm"         # that of an analysis without it
 # drain_diameter = "75 mm"         # drains of a drained uplift that slip closes
