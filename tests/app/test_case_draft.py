@@ -245,3 +245,32 @@ def test_lengths_as_they_are_typed():
     case = example("typical-base")
     assert length_text(case, "si", 0.1) == "10 m"
     assert corners_of(case, "si")[1:3] == [["80 m", "0 m"], ["8 m", "90 m"]]
+
+
+def test_a_section_from_a_file_is_one_that_was_sent(session):
+    edit(session, {"section": {"file": "/etc/passwd"}})
+    assert wrong(session)[0] == "section.file"
+    (session.folder / "upload-1").write_text("x [m],z [m]\n0,0\n80,0\n8,100\n0,100\n")
+    session.sent = {"dam.csv": "upload-1"}
+    edit(session, {"section": {"file": "dam.csv"}})
+    assert not wrong(session)
+    assert session.case.section.polygon[1] == (80.0, 0.0)
+    assert 'file = "dam.csv"' in case_text(fields_in_force(session))
+    edit(session, moved(session.case, "si", "corner 2", by={"x": 1.0}, fields=fields_in_force(session)))
+    assert not wrong(session)
+    assert session.case.section.polygon[1] == (80.5, 0.0)
+
+
+def test_slopes_and_ends_are_shown_and_drawn(session):
+    faces = {"height": "100 m", "crest_width": "8 m", "downstream": [["0 m", 0.8], ["90 m", 0.0]]}
+    ends = {"head_x": "3 m", "head_elevation": "100 m", "foot_x": "9 m", "foot_elevation": "-9 m"}
+    edit(session, {"section": faces, "anchors": [{**ends, "prestress": "1 MN/m"}], "units": "us"})
+    edit(session, {"uplift": {"pattern": "drained", "drain_x": "5 m", "drain_efficiency": 0.5}})
+    assert not wrong(session)
+    assert session.units == "us"
+    names = [each.name for each in handles(session.case, "si")]
+    assert "crest" in names
+    assert "drains" in names
+    assert not {"base", "anchor 1"} & set(names)
+    kinds = [each["kind"] for each in drawing(session.case, "us")["lines"]]
+    assert kinds == ["crack", "drain", "anchor"]
