@@ -114,7 +114,7 @@ def _matched(motions: list[GroundMotion], text: str) -> tuple[list[GroundMotion]
 
     target = target_of(text, "--match")
     shortest, longest = max(0.1, target.shortest), min(3.0, target.longest)
-    pairs = [match(each, target, shortest=shortest, longest=longest) for each in motions]
+    pairs = [match(each, target, shortest=shortest, longest=min(longest, each.duration)) for each in motions]
     return [each for each, _ in pairs], [misfit for _, misfit in pairs]
 
 
