@@ -34,7 +34,7 @@ CAPTIONS = {
     "modes": "Lowest vibration modes of the intact dam.",
 }
 # Simple figures need not be as wide as the page.
-_SHARES = {"section": 0.7, "tension": 0.8, "spectrum": 0.7, "slip-by-mode": 0.8, "energy": 0.8, "mesh": 0.6}
+_SHARES = {"section": 0.7, "tension": 0.8, "spectrum": 0.7, "slip-by-mode": 0.8, "energy": 0.8, "mesh": 0.55}
 _SHARES |= {"bands": 0.8, "slips": 0.8, "fragility": 0.8}
 # Histories are drawn lower than on a page of their own, so that two of them share one, or one and a table; letters stay
 # as large as they are.
