@@ -12,7 +12,7 @@ from pypdf import PdfReader
 
 from heeltoe import read_case, statics
 from heeltoe.study.statics import After, judge
-from heeltoe.views.figures.statics.all import statics_figures
+from heeltoe.views.figures.statics.all import slug, statics_figures
 from heeltoe.views.report.html import html
 from heeltoe.views.report.statics import statics_document
 from heeltoe.views.report.typst_pdf import pdf
@@ -144,7 +144,7 @@ def test_what_does_not_stand_has_steps_and_figures():
             step.value == case.outcome and step.met is False
             for step in steps(case, found.governing.statics.checks, "si")
         )
-        assert statics_figures(found)[f"forces-{case.name.replace(' ', '-')}"].axes
+        assert statics_figures(found)[f"forces-{slug(case.name)}"].axes
 
 
 @pytest.fixture(scope="module")
@@ -180,7 +180,7 @@ def test_the_report_is_in_units_of_the_united_states_all_through(joints):
 def test_figures_of_every_load_case(joints):
     _, found = joints
     figures = statics_figures(found, "us")
-    assert {f"forces-{each.name.replace(' ', '-')}" for each in found.governing.statics.cases} < set(figures)
+    assert {f"forces-{slug(each.name)}" for each in found.governing.statics.cases} < set(figures)
     flood = figures["forces-flood"]
     said = [text.get_text() for axes in flood.axes for text in axes.texts]
     assert any(text.startswith("reservoir ") and "kip/ft" in text for text in said)

@@ -145,7 +145,7 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # opening_downstream = "50 mm"
 
 # [statics]                        # of `heeltoe statics`
-# criteria = "USACE"               # or USBR, FERC, CDA
+# criteria = "USACE"               # or USBR, FERC, CDA, CADAM3D
 # criteria_file = "mine.toml"      # in place of criteria: factors of your own
 # sections = ["0 m", "30 m"]       # lift joints to judge, the base among them
 # structure = "critical"           # or normal
