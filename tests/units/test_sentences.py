@@ -53,6 +53,7 @@ def test_what_is_written_is_what_it_was(unit):
     units = {
         "in": inch,
         "ft": foot,
+        "ft²": foot**2,
         "ft/s": foot,
         "ft/s²": foot,
         "psi": force / inch**2,

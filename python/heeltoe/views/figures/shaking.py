@@ -31,24 +31,29 @@ def draw_shaking(axes: Sequence[Axes], response: Response) -> None:
     Where the part below the crack changes the motion, that of the crack is drawn, with the ground's own behind it. The
     accelerations at which a block starts to move stand where they are near, and vary with the vertical motion.
     """
-    chained = "crack_acceleration_m_s2" in response.histories
-    name = "horizontal\n" if response.vertical is not None else "" if chained else "ground\n"
-    _draw(axes[0], response, response.motion, "crack_acceleration_m_s2", name)
+    draw_horizontal(axes[0], response)
     if response.vertical is not None:
         _draw(axes[1], response, response.vertical, "vertical_crack_acceleration_m_s2", "vertical, + up\n")
-    low, high = axes[0].get_ylim()
+
+
+def draw_horizontal(axes: Axes, response: Response) -> None:
+    """Draw the panel of the horizontal motion alone."""
+    chained = "crack_acceleration_m_s2" in response.histories
+    name = "horizontal\n" if response.vertical is not None else "" if chained else "ground\n"
+    _draw(axes, response, response.motion, "crack_acceleration_m_s2", name)
+    low, high = axes.get_ylim()
     for start in first_starts(response):
         limit = float(start.of_the_ground())
         if low <= limit <= high:
             time, values = _limit(start, response)
             # Dashes would drown in a curve of many samples.
             dash, width = ("--", 1.0) if time.size == 2 else ("-", 0.6)
-            axes[0].plot(time, values, color=COLOURS["limit"], linewidth=width, linestyle=dash, zorder=1.7)
+            axes.plot(time, values, color=COLOURS["limit"], linewidth=width, linestyle=dash, zorder=1.7)
             low = min(low, limit - 0.1 * (high - low))
             high = max(high, limit + 0.1 * (high - low))
-    axes[0].set_ylim(low, high)
+    axes.set_ylim(low, high)
     # Above the panel, where no label can cover a curve.
-    beside(axes[0], first_starts_in_words(response), colour="#444444")
+    beside(axes, first_starts_in_words(response), colour="#444444")
 
 
 def _draw(axes: Axes, response: Response, motion: GroundMotion, at_crack: str, which: str) -> None:

@@ -11,7 +11,7 @@ from heeltoe.units.systems import Units, unit_system
 from heeltoe.views.figures.canvas import Canvas
 from heeltoe.views.figures.panels import beside, largest, slip_in_the_end
 from heeltoe.views.figures.section import corners, draw_bodies, draw_crack, draw_dimensions
-from heeltoe.views.figures.shaking import draw_shaking
+from heeltoe.views.figures.shaking import draw_horizontal
 from heeltoe.views.figures.style import COLOURS, WIDTH, styled
 from heeltoe.views.figures.time_axis import time_axis
 
@@ -41,7 +41,7 @@ def summary_figure(case: Case, shown: tuple[Response, ...], units: str = "si") -
         width = 0.985 - _HISTORIES
         ground = figure.add_axes((_HISTORIES, 0.60, width, 0.31))
         slip = figure.add_axes((_HISTORIES, 0.15, width, 0.34), sharex=ground)
-        draw_shaking((ground,), shown[0])
+        draw_horizontal(ground, shown[0])
         ground.set_title("")
         ground.set_ylabel("ground [g]")
         ground.tick_params(labelbottom=False)
