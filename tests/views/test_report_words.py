@@ -4,8 +4,12 @@ from __future__ import annotations
 
 import pytest
 
+from heeltoe.case.project import Project
 from heeltoe.units.write import digits
-from heeltoe.views.report.content import glued
+from heeltoe.views.report.content import Document, Table, glued
+from heeltoe.views.report.html import html
+from heeltoe.views.report.one_unit import one_unit_each
+from heeltoe.views.report.typst_pdf import source
 from heeltoe.views.words.fields import shown
 from heeltoe.views.words.numbers import Numbers, kind
 
@@ -64,3 +68,24 @@ def test_numbers_are_written_as_people_read_them():
     numbers = Numbers({"a_m": float("nan"), "b": {"c_m": -0.0}})
     assert numbers("a_m") == numbers("x.y_m") == "–"
     assert numbers("b.c_m", sign=-1.0).text == "0.00 mm"
+
+
+def test_a_quantity_has_one_unit_in_a_table():
+    numbers = Numbers({"a_m": 1.571, "b_m": 0.0032, "c_m": 0.0, "d_n": 2e3})
+    rows = tuple((name, numbers(name)) for name in ("a_m", "b_m", "c_m", "d_n"))
+    assert [cell.text.split()[-1] for _, cell in rows] == ["m", "mm", "mm", "kN/m"]
+    (table,) = one_unit_each((Table(("", "value"), rows),), numbers)
+    assert [cell.text for _, cell in table.rows] == ["1.571 m", "0.00320 m", "0 m", "2 kN/m"]
+
+
+def test_the_title_block_stands_in_both_files():
+    project = Project.model_validate({"client": "Owner & Sons", "revision": 2})
+    about = tuple(project.rows())
+    assert len(about) == 6
+    document = Document("Dam", "", "", (), about)
+    page = html(document)
+    for text in (page, source(document)):
+        assert "Client" in text
+        assert "Checked by" in text
+    assert "Owner &amp; Sons" in page
+    assert tuple(Project().rows()) == ()
