@@ -56,7 +56,7 @@ def build_report(
     """Return what a report says, apart from how it looks.
 
     Parameters as of :func:`write_report`; `figures` are those of the result, drawn before, which are changed here to
-    what a report needs. They are drawn where they are not given.
+    what a report needs. They are drawn where they are not given; a report of none at all has none of its own either.
     """
     from heeltoe.models.statics.after import statics_after
     from heeltoe.views.figures.all import Figures, all_figures, has_pictures
@@ -71,6 +71,8 @@ def build_report(
     numbers = Numbers({**result.to_json(), "statics": found.to_json()}, units)
     drawn = all_figures(case, result, units) if figures is None else figures
     runs = tuple(run for run in reversed(result.responses) if has_pictures(run))
+    if not drawn:
+        return document(Subject(case, result, numbers, drawings(drawn), found, command))
     first = {"summary": lambda: summary_figure(case, runs, units)}
     if runs:
         first["motion"] = lambda: history_figure(result.motion, result.vertical, result.gravity, units)
