@@ -275,6 +275,12 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "statics.residual_slip",
         "post-seismic: no slip is given, taken as zero; {field}, or a run of the motion, says how much",
     ),
+    "slip-untold": (
+        "grave",
+        "statics.residual_slip",
+        'post-seismic: the {model} model ends "{outcome}", with no slip to trust: zero is taken, so that what is said '
+        "of the dam after the earthquake holds only if it has not moved",
+    ),
     "crack-opens-statically": (
         "note",
         "uplift",

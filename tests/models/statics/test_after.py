@@ -48,6 +48,8 @@ def test_command_and_report_agree(example, changes, slip, expected):
     assert found["slip_m"] == (response.residual_slip_m if slip is None else slip)
     after = statics_after(read_case(EXAMPLES / f"{example}.toml", [PUSHED, *changes]), response)
     assert after.to_json()["checks"] == found["checks"]
+    grave = [notice.code for notice in after.warnings if notice.severity == "grave"]
+    assert ("slip-untold" in grave) == expected.endswith("zero is taken")
 
 
 def test_the_model_of_the_slip_is_named_and_can_be_chosen():

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from heeltoe.case.model import Case
 from heeltoe.models.statics.model import Statics, statics
 from heeltoe.plain import plain
 from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest
+from heeltoe.warnings import Notice
 
 
 def statics_after(case: Case, *runs: Response) -> Statics:
@@ -28,8 +31,10 @@ def statics_after(case: Case, *runs: Response) -> Statics:
     if case.statics.residual_slip is not None:
         return statics(case, beside=beside)
     if trusted is None:
-        source = f"the {runs[0].model} model ends {runs[0].outcome!r}, zero is taken"
-        return statics(case, 0.0, slip_source=source, beside=beside)
+        model, outcome = runs[0].model, runs[0].outcome
+        source = f"the {model} model ends {outcome!r}, zero is taken"
+        found = statics(case, 0.0, slip_source=source, beside=beside)
+        return replace(found, warnings=(Notice("slip-untold", model=model, outcome=outcome), *found.warnings))
     source = f"{trusted.model} model, {plain(trusted.motion.name)}, PGA {trusted.motion.pga / trusted.gravity:.4g} g"
     if not comes_to_rest(trusted):
         source += ", still moving when the run ends"
