@@ -96,9 +96,14 @@ def _sections(found: Joints, units: str) -> Table:
     """Return the table of the sections."""
     table, (head, rows) = quiet_table(), section_rows(found, units)
     for place, name in enumerate(head):
-        text = escape(name.replace("overt", "over-\nt"))
-        # The longest word of a load case is not cut where the table is wider than the terminal.
-        table.add_column(text, justify="left" if place in (1, 2) else "right", min_width=12 if place == 1 else None)
+        text = escape(name.replace("overt", "over-\nt").replace("not met", "not\nmet").replace(", ", ",\n"))
+        # The longest word of a load case is not cut where the table is wider than the terminal; nor are numbers.
+        table.add_column(
+            text,
+            justify="left" if place in (1, 2) else "right",
+            min_width=12 if place == 1 else None,
+            no_wrap=place != 1,
+        )
     for row, joint in zip(rows, found.ranked, strict=True):
         table.add_row(*map(escape, row), style="" if joint.statics.ok else "red")
     return table

@@ -34,7 +34,7 @@ def basis(found: Statics, units: str) -> list[tuple[str, str]]:
 def section_rows(found: Joints, units: str) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
     """Return head and rows of a table of sections, that which governs first: where, which check governs, its margin,
     the least factors, and the longest crack."""
-    heights, unit = numbers([joint.elevation_m for joint in found.ranked], ".5g m", units)
+    heights, unit = numbers([joint.elevation_m for joint in found.ranked], "z.2f m", units)
     cracks = [max((each.cracked_length_m for each in joint.statics.cases), default=0.0) for joint in found.ranked]
     lengths, crack_unit = numbers(cracks, "z.2f m", units)
     head = (f"at, {unit}", "governs", "check", "margin", "sliding", "overturning", f"open, {crack_unit}", "not met")
