@@ -82,6 +82,12 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "{field} = {value} has no say in the flexible model: it is of the blows of a rigid block, and how elastic "
         "faces rebound comes of the waves in the concrete",
     ),
+    "hydrodynamic-unused": (
+        "caution",
+        "reservoir.hydrodynamic",
+        "{field} = {value} has no say in how the elastic dam moves, whose water is Westergaard's: the accelerations at "
+        "which a block starts to move have it alone",
+    ),
     # ground motion
     "motion-still": ("note", "motion", "{name} is zero throughout: in this direction the ground does not move"),
     "motion-strong": (

@@ -175,6 +175,18 @@ def test_every_result_tells_it():
     assert {each.code for each in both.beside.warnings} & {"fields-unused", "restitution-unused"} == set()
 
 
+def test_pressures_that_an_elastic_dam_does_not_have_are_told():
+    def told(value, *models):
+        given = dam(reservoir={"depth": "80 m", "hydrodynamic": value})
+        return [str(each) for each in unused_fields(read_case(given), models) if "hydrodynamic" in str(each)]
+
+    said = ['reservoir.hydrodynamic = "zangar" has no say in how the elastic dam moves']
+    for models in (("flexible",), ("rigid", "flexible")):
+        assert [each.partition(",")[0] for each in told("zangar", *models)] == said
+        assert told("westergaard", *models) == []
+    assert told("zangar", "rigid") == []
+
+
 def test_an_unusual_modulus_is_told_wherever_it_is_read():
     changes = ("concrete.modulus=20 MPa", "motion.duration=1s", "flexible.elements_across=2", "flexible.evidence=none")
     for model in ("decoupled", "flexible"):

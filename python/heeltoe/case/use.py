@@ -67,7 +67,12 @@ READ_BY: dict[str, frozenset[str]] = {
 }
 
 # What a reader would expect to matter to the flexible model has a sentence of its own.
-_EXPECTED = {"analysis.rotation": "rotation-unused", "crack.restitution": "restitution-unused"}
+_EXPECTED = {
+    "analysis.rotation": "rotation-unused",
+    "crack.restitution": "restitution-unused",
+    "reservoir.hydrodynamic": "hydrodynamic-unused",
+    "tailwater.hydrodynamic": "hydrodynamic-unused",
+}
 
 
 def unused_fields(case: Case, models: Sequence[str]) -> tuple[Notice, ...]:
@@ -85,13 +90,16 @@ def unused_fields(case: Case, models: Sequence[str]) -> tuple[Notice, ...]:
     foreign = [path for path in given if not _readers(_plain(path)) & set(models)]
     said = []
     if "flexible" in models:
-        # Rotations beyond small ones are asked for because they matter, and one of two models leaves them out.
-        rotates = case.analysis.rotation != "small"
+        # Rotations beyond small ones, and pressures beside the usual ones, are asked for because they matter, and one
+        # of two models leaves them out.
+        usual, apart = ("small", "westergaard"), tuple(path for path in _EXPECTED if path != "crack.restitution")
         expected = [
-            path for path in _EXPECTED if path in foreign or (path == "analysis.rotation" and path in given and rotates)
+            path for path in _EXPECTED if path in foreign or (path in apart and given.get(path, "small") not in usual)
         ]
         foreign = [path for path in foreign if path not in expected]
-        said = [Notice(_EXPECTED[path], value=shown(given[path])) for path in expected]
+        # The water of an elastic dam is Westergaard's in any case.
+        told = [path for path in expected if given[path] != "westergaard"]
+        said = [Notice(_EXPECTED[path], field=path, value=shown(given[path])) for path in told]
     if foreign:
         names = [name for model, name in _READERS.items() if model in models]
         readers = f"{' and '.join(names)} {'makes' if len(names) == 1 and 'statics' not in models else 'make'}"
