@@ -28,12 +28,14 @@ RECORD = "\n".join(f"{0.01 * k:.2f} {(-1) ** (k // 7) * 0.4}" for k in range(60)
 @pytest.fixture
 def place(tmp_path) -> Path:
     (tmp_path / "record.txt").write_text(f"# units: time [s], acceleration [g]\n{RECORD}\n")
+    (tmp_path / "corners.csv").write_text("0,0\n26,0\n5,30\n0,30\n")
     return tmp_path
 
 
 def help_of(place: Path) -> dict[str, tuple[Fields, Any]]:
-    """Return what must be in a case that has the fields of records."""
-    found: dict[str, tuple[Fields, Any]] = {}
+    """Return what must be in a case that has the fields of records and of sections in files."""
+    corners = {"section": {"file": str(place / "corners.csv"), "unit": "m"}}
+    found: dict[str, tuple[Fields, Any]] = {f"section.{name}": (corners, "1") for name in ("file", "layer", "unit")}
     for block in ("motion", "motion.vertical"):
         file = {block: {"file": str(place / "record.txt")}}
         for name in ("file", "channel", "unit", "time_step"):

@@ -64,8 +64,12 @@ def faults(said: Said, *, data: bool) -> list[str]:
     if said.returncode not in ENDS:
         return [f"ends with {said.returncode}: {said.stderr[-200:]}"]
     wrong = []
-    if said.returncode == 2 and (said.stderr.count("\n") != 1 or not said.stderr.startswith("heeltoe: ")):
-        wrong.append(f"refuses in other than one line: {said.stderr[:200]!r}")
+    if said.returncode == 2:
+        # A line for each thing that is wrong, and for each field one.
+        *lines, rest = said.stderr.split("\n")
+        fields = [line.removeprefix("heeltoe: ").partition(": ")[0] for line in lines]
+        if rest or not lines or not all(line.startswith("heeltoe: ") for line in lines) or len({*fields}) < len(fields):
+            wrong.append(f"refuses in other than a line for each field: {said.stderr[:300]!r}")
     if said.returncode == 2 and said.stdout:
         wrong.append(f"refuses and says {said.stdout[:100]!r}")
     if said.returncode != 2 and data:

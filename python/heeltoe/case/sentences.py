@@ -32,6 +32,8 @@ _EXPECTED = {
     "tuple": "a list",
     "model": "a block of fields",
 }
+# Which of the types that a field may have pydantic speaks of.
+_TYPES = {"str", "int", "float", "bool"}
 
 
 def collected(check: Callable[P, R]) -> Callable[P, R]:
@@ -86,10 +88,21 @@ def first_error(found: ValidationError, model: type[BaseModel]) -> InputError:
 
 
 def all_errors(found: ValidationError, model: type[BaseModel]) -> list[InputError]:
-    """Return all problems that pydantic gathered, fields that do not exist first; see :func:`first_error`."""
+    """Return all problems that pydantic gathered, fields that do not exist first; see :func:`first_error`.
+
+    Of a field that may be of several types there is one problem, and none of a list for what is wrong inside it.
+    """
     details = found.errors(include_url=False)
     details.sort(key=lambda detail: detail["type"] != "extra_forbidden")
-    return [error for detail in details for error in _all_translated(detail, model)]
+    wrong: dict[str, InputError] = {}
+    for detail in details:
+        for error in _all_translated(detail, model):
+            wrong.setdefault(error.field, error)
+    return [
+        error
+        for path, error in wrong.items()
+        if error.code != "not-usable" or not any(path and other.startswith(f"{path}[") for other in wrong)
+    ]
 
 
 def _all_translated(detail: ErrorDetails, model: type[BaseModel]) -> list[InputError]:
@@ -151,8 +164,8 @@ def _path(location: Sequence[int | str], model: type[BaseModel]) -> str:
     for part, _, tells in _steps(location, model):
         if isinstance(part, int):
             text += f"[{part}]"
-        # A name of blanks tells which kind of value stands there, and no more.
-        elif part.strip() and not tells:
+        # A name of blanks, or of a type, tells which kind of value stands there, and no more.
+        elif part.strip() and not tells and part not in _TYPES:
             text += f".{part}" if text else part
     return text
 
