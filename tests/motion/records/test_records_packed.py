@@ -120,6 +120,9 @@ def test_archives_that_cannot_be_read():
     encrypted[6] |= 1
     encrypted[good.index(b"PK\x01\x02") + 8] |= 1
     assert "encrypted" in str(refused(bytes(encrypted)))
+    unknown = bytearray(good)
+    unknown[8], unknown[good.index(b"PK\x01\x02") + 10] = 99, 99
+    assert "compression" in str(refused(bytes(unknown)))
 
 
 # miniSEED and SAC

@@ -36,7 +36,8 @@ def unpacked(data: bytes, name: str) -> list[tuple[str, bytes]]:
         if data.startswith(_GZIP):
             return [(name.removesuffix(".gz"), _inflated(data, name))]
         return _members(data, name)
-    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError, ValueError, OSError) as error:
+    # A way of packing that is not known here is a RuntimeError.
+    except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, ValueError, OSError) as error:
         reason = " ".join(str(error).split())[:80] or type(error).__name__
         raise InputError("record-archive", name, reason=reason) from None
 
