@@ -32,6 +32,10 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
     "study-motions": ("there is neither a folder nor files nor events", "give one of these, or leave [motions] out"),
     "study-folder": ("{value} is no directory", "give the directory of the records, relative to the study file"),
     "study-folder-empty": ("{value} has no records", "give a directory with records"),
+    "study-aftershocks": (
+        "the case has aftershocks, and the motions of a study take the place of all of its motions",
+        "leave [motions] out, or the aftershocks",
+    ),
     "study-pair": ("{value} has {count} horizontal components, not 2", "add the other one, or leave pairs out"),
     "study-vertical": ("{value} has no vertical component", "add it, or leave vertical out"),
     "study-horizontal": ("{value} has no horizontal component beside it", "add one, or take the file out"),

@@ -160,6 +160,11 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "motion.vertical",
         "{field}: a motion given beside the case comes without it, as it was recorded with another one",
     ),
+    "aftershocks-left-out": (
+        "caution",
+        "aftershocks",
+        "{field}: a motion given beside the case takes the place of all of its motions, and comes alone",
+    ),
     "motion-generated": ("note", "motion.file", "{name} is generated, not recorded"),
     "motion-beyond-relations": (
         "caution",

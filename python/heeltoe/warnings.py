@@ -44,6 +44,22 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "the part above the crack slides {slip_m:.3g m}, farther than its crack of {width_m:.3g m} is wide: it has "
         "left what it stood on, and the slip means failure, not a length",
     ),
+    "sequence-moves": (
+        "caution",
+        "aftershocks",
+        "{name} leaves the dam moving when the next begins at {time_s:.4g s}: a longer {field} lets it come to rest",
+    ),
+    "sequence-statics": (
+        "grave",
+        "aftershocks",
+        "the dam that {name} leaves does not meet the static checks before the next motion: {missed}",
+    ),
+    "sequence-drains": (
+        "grave",
+        "aftershocks",
+        "the slip that {name} leaves keeps {share:.2g %} of the drainage, and the motions after it are computed with "
+        "all of it: a run with uplift.drain_efficiency = {efficiency:.3g} bounds what they do",
+    ),
     # rigid model
     "slid-far": (
         "caution",

@@ -132,6 +132,7 @@ HELPED: dict[str, tuple[Fields, Any]] = {
     "analysis.time_limit": ({}, "1 ms"),
     "analysis.memory_limit": ({}, "1 kB"),
     "decoupled.vertical": ({"motion.vertical": GONE}, None),
+    "aftershocks[0].pause": ({"aftershocks": [{"points": PULSE, "pause": "0.1 s"}]}, "0.15 s"),
     "statics.criteria_file": ({}, "nowhere.toml"),
     "statics.tensile_strength": ({"statics.bonded": 1.0, "statics.tensile_strength": "0.01 MPa"}, "0.05 MPa"),
 }
@@ -147,6 +148,10 @@ def leaves(model: type[BaseModel] = Case, above: str = "") -> Iterator[tuple[str
         path = above + name
         if name == "project":
             continue  # words of the report, on which no number depends
+        if name == "aftershocks":
+            # All else of them is what a motion has, read by the same code.
+            yield f"{path}[0].pause", _blocks(field.annotation)[0].model_fields["pause"]
+            continue
         if name == "processing":
             for kind in _blocks(field.annotation):
                 step = typing.get_args(kind.model_fields["step"].annotation)[0]

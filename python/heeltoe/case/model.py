@@ -15,13 +15,14 @@ from heeltoe.case.at_crack import AnchorAtCrack, anchor_at_crack, flat, too_flat
 from heeltoe.case.changes import apply
 from heeltoe.case.dam import Anchor, Concrete, Crack, Ice, Reservoir, Silt, Uplift, Water
 from heeltoe.case.fields import Fields
-from heeltoe.case.motion import Motion
+from heeltoe.case.motion import Aftershock, Motion
 from heeltoe.case.options import Analysis, Decoupled, Flexible, Limits, StaticsChoice
 from heeltoe.case.project import Project
 from heeltoe.case.quantities import Gravity
 from heeltoe.case.section import Section
 from heeltoe.case.section_file import with_section_read
 from heeltoe.case.sentences import all_errors, gathered
+from heeltoe.case.sequence import with_motions_apart
 from heeltoe.errors import InputError
 from heeltoe.geometry.levels import cut_levels
 from heeltoe.geometry.section import ON_LINE, CutSection, cut, outline, outside
@@ -64,6 +65,9 @@ class Case(Shown, Fields):
     """The water in the crack."""
     motion: Motion | None = None
     """The earthquake; statics needs none."""
+    aftershocks: tuple[Aftershock, ...] = ()
+    """Motions after it, each with what the one before has left. A file may also give all of them as one list,
+    `[[motion]]`."""
     flexible: Flexible = Flexible()
     """Choices of the flexible model."""
     decoupled: Decoupled = Decoupled()
@@ -102,6 +106,8 @@ class Case(Shown, Fields):
             water = getattr(self, name)
             if water and water.follows_vertical_motion and self.motion and not self.motion.vertical:
                 yield InputError("needs-other", f"{name}.follows_vertical_motion", other="motion.vertical")
+        if self.aftershocks and self.motion is None:
+            yield InputError("needs-other", "aftershocks", other="a motion")
         if self.statics.drain_diameter is not None and self.uplift.pattern != "drained":
             yield InputError("needs-other", "statics.drain_diameter", other='uplift.pattern = "drained"')
 
@@ -222,6 +228,10 @@ def problems(fields: Mapping[str, Any], directory: Path | None) -> tuple[Case | 
         Where relative paths start; None where no file is to be read.
     """
     wrong: list[InputError] = []
+    try:
+        fields = with_motions_apart(fields)
+    except InputError as error:
+        return None, [error]
     try:
         read = with_section_read(fields, directory)
     except InputError as error:

@@ -83,3 +83,10 @@ class Motion(Source):
     ] = None
     """The vertical motion of the same earthquake, positive up; without a peak of its own it is scaled as the horizontal
     one is. "none" leaves it out."""
+
+
+class Aftershock(Motion):
+    """A ground motion that the dam meets after another one, as that has left it."""
+
+    pause: TimeSpan = Field(default="10 s", validate_default=True)
+    """How long the ground stands still before it, so that the dam comes to rest."""

@@ -17,6 +17,7 @@ from typing import Any
 
 from heeltoe.case.changes import Changes, apply
 from heeltoe.case.model import Case
+from heeltoe.case.sequence import with_motions_apart
 from heeltoe.errors import InputError, shown
 
 # A case is some kilobytes; what never ends, as /dev/zero, is none.
@@ -56,6 +57,7 @@ def read_case(source: str | os.PathLike[str] | Mapping[str, Any], changes: Chang
         fields, directory = read_fields(path), path.parent
     else:
         raise InputError("case-source", "source", kind=type(source).__name__)
+    fields = with_motions_apart(fields)
     apply(fields, changes)
     return Case.of(fields, directory)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+from heeltoe.case.model import Case
 from heeltoe.case.motion import Motion, Source
 from heeltoe.errors import InputError
 from heeltoe.kept import Kept
@@ -14,13 +15,17 @@ from heeltoe.motion.processing import process
 from heeltoe.motion.records import called, read_record
 from heeltoe.motion.records.catalog import find
 from heeltoe.motion.scenario import PREFIX, synthetic
+from heeltoe.motion.sequence import joined
 from heeltoe.warnings import Notice
 
 # Records as they were read: many runs differ in all else.
 _KEPT: Kept[GroundMotion] = Kept(8)
+_NOT_ZERO = "the motion is not zero"
 
 
-def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[GroundMotion, GroundMotion | None]:
+def resolve(
+    shaking: Motion, gravity: float, base_directory: Path, field: str = "motion"
+) -> tuple[GroundMotion, GroundMotion | None]:
     """Read, check, process, scale, reverse and cut the ground motions of a case, in this order, and check them again.
 
     A peak asked for is the peak of the whole record. A vertical motion without a peak of its own is scaled by the
@@ -34,6 +39,8 @@ def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[Grou
         One g of the case [m/s2].
     base_directory
         Where relative paths start.
+    field
+        Where it stands in the case.
 
     Returns
     -------
@@ -45,7 +52,7 @@ def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[Grou
     InputError
         Where a record cannot be found, read or trusted.
     """
-    horizontal = read_source(shaking, gravity, base_directory, "motion")
+    horizontal = read_source(shaking, gravity, base_directory, field)
     vertical = None
     factor = 1.0
     if shaking.pga is not None and (horizontal.pga > 0.0 or not shaking.allow_zero):
@@ -53,7 +60,7 @@ def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[Grou
         factor = peak / horizontal.pga if horizontal.pga else 1.0
         horizontal = horizontal.scaled_to(peak, f"scaled by {factor:.6g} to a peak of {shaking.pga}")
     if shaking.vertical is not None:
-        vertical = read_source(shaking.vertical, gravity, base_directory, "motion.vertical", upward=True)
+        vertical = read_source(shaking.vertical, gravity, base_directory, f"{field}.vertical", upward=True)
         if shaking.vertical.pga is not None and vertical.pga > 0.0:
             vertical = vertical.scaled_to(
                 shaking.vertical.pga.si(gravity), f"scaled to a peak of {shaking.vertical.pga}"
@@ -63,15 +70,34 @@ def resolve(shaking: Motion, gravity: float, base_directory: Path) -> tuple[Grou
         vertical = vertical.with_warnings(*check_pair(horizontal, vertical)).led_by(horizontal.lead)
         horizontal = horizontal.led_by(vertical.lead)
         vertical = _finish(vertical, shaking.vertical, shaking.duration)
-        vertical = vertical.with_warnings(*check(vertical, gravity, allow_zero=True, field="motion.vertical"))
+        vertical = vertical.with_warnings(*check(vertical, gravity, allow_zero=True, field=f"{field}.vertical"))
     horizontal = _finish(horizontal, shaking, shaking.duration)
     allowed = shaking.allow_zero or (vertical is not None and vertical.pga > 0.0)
-    horizontal = horizontal.with_warnings(*check(horizontal, gravity, allow_zero=allowed))
+    horizontal = horizontal.with_warnings(*check(horizontal, gravity, allow_zero=allowed, field=field))
     if "allow_zero" in shaking.model_fields_set and horizontal.pga > 0.0:
-        field = "motion.allow_zero"
-        idle = Notice("fields-idle", field=field, fields=field, why="the motion is not zero")
+        idle = Notice("fields-idle", field=f"{field}.allow_zero", fields=f"{field}.allow_zero", why=_NOT_ZERO)
         horizontal = horizontal.with_warnings(idle)
     return horizontal, vertical
+
+
+def resolve_all(case: Case) -> tuple[GroundMotion, GroundMotion | None]:
+    """Return the ground motions of a case, as :func:`resolve` does, with those of its aftershocks after them.
+
+    Raises
+    ------
+    InputError
+        Where it has none, or one that cannot be used.
+    """
+    if case.motion is None:
+        raise InputError("motion-missing", "motion")
+    if not case.aftershocks:
+        return resolve(case.motion, case.gravity, case.base_directory)
+    given = {"motion": case.motion, **{f"aftershocks[{k}]": each for k, each in enumerate(case.aftershocks)}}
+    pairs = []
+    for field, each in given.items():
+        across, up = resolve(each, case.gravity, case.base_directory, field)
+        pairs.append((across, up, each.duration or across.duration))
+    return joined(pairs, [each.pause for each in case.aftershocks])
 
 
 def read_source(

@@ -19,6 +19,8 @@ title = {title}
 # on the crack, from the heel; or by their ends in the section, whatever the crack is: x, and elevation above the base
 # anchors = [{{ head_x = "3 m", head_elevation = "99 m", foot_x = "9 m", foot_elevation = "-9 m", \
 prestress = "2 MN/m" }}]
+# Motions after that of [motion], each meeting the dam as the one before has left it; what a motion has, and a pause:
+# aftershocks = [{{ file = "elcentro-1940-270-nga", pga = "0.2 g", pause = "10 s" }}]
 
 # [project]                        # the title block of the report, in your own words
 # name = "Safety review"

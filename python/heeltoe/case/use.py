@@ -46,6 +46,7 @@ READ_BY: dict[str, frozenset[str]] = {
     "uplift.during_shaking": _SHAKEN,
     "uplift.opening": _SHAKEN,
     "motion": _SHAKEN,
+    "aftershocks": _SHAKEN,
     "flexible": frozenset({"flexible"}),
     **dict.fromkeys(
         (
@@ -87,7 +88,9 @@ def unused_fields(case: Case, models: Sequence[str]) -> tuple[Notice, ...]:
         of them reads is read.
     """
     given = dict(_given(case))
-    foreign = [path for path in given if not _readers(_plain(path)) & set(models)]
+    # Between the motions of a sequence a dam is judged by the static checks.
+    readers = {*models, "statics"} if case.aftershocks else set(models)
+    foreign = [path for path in given if not _readers(_plain(path)) & readers]
     said = []
     if "flexible" in models:
         # Rotations beyond small ones, and pressures beside the usual ones, are asked for because they matter, and one
@@ -102,8 +105,8 @@ def unused_fields(case: Case, models: Sequence[str]) -> tuple[Notice, ...]:
         said = [Notice(_EXPECTED[path], field=path, value=shown(given[path])) for path in told]
     if foreign:
         names = [name for model, name in _READERS.items() if model in models]
-        readers = f"{' and '.join(names)} {'makes' if len(names) == 1 and 'statics' not in models else 'make'}"
-        said.append(Notice("fields-unused", readers=readers, fields=", ".join(foreign)))
+        make = f"{' and '.join(names)} {'makes' if len(names) == 1 and 'statics' not in models else 'make'}"
+        said.append(Notice("fields-unused", readers=make, fields=", ".join(foreign)))
     for why, paths in _idle(case, models).items():
         idle = [path for path in given if _plain(path) in paths and path not in foreign]
         if idle:

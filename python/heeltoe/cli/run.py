@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 from typer.core import TyperCommand
@@ -33,6 +33,9 @@ if TYPE_CHECKING:
     from heeltoe.models.flexible.cost import Cost
     from heeltoe.result.response import Response
     from heeltoe.study.small import SmallStudy
+
+#: Changes of fields, as options give them.
+Given = Sequence[str | Mapping[str, Any]]
 
 
 class Run(TyperCommand):
@@ -180,9 +183,10 @@ class _Asked:
         return check_runs(self.spread or RUNS, "--spread")
 
 
-def _run(path: str, changes: list[str], reverse: bool, output_step: str | None, asked: _Asked) -> None:
+def _run(path: str, changes: Given, reverse: bool, output_step: str | None, asked: _Asked) -> None:
     """Read the case with its changes, run it, write and show what is asked for."""
     from heeltoe.case.read import read_case
+    from heeltoe.case.sequence import turned_round
     from heeltoe.units.parse import parse
     from heeltoe.views.terminal.show import show
 
@@ -190,7 +194,7 @@ def _run(path: str, changes: list[str], reverse: bool, output_step: str | None, 
     runs = asked.runs()
     case = read_case(path, changes)
     if reverse and case.motion is not None:
-        changes.append(f"motion.reverse={'false' if case.motion.reverse else 'true'}")
+        changes = [*changes, turned_round(case)]
         case = read_case(path, changes)
     asked.check_elastic(case)
     units = units_of(case, asked.units)
@@ -218,7 +222,7 @@ def _run(path: str, changes: list[str], reverse: bool, output_step: str | None, 
         raise typer.Exit(NO_RESULT)
 
 
-def _table(path: str, changes: list[str], asked: _Asked, step: float | None, say: Callable[[str], None]) -> SmallStudy:
+def _table(path: str, changes: Given, asked: _Asked, step: float | None, say: Callable[[str], None]) -> SmallStudy:
     """Run a table of runs."""
     from heeltoe.models.run import cost_of
     from heeltoe.models.run import run as run_model

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from time import perf_counter
 from typing import TYPE_CHECKING, Literal, TypeVar
 
 from heeltoe.case.model import Case
-from heeltoe.case.shaking import resolve
+from heeltoe.case.shaking import resolve_all
 from heeltoe.case.use import unused_fields
 from heeltoe.case.warnings import case_warnings
 from heeltoe.errors import InputError, expect
@@ -236,14 +236,19 @@ def earthquake(
         if given is not None:
             expect(given, GroundMotion, "not-a-motion", name)
     if motion is None:
-        if case.motion is None:
-            raise InputError("motion-missing", "motion")
-        motion, vertical = resolve(case.motion, case.gravity, case.base_directory)
-    elif vertical is None and case.motion is not None and case.motion.vertical is not None:
-        left_out = Notice("vertical-left-out")
-        motion = motion if left_out in motion.warnings else motion.with_warnings(left_out)
-    end = case.motion.duration if case.motion and case.motion.duration else motion.duration
-    return Earthquake(motion, vertical, end, rotation)
+        motion, vertical = resolve_all(case)
+    elif not motion.parts and case.motion is not None:
+        motion = motion.with_warnings(*(each for each in _left_out(case, vertical) if each not in motion.warnings))
+    own = None if motion.parts or case.motion is None else case.motion.duration
+    return Earthquake(motion, vertical, own or motion.duration, rotation)
+
+
+def _left_out(case: Case, vertical: GroundMotion | None) -> Iterator[Notice]:
+    """Walk what of a case's own motions a motion that is given beside it comes without."""
+    if case.aftershocks:
+        yield Notice("aftershocks-left-out")
+    if vertical is None and case.motion is not None and case.motion.vertical is not None:
+        yield Notice("vertical-left-out")
 
 
 def _alone(response: R, case: Case, chosen: Chosen | None = None) -> R:
@@ -262,7 +267,8 @@ def _completed(response: R, case: Case, models: Sequence[str], chosen: Chosen, *
     warnings = (*case_warnings(case), *response.motion.warnings, *vertical, *response.warnings, *end, *unused)
     if not response.summary:
         return replace(response, chosen=chosen, warnings=warnings)
-    warnings = (*warnings, *slid_off, *standing_warnings(case, response.static))
+    response, between = _sequence(case, response)
+    warnings = (*warnings, *slid_off, *standing_warnings(case, response.static), *between)
     if alone and not response.elastic:
         left_out = omitted(case, response) if response.model == "rigid" else (Notice("rigid-top"),)
         warnings = (*warnings, *left_out)
@@ -272,6 +278,16 @@ def _completed(response: R, case: Case, models: Sequence[str], chosen: Chosen, *
         warnings=warnings,
         limits=check_limits(case.limits, response.summary, response.outcome),
     )
+
+
+def _sequence(case: Case, response: R) -> tuple[R, tuple[Notice, ...]]:
+    """Add what each motion of a sequence does, and return what is to be said of it."""
+    if not response.motion.parts:
+        return response, ()
+    from heeltoe.models.statics.between import about_the_sequence, judged_stages
+
+    found = judged_stages(case, response)
+    return replace(response, sequence=found), tuple(about_the_sequence(case, found))
 
 
 def _slid_off(case: Case, response: Response) -> tuple[Notice, ...]:

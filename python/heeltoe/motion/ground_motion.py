@@ -33,6 +33,29 @@ def integrals(time: Floats, acceleration: Floats) -> tuple[Floats, Floats]:
     return v, d
 
 
+@dataclass(frozen=True)
+class Part:
+    """One motion of a sequence.
+
+    Attributes
+    ----------
+    name
+        What it is called by itself.
+    begins, ends
+        From when to when it shakes the dam [s].
+    pga
+        Its peak, without sign [m/s2].
+    processing
+        What was done to it.
+    """
+
+    name: str
+    begins: float
+    ends: float
+    pga: float
+    processing: tuple[str, ...] = ()
+
+
 @dataclass(frozen=True, eq=False)
 class GroundMotion(Shown):
     """An immutable ground acceleration.
@@ -53,6 +76,8 @@ class GroundMotion(Shown):
         What a reader of any result with this motion must know.
     lead
         What a filter has put before the first value of the record [s]; components of one earthquake go together by it.
+    parts
+        The motions that it is made of, one after the other; none of a single one.
     """
 
     name: str
@@ -69,6 +94,7 @@ class GroundMotion(Shown):
     processing: tuple[str, ...] = ()
     warnings: tuple[Notice, ...] = ()
     lead: float = 0.0
+    parts: tuple[Part, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("time", "acceleration"):

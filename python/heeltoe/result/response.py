@@ -17,6 +17,7 @@ from heeltoe.plain import plain
 from heeltoe.result.beside import meaning, ratio
 from heeltoe.result.contract import TOO_FAR
 from heeltoe.result.limits import LimitCheck
+from heeltoe.result.sequence import Stage
 from heeltoe.result.verdict import verdict
 from heeltoe.result.write import build_info, motion_json, static_json, write_table
 from heeltoe.shown import Shown
@@ -151,6 +152,8 @@ class Response(Shown):
         How long it took to compute [s]; building the elastic parts is part of it.
     silence_s
         How long the run goes on after the ground motion has ended, until the dam is at rest [s].
+    sequence
+        What each motion does where the dam meets several, one after the other.
     """
 
     model: str
@@ -174,6 +177,7 @@ class Response(Shown):
     beside: Response | None = None
     seconds: float = 0.0
     silence_s: float = 0.0
+    sequence: tuple[Stage, ...] = ()
 
     def __post_init__(self) -> None:
         for name in ("summary", "histories", "event_log", "static"):
@@ -264,6 +268,7 @@ class Response(Shown):
             **static_json(self.static),
             "energy": energy,
             **({} if self.spread is None else {"spread": dict(self.spread)}),
+            **({"sequence": [each.to_json() for each in self.sequence]} if self.sequence else {}),
             "limits": [check.to_json() for check in self.limits],
             "motion": motion_json(self.motion, self.gravity),
             "vertical_motion": motion_json(self.vertical, self.gravity) if self.vertical else None,

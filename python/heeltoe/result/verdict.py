@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from heeltoe.result.contract import JOINT_METER_M, LEAST_M, LEAST_RAD
 from heeltoe.result.rest import comes_to_rest, last_of, motion_end, rests_from
+from heeltoe.result.sequence import sequence_said
 from heeltoe.units.write import angle, length, speed
 
 # Not at run time: a response says its verdict in its JSON.
@@ -36,7 +37,8 @@ def verdict(response: Response, units: str = "si") -> str:
         sentences = [_elastic_slip(response, units), _openings(response, units), _elastic_end(response, units)]
     else:
         sentences = [_slip(response, units), _rocking(response, units), _end(response)]
-    return " ".join(sentence for sentence in [*sentences, _limits(response, units)] if sentence)
+    told = [*sentences, sequence_said(response.sequence, units), _limits(response, units)]
+    return " ".join(sentence for sentence in told if sentence)
 
 
 def advice(response: Response, units: str = "si") -> str:

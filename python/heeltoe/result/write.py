@@ -14,7 +14,7 @@ import pyarrow.csv
 import pyarrow.parquet
 
 from heeltoe.kernel.build import PROFILE, VERSION
-from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.motion.ground_motion import GroundMotion, Part
 from heeltoe.motion.measures import measures
 
 _MEASURES = ("arias_intensity_m_s", "cav_m_s", "significant_duration_s", "mean_period_s", "end_velocity_m_s")
@@ -80,6 +80,17 @@ def motion_json(motion: GroundMotion, gravity: float) -> dict[str, Any]:
         **{name: found[name] for name in _MEASURES if name in found},
         "source": motion.source,
         "processing": list(motion.processing),
+        **({"parts": [_part_json(each, gravity) for each in motion.parts]} if motion.parts else {}),
+    }
+
+
+def _part_json(part: Part, gravity: float) -> dict[str, Any]:
+    return {
+        "name": part.name,
+        "pga_g": part.pga / gravity,
+        "begins_s": part.begins,
+        "ends_s": part.ends,
+        "processing": list(part.processing),
     }
 
 

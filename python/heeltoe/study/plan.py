@@ -289,6 +289,8 @@ def plan_of(study: Study) -> Plan:
         events: tuple[str, ...] = (base.motion.name,)
         scale = None
     else:
+        if case.aftershocks:
+            raise InputError("study-aftershocks", "motions")
         shakes, events = shakes_of(study.motions, case, study.directory)
         scale = _scale(study.motions.scale, case, drawn=study.drawn)
     plan = Plan(study, case, axes, shakes, events, scale)

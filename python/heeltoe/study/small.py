@@ -153,7 +153,7 @@ def _spread(path: str, given: str, field: str) -> tuple[str, ...]:
 
 def run_small(
     source: str | os.PathLike[str] | Mapping[str, Any],
-    changes: Sequence[str],
+    changes: Sequence[str | Mapping[str, Any]],
     axes: Sequence[Axis],
     run: Run,
     *,
@@ -192,7 +192,7 @@ def run_small(
 
 
 def cases_of(
-    source: str | os.PathLike[str] | Mapping[str, Any], changes: Sequence[str], axes: Sequence[Axis]
+    source: str | os.PathLike[str] | Mapping[str, Any], changes: Sequence[str | Mapping[str, Any]], axes: Sequence[Axis]
 ) -> tuple[tuple[tuple[str, ...], ...], list[Case]]:
     """Return the values of every combination, and the case that each makes."""
     samples = Samples(axes, "grid", None, 0)

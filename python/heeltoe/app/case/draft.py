@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from heeltoe.app.case.files import as_sent, of_this_machine, unsent
 from heeltoe.case.changes import apply
 from heeltoe.case.model import problems
+from heeltoe.case.sequence import with_motions_apart
 from heeltoe.errors import InputError
 from heeltoe.plain import harmless
 
@@ -106,7 +107,7 @@ def start(session: Session, fields: Mapping[str, Any]) -> None:
     InputError
         Where there are too many of them.
     """
-    plain = _plain(fields)
+    plain = _plain(with_motions_apart(fields))
     _settle(session)
     draft = session.draft
     if draft is not None:

@@ -35,6 +35,9 @@ def time_axis(axes: Axes, *responses: Response) -> None:
     if silent and max(silent) < axes.get_xlim()[1]:
         _mark(axes, max(silent))
         label += f"; ground motion until {max(silent):.4g} s (dotted)"
+    for moment in begins(*responses):
+        _mark(axes, moment)
+        label = label if "motions" in label else f"{label}; further motions begin at the dotted lines"
     if cut:
         # In a narrow panel a line has no room for both.
         label += ";\n" if ";" in label else "; "
@@ -42,8 +45,13 @@ def time_axis(axes: Axes, *responses: Response) -> None:
     axes.set_xlabel(label)
 
 
+def begins(*responses: Response) -> list[float]:
+    """Return when the motions of a sequence begin [s], but the first."""
+    return sorted({part.begins for each in responses for part in each.motion.parts[1:]})
+
+
 def _mark(axes: Axes, end: float) -> None:
-    """Draw a line where the ground motion ends, in all panels over the same time."""
+    """Draw a line where the ground motion ends or another begins, in all panels over the same time."""
     for panel in axes.get_shared_x_axes().get_siblings(axes):
         panel.axvline(end, color="#777777", linestyle=":", linewidth=1.0, zorder=0.5)
 

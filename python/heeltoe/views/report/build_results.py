@@ -5,6 +5,7 @@ from __future__ import annotations
 from heeltoe.views.report.content import Block, Inline, Section, Table, paragraph
 from heeltoe.views.report.subject import Subject
 from heeltoe.views.words.numbers import Value
+from heeltoe.views.words.sequence import COLUMNS, sequence_rows
 from heeltoe.views.words.starts import starts
 from heeltoe.views.words.tension import tension_line, tension_worth
 
@@ -99,7 +100,7 @@ def results(subject: Subject) -> Section:
                 subject.align(),
             )
         )
-        blocks += [*_tension(subject), *_at_the_crack(subject), *_anchors(subject)]
+        blocks += [*_tension(subject), *_at_the_crack(subject), *_anchors(subject), *_sequence(subject)]
     else:
         blocks.append(paragraph("The run never started, so that there are no results and no figures of it."))
     return Section("Results", (*blocks, *subject.figure(*_FIGURES)))
@@ -151,3 +152,14 @@ def _anchors(subject: Subject) -> list[Block]:
     )
     caption = f"Tension of the anchors, {subject.per_width}."
     return [Table(head, rows, caption, "l" + "r" * (2 + len(runs)))] if rows else []
+
+
+def _sequence(subject: Subject) -> list[Block]:
+    """Return what each motion of a sequence does."""
+    blocks: list[Block] = []
+    for run in subject.runs:
+        rows = tuple(sequence_rows(run.response, subject.units))
+        if rows:
+            caption = f"Motion by motion, {run.name}; slips from before the first one, + downstream."
+            blocks.append(Table(COLUMNS, rows, caption, "l" + "r" * (len(COLUMNS) - 1)))
+    return blocks

@@ -15,6 +15,7 @@ from heeltoe.units.write import length, speed
 from heeltoe.views.terminal.common import label_lines, print_warnings, quiet_table
 from heeltoe.views.terminal.decoupled import crack_lines
 from heeltoe.views.terminal.response import in_the_end, print_head, print_verdicts
+from heeltoe.views.terminal.sequence import print_sequence
 from heeltoe.views.words.numbers import headline
 from heeltoe.views.words.warnings import listed
 
@@ -27,6 +28,7 @@ def print_side_by_side(dam: Response, block: Response, console: Console, units: 
         console.print(label_lines(crack_lines(block, units)))
         console.print()
     console.print(_table(dam, block, units))
+    print_sequence(dam, console, units)
     print_warnings(listed(dam.responses, units), console)
     verdicts = [("Verdict", dam.ok, verdict(dam, units))]
     # What the block does stands in the table; why it does nothing does not.

@@ -24,8 +24,10 @@ from heeltoe.views.terminal.common import (
 )
 from heeltoe.views.terminal.decoupled import crack_lines
 from heeltoe.views.terminal.elastic import elastic_lines
+from heeltoe.views.terminal.sequence import print_sequence
 from heeltoe.views.words.motion import sampling
 from heeltoe.views.words.numbers import headline
+from heeltoe.views.words.sequence import part_lines
 from heeltoe.views.words.spread import COLUMNS, spread_rows, spread_said
 from heeltoe.views.words.starts import of_what, starts
 from heeltoe.views.words.tension import tension_line, tension_worth
@@ -42,6 +44,7 @@ def print_summary(response: Response, console: Console, units: str = "si") -> No
         if response.spread is not None:
             console.print()
             console.print(_spread_table(response, units))
+        print_sequence(response, console, units)
     print_warnings(listed([response], units), console)
     print_verdicts([("Verdict", response.ok, verdict(response, units))], console)
 
@@ -87,7 +90,7 @@ def _motion_line(motion: GroundMotion, gravity: float, units: str) -> str:
         duration_s=motion.duration,
         sampling=sampling(motion),
     )
-    return "\n".join([line, *map(plain, motion.processing)])
+    return "\n".join([line, *map(plain, motion.processing), *part_lines(motion, gravity)])
 
 
 def _static_lines(response: Response) -> list[tuple[str, str]]:

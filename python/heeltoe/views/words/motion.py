@@ -11,6 +11,7 @@ from heeltoe.motion.measures import measures
 from heeltoe.plain import plain
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.sentences import quantity, written
+from heeltoe.views.words.sequence import part_lines
 
 
 def sampling(motion: GroundMotion) -> str:
@@ -36,6 +37,7 @@ def about_motion(
         ("PGD", quantity(motion.pgd, ".4g m", units)),
         *_measures(motion, gravity, units),
         ("processing", "; ".join(motion.processing)),
+        ("motions", "; then ".join(part_lines(motion, gravity))),
         ("source", motion.source),
     )
     return tuple((label, plain(text)) for label, text in lines if text)

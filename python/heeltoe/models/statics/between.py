@@ -1,0 +1,53 @@
+"""The static checks between the motions of a sequence: whether the dam that one has left stands until the next."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from heeltoe.case.model import Case
+from heeltoe.models.statics.model import statics
+from heeltoe.plain import plain
+from heeltoe.result.response import Response
+from heeltoe.result.sequence import Stage, stages
+from heeltoe.warnings import Notice
+
+_AFTER = "post-seismic"
+
+
+def judged_stages(case: Case, response: Response) -> tuple[Stage, ...]:
+    """Return what each motion of a sequence does, and how the dam that it leaves meets the static checks."""
+    return tuple(_judged(case, each) for each in stages(response, response.motion.parts))
+
+
+def about_the_sequence(case: Case, found: tuple[Stage, ...]) -> Iterator[Notice]:
+    """Say where a motion meets a dam that is not at rest, that does not stand, or whose drains are not those of the
+    run."""
+    for number, each in enumerate(found[:-1]):
+        which = f"motion {number + 1}, {each.name},"
+        if not each.at_rest:
+            field, begins = f"aftershocks[{number}].pause", found[number + 1].begins_s
+            yield Notice("sequence-moves", name=which, field=field, time_s=begins)
+        if not each.static["ok"]:
+            yield Notice("sequence-statics", name=which, missed="; ".join(each.static["missed"]))
+        share = each.static["drainage"]
+        if share < 1.0:
+            efficiency = share * (case.uplift.drain_efficiency or 0.0)
+            yield Notice("sequence-drains", name=which, share=share, efficiency=efficiency)
+
+
+def _judged(case: Case, stage: Stage) -> Stage:
+    slip, size = stage.residual_slip_m, case.statics.drain_diameter
+    if case.statics.residual_slip is not None:
+        case = case.model_copy(update={"statics": case.statics.model_copy(update={"residual_slip": None})})
+    found = statics(case, slip, slip_source=plain(stage.name))
+    after = [check for check in found.checks if check.load_case == _AFTER]
+    drained = case.uplift.pattern == "drained" and size is not None
+    return replace(
+        stage,
+        static={
+            "ok": all(check.met for check in after),
+            "missed": [str(check.sentence) for check in after if not check.met],
+            "drainage": max(0.0, 1.0 - abs(slip) / size) if drained and size else 1.0,
+        },
+    )

@@ -1,0 +1,86 @@
+"""One motion after the other: a mainshock and its aftershocks, with the ground at rest in between, as one motion."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from heeltoe.arrays import Floats
+from heeltoe.motion.ground_motion import GroundMotion, Part
+
+#: Ground motions of one earthquake, horizontal and vertical, and how long they last [s].
+Pair = tuple[GroundMotion, GroundMotion | None, float]
+
+
+@dataclass(frozen=True, eq=False)
+class _Placed:
+    motion: GroundMotion
+    begins: float
+    lasts: float
+
+
+def joined(pairs: Sequence[Pair], pauses: Sequence[float]) -> tuple[GroundMotion, GroundMotion | None]:
+    """Join motions, each straight between the moments that it had.
+
+    Parameters
+    ----------
+    pairs
+        In their order.
+    pauses
+        How long the ground stands still before each but the first [s].
+
+    Returns
+    -------
+    horizontal, vertical
+        From the beginning of the first to the end of the last, with their `parts`; the second is None where none of
+        them has any, and at rest through those that have none.
+    """
+    begins = [0.0]
+    for (_, _, lasts), pause in zip(pairs, pauses, strict=False):
+        begins.append(begins[-1] + lasts + pause)
+    parts = tuple(
+        Part(motion.name, begin, begin + lasts, motion.pga, motion.processing)
+        for (motion, _, lasts), begin in zip(pairs, begins, strict=True)
+    )
+    end = parts[-1].ends
+    across = [_Placed(motion, begin, lasts) for (motion, _, lasts), begin in zip(pairs, begins, strict=True)]
+    up = [_Placed(motion, begin, lasts) for (_, motion, lasts), begin in zip(pairs, begins, strict=True) if motion]
+    return _whole(across, end, parts), _whole(up, end, parts) if up else None
+
+
+def _whole(placed: Sequence[_Placed], end: float, parts: tuple[Part, ...]) -> GroundMotion:
+    time, values = [np.zeros(1)], [np.zeros(1)]
+    for each in placed:
+        moments, acceleration = _between_rests(each.motion.cut(each.lasts))
+        time.append(each.begins + moments)
+        values.append(acceleration)
+    if time[-1][-1] < end:
+        time.append(np.array([end]))
+        values.append(np.zeros(1))
+    moments, acceleration = np.concatenate(time), np.concatenate(values)
+    # What is at rest on both sides of a moment needs that moment once.
+    twice = np.append(False, (np.diff(moments) == 0.0) & (np.diff(acceleration) == 0.0))
+    first, *others = (each.motion for each in placed)
+    name = f"{first.name} and {len(others)} aftershock{'s' if len(others) > 1 else ''}" if others else first.name
+    warnings = tuple(dict.fromkeys(notice for each in placed for notice in each.motion.warnings))
+    return GroundMotion(
+        name,
+        moments[~twice],
+        acceleration[~twice],
+        format="sequence",
+        source="; ".join(each.motion.source for each in placed),
+        warnings=warnings,
+        parts=parts,
+    )
+
+
+def _between_rests(motion: GroundMotion) -> tuple[Floats, Floats]:
+    """Return a motion that begins and ends at rest, by a jump where it does not do so by itself."""
+    time, values = motion.time, motion.acceleration
+    first, last = [0.0] if values[0] != 0.0 else [], [0.0] if values[-1] != 0.0 else []
+    return (
+        np.concatenate([time[:1] if first else [], time, time[-1:] if last else []]),
+        np.concatenate([first, values, last]),
+    )

@@ -1,0 +1,37 @@
+"""What each motion of a sequence does, as rows of a table."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.plain import plain
+from heeltoe.result.response import Response
+from heeltoe.views.words.numbers import headline
+
+COLUMNS = ("motion", "peak", "slip in it", "slip after it", "opens upstream", "at rest", "static checks")
+
+
+def part_lines(motion: GroundMotion, gravity: float) -> Iterator[str]:
+    """Walk the motions of a sequence: name, peak, from when to when, and what was done to each."""
+    for number, each in enumerate(motion.parts, 1):
+        yield "; ".join(
+            (
+                f"{number} {plain(each.name)}: {each.pga / gravity:.4g} g, {each.begins:.4g} to {each.ends:.4g} s",
+                *map(plain, each.processing),
+            )
+        )
+
+
+def sequence_rows(response: Response, units: str) -> Iterator[tuple[str, ...]]:
+    """Walk the rows of :data:`COLUMNS`; slips are positive downstream."""
+    for number, each in enumerate(response.sequence, 1):
+        yield (
+            f"{number} ({each.begins_s:.4g} s)",
+            f"{each.pga_g:.3g} g",
+            headline(each.slip_m, "slip", units),
+            headline(each.residual_slip_m, "slip", units),
+            headline(each.opening_upstream_m, "opening", units),
+            "yes" if each.at_rest else "no",
+            "met" if each.static["ok"] else f"{len(each.static['missed'])} not met",
+        )
