@@ -29,7 +29,10 @@ def test_each_motion_is_what_it_was():
     assert there == pytest.approx(np.interp(inside, B.time, B.acceleration), abs=1e-9)
     assert np.interp([0.5, 1.2999, 1.8001, 2.0], found.time, found.acceleration) == pytest.approx([0.0] * 4, abs=1e-9)
     velocity = sum(integrals(each.time, each.acceleration)[0][-1] for each in (A, B, A.cut(0.2)))
-    assert found.end_velocity == pytest.approx(velocity, rel=1e-12)
+    assert integrals(found.time, found.acceleration)[0][-1] == pytest.approx(velocity, rel=1e-12)
+    # What the ground moves is that of each earthquake from rest, whatever it leaves.
+    assert (found.pgv, found.pgd) == pytest.approx((B.pgv, B.pgd), rel=1e-12)
+    assert found.end_velocity == pytest.approx(A.cut(0.2).end_velocity, rel=1e-12)
 
 
 def test_a_vertical_motion_shakes_with_its_own_horizontal_one():

@@ -183,7 +183,14 @@ class GroundMotion(Shown):
 
     @cached_property
     def _integrals(self) -> tuple[float, float, float]:
-        """PGV, PGD and end velocity; extremes lie at samples or where their derivative changes sign inside a piece."""
+        """PGV, PGD and end velocity; extremes lie at samples or where their derivative changes sign inside a piece.
+
+        Of a sequence they are the largest of any of its motions, each from rest: the ground does not drift on between
+        two earthquakes.
+        """
+        if self.parts:
+            each = [self._of(part)._integrals for part in self.parts]
+            return max(found[0] for found in each), max(found[1] for found in each), each[-1][2]
         v, d = integrals(self.time, self.acceleration)
         h = np.diff(self.time)
         a0, a1 = self.acceleration[:-1], self.acceleration[1:]
@@ -206,6 +213,11 @@ class GroundMotion(Shown):
             at = d0[inside] + s * (v0[inside] + s * (a0[inside] / 2.0 + s * c[inside] / 3.0))
             pgd = max(pgd, float(np.abs(at).max(initial=0.0)))
         return float(pgv), pgd, float(v[-1])
+
+    def _of(self, part: Part) -> GroundMotion:
+        """Return one of the motions of a sequence by itself."""
+        first, last = np.searchsorted(self.time, part.begins), np.searchsorted(self.time, part.ends, side="right")
+        return GroundMotion(part.name, self.time[first:last], self.acceleration[first:last])
 
     def scaled(self, factor: float, note: str = "") -> GroundMotion:
         """Return the motion times `factor`."""
