@@ -223,6 +223,10 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "output-step": ("{value} is not a step within the run", "give one above 0 s and up to {duration}"),
     "output-many": ("a step of {value} makes {count:.3g} moments", "give a step that makes up to {most:.3g}"),
     "unknown-model": ("{value} is no model", "use {models}{near}"),
+    "explain-unknown": (
+        "{value} is no field of a case or a study, no key of the JSON, no column{near}",
+        "`heeltoe explain` lists all",
+    ),
     "app-package": ("needs the package {value}", 'install heeltoe with the extra "app"'),
     "app-public": (
         "{value} can be reached from other machines",

@@ -26,7 +26,7 @@ class Concrete(Fields):
     """The concrete. The rigid model needs its density alone."""
 
     density: Annotated[Density, Field(ge=100.0, le=2e4)] = Field(default="2400 kg/m^3", validate_default=True)
-    """Mass concrete without tests: 150 lb/ft^3 (USACE EM 1110-2-2200)."""
+    """Density of the concrete; the default is that of mass concrete without tests (USACE EM 1110-2-2200)."""
     modulus: Annotated[Pressure, Field(gt=0.0, le=1e18)] | None = None
     """Young's modulus, dynamic; for the flexible model, which has no default for it."""
     poisson: Annotated[DimensionlessNumber, Field(ge=0.0, lt=0.5)] = 0.2

@@ -31,7 +31,7 @@ def bounds_of(path: str) -> tuple[tuple[str, float], ...]:
     model: type[BaseModel] = Case
     for block in blocks:
         model = block_of(model.model_fields[block].annotation) or model
-    given = list(_constraints(model.model_fields[name]))
+    given = list(constraints(model.model_fields[name]))
     kinds = ("ge", "gt", "le", "lt")
     return tuple((kind, float(getattr(each, kind))) for each in given for kind in kinds if hasattr(each, kind))
 
@@ -44,12 +44,12 @@ def value_of(case: Case, path: str) -> Any:
     return place
 
 
-def _constraints(given: object) -> Iterator[object]:
+def constraints(given: object) -> Iterator[object]:
     """Walk all that is said of a field, also of one that may be left out."""
     inner = (given.annotation, *given.metadata) if isinstance(given, FieldInfo) else get_args(given)
     for each in inner:
         yield each
-        yield from _constraints(each)
+        yield from constraints(each)
 
 
 @cache

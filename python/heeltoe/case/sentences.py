@@ -179,12 +179,12 @@ def block_of(annotation: object) -> type[BaseModel] | None:
     return None
 
 
-def _kinds(annotation: object) -> Iterator[type[BaseModel]]:
+def kinds_in(annotation: object) -> Iterator[type[BaseModel]]:
     """Walk all models that a list of blocks of several kinds may hold."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         yield annotation
     for inner in typing.get_args(annotation):
-        yield from _kinds(inner)
+        yield from kinds_in(inner)
 
 
 def _steps(location: Sequence[int | str], model: type[BaseModel]) -> Iterator[tuple[int | str, type[BaseModel], bool]]:
@@ -199,7 +199,7 @@ def _steps(location: Sequence[int | str], model: type[BaseModel]) -> Iterator[tu
         elif tells:
             model = next((kind for kind in kinds if part in _tags(kind)), model)
         elif field:
-            kinds = list(_kinds(field.annotation))
+            kinds = list(kinds_in(field.annotation))
             model = block_of(field.annotation) or model
 
 
@@ -218,7 +218,7 @@ def _tag_example(location: Sequence[int | str], model: type[BaseModel]) -> str:
     """Return a first line of a block whose kind is not said."""
     owner = _owner(location, model)
     names = [part for part in location if isinstance(part, str)]
-    first = next(_kinds(owner.model_fields[names[-1]].annotation))
+    first = next(kinds_in(owner.model_fields[names[-1]].annotation))
     name, field = next(iter(first.model_fields.items()))
     return f"{name} = {shown(typing.get_args(field.annotation)[0])}"
 

@@ -16,7 +16,7 @@ from heeltoe.case.model import Case
 from heeltoe.errors import shown
 from heeltoe.warnings import Notice
 
-_READERS = {
+READERS = {
     "rigid": "the rigid model",
     "decoupled": "the decoupled chain",
     "flexible": "the flexible model",
@@ -89,8 +89,8 @@ def unused_fields(case: Case, models: Sequence[str]) -> tuple[Notice, ...]:
     """
     given = dict(_given(case))
     # Between the motions of a sequence a dam is judged by the static checks.
-    readers = {*models, "statics"} if case.aftershocks else set(models)
-    foreign = [path for path in given if not _readers(_plain(path)) & readers]
+    asked = {*models, "statics"} if case.aftershocks else set(models)
+    foreign = [path for path in given if not readers(_plain(path)) & asked]
     said = []
     if "flexible" in models:
         # Rotations beyond small ones, and pressures beside the usual ones, are asked for because they matter, and one
@@ -104,9 +104,9 @@ def unused_fields(case: Case, models: Sequence[str]) -> tuple[Notice, ...]:
         told = [path for path in expected if given[path] != "westergaard"]
         said = [Notice(_EXPECTED[path], field=path, value=shown(given[path])) for path in told]
     if foreign:
-        names = [name for model, name in _READERS.items() if model in models]
-        make = f"{' and '.join(names)} {'makes' if len(names) == 1 and 'statics' not in models else 'make'}"
-        said.append(Notice("fields-unused", readers=make, fields=", ".join(foreign)))
+        names = [name for model, name in READERS.items() if model in models]
+        who = f"{' and '.join(names)} {'makes' if len(names) == 1 and 'statics' not in models else 'make'}"
+        said.append(Notice("fields-unused", readers=who, fields=", ".join(foreign)))
     for why, paths in _idle(case, models).items():
         idle = [path for path in given if _plain(path) in paths and path not in foreign]
         if idle:
@@ -135,12 +135,12 @@ def _plain(path: str) -> str:
 
 
 @cache
-def _readers(path: str) -> frozenset[str]:
+def readers(path: str) -> frozenset[str]:
     while path:
         if path in READ_BY:
             return READ_BY[path]
         path = path.rpartition(".")[0]
-    return frozenset(_READERS)
+    return frozenset(READERS)
 
 
 def _idle(case: Case, models: Sequence[str]) -> dict[str, tuple[str, ...]]:

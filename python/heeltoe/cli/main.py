@@ -12,6 +12,7 @@ import typer
 
 from heeltoe.cli import app as app_command
 from heeltoe.cli import dam as dam_commands
+from heeltoe.cli import explain as explain_command
 from heeltoe.cli import motion as motion_command
 from heeltoe.cli import run as run_command
 from heeltoe.cli import statics as statics_command
@@ -122,6 +123,7 @@ for command in (
     motion_command.motion,
     study_command.study,
     app_command.app,
+    explain_command.explain,
     validate,
     new,
 ):

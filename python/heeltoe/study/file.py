@@ -121,7 +121,7 @@ class Scale(Fields):
     """What `values` are: factors on the record; or what the scaled motion has: its peak acceleration, its peak
     velocity, its spectral acceleration at `period` with 5 % damping, its Arias intensity."""
     period: Annotated[Duration, Field(ge=0.01, le=20.0)] | None = None
-    """Of `sa`."""
+    """Of `sa`: the period at which it is."""
     values: Values
     """A list, through which every motion goes, or a distribution of which each run draws one."""
 
@@ -195,7 +195,7 @@ class Fragility(Fields):
     measure: Measure = "pga"
     """How strong the motion is."""
     period: Annotated[Duration, Field(ge=0.01, le=20.0)] | None = None
-    """Of `sa`."""
+    """Of `sa`: the period at which it is."""
     confidence: Annotated[DimensionlessNumber, Field(ge=0.5, lt=1.0)] = 0.9
     """Probability of the intervals."""
 

@@ -1,0 +1,165 @@
+"""Fields of a case and of a study, as the models of their files describe them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Any, Literal, get_args, get_origin
+
+from pydantic import BaseModel, WithJsonSchema
+from pydantic.fields import FieldInfo
+
+from heeltoe.case.model import Case
+from heeltoe.case.paths import constraints
+from heeltoe.case.sentences import kinds_in
+from heeltoe.case.use import READERS, readers
+from heeltoe.study.file import Distribution, Study
+from heeltoe.units.parse import DIMENSIONS
+from heeltoe.views.explain.meaning import Meaning
+from heeltoe.views.explain.pages import page_of
+
+_COMPARED = {"gt": "more than {}", "ge": "{} or more", "lt": "less than {}", "le": "{} at most"}
+_PLAIN = {bool: "true or false", int: "a whole number", float: "a number", str: "a text"}
+# Words and units of what is shown, on which no number depends.
+_SHOWN = ("title", "units", "project")
+_UNKNOWN = "a value of the field that varies"
+
+
+def fields_of_a_case() -> Iterator[Meaning]:
+    """Walk all fields of a case, each block before what is in it."""
+    return _walk(Case, "", "field of a case")
+
+
+def fields_of_a_study() -> Iterator[Meaning]:
+    """Walk all fields of a study file; those of what varies stand under ``vary.*``."""
+    yield from _walk(Study, "", "field of a study")
+    yield from _walk(Distribution, "vary.*.", "field of a study")
+
+
+def _walk(model: type[BaseModel], above: str, kind: str) -> Iterator[Meaning]:
+    for name, field in model.model_fields.items():
+        path = above + (field.alias or name)
+        # What varies may be a list or a distribution, which is told once for all.
+        blocks = [] if path == "vary" or path.endswith(".values") else list(kinds_in(field.annotation))
+        if not blocks:
+            yield _leaf(path, field, kind)
+        elif len(blocks) == 1:
+            place = f"{path}[]" if _listed(field) else path
+            yield from _block(path, place, blocks[0], _said(field.description), kind)
+        else:
+            # A list of blocks of several kinds.
+            places = [f"{path}[{get_args(each.model_fields['step'].annotation)[0]}]" for each in blocks]
+            yield _named(path, _said(field.description), "a list of blocks", kind, tuple(places))
+            for place, block in zip(places, blocks, strict=True):
+                yield from _block(place, place, block, _said(block.__doc__), kind)
+
+
+def _block(path: str, place: str, block: type[BaseModel], said: str, kind: str) -> Iterator[Meaning]:
+    inner = list(_walk(block, f"{place}.", kind))
+    parts = tuple(each.name for each in inner if not re.search(r"[.[]", each.name[len(place) + 1 :]))
+    yield _named(path, said, "a list of blocks" if place.endswith("[]") else "a block", kind, parts)
+    yield from inner
+
+
+def _named(path: str, said: str, holds: str, kind: str, parts: tuple[str, ...]) -> Meaning:
+    return Meaning(path, kind, said, holds, found_in=_found(path, kind), page=page_of(path, kind), parts=parts)
+
+
+def _listed(field: FieldInfo) -> bool:
+    return any(get_origin(each) is tuple for each in (field.annotation, *get_args(field.annotation)))
+
+
+def _leaf(path: str, field: FieldInfo, kind: str) -> Meaning:
+    quantities = _quantities(field)
+    unit = DIMENSIONS[quantities[0]].unit if len(quantities) == 1 else ""
+    default = "" if field.is_required() else _shown(field.get_default(call_default_factory=True), unit)
+    needed = "it must be said" if field.is_required() else ""
+    return Meaning(
+        path,
+        kind,
+        _said(field.description),
+        _holds(field),
+        needed or default,
+        _limits(field),
+        _found(path, kind),
+        page_of(path, kind),
+    )
+
+
+def _said(text: str | None) -> str:
+    return " ".join((text or "").split())
+
+
+def _found(path: str, kind: str) -> str:
+    if kind != "field of a case":
+        return ""
+    if path.partition(".")[0] in _SHOWN:
+        return "what is shown alone"
+    found = readers(path.replace("[]", "").partition("[")[0] if "[" in path else path)
+    names = [name for model, name in READERS.items() if model in found]
+    return (
+        "all models" if len(names) == len(READERS) else " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
+    )
+
+
+def _quantities(field: object) -> list[str]:
+    """Return the quantities that a field holds, in their order."""
+    schemas = [each.json_schema or {} for each in constraints(field) if isinstance(each, WithJsonSchema)]
+    return [str(schema["quantity"]) for schema in schemas if "quantity" in schema]
+
+
+def _choices(annotation: Any) -> tuple[str, ...]:
+    if get_origin(annotation) is Literal:
+        return tuple(map(str, get_args(annotation)))
+    return next((found for each in get_args(annotation) if (found := _choices(each))), ())
+
+
+def _holds(field: FieldInfo) -> str:
+    listed = get_origin(field.annotation) is tuple or any(
+        get_origin(each) is tuple for each in get_args(field.annotation)
+    )
+    choices = _choices(field.annotation)
+    if choices:
+        return f"{'one or several' if listed else 'one'} of {', '.join(choices)}"
+    quantities = [DIMENSIONS[each] for each in _quantities(field)]
+    if listed and len(quantities) > 1:
+        return f"rows of {' and '.join(each.kind for each in quantities)}"
+    if quantities:
+        example = quantities[0].example
+        written = f', for example "{example}"' if isinstance(example, str) else ""
+        return f"{'a list, each ' if listed else ''}{quantities[0].kind}{written}"
+    kinds = [each for each in _plain(field.annotation) if each in _PLAIN]
+    if len(set(kinds)) > 1:
+        return _UNKNOWN
+    return f"{'a list, each ' if listed else ''}{_PLAIN[kinds[0]] if kinds else _UNKNOWN}"
+
+
+def _plain(annotation: Any) -> Iterator[Any]:
+    yield annotation
+    for each in get_args(annotation):
+        yield from _plain(each)
+
+
+def _limits(field: FieldInfo) -> str:
+    quantities = _quantities(field)
+    if len(quantities) > 1 or get_origin(field.annotation) is tuple:
+        return ""  # of rows each cell has its own
+    unit = DIMENSIONS[quantities[0]].unit if quantities else ""
+    found = []
+    for each in constraints(field):
+        for name, words in _COMPARED.items():
+            if hasattr(each, name):
+                value = float(getattr(each, name))
+                number = f"{value * 57.29577951308232:.4g} deg" if unit == "rad" else f"{value:.10g} {unit}".strip()
+                found.append(words.format(number))
+    return ", ".join(dict.fromkeys(found))
+
+
+def _shown(value: object, unit: str) -> str:
+    if value is None or value in ("", (), {}) or isinstance(value, BaseModel):
+        return ""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, tuple):
+        return ", ".join(map(str, value))
+    return f"{value:.10g} {unit}".strip() if isinstance(value, float) else str(value)

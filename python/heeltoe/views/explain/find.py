@@ -1,0 +1,95 @@
+"""Which names there are, and what is meant by one that somebody has written."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from functools import cache
+
+from heeltoe.errors import InputError, shown
+from heeltoe.near import near
+from heeltoe.result.contract import HEADLINES
+from heeltoe.views.explain.fields import fields_of_a_case, fields_of_a_study
+from heeltoe.views.explain.keys import columns, keys_of_the_json
+from heeltoe.views.explain.meaning import Meaning
+
+# No name is so long; what is longer is not compared with all of them.
+_LONGEST = 200
+# Keys of a result stand below these again, where models stand side by side or runs in a table.
+_AGAIN = ("beside", "runs", "sections", "statics", "rigid", "flexible", "decoupled")
+_HEADLINES = frozenset(each.key for each in HEADLINES)
+
+
+@cache
+def everything() -> tuple[Meaning, ...]:
+    """Return all names with what they mean, in the order of their kinds."""
+    return (*fields_of_a_case(), *fields_of_a_study(), *keys_of_the_json(), *columns())
+
+
+def explain(name: str) -> tuple[Meaning, ...]:
+    """Return what a name means: all of that path, else all that end with it.
+
+    Places in lists may be written or left out, ``anchors[0].capacity`` or ``anchors.capacity``.
+
+    Raises
+    ------
+    InputError
+        Where there is no such name.
+    """
+    wanted = _plain(name.strip())
+    if wanted not in ("", "*") and len(wanted) <= _LONGEST:
+        for found in (_of_path(wanted), _of_path(_shorter(wanted)), _ending(wanted)):
+            if found:
+                return found
+    names = dict.fromkeys(each for path, (first, *_) in _by_name().items() for each in (path, first.last))
+    raise InputError("explain-unknown", "NAME", shown(name), near=near(wanted[:_LONGEST], names))
+
+
+def _of_path(wanted: str) -> tuple[Meaning, ...]:
+    exact = _by_name().get(wanted)
+    return exact or tuple(
+        each for name, told in _by_name().items() if "*" in name and _fits(name, wanted) for each in told
+    )
+
+
+def _ending(wanted: str) -> tuple[Meaning, ...]:
+    ends = (f".{wanted}", f"[{wanted}]")
+    return tuple(each for name, told in _by_name().items() if name.endswith(ends) for each in told)
+
+
+@cache
+def _by_name() -> dict[str, tuple[Meaning, ...]]:
+    found: dict[str, tuple[Meaning, ...]] = {}
+    for each in everything():
+        name = _plain(each.name)
+        found[name] = (*found.get(name, ()), each)
+    return found
+
+
+def _shorter(wanted: str) -> str:
+    """Return a path without what a result of its own stands below."""
+    parts: Sequence[str] = wanted.split(".")
+    while len(parts) > 1 and parts[0] in _AGAIN:
+        parts = parts[1:]
+    # Of several motions each has the keys of one, and some of its own.
+    if len(parts) > 1 and parts[0] == "motions":
+        of_one = _of_path(f"motion.{parts[1]}")
+        parts = [*(["motion"] if any(each.kind == "key of the JSON" for each in of_one) else []), *parts[1:]]
+    return ".".join(parts)
+
+
+def _plain(name: str) -> str:
+    """Return a path without places in lists; what tells kinds of blocks apart stays."""
+    return re.sub(r"\[\d*\]|\.\d+(?=\.|$)", "", name)
+
+
+def _fits(pattern: str, name: str) -> bool:
+    parts, given = pattern.split("."), name.split(".")
+    if (
+        parts[0] in ("evidence", "spread", "summary")
+        and parts[1] == "*"
+        and len(given) > 1
+        and given[1] not in _HEADLINES
+    ):
+        return False
+    return len(parts) == len(given) and all(part in ("*", each) for part, each in zip(parts, given, strict=True))

@@ -1,0 +1,137 @@
+"""Keys of the JSON and columns of the tables: what classes say of their attributes, and what stands in the lists of
+:mod:`heeltoe.views.explain.said`."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Iterator, Mapping
+
+from heeltoe.models.decoupled.response import DecoupledResponse
+from heeltoe.models.flexible.response import FlexibleResponse
+from heeltoe.models.statics.checks import Check
+from heeltoe.models.statics.load_case import LoadCase
+from heeltoe.models.statics.model import Statics
+from heeltoe.models.statics.sheet import ForceLine
+from heeltoe.result.limits import LimitCheck
+from heeltoe.result.response import Chosen, Energy, Of, Response
+from heeltoe.views.explain.meaning import Meaning
+from heeltoe.views.explain.pages import page_of
+from heeltoe.views.explain.said import OF_A_RUN, OF_EVENTS, OF_HISTORIES, OF_STATICS, OF_STUDIES
+from heeltoe.views.explain.said_of_others import OF_OTHERS
+from heeltoe.warnings import Notice
+
+_RUN, _STATICS = "heeltoe run --json", "heeltoe statics --json"
+# Whose attributes stand where, and which command writes them.
+_CLASSES: tuple[tuple[str, type, str], ...] = (
+    ("", Response, _RUN),
+    ("", FlexibleResponse, f"{_RUN}, of the flexible model"),
+    ("", DecoupledResponse, f"{_RUN}, of the decoupled chain"),
+    ("chosen.", Chosen, _RUN),
+    ("energy.", Energy, _RUN),
+    ("limits[].", LimitCheck, _RUN),
+    ("warnings[].", Notice, _RUN),
+    ("", Statics, _STATICS),
+    ("cases[].", LoadCase, _STATICS),
+    ("cases[].forces[].", ForceLine, _STATICS),
+    ("checks[].", Check, _STATICS),
+    ("governing.*.", Check, _STATICS),
+)
+# Properties that the JSON has too.
+_PROPERTIES: dict[type, tuple[str, ...]] = {
+    LimitCheck: ("met", "certain"),
+    Statics: ("ok",),
+    LoadCase: ("contact_width_m", "eccentricity_m"),
+    Check: ("margin",),
+}
+# Attributes that the JSON does not have, or says by keys of their own.
+_NOT_THERE = {
+    "histories", "mode", "event_log", "gravity", "vertical", "summary", "seconds", "sources", "ends_m", "moment_nm",
+    "crack", "envelope",
+}  # fmt: skip
+# The longest ending first.
+_UNITS = {
+    "_rad_s2": "rad/s²",
+    "_rad_s": "rad/s",
+    "_m_s2": "m/s²",
+    "_m_s": "m/s",
+    "_n_s": "N s per metre of dam",
+    "_1_s": "1/s",
+    "_rad": "rad",
+    "_nm": "N m per metre of dam",
+    "_kg": "kg per metre of dam",
+    "_pa": "Pa",
+    "_hz": "Hz",
+    "_m": "m",
+    "_s": "s",
+    "_g": "g",
+    "_j": "J per metre of dam",
+    "_n": "N per metre of dam",
+}
+
+
+def keys_of_the_json() -> Iterator[Meaning]:
+    """Walk all keys of the JSON."""
+    said: dict[str, str] = {}
+    places: dict[str, list[str]] = {}
+    for above, kind, where in _CLASSES:
+        for name, text in told(kind).items():
+            if name not in _NOT_THERE:
+                said.setdefault(f"{above}{name}", text)
+                places.setdefault(f"{above}{name}", []).append(where)
+    others = [(f"{command} --json", keys) for command, keys in OF_OTHERS.items()]
+    for where, keys in ((_RUN, OF_A_RUN), (_STATICS, OF_STATICS), *others):
+        for name, text in keys.items():
+            said[name] = text
+            if where not in places.setdefault(name, []):
+                places[name].append(where)
+    for name, text in said.items():
+        parts = tuple(each for each in said if re.fullmatch(rf"{re.escape(name)}(\[\])?\.[^.]+", each))
+        unit = unit_of(name)
+        text = text.replace(f" [{unit}]", "") if unit else text
+        where = ", ".join(dict.fromkeys(places[name]))
+        yield Meaning(name, "key of the JSON", text, unit, found_in=where, page=page_of(name, ""), parts=parts)
+
+
+def columns() -> Iterator[Meaning]:
+    """Walk the columns of the tables that runs and studies leave."""
+    tables: tuple[tuple[str, str, Mapping[str, str]], ...] = (
+        ("column of the histories", "histories.parquet", OF_HISTORIES),
+        ("column of the events", "events.parquet", OF_EVENTS),
+        ("column of a study", "runs of heeltoe study", OF_STUDIES),
+    )
+    for kind, where, table in tables:
+        for name, said in table.items():
+            yield Meaning(name, kind, said, unit_of(name), found_in=where)
+
+
+def told(kind: type) -> dict[str, str]:
+    """Return what a class says of its attributes: in the section of its docstring, by their own descriptions, or by
+    those of its properties."""
+    text = inspect.cleandoc(kind.__doc__ or "")
+    _, _, section = text.partition("Attributes\n----------\n")
+    found: dict[str, str] = {}
+    for names, said in re.findall(r"^(\S.*)\n((?:    .*\n?|\n)+)", section, re.MULTILINE):
+        found |= {name.strip(): _plain(said) for name in names.split(",")}
+    for name, thing in vars(kind).items():
+        if isinstance(thing, Of) or name in _PROPERTIES.get(kind, ()):
+            found[name] = _plain(thing.__doc__ or "")
+    return found
+
+
+def _plain(text: str) -> str:
+    """Return a text without its marks."""
+    bare = re.sub(r":\w+:`~?(?:[\w.]+\.)?(\w+)`", r"\1", text).replace("``", "")
+    return " ".join(re.sub(r"\bNone\b", "null", bare).split())
+
+
+def unit_of(name: str) -> str:
+    """Return the unit that the name of a key or a column ends in; empty where it says none."""
+    parts = [each.removesuffix("[]") for each in name.split(".") if each != "*"]
+    for part in (parts[-1], *parts[-2:-1]):
+        for ending, unit in _UNITS.items():
+            if part.endswith(ending):
+                return unit
+        if part not in ("mean", "std", "min", "max", "value", "run", "uncertainty", "step", "mesh", "shaking"):
+            break
+    return ""

@@ -1,0 +1,173 @@
+"""What names mean: every field, every key of the JSON and every column is explained, and nothing else is."""
+
+from __future__ import annotations
+
+import json
+import re
+
+import pytest
+
+from heeltoe import dam_periods, open_study, overturning_map, read_case, run, run_study, statics, with_spread
+from heeltoe.case.read import case_schema
+from heeltoe.errors import InputError
+from heeltoe.models.statics.joints import statics_of_sections
+from heeltoe.study.file import Study
+from heeltoe.views.explain.find import everything, explain
+from heeltoe.views.explain.meaning import KINDS
+from shared.command import command
+from shared.dams import FAST, HEIGHT, KOYNA, SLENDER, example
+from shared.every_field import leaves
+from shared.studies import DRAWN, study_file
+
+#: Keys of quantities of single warnings, words of those, and copies of what is explained by itself.
+UNTOLD = re.compile(r"(.*\.)?(quantities\..*|left_out\..*|study\..*|varied\..*|vary\..*|pilot\..*)")
+
+
+def keys(found, path=""):
+    """Walk the paths of a JSON; places in lists are left out."""
+    if isinstance(found, dict):
+        for name, each in found.items():
+            yield f"{path}.{name}" if path else name
+            yield from keys(each, f"{path}.{name}" if path else name)
+    elif isinstance(found, list | tuple):
+        for each in found:
+            yield from keys(each, path)
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory):
+    """JSON of every command."""
+    anchored = example("anchored", *FAST, "limits.residual_slip=1mm")
+    koyna = read_case(KOYNA, [*FAST, "concrete.tensile_strength=1MPa"])
+    full = koyna.with_("flexible.evidence=full", "motion.duration=1s", "decoupled.rotation=true")
+    block = run(read_case(HEIGHT, FAST), "rigid")
+    place = tmp_path_factory.mktemp("study")
+    run_study(study_file(place, DRAWN), place / "out")
+    said = command("motion", "record.txt", "--no-figure", "--json", "-", cwd=_record(place))
+    return {
+        "rigid": run(anchored, "rigid").to_json(),
+        "flexible": run(full, "both").to_json(),
+        "anchored": run(anchored.with_("concrete.modulus=20GPa"), "flexible").to_json(),
+        "decoupled": run(koyna, "decoupled").to_json(),
+        "spread": with_spread(block, read_case(HEIGHT, FAST), 2).to_json(),
+        "statics": statics(koyna.with_("statics.seismic_coefficient=0.1"), 0.01).to_json(),
+        "sections": statics_of_sections(koyna.with_({"statics.sections": ["0 m", "30 m"]})).to_json(),
+        "periods": dam_periods(koyna, 2).to_json(),
+        "overturning": overturning_map(read_case(SLENDER), count=12).to_json(),
+        "motion": json.loads(said.stdout),
+        "study": open_study(place / "out").to_json(),
+    }
+
+
+def _record(place):
+    rows = "".join(f"{0.01 * k:.2f} {(-1) ** k * 0.2}\n" for k in range(50))
+    (place / "record.txt").write_text(f"# units: time [s], acceleration [g]\n{rows}")
+    return place
+
+
+def test_every_key_of_the_json_is_explained(results):
+    unknown = set()
+    for data in results.values():
+        for path in set(keys(data)):
+            if not UNTOLD.fullmatch(path) and not any(_is_key(each) for each in _explained(path)):
+                unknown.add(path)
+    assert sorted(unknown) == []
+
+
+def test_every_key_that_is_explained_is_there(results):
+    there = {
+        re.sub(r"^(beside|motions|sections\.statics)\.", "", path) for data in results.values() for path in keys(data)
+    }
+    met = {each.name for path in there for each in _explained(path)}
+    # What only a run that is turned by hand, a match or a shelf of runs has.
+    seldom = {"misfit.rms", "misfit.largest", "varied", "spread.time_step_s", "safe_gap[].frequency_hz"}
+    seldom |= {"safe_gap[].from_g", "safe_gap[].to_g", "warnings[].quantities.*"}
+    told = {each.name for each in everything() if _is_key(each) and not each.name.endswith("[]")}
+    assert sorted(told - met - seldom) == []
+
+
+def _is_key(meaning):
+    return meaning.kind == "key of the JSON"
+
+
+def _explained(path):
+    try:
+        return explain(path)
+    except InputError:
+        return ()
+
+
+@pytest.mark.parametrize("model", ["rigid", "flexible"])
+def test_every_column_of_a_run_is_explained(model):
+    response = run(read_case(HEIGHT, [*FAST, "concrete.modulus=20GPa"]), model)
+    told = {kind: {each.name for each in everything() if each.kind == kind} for kind in KINDS}
+    assert set(response.to_table().column_names) <= told["column of the histories"]
+    assert set(response.events_table().column_names) <= told["column of the events"] or model == "flexible"
+
+
+def test_every_column_of_a_study_is_explained(tmp_path):
+    run_study(study_file(tmp_path, DRAWN), tmp_path / "out")
+    for name in open_study(tmp_path / "out").to_table().column_names:
+        assert explain(name)
+
+
+def test_every_field_is_explained_with_a_sentence():
+    names = {each.name.replace("[]", "[0]") for each in everything() if each.kind == "field of a case"}
+    assert {path for path, _ in leaves() if "processing" not in path} <= names
+    assert {f"motion.processing[{step}].{name}" for step, name in (("taper", "share"), ("window", "end"))} <= names
+    assert set(case_schema()["properties"]) <= names
+    assert set(Study.model_fields) <= {each.name for each in everything() if each.kind == "field of a study"}
+    for each in everything():
+        assert each.meaning.endswith("."), each.name
+        assert len(each.meaning) > 8, each.name
+
+
+@pytest.mark.parametrize(
+    ("name", "holds"),
+    [
+        ("crack.friction", ["a number", "0 or more, 10 at most", "all models", "rigid.md equation 5"]),
+        ("reservoir.depth", ["a length", '"100 m"', "all models"]),
+        ("crack.inclination", ["0 deg", "45 deg at most"]),
+        ("crack.restitution", ["0.5", "the rigid model and the decoupled chain"]),
+        ("flexible.contact", ["one of coulomb, idce", "the flexible model"]),
+        ("analysis.time_limit", ["600 s"]),
+        ("motion.vertical.pga", ["an acceleration"]),
+        ("residual_slip_m", ["m", "heeltoe run --json"]),
+        ("energy.input_j", ["J per metre of dam"]),
+        ("vary.*.from", ["a value of the field that varies"]),
+        ("flexible.title", ["Of the case."]),
+    ],
+)
+def test_what_is_said_of_a_name(name, holds):
+    said = " | ".join(str(vars(each)) for each in explain(name))
+    for each in holds:
+        assert each in said
+
+
+def test_a_name_may_be_written_in_several_ways():
+    assert explain("anchors[0].capacity") == explain("anchors.capacity") == explain("anchors[].capacity")
+    assert explain("beside.energy.input_j") == explain("energy.input_j") == explain(" input_j ")
+    assert {each.kind for each in explain("friction")} == {"field of a case", "key of the JSON"}
+    assert explain("band-pass")[0].parts[1].endswith(".low")
+    assert [each.name for each in explain("evidence.residual_slip_m.step")] == ["evidence.*.step"]
+
+
+@pytest.mark.parametrize("name", ["", ".", "*", "crack.frction", "x" * 100_000, "a.b.c", "[", "\0"])
+def test_what_is_not_there_is_refused(name):
+    with pytest.raises(InputError, match="heeltoe explain` lists all") as refused:
+        explain(name)
+    assert ('did you mean "crack.friction"?' in str(refused.value)) == (name == "crack.frction")
+
+
+def test_the_command(tmp_path):
+    said = command("explain", "uplift.pattern", "--json", "-", cwd=tmp_path)
+    (found,) = json.loads(said.stdout)["names"]
+    assert found["default"] == "triangular"
+    assert "uplift.pattern" in said.stderr
+    listed = command("explain", cwd=tmp_path).stdout
+    for each in everything():
+        assert re.search(rf"^  {re.escape(each.name)}  ", listed, re.MULTILINE), each.name
+    parts = command("explain", "uplift", cwd=tmp_path).stdout
+    assert "uplift.during_shaking" in parts
+    assert "field of a case" in parts
+    assert command("explain", "frction", cwd=tmp_path).returncode == 2
