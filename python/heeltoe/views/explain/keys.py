@@ -15,6 +15,7 @@ from heeltoe.models.statics.model import Statics
 from heeltoe.models.statics.sheet import ForceLine
 from heeltoe.result.limits import LimitCheck
 from heeltoe.result.response import Chosen, Energy, Of, Response
+from heeltoe.result.sequence import Stage
 from heeltoe.views.explain.meaning import Meaning
 from heeltoe.views.explain.pages import page_of
 from heeltoe.views.explain.said import OF_A_RUN, OF_EVENTS, OF_HISTORIES, OF_STATICS, OF_STUDIES
@@ -31,6 +32,7 @@ _CLASSES: tuple[tuple[str, type, str], ...] = (
     ("energy.", Energy, _RUN),
     ("limits[].", LimitCheck, _RUN),
     ("warnings[].", Notice, _RUN),
+    ("sequence[].", Stage, _RUN),
     ("", Statics, _STATICS),
     ("cases[].", LoadCase, _STATICS),
     ("cases[].forces[].", ForceLine, _STATICS),
