@@ -9,6 +9,7 @@ from typing import Any
 
 from heeltoe.case.dam import UPLIFT_OPTIONS
 from heeltoe.case.motion import NO_MOTION
+from heeltoe.case.options import NO_FLOOD
 from heeltoe.errors import InputError, shown
 
 #: ``"crack.friction=1.0"``, ``{"crack.friction": 1.0}``, ``{"crack": {"friction": 1.0}}``, or several of these.
@@ -54,7 +55,7 @@ def apply(fields: dict[str, Any], changes: Changes) -> None:
     split = list(_split_all(changes))
     _check_pair(fields, split)
     for path, value in split:
-        for other in (*_REPLACES.get(".".join(path), ()), *_of_other_patterns(path, value)):
+        for other in (*_REPLACES.get(".".join(path), ()), *_of_others(path, value)):
             _remove(fields, other.split("."))
     for path, value in split:
         block = fields
@@ -80,8 +81,10 @@ def _check_pair(fields: dict[str, Any], split: Sequence[tuple[list[str], Any]]) 
             raise InputError("vertical-of-another", name, shown(given[name]), none=NO_MOTION)
 
 
-def _of_other_patterns(path: Sequence[str], value: Any) -> tuple[str, ...]:
-    """Return what belongs to another pattern of uplift than the one that is set."""
+def _of_others(path: Sequence[str], value: Any) -> tuple[str, ...]:
+    """Return what belongs to another pattern of uplift than the one that is set, or to a flood that is none."""
+    if list(path) == ["statics", "flood_depth"] and value == NO_FLOOD:
+        return "statics.flood_tailwater", "statics.flood_rarity"
     if list(path) != ["uplift", "pattern"]:
         return ()
     gone = [f"uplift.{option}" for option, pattern in UPLIFT_OPTIONS.items() if pattern != value]

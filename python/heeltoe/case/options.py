@@ -121,6 +121,10 @@ class Limits(Fields):
     """Opening of the crack at the downstream face."""
 
 
+#: Of a flood's depth: that there is none.
+NO_FLOOD = "none"
+
+
 class StaticsSection(Fields):
     """A lift joint that the static checks judge beside the crack; what it does not say is as at the crack."""
 
@@ -139,6 +143,11 @@ class StaticsSection(Fields):
 def _section_of(given: object) -> object:
     """Return the fields of a section of which only the elevation is said."""
     return given if isinstance(given, dict | StaticsSection) else {"elevation": given}
+
+
+def _flood_of(given: object) -> object:
+    """Return a depth as it is given; nothing where there is to be no flood."""
+    return None if given == NO_FLOOD else given
 
 
 class StaticsChoice(Fields):
@@ -160,8 +169,8 @@ class StaticsChoice(Fields):
     """Tensile strength of the bonded part; more tension than that lets the crack grow."""
     compressive_strength: Annotated[Pressure, Field(gt=0.0, le=1e9)] | None = None
     """Compressive strength of the concrete; stresses are judged by it where it is given."""
-    flood_depth: Head | None = None
-    """Reservoir in the flood; no such check without it."""
+    flood_depth: Annotated[Head | None, BeforeValidator(_flood_of)] = None
+    """Reservoir in the flood; no such check without it, or with "none"."""
     flood_tailwater: Head | None = None
     """Tailwater in the flood; the usual one where it is not given."""
     flood_rarity: Literal["unusual", "extreme"] = "unusual"

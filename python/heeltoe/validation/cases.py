@@ -15,6 +15,7 @@ from heeltoe.validation import (
     penalty,
     random_blocks,
     random_dams,
+    textbook_walls,
     textbooks,
     thesis_blocks,
     thesis_dams,
@@ -55,6 +56,7 @@ CASES: dict[str, Callable[[], Iterable[Row]]] = {
     "punmia-dams": textbooks.punmia_dams,
     "zangar": textbooks.zangar_pressure,
     "elementary": textbooks.elementary,
+    "sarkar": textbook_walls.sarkar,
 }
 
 

@@ -16,19 +16,20 @@ from heeltoe.models.statics.load_case import LoadCase
 from heeltoe.models.statics.model import statics
 from heeltoe.validation.row import Row
 
-_G = 9.81
+#: Gravity of all these books [m/s^2].
+G = 9.81
 # Books let the base take the tension that they find.
 _WHOLE = {"bonded": 1.0, "tensile_strength": "100 MPa"}
 _PRINTED = "Punmia, example {}, to the digits that are printed"
 _APART = "with horizontal and vertical parts of a force counted apart, as the book does"
 
 
-def _dam(corners: list[tuple[float, float]], weight: float, water: float, friction: float, **more: Any) -> Any:
+def dam(corners: list[tuple[float, float]], weight: float, water: float, friction: float, **more: Any) -> Any:
     """Return the fields of a dam of some corners [m], of concrete of a unit weight [kN/m3], before water [m]."""
     fields: dict[str, Any] = {
-        "gravity": f"{_G} m/s^2",
+        "gravity": f"{G} m/s^2",
         "section": {"polygon": [[f"{x} m", f"{z} m"] for x, z in corners]},
-        "concrete": {"density": f"{weight / _G * 1e3!r} kg/m^3"},
+        "concrete": {"density": f"{weight / G * 1e3!r} kg/m^3"},
         "crack": {"friction": friction},
         "reservoir": {"depth": f"{water} m"},
         "statics": _WHOLE,
@@ -36,7 +37,7 @@ def _dam(corners: list[tuple[float, float]], weight: float, water: float, fricti
     return fields | more
 
 
-def _case(fields: Any, name: str = "usual") -> LoadCase:
+def case_of(fields: Any, name: str = "usual") -> LoadCase:
     return next(each for each in statics(read_case(fields)).cases if each.name == name)
 
 
@@ -71,18 +72,18 @@ def _overturning_apart(found: LoadCase) -> float:
 def punmia_walls() -> Iterator[Row]:
     """Punmia, chapter 8: walls of 6 and 10 m, reservoir empty and full, with uplift and without."""
     wall = [(0.0, 0.0), (4.5, 0.0), (1.5, 6.0), (0.0, 6.0)]
-    heavy = 2.4 * _G
-    dry = _dam(wall, heavy, 6.0, 0.6)
+    heavy = 2.4 * G
+    dry = dam(wall, heavy, 6.0, 0.6)
     del dry["reservoir"]
-    yield from _stresses("8.9, empty", _case(dry), 15.7, 172.7, "8.9")
-    yield from _stresses("8.9, full", _case(_dam(wall, heavy, 6.0, 0.6)), 120.3, 9.2, "8.9")
+    yield from _stresses("8.9, empty", case_of(dry), 15.7, 172.7, "8.9")
+    yield from _stresses("8.9, full", case_of(dam(wall, heavy, 6.0, 0.6)), 120.3, 9.2, "8.9")
     wide = [(0.0, 0.0), (4.94, 0.0), (1.5, 6.0), (0.0, 6.0)]
-    yield _factor("8.10, sliding factor", 0.82, _case(_dam(wide, 20.0, 6.0, 0.6)).sliding_factor, 0.006, "8.10")
+    yield _factor("8.10, sliding factor", 0.82, case_of(dam(wide, 20.0, 6.0, 0.6)).sliding_factor, 0.006, "8.10")
     slim = [(0.0, 0.0), (3.77, 0.0), (1.5, 6.0), (0.0, 6.0)]
-    without = _case(_dam(slim, 20.0, 6.0, 0.6, uplift={"pattern": "none"}))
+    without = case_of(dam(slim, 20.0, 6.0, 0.6, uplift={"pattern": "none"}))
     yield _factor("8.11, no uplift, sliding factor", 1.074, without.sliding_factor, 6e-4, "8.11")
     sloped = [(0.0, 0.0), (8.25, 0.0), (2.0, 10.0), (1.0, 10.0)]
-    found = _case(_dam(sloped, 22.4, 10.0, 0.75))
+    found = case_of(dam(sloped, 22.4, 10.0, 0.75))
     yield from _stresses("8.14", found, 170.7, -5.8, "8.14")
     yield _factor("8.14, sliding factor", 1.04, found.sliding_factor, 0.006, "8.14")
     yield _factor("8.14, overturning factor", 1.47, _overturning_apart(found), 0.006, "8.14", reason=_APART)
@@ -92,32 +93,32 @@ def punmia_dams() -> Iterator[Row]:
     """Punmia, chapter 8: dams of 70 to 90 m with drains, tailwater and seismic coefficients."""
     tall = [(0.0, 0.0), (52.5, 0.0), (10.5, 60.0), (10.5, 70.0), (3.5, 70.0), (3.5, 35.0)]
     drains = {"pattern": "drained", "drain_position": 6.5 / 52.5, "drain_efficiency": 2.0 / 3.0}
-    empty = _dam(tall, 24.0, 70.0, 0.7)
+    empty = dam(tall, 24.0, 70.0, 0.7)
     del empty["reservoir"]
-    yield from _stresses("8.16, empty", _case(empty), 143.5, 1512.5, "8.16")
-    without = _case(_dam(tall, 24.0, 70.0, 0.7, uplift={"pattern": "none"}))
+    yield from _stresses("8.16, empty", case_of(empty), 143.5, 1512.5, "8.16")
+    without = case_of(dam(tall, 24.0, 70.0, 0.7, uplift={"pattern": "none"}))
     yield from _stresses("8.16, full, no uplift", without, 1301.7, 423.0, "8.16")
-    full = _case(_dam(tall, 24.0, 70.0, 0.7, uplift=drains))
+    full = case_of(dam(tall, 24.0, 70.0, 0.7, uplift=drains))
     yield from _stresses("8.16, full, drains", full, 1347.9, 62.9, "8.16")
     yield _factor("8.16, full, drains, sliding factor", 1.079, full.sliding_factor, 6e-4, "8.16")
     shaken = {"seismic_coefficient": 0.1, "vertical_seismic_coefficient": 0.08, **_WHOLE}
     zangar = {"hydrodynamic": "zangar"}
-    moved = _dam(tall, 24.0, 70.0, 0.7, uplift=drains, statics=shaken)
+    moved = dam(tall, 24.0, 70.0, 0.7, uplift=drains, statics=shaken)
     moved["reservoir"] |= zangar
-    quake = _case(moved, "pseudo-static downstream, lifting")
+    quake = case_of(moved, "pseudo-static downstream, lifting")
     yield from _shaken("8.16", quake, (1717.3, -439.0, 0.761), "8.16")
     broad = [(0.0, 0.0), (73.1, 0.0), (15.0, 83.0), (15.0, 90.0), (8.0, 90.0), (8.0, 28.0)]
-    moved = _dam(broad, 23.5, 89.0, 0.75, uplift={"intensity": 2.0 / 3.0})
+    moved = dam(broad, 23.5, 89.0, 0.75, uplift={"intensity": 2.0 / 3.0})
     moved["statics"] = {"seismic_coefficient": 0.1, **_WHOLE}
     moved["reservoir"] |= zangar
-    quake = _case(moved, "pseudo-static downstream")
+    quake = case_of(moved, "pseudo-static downstream")
     yield from _shaken("8.15", quake, (1948.3, -342.0, 0.874), "8.15")
     reason = f"{_APART}; {_BY_THE_BOOK}"
     apart = _overturning_apart(quake)
     yield _factor("8.15, overturning factor", 1.439, apart, 6e-4, "8.15", explained=0.03, reason=reason)
     high = [(0.0, 0.0), (56.0, 0.0), (6.0, 75.0), (6.0, 84.0), (0.0, 84.0)]
     drains = {"pattern": "drained", "drain_position": 8.0 / 56.0, "drain_efficiency": 2.0 / 3.0}
-    found = _case(_dam(high, 23.5, 80.0, 0.7, uplift=drains, tailwater={"depth": "6 m"}))
+    found = case_of(dam(high, 23.5, 80.0, 0.7, uplift=drains, tailwater={"depth": "6 m"}))
     yield from _stresses("8.20, drains and tailwater", found, 1586.7, -49.3, "8.20")
 
 
@@ -150,10 +151,10 @@ _BY_THE_BOOK = (
 
 def zangar_pressure() -> Iterator[Row]:
     """Zangar's pressure: sums over a vertical face, and C_m of sloping ones as books have it."""
-    fields = _dam([(0.0, 0.0), (70.0, 0.0), (7.0, 90.0), (7.0, 100.0), (0.0, 100.0)], 24.0, 98.0, 0.7)
+    fields = dam([(0.0, 0.0), (70.0, 0.0), (7.0, 90.0), (7.0, 100.0), (0.0, 100.0)], 24.0, 98.0, 0.7)
     fields["reservoir"] |= {"hydrodynamic": "zangar"}
-    force = moving_force(read_case(fields), -_G)
-    unit = 0.735 * _G * 1e3 * 98.0
+    force = moving_force(read_case(fields), -G)
+    unit = 0.735 * G * 1e3 * 98.0
     print_ = "Zangar (1952), as Punmia's examples 8.1 and 8.2 have it"
     push, turn = force.horizontal / (unit * 98.0), -force.moment / (unit * 98.0**2)
     yield Row("shear at the base, of C_m a rho h^2", 0.726, push, 5e-4, remark=print_, kind="book")
@@ -179,7 +180,7 @@ def elementary() -> Iterator[Row]:
     for share in (0.0, 0.5, 1.0):
         base = height / (weight - share) ** 0.5
         triangle = [(0.0, 0.0), (base, 0.0), (0.0, height)]
-        found = _case(_dam(triangle, weight * _G, height, 0.7, uplift={"intensity": share}))
+        found = case_of(dam(triangle, weight * G, height, 0.7, uplift={"intensity": share}))
         remark = "Asawa, Irrigation and Water Resources Engineering, section 16.5: b^2 (s - c) = h^2 leaves no tension"
         assert found.heel_stress_pa is not None
         ours = found.heel_stress_pa / 1e3
@@ -190,19 +191,19 @@ def elementary() -> Iterator[Row]:
     yield Row(
         "sliding factor of the width for it",
         1.0,
-        _case(_dam(triangle, weight * _G, height, friction)).sliding_factor or 0.0,
+        case_of(dam(triangle, weight * G, height, friction)).sliding_factor or 0.0,
         1e-9,
         remark="IASRI, stability analysis of gravity dams, lesson 32, equation 32.3: b = h / (mu (s - 1))",
         kind="book",
     )
-    dam = [(0.0, 0.0), (62.0, 0.0), (12.0, 75.0), (12.0, 84.0), (0.0, 84.0)]
-    sheet = _case(_dam(dam, 2.4 * _G, 80.0, 0.7)).sheet("toe")
+    lecture = [(0.0, 0.0), (62.0, 0.0), (12.0, 75.0), (12.0, 84.0), (0.0, 84.0)]
+    sheet = case_of(dam(lecture, 2.4 * G, 80.0, 0.7)).sheet("toe")
     lines = {line.name: line for line in sheet.lines}
     remark = "a lecture, Determination of forces in dam (84 m high, water of 80 m): 2419.2 t at 56 m, 4500 t at 33.33 m"
-    yield Row("weight [t]", 6919.2, -lines["weight"].vertical_n / _G / 1e3, 1e-6, remark=remark, kind="book")
+    yield Row("weight [t]", 6919.2, -lines["weight"].vertical_n / G / 1e3, 1e-6, remark=remark, kind="book")
     turning = 2419.2 * 56.0 + 4500.0 * 100.0 / 3.0
-    yield Row("its moment about the toe [t m]", turning, lines["weight"].moment_nm / _G / 1e3, 1e-6, remark=remark)
+    yield Row("its moment about the toe [t m]", turning, lines["weight"].moment_nm / G / 1e3, 1e-6, remark=remark)
     yield Row(
-        "push of the water [t]", 3200.0, lines["reservoir"].horizontal_n / _G / 1e3, 1e-6, remark=remark, kind="book"
+        "push of the water [t]", 3200.0, lines["reservoir"].horizontal_n / G / 1e3, 1e-6, remark=remark, kind="book"
     )
     yield Row("its height [m]", 26.67, lines["reservoir"].height_m or 0.0, 2e-4, remark=remark, kind="book")

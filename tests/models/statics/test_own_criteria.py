@@ -6,6 +6,7 @@ import pytest
 
 import heeltoe
 from heeltoe import InputError, read_case
+from heeltoe.models.statics import own_criteria
 from shared.command import command
 from shared.statics import TRIANGLE, check, dam
 
@@ -55,6 +56,18 @@ def test_a_file_judges_in_place_of_the_documents(tmp_path):
     assert not check(found, "usual", "compression").met
     assert found.critical_water_level_m["sliding_required"] is not None
     assert [each.name for each in found.checks if each.required is None] == ["equilibrium"]
+
+
+def test_the_file_is_read_once_and_again_when_it_was_written(tmp_path, monkeypatch):
+    read = []
+    known = own_criteria.read_fields
+    monkeypatch.setattr(own_criteria, "read_fields", lambda *given: read.append(given) or known(*given))
+    case = case_of(tmp_path, "[sliding]\nusual = 1.25\nearthquake = 1.0\n", seismic_coefficient=0.1)
+    assert check(heeltoe.statics(case), "usual", "sliding factor").required == 1.25
+    assert len(read) == 1
+    (tmp_path / "own.toml").write_text("[sliding]\nusual = 1.375\n")
+    assert check(heeltoe.statics(case), "usual", "sliding factor").required == 1.375
+    assert len(read) == 2
 
 
 def test_what_no_row_asks_for_is_not_judged(tmp_path):

@@ -58,3 +58,20 @@ def test_json_has_the_sheet():
     weight = forces[0]
     assert weight["distance_m"] == pytest.approx(80 / 3)
     assert weight["moment_about_toe_nm"] == pytest.approx(5120 * M)
+
+
+def test_the_pieces_of_the_body_add_up_to_it():
+    case = dam(
+        section={"polygon": [["0 m", "0 m"], ["80 m", "0 m"], ["8 m", "90 m"], ["8 m", "100 m"], ["0 m", "100 m"]]},
+        statics=SHAKEN,
+    )
+    for found in heeltoe.statics(case).cases:
+        for line in found.sheet("toe").lines:
+            if line.name in ("weight", "inertia"):
+                assert [piece.name for piece in line.pieces] == [f"{line.name} 1", f"{line.name} 2"]
+                for part in ("horizontal_n", "vertical_n", "moment_nm"):
+                    whole = sum(getattr(piece, part) for piece in line.pieces)
+                    assert whole == pytest.approx(getattr(line, part), rel=1e-9, abs=1e-3)
+    sheet = only(heeltoe.statics(case), "usual").sheet()
+    said = "rectangle 8 m by 100 m, concrete of 2400 kg/m³"
+    assert str(lines(sheet)["weight"].pieces[0].source) == said

@@ -10,10 +10,13 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import heeltoe
+from heeltoe import read_case
 from heeltoe.mechanics.block import build_block
 from heeltoe.mechanics.loads import total, uplift_profile
 from heeltoe.models.statics.cases import pseudo_static, usual
-from shared.statics import CLOSE, SHAKEN, M, dam, only
+from shared.statics import CLOSE, SHAKEN, TRIANGLE, M, dam, only
+
+DRY = {"section": {"polygon": TRIANGLE}, "crack": {"friction": 0.9}}
 
 
 def test_critical_water_level():
@@ -32,6 +35,25 @@ def test_critical_water_level_of_overturning_is_where_the_crack_goes_through():
     roots = np.roots([1.0 / 600.0, 0.0, 32.0, -12800.0 / 3.0])
     level = float(roots[np.argmin(abs(roots.imag))].real)
     assert heeltoe.statics(light).critical_water_level_m["overturning"] == pytest.approx(level, rel=1e-6)
+
+
+def test_critical_water_levels_are_looked_for_up_to_the_flood():
+    """Above the crest the push is 0.01 (h - 50) MN: 0.95 (96 - 0.4 h) = h - 50, where the base takes tension."""
+    whole = {"bonded": 1.0, "tensile_strength": "100 MPa"}
+    low, high = (
+        heeltoe.statics(dam(crack={"friction": 0.95}, statics=whole | flood))
+        for flood in ({}, {"flood_depth": "110 m"})
+    )
+    assert (low.highest_water_level_m, high.highest_water_level_m) == (100.0, 110.0)
+    assert low.critical_water_level_m["sliding"] is None
+    assert high.critical_water_level_m["sliding"] == pytest.approx((0.95 * 96.0 + 50.0) / 1.38, **CLOSE)
+
+
+def test_no_flood_may_be_said():
+    case = dam(statics={"flood_depth": "none"})
+    assert [each.name for each in heeltoe.statics(case).cases] == ["usual"]
+    flooded = {"statics": {"flood_depth": "95 m", "flood_tailwater": "5 m", "flood_rarity": "extreme"}}
+    assert read_case(flooded | DRY, {"statics.flood_depth": "none"}).statics.flood_tailwater is None
 
 
 def test_critical_acceleration_is_that_of_the_block():

@@ -8,7 +8,7 @@ not compared with the print say so.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Literal, TypedDict, Unpack
+from typing import Literal, TypedDict, Unpack, get_args
 
 Loads = Literal["usual", "unusual", "extreme", "earthquake", "post-earthquake"]
 
@@ -97,13 +97,36 @@ def _rows(
 
 def _three(usual: float, unusual: float, extreme: float) -> dict[Loads, float]:
     """Return values for usual, unusual and extreme loads, both earthquake cases among the last."""
-    return {
-        "usual": usual,
-        "unusual": unusual,
-        "extreme": extreme,
-        "earthquake": extreme,
-        "post-earthquake": extreme,
+    return _five(usual, unusual, extreme, extreme, extreme)
+
+
+def _five(*values: float) -> dict[Loads, float]:
+    """Return values for usual, unusual and extreme loads, the earthquake and the dam after it."""
+    return dict(zip(get_args(Loads), values, strict=True))
+
+
+def _peak(
+    tested: tuple[float, ...], untested: tuple[float, ...], document: str, without: str, note: str
+) -> tuple[Criterion, ...]:
+    """Return the rows of a peak sliding factor, with tests and without; both in the order of the cases of loads."""
+    known = {
+        "well defined": ("with tests", tested),
+        "ordinary": (without, untested),
+        "limited": (without, untested),
     }
+    return tuple(
+        row
+        for information, (tests, values) in known.items()
+        for row in _rows(
+            "sliding",
+            _five(*values),
+            document,
+            f"peak sliding factor, {tests}",
+            note,
+            cohesion=True,
+            site_information=information,
+        )
+    )
 
 
 _EM_2100 = "USACE EM 1110-2-2100 (2005)"
@@ -212,22 +235,12 @@ _FERC_ROWS = (
 _FELL = "read in an extract, its columns in disorder, of Fell and others, Geotechnical Engineering of Dams"
 _BULLETIN = "the technical bulletin of 2007, Structural Considerations for Dam Safety, was not compared"
 _CDA_ROWS = (
-    *(
-        row
-        for information, values in (
-            ("well defined", (2.0, 1.5, 1.5, 1.1, 1.5)),
-            ("ordinary", (3.0, 2.0, 2.0, 1.3, 2.0)),
-            ("limited", (3.0, 2.0, 2.0, 1.3, 2.0)),
-        )
-        for row in _rows(
-            "sliding",
-            dict(zip(_three(0.0, 0.0, 0.0), values, strict=True)),
-            _CDA,
-            f"peak sliding factor, {'with' if information == 'well defined' else 'no'} tests",
-            f"{_FELL}, table 16.2, by which a residual sliding factor that is met will do instead; {_BULLETIN}",
-            cohesion=True,
-            site_information=information,
-        )
+    *_peak(
+        (2.0, 1.5, 1.5, 1.1, 1.5),
+        (3.0, 2.0, 2.0, 1.3, 2.0),
+        _CDA,
+        "no tests",
+        f"{_FELL}, table 16.2, by which a residual sliding factor that is met will do instead; {_BULLETIN}",
     ),
     *_rows(
         "sliding",
@@ -263,26 +276,16 @@ _CDA_ROWS = (
 _CADAM = "CADAM3D, default performance indicators"
 _HELP = "read on the help page of the program, which names no guideline; its numbers may be changed there"
 _CADAM_ROWS = (
-    *(
-        row
-        for information, values in (
-            ("well defined", (2.0, 1.5, 1.1, 1.1, 1.5)),
-            ("ordinary", (3.0, 2.0, 1.3, 1.3, 2.0)),
-            ("limited", (3.0, 2.0, 1.3, 1.3, 2.0)),
-        )
-        for row in _rows(
-            "sliding",
-            dict(zip(_three(0.0, 0.0, 0.0), values, strict=True)),
-            _CADAM,
-            f"peak sliding factor, {'with' if information == 'well defined' else 'without'} tests",
-            f"{_HELP}; the page has the larger factors beside the words with tests, CDA (1999) beside no tests",
-            cohesion=True,
-            site_information=information,
-        )
+    *_peak(
+        (2.0, 1.5, 1.1, 1.1, 1.5),
+        (3.0, 2.0, 1.3, 1.3, 2.0),
+        _CADAM,
+        "without tests",
+        f"{_HELP}; the page has the larger factors beside the words with tests, CDA (1999) beside no tests",
     ),
     *_rows(
         "sliding",
-        dict(zip(_three(0.0, 0.0, 0.0), (1.5, 1.3, 1.0, 1.0, 1.1), strict=True)),
+        _five(1.5, 1.3, 1.0, 1.0, 1.1),
         _CADAM,
         "residual sliding factor",
         _HELP,
@@ -292,7 +295,7 @@ _CADAM_ROWS = (
     *_rows("resultant", _three(1.0 / 6.0, 1.0 / 4.0, 1.0 / 2.0), _CADAM, "resultant position", _HELP),
     *_rows(
         "compression",
-        dict(zip(_three(0.0, 0.0, 0.0), (0.33, 0.5, 0.67, 0.9, 0.67), strict=True)),
+        _five(0.33, 0.5, 0.67, 0.9, 0.67),
         _CADAM,
         "compression at lift joints",
         f"{_HELP}; at the base 0.25, 0.5, 0.5, 0.67 and 0.5",

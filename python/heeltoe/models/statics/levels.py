@@ -16,16 +16,23 @@ from heeltoe.models.statics.own_criteria import criteria_of
 _LEVELS = 60
 
 
+def highest_level(case: Case) -> float:
+    """Return how deep the reservoir is looked at [m]: to the crest, or to its flood where that is above."""
+    section, water = case.cut, case.reservoir
+    depths = (case.statics.flood_depth, water.depth if water else None)
+    return max(section.crest_elevation - section.base_elevation, *(each for each in depths if each is not None), 0.0)
+
+
 def critical_water_levels(case: Case) -> dict[str, float | None]:
     """Return the depths of the reservoir at which the usual loads become critical; None where none is.
 
     What each means stands with :class:`heeltoe.models.statics.model.Statics`.
 
-    The depth rises from the heel, or from the lowest point of the section where that is higher, to the crest; the
-    tailwater stays, and so does the ice, pushed up with the surface.
+    The depth rises from the heel, or from the lowest point of the section where that is higher, to
+    :func:`highest_level`; the tailwater stays, and so does the ice, pushed up with the surface.
     """
     section = case.cut
-    highest = section.crest_elevation - section.base_elevation
+    highest = highest_level(case)
     lowest = section.heel[1] - section.base_elevation
     if case.ice is not None:
         lowest = max(lowest, case.ice.depth)

@@ -7,6 +7,9 @@ from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
+import numpy as np
+
+from heeltoe.geometry.pieces import Piece, pieces
 from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.block import ROUNDING_OF_FORCES, across_crack
 from heeltoe.mechanics.loads import Resultant, in_crack, total
@@ -72,6 +75,9 @@ class LoadCase:
     pressures
         Of the water in the crack as far as it is found open: distance from the heel of the crack [m] and pressure
         [Pa], straight in between; twice the same distance is a jump.
+    pieces
+        Rectangles and triangles of the section above the crack, counted from its heel, for taking its weight by hand;
+        nothing where it is one, or more than anyone adds.
     """
 
     name: str
@@ -101,10 +107,11 @@ class LoadCase:
     ends_m: tuple[tuple[float, float], tuple[float, float]]
     pressures: tuple[tuple[float, float], ...]
     governs: tuple[str, ...] | None = None
+    pieces: tuple[Piece, ...] = ()
 
     def sheet(self, about: str = "heel") -> Sheet:
         """Return the forces one by one with arms, moments and sum about the "heel" or the "toe" of the contact."""
-        return sheet(self.forces, self.sources, about, self.ends_m[("heel", "toe").index(about)])
+        return sheet(self.forces, self.sources, about, self.ends_m[("heel", "toe").index(about)], self.pieces)
 
     @property
     def contact_width_m(self) -> float:
@@ -218,6 +225,7 @@ def solve_case(
         sources=given.sources,
         ends_m=(section.from_crack_frame(contact.start, 0.0), section.from_crack_frame(contact.end, 0.0)),
         pressures=tuple((float(x), float(p)) for x, p in settled.profile),
+        pieces=pieces(section.polygon - np.array(section.heel)),
     )
     return Solved(load_case, settled)
 

@@ -16,7 +16,7 @@ from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.models.statics.cases import flood, post_seismic, pseudo_static, usual
 from heeltoe.models.statics.checks import Check, check_case, fallen
 from heeltoe.models.statics.criteria import unread
-from heeltoe.models.statics.levels import critical_water_levels
+from heeltoe.models.statics.levels import critical_water_levels, highest_level
 from heeltoe.models.statics.load_case import LoadCase
 from heeltoe.models.statics.own_criteria import Rules, rules_of
 from heeltoe.references import REFERENCES
@@ -44,11 +44,14 @@ class Statics(Shown):
         Every requirement with what is there.
     critical_acceleration_g
         Ground accelerations in g at which the block at rest starts to slide and to rock, each way by itself; infinite
-        where no acceleration does it, negative where the static loads do.
+        where no acceleration does it, negative where the static loads do. Cohesion does not count.
     critical_water_level_m
         Depth of the reservoir, from the lowest point of the section, at which the usual loads bring the factor of
         sliding downstream to 1 ("sliding") and to what is required ("sliding_required"), open the crack through
-        ("overturning") and leave no normal force ("flotation"); None where no depth up to the crest does.
+        ("overturning") and leave no normal force ("flotation"); None where no depth up to `highest_water_level_m` does.
+        Cohesion counts in the first two.
+    highest_water_level_m
+        Depth up to which these were looked for: the crest, or the flood where that is above it.
     slip_m, slip_source
         Residual slip of the post-seismic case and where it comes from; None without that case.
     warnings
@@ -65,6 +68,7 @@ class Statics(Shown):
     checks: tuple[Check, ...]
     critical_acceleration_g: Mapping[str, float]
     critical_water_level_m: Mapping[str, float | None]
+    highest_water_level_m: float
     slip_m: float | None
     slip_source: str | None
     warnings: tuple[Notice, ...]
@@ -104,6 +108,7 @@ class Statics(Shown):
             "critical_acceleration_g": critical,
             "left_out": left_out,
             "critical_water_level_m": dict(self.critical_water_level_m),
+            "highest_water_level_m": self.highest_water_level_m,
             "slip_m": self.slip_m,
             "slip_source": self.slip_source,
             "warnings": [each.to_json() for each in self.warnings],
@@ -187,6 +192,7 @@ def statics(
         checks=tuple(checks),
         critical_acceleration_g=static_state(build_block(case))["critical_acceleration_g"],
         critical_water_level_m=critical_water_levels(case),
+        highest_water_level_m=highest_level(case),
         slip_m=slip,
         slip_source=source,
         warnings=tuple(warnings),

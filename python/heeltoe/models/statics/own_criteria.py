@@ -16,6 +16,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
 from typing import Any, get_args
 
 from heeltoe.case.model import Case
@@ -75,7 +77,7 @@ def rules_of(case: Case) -> Rules:
         rules = Rules(choice.criteria, CRITERIA[choice.criteria], UPLIFT_IN_EARTHQUAKE[choice.criteria])
     else:
         path = case.base_directory / choice.criteria_file
-        rules = _read(read_fields(path, "criteria-file-missing"), choice.criteria_file)
+        rules = _in_file(path, choice.criteria_file, _stamp(path))
     law = choice.uplift_in_earthquake
     return rules if law == "criteria" else Rules(rules.name, rules.rows, (law, _CHOSEN[law]))
 
@@ -85,6 +87,21 @@ def criteria_of(case: Case, loads: Loads, *, cohesion: bool) -> tuple[Criterion,
     choice = case.statics
     rows = rules_of(case).rows
     return chosen(rows, loads, cohesion=cohesion, structure=choice.structure, site_information=choice.site_information)
+
+
+def _stamp(path: Path) -> tuple[int, int] | None:
+    """Return what is another where a file was written again."""
+    try:
+        found = path.stat()
+    except (OSError, ValueError):
+        return None
+    return found.st_mtime_ns, found.st_size
+
+
+@lru_cache(maxsize=16)
+def _in_file(path: Path, name: str, stamp: tuple[int, int] | None) -> Rules:
+    """Return what a file says, which is read once for all load cases and sections; again where it was written."""
+    return _read(read_fields(path, "criteria-file-missing"), name)
 
 
 def _read(fields: Mapping[str, Any], name: str) -> Rules:

@@ -7,15 +7,19 @@ with arms counted from that point, downstream and up, counter-clockwise positive
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
+from heeltoe.geometry.pieces import Piece
 from heeltoe.mechanics.loads import Resultant, concrete_mass, nappe_heads, silt, total, water_above_crack
 from heeltoe.units.sentences import Sentence
 
+# What is proportional to the area of the section, so that its pieces can be taken one by one.
+_OF_THE_BODY = ("weight", "inertia")
 # A part of a force that is so small beside the others is rounding, and has no arm.
 _ROUNDING = 1e-12
 
@@ -39,6 +43,8 @@ class ForceLine:
         About the point, counter-clockwise.
     source
         Where the force comes from.
+    pieces
+        The same piece by piece of the section; nothing of what has none.
     """
 
     name: str
@@ -48,10 +54,7 @@ class ForceLine:
     distance_m: float | None
     moment_nm: float
     source: Sentence
-
-    def to_json(self) -> dict[str, Any]:
-        """Return plain numbers and strings."""
-        return {**vars(self), "source": str(self.source)}
+    pieces: tuple[ForceLine, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -77,7 +80,11 @@ class Sheet:
 
 
 def sheet(
-    forces: Sequence[Resultant], sources: Mapping[str, Sentence], about: str, point: tuple[float, float]
+    forces: Sequence[Resultant],
+    sources: Mapping[str, Sentence],
+    about: str,
+    point: tuple[float, float],
+    pieces: Sequence[Piece] = (),
 ) -> Sheet:
     """Return the sheet of some forces about a point.
 
@@ -91,10 +98,41 @@ def sheet(
         What the point is called.
     point
         Downstream of the heel of the crack and above it [m].
+    pieces
+        Of the section, counted from the heel of the crack.
     """
     size = sum(abs(force.horizontal) + abs(force.vertical) for force in forces)
-    lines = tuple(_line(force, point, size, sources.get(force.name, Sentence(""))) for force in forces)
-    return Sheet(about, point, lines, _line(total("sum", forces), point, size, Sentence("")))
+    lines = []
+    for force in forces:
+        line = _line(force, point, size, sources.get(force.name, Sentence("")))
+        if force.name in _OF_THE_BODY:
+            line = replace(line, pieces=tuple(_pieces(force, pieces, point, size, sources)))
+        lines.append(line)
+    return Sheet(about, point, tuple(lines), _line(total("sum", forces), point, size, Sentence("")))
+
+
+def _pieces(
+    force: Resultant,
+    pieces: Sequence[Piece],
+    point: tuple[float, float],
+    size: float,
+    sources: Mapping[str, Sentence],
+) -> Iterator[ForceLine]:
+    """Return the lines of a force that is proportional to the area, each at the centroid of its piece."""
+    whole = math.fsum(piece.area for piece in pieces)
+    for number, piece in enumerate(pieces, start=1):
+        share = piece.area / whole
+        own = Resultant.at(
+            f"{force.name} {number}", (share * force.horizontal, share * force.vertical), (piece.x, piece.z)
+        )
+        source = Sentence.of(
+            "{shape} {width_m:.5g m} by {height_m:.5g m}, {of}",
+            shape=piece.shape,
+            width_m=piece.width,
+            height_m=piece.height,
+            of=sources.get(f"{force.name} of a piece", Sentence("at its centroid")),
+        )
+        yield _line(own, point, size, source)
 
 
 def _line(force: Resultant, point: tuple[float, float], size: float, source: Sentence) -> ForceLine:
@@ -119,6 +157,7 @@ def sources_of(case: Case) -> dict[str, Sentence]:
             area_m2=case.cut.area,
             density=case.concrete.density,
         ),
+        "weight of a piece": Sentence.of("concrete of {density:.5g kg/m³}", density=case.concrete.density),
         "reservoir": _water(case, case.reservoir, "heel"),
         "tailwater": _water(case, case.tailwater, "toe"),
         "uplift": Sentence.of('pattern "{pattern}", intensity {intensity:g}', **_uplift(case)),
@@ -148,6 +187,9 @@ def sources_of_inertia(case: Case, horizontal: float, vertical: float) -> dict[s
             mass=concrete_mass(case),
             horizontal=horizontal,
             vertical=vertical,
+        ),
+        "inertia of a piece": Sentence.of(
+            "{horizontal:g} g and {vertical:g} g of the ground", horizontal=horizontal, vertical=vertical
         ),
         "hydrodynamic": Sentence.of(
             "{whose} water times {horizontal:g} g of the ground", whose=_whose(case), horizontal=horizontal

@@ -157,9 +157,10 @@ def remarks(found: Statics, units: str, number_of: Callable[[str], str]) -> Note
 def _levels(subject: Subject) -> Table:
     n = subject.numbers
     rows: list[tuple[Inline, ...]] = []
+    highest = n("statics.highest_water_level_m", "length")
     for name, label in _LEVELS.items():
         cell = n(f"statics.critical_water_level_m.{name}", "length")
-        rows.append((label, "no depth up to the crest" if cell == NOTHING else cell))
+        rows.append((label, _with(highest, "", "none up to ") if cell == NOTHING else cell))
     return Table(
         ("", "depth of the reservoir"), tuple(rows), "Water levels at which the usual loads get critical.", "lr"
     )

@@ -34,7 +34,7 @@ from heeltoe.views.report.content import (
 )
 from heeltoe.views.report.drawings import drawing
 from heeltoe.views.words.sheet import Step, lines, sheet_units, steps
-from heeltoe.views.words.statics import basis, check_cells, section_rows, verdict_of
+from heeltoe.views.words.statics import basis, check_cells, section_rows, section_warnings, verdict_of
 
 # Of the width of a page: the forces with their origin, and the steps.
 _FORCES = (2.3, 1.6, 1.3, 1.7, 1.3, 2.1, 4.2)
@@ -135,7 +135,7 @@ def _answer(subject: _Subject) -> Section:
     others = sum(each is not joint for each, _ in missed)
     if others:
         items.append((f"{others} more at other sections, in the table of sections and in their sheets.",))
-    warnings = tuple((glued(each),) for each in _warnings(subject))
+    warnings = tuple((glued(each),) for each in section_warnings(found.joints, units))
     blocks = (
         paragraph(Strong("Answer. "), glued(f"{said[0].upper()}{said[1:]}.")),
         Notes("failure", "Not met", tuple(items)) if items else None,
@@ -150,18 +150,6 @@ def _answer(subject: _Subject) -> Section:
         ),
     )
     return Section("Answer", without_gaps(*blocks))
-
-
-def _warnings(subject: _Subject) -> list[str]:
-    """Return every warning once, those of some sections with where these are."""
-    said: dict[str, list[Joint]] = {}
-    for joint in subject.found.joints:
-        for each in joint.statics.warnings:
-            said.setdefault(each.text(subject.units), []).append(joint)
-    return [
-        text if len(of) == len(subject.found.joints) else f"crack at {', '.join(map(subject.at, of))}: {text}"
-        for text, of in said.items()
-    ]
 
 
 def _table_of_sections(subject: _Subject) -> Table:

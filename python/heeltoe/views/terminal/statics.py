@@ -17,7 +17,7 @@ from heeltoe.study.statics import StaticsTable
 from heeltoe.units.sentences import numbers, quantity
 from heeltoe.views.terminal.common import label_grid, label_lines, print_title, print_warnings, quiet_table
 from heeltoe.views.words.sheet import lines, steps
-from heeltoe.views.words.statics import basis, check_cells, failed, section_rows, verdict_of
+from heeltoe.views.words.statics import basis, check_cells, failed, section_rows, section_warnings, verdict_of
 
 # Label, how numbers are written (in SI, without a minus before zero), what they are; or words without a form.
 _ROWS: tuple[tuple[str, str, Callable[[LoadCase], float | str | None]], ...] = (
@@ -41,8 +41,8 @@ _ROWS: tuple[tuple[str, str, Callable[[LoadCase], float | str | None]], ...] = (
 )
 
 
-def print_statics(found: Statics, console: Console, units: str = "si") -> None:
-    """Print what the checks rest on, the load cases, the checks, warnings and verdict."""
+def print_statics(found: Statics, console: Console, units: str = "si", warnings: Sequence[str] | None = None) -> None:
+    """Print what the checks rest on, the load cases, the checks, warnings (its own, or others) and verdict."""
     print_title(found.title, "statics", console)
     console.print()
     console.print(label_lines((label, escape(text)) for label, text in basis(found, units)))
@@ -60,7 +60,9 @@ def print_statics(found: Statics, console: Console, units: str = "si") -> None:
         if told:
             console.print()
             console.print(label_lines((label, escape(text)) for label, text in told))
-    print_warnings([warning.text(units) for warning in found.warnings], console)
+    if warnings is None:
+        warnings = [warning.text(units) for warning in found.warnings]
+    print_warnings(warnings, console)
     console.print()
     verdict = label_grid()
     verdict.add_row(f"[{'bold' if found.ok else 'bold red'}]Verdict[/]", verdict_of(found))
@@ -82,7 +84,7 @@ def print_sections(found: Joints, console: Console, units: str = "si", *, sheet:
         console.print()
         where = quantity(joint.elevation_m, ".4g m", units)
         console.print(f"[bold]The section that governs, at {where}[/bold]")
-    print_statics(joint.statics, console, units)
+    print_statics(joint.statics, console, units, section_warnings(found.joints, units))
     if sheet:
         for each in found.ranked if len(found.joints) > 1 else (joint,):
             _print_sheets(each, console, units)
@@ -145,7 +147,8 @@ def print_statics_table(found: StaticsTable, console: Console, units: str = "si"
     for head in [*heads, f"longest\ncrack, {unit}", *([f"slip,\n{slip_unit}"] if slid else [])]:
         table.add_column(head, justify="left" if head == "governs" else "right")
     for cell, row, crack, slip in zip(found.cells, rows, cracks, slips, strict=True):
-        governs = f"{row['governing_load_case']}, {row['governing_check']}"
+        check = row["governing_check"]
+        governs = "-" if check is None else f"{row['governing_load_case']}, {check.removesuffix(' factor')}"
         if several:
             governs += f", at {quantity(row['governing_elevation_m'], '.4g m', units)}"
         factors = [row[f"least_{name}_factor"] for name in ("sliding", "overturning", "flotation")]
@@ -160,8 +163,7 @@ def print_statics_table(found: StaticsTable, console: Console, units: str = "si"
             style="" if row["checks_not_met"] == 0 else "red",
         )
     console.print(table)
-    warnings = dict.fromkeys(each.text(units) for found_ in found.found for each in found_.warnings)
-    print_warnings(list(warnings), console)
+    print_warnings(section_warnings([joint for each in found.found for joint in each.joints], units), console)
     met = sum(each.ok for each in found.found)
     said_ = f"{met} of {len(found.found)} dams meet all checks ({found.found[0].joints[0].statics.criteria})"
     console.print(f"\n[bold]Verdict[/bold]  {said_}")
@@ -197,6 +199,9 @@ def _cases(cases: tuple[LoadCase, ...], units: str) -> Table:
         # Five cases with long names are to fit beside each other.
         table.add_column(each.name.replace(" ", "\n").replace("-", "-\n", 1), justify="right", no_wrap=True)
     for label, form, read in _ROWS:
+        # Of a crack that stays closed nothing is to be said.
+        if "open" in label and not any(each.cracked_length_m for each in cases):
+            continue
         table.add_row(*_row(label, form, [read(each) for each in cases], units))
     return table
 

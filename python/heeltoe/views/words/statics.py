@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from heeltoe.models.statics.checks import Check
-from heeltoe.models.statics.joints import Joints
+from heeltoe.models.statics.joints import Joint, Joints
 from heeltoe.models.statics.model import Statics
 from heeltoe.units.sentences import numbers, quantity
 
@@ -14,9 +15,13 @@ def basis(found: Statics, units: str) -> list[tuple[str, str]]:
     """Return labels and texts of what the checks rest on."""
     critical, water = found.critical_acceleration_g, found.critical_water_level_m
     lines = [("criteria", f"{found.criteria}, {found.structure} structure, {found.site_information} site information")]
+    bonded = any(each.cohesive_force_n for each in found.cases)
     for kind in ("sliding", "rocking"):
         down, up = critical[f"{kind}_downstream"], critical[f"{kind}_upstream"]
-        lines.append((f"{kind} starts at", f"{_acceleration(down)} downstream, {_acceleration(up)} upstream"))
+        text = f"{_acceleration(down)} downstream, {_acceleration(up)} upstream"
+        # A crack that slides has no cohesion in the models of the earthquake either.
+        lines.append((f"{kind} starts at", f"{text}, without cohesion" if bonded and kind == "sliding" else text))
+    none = f"none up to {quantity(found.highest_water_level_m, '.2f m', units)} of water"
     for key, label in (
         ("sliding", "sliding factor 1 at"),
         ("sliding_required", "sliding factor required at"),
@@ -24,11 +29,24 @@ def basis(found: Statics, units: str) -> list[tuple[str, str]]:
         ("flotation", "floats at"),
     ):
         level = water[key]
-        depth = "none up to the crest" if level is None else f"{quantity(level, '.2f m', units)} of water"
-        lines.append((label, depth))
+        depth = none if level is None else f"{quantity(level, '.2f m', units)} of water"
+        lines.append((label, f"{depth}, with cohesion" if bonded and key.startswith("sliding") else depth))
     if found.slip_m is not None:
         lines.append(("residual slip", f"{quantity(found.slip_m, '.4f m', units)}: {found.slip_source}"))
     return lines
+
+
+def section_warnings(joints: Sequence[Joint], units: str) -> list[str]:
+    """Return every warning of some sections once, those that are not of all of them with where they are."""
+    said: dict[str, dict[float, None]] = {}
+    places = dict.fromkeys(joint.elevation_m for joint in joints)
+    for joint in joints:
+        for each in joint.statics.warnings:
+            said.setdefault(each.text(units), {})[joint.elevation_m] = None
+    return [
+        text if len(of) == len(places) else f"crack at {quantity(list(of), '.5g m', units)}: {text}"
+        for text, of in said.items()
+    ]
 
 
 def section_rows(found: Joints, units: str) -> tuple[tuple[str, ...], list[tuple[str, ...]]]:
