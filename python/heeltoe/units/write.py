@@ -1,13 +1,19 @@
-"""Numbers as people read them, with their units."""
+"""Numbers as people read them, with their units.
+
+A table has one unit for each quantity, that of its largest number: metres above millimetres are misread.
+"""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
-from heeltoe.units.systems import FOOT, Scale
+from heeltoe.units.systems import FOOT, Scale, unit_system
 
 NOTHING = "–"
 """Stands where there is no number to show."""
+# Digits behind the first of the largest number of a table.
+_ALIKE = 3
 
 
 def length(metres: float, units: str = "si") -> str:
@@ -35,6 +41,45 @@ def _us_length(metres: float) -> str:
     if not inches:
         return "0 in"
     return f"{inches:.4f} in" if abs(inches) >= 2e-4 else "under 0.0004 in"
+
+
+def lengths(metres: Sequence[float], units: str = "si") -> list[str]:
+    """Write the lengths of one table, as :func:`length` does where that gives them all the same unit."""
+    return one_unit([length(each, units) for each in metres], metres, "displacement", units)
+
+
+def one_unit(texts: Sequence[str], values: Sequence[float], quantity: str, units: str) -> list[str]:
+    """Write the numbers of one quantity in a table in one unit.
+
+    Parameters
+    ----------
+    texts
+        Each as it is written by itself; they stay where all have one unit.
+    values
+        The numbers in SI.
+    quantity
+        As :meth:`heeltoe.units.systems.Units.scale` takes it.
+    units
+        ``"si"`` or ``"us"``.
+    """
+    if len({text.rpartition(" ")[2] for text in texts}) < 2:
+        return list(texts)
+    most = max(map(abs, values))
+    scale = unit_system(units).scale(quantity, most)
+    step = 10.0 ** (math.floor(math.log10(scale(most))) - _ALIKE)
+    return [f"{_to(scale(each), step, quantity == 'displacement')} {scale.unit}" for each in values]
+
+
+def _to(value: float, step: float, measured: bool) -> str:
+    """Write a number to a step, or where it is small to its own first three digits, up to a hundredth of the step; what
+    is less than that is something to a quantity that nobody measures on a dam."""
+    if not value:
+        return "0"
+    own = max(10.0 ** (math.floor(math.log10(abs(value))) - 2), 1e-2 * step)
+    decimals = max(0, round(-math.log10(min(step, own))))
+    if abs(value) >= 0.5 * 10.0**-decimals:
+        return f"{value:.{decimals}f}"
+    return f"under {10.0**-decimals:.{decimals}f}" if measured else digits(value, 4)
 
 
 def speed(metres_per_second: float, units: str = "si") -> str:

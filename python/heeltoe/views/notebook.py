@@ -41,8 +41,8 @@ def _(case: Case) -> str:
     """Show what a case gives, with units, and its section."""
     rows = [
         (path, value)
-        for path, value, given, _ in fields(case, case.model_dump(mode="json"), units=case.units)
-        if given and path not in ("title", "units")
+        for path, value, _, _ in fields(case, case.model_dump(mode="json"), units=case.units, given=True)
+        if path not in ("title", "units")
     ]
     return _page(case.title or "Untitled case", rows, _section(case))
 

@@ -101,8 +101,7 @@ def case_rows(case: Case, units: str, *, given: bool) -> tuple[tuple[Inline, ...
     written = case.model_dump(mode="json")
     return tuple(
         (Code(path), value, meaning.replace("`", ""))
-        for path, value, is_given, meaning in fields(case, written, units=units)
-        if is_given == given
+        for path, value, _, meaning in fields(case, written, units=units, given=given)
     )
 
 

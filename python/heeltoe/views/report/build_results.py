@@ -158,7 +158,7 @@ def _sequence(subject: Subject) -> list[Block]:
     """Return what each motion of a sequence does."""
     blocks: list[Block] = []
     for run in subject.runs:
-        rows = tuple(sequence_rows(run.response, subject.units))
+        rows = tuple(map(tuple, sequence_rows(run.response, subject.units)))
         if rows:
             caption = f"Motion by motion, {run.name}; slips from before the first one, + downstream."
             blocks.append(Table(COLUMNS, rows, caption, "l" + "r" * (len(COLUMNS) - 1)))

@@ -15,12 +15,12 @@ from heeltoe.result.verdict import verdict
 from heeltoe.study.opened import Opened
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.write import NOTHING, digits
+from heeltoe.views.report.build_input import case_rows
 from heeltoe.views.report.content import (
     Block,
     Code,
     Document,
     FigureBlock,
-    Inline,
     Listing,
     Notes,
     References,
@@ -31,9 +31,11 @@ from heeltoe.views.report.content import (
     without_gaps,
 )
 from heeltoe.views.report.drawings import drawing
+from heeltoe.views.report.one_unit import one_unit_each
 from heeltoe.views.report.study_answers import answer, fragility, hangs_on, measures_compared, results
-from heeltoe.views.words.fields import fields, shown
+from heeltoe.views.words.fields import shown
 from heeltoe.views.words.numbers import Numbers
+from heeltoe.views.words.studies import values_said
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -139,7 +141,7 @@ def study_document(subject: StudySubject) -> Document:
         title=plain(found.title),
         subtitle=f"A study of {found.store.count:,} runs, by the {models} model{'s' * bool(others)}",
         footer=f"heeltoe {found.told['build']['heeltoe']} · study {found.told['fingerprint'][:12]}",
-        blocks=without_gaps(*sections),
+        blocks=one_unit_each(without_gaps(*sections), subject.numbers),
     )
 
 
@@ -201,7 +203,7 @@ def _varied(subject: StudySubject) -> Section:
     how += f", {study['samples']:,} samples, seed {study['seed']}." if drawn else "."
     blocks.append(paragraph(how))
     if study["vary"]:
-        varied = tuple((Code(path), _values(given, subject.units)) for path, given in study["vary"].items())
+        varied = tuple((Code(path), values_said(given, subject.units, path)) for path, given in study["vary"].items())
         blocks.append(Table(("field", "values"), varied, "What varies; all else is as in the base case.", "ll", (4, 8)))
     else:
         blocks.append(paragraph("No field of the case varies."))
@@ -209,16 +211,6 @@ def _varied(subject: StudySubject) -> Section:
         rows = tuple((Code(first), Code(second), f"{value:g}") for first, second, value in study["correlation"])
         blocks.append(Table(("field", "and field", "rank correlation"), rows, "What is drawn together.", "llr"))
     return Section("What was varied", (*blocks, *subject.figure("section")))
-
-
-def _values(given: Any, units: str) -> str:
-    """Write a list of values, or a distribution, as people read it."""
-    if isinstance(given, list):
-        return ", ".join(shown(each, units) for each in given)
-    told = {name.rstrip("_"): shown(each, units) for name, each in given.items() if each is not None}
-    kind = told.pop("distribution")
-    ends = [f"from {told.pop('from')} to {told.pop('to')}"] if "from" in told else []
-    return ", ".join([kind, *ends, *(f"{name} {each}" for name, each in told.items())])
 
 
 def _motions(subject: StudySubject) -> Section:
@@ -231,7 +223,7 @@ def _motions(subject: StudySubject) -> Section:
     if scale:
         period = f" at {shown(scale['period'], subject.units)}" if scale["period"] is not None else ""
         what = "a factor" if scale["measure"] == "factor" else f"{scale['measure'].upper()}{period}"
-        said += f" They are scaled to {what}: {_values(scale['values'], subject.units)}"
+        said += f" They are scaled to {what}: {values_said(scale['values'], subject.units)}"
         said += ", pairs of components by their geometric mean." if given["pairs"] else "."
     if given and given["both_signs"]:
         said += " Each runs both ways round."
@@ -315,11 +307,6 @@ def _rerun(subject: StudySubject) -> Section:
 
 
 def _base(subject: StudySubject) -> Section:
-    written = subject.case.model_dump(mode="json")
-    rows: tuple[tuple[Inline, ...], ...] = tuple(
-        (Code(path), value, meaning.replace("`", ""))
-        for path, value, given, meaning in fields(subject.case, written, units=subject.units)
-        if given
-    )
+    rows = case_rows(subject.case, subject.units, given=True)
     table = Table(("field", "value", "meaning"), rows, "Given by the base case.", "lll", (3.8, 2.7, 5.7))
     return Section("Appendix: the base case", (table,))

@@ -5,19 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
-from heeltoe.motion.intensity import MEASURES
 from heeltoe.result.contract import HEADLINES
 from heeltoe.study.answers import MODES
-from heeltoe.units.parse import STANDARD_GRAVITY
-from heeltoe.units.write import NOTHING, digits, length
+from heeltoe.units.write import NOTHING, scaled
 from heeltoe.views.report.content import Block, Code, Inline, Section, Strong, Table, paragraph
-from heeltoe.views.words.studies import TRAITS, limit_of
+from heeltoe.views.words.numbers import Amount, in_one_unit
+from heeltoe.views.words.studies import TRAITS, ends_of, left_out, limit_of, limits_of, strength_scale
 
 if TYPE_CHECKING:
     from heeltoe.views.report.study import StudySubject
 
 _SHARES = (("50%", "half stay below"), ("84%", "84 % stay below"), ("95%", "95 % stay below"), ("largest", "largest"))
 _A = {"residual_slip": "a", "peak_slip": "a", "opening": "an", "rotation": "a"}
+_NAMES = {"pga": "PGA", "pgv": "PGV", "sa": "SA", "arias": "Arias intensity", "housner intensity": "Housner intensity"}
 _SHOWN = ("residual_slip_m", "opening_upstream_m", "rocking_upstream_rad")
 
 
@@ -28,7 +28,9 @@ def answer(subject: StudySubject) -> list[Block]:
         slip = each["residual_slip_m"]
         said = f"{_percent(each['share_that_slides'])} of {each['runs']:,} runs slide more than a joint meter reads"
         if slip["50%"] is not None:
-            amounts = [length(slip[name], subject.units) if slip[name] else "0" for name in ("50%", "84%", "largest")]
+            (amounts,) = in_one_unit(
+                [[Amount(slip[key], zero="0") for key in ("50%", "84%", "largest")]], subject.units
+            )
             said += f"; the residual slip, positive downstream, has the median {amounts[0]}, 84 % stay below "
             said += f"{amounts[1]}, and the farthest run ends at {amounts[2]}"
         said = f"{said}. " + " ".join(_exceeded(subject, each["model"]))
@@ -45,12 +47,9 @@ def _exceeded(subject: StudySubject, model: str) -> list[str]:
         if each["median"] is None:
             said.append(f"Of {what}: {each['why']}.")
             continue
-        middle, within = _strength(each["median"], each["measure"]), each["median_interval"]
-        ends = (
-            f" ({_strength(within[0], each['measure'])} to {_strength(within[1], each['measure'])})" if within else ""
-        )
+        middle, ends = _median(each, subject.units)
         guess = "" if each["reached"] else ", which no motion here has"
-        said.append(f"Half of the dams exceed {what} at a {_named(each)} of {middle}{ends}{guess}.")
+        said.append(f"Half of the dams exceed {what} at {_article(_named(each))} of {middle}{ends}{guess}.")
     return said
 
 
@@ -105,19 +104,20 @@ def fragility(subject: StudySubject) -> Section | None:
     if asked is None:
         return None
     curves = subject.found.fragility
+    limits = limits_of([(each["limit"], each["value"]) for each in curves], subject.units)
     rows: list[tuple[Inline, ...]] = []
     for each in curves:
-        what = limit_of(each["limit"], each["value"], subject.units)
+        what = limits[each["limit"], each["value"]]
         label = f"{what}, {each['model']}" if len(subject.found.walk.models) > 1 else what
         exceeding = f"{each['exceeding']:,} of {each['runs']:,}"
         if each["median"] is None:
             rows.append((label, each["why"], "", "", "", exceeding))
             continue
-        median = _strength(each["median"], each["measure"]) + ("" if each["reached"] else " *")
+        median, within = _median(each, subject.units)
+        median += ("" if each["reached"] else " *") + within
         spread = f"{each['dispersion']:.2f}"
-        within, about = each["median_interval"], each["dispersion_interval"]
-        if within:
-            median += f" ({_strength(within[0], each['measure'])} to {_strength(within[1], each['measure'])})"
+        about = each["dispersion_interval"]
+        if about:
             spread += f" ({about[0]:.2f} to {about[1]:.2f})"
         rows.append((label, median, spread, *(_part(each[name]) for name in ("record", "other")), exceeding))
     head = ("exceeded", f"median {_named(asked)}", "dispersion", "from event to event", "other", "runs that exceed")
@@ -148,8 +148,7 @@ def measures_compared(subject: StudySubject) -> Section | None:
             (each["measure"], f"{each['efficiency']:.2f}", *(_p(each["sufficiency"][name]) for name in traits))
             for each in told["measures"]
         )
-        left = f"{told['at_rest']:,} that slide no 0.1 mm and {told['unknown']:,} without a slip left out"
-        caption = f"Measures of strength, {model} model, over {told['runs']:,} runs; {left}."
+        caption = f"Measures of strength, {model} model, over {told['runs']:,} runs; {left_out(told, subject.units)}."
         head = ("measure", "scatter", *(f"p, {TRAITS[name]}" for name in traits))
         blocks.append(Table(head, rows, caption, "l" + "r" * (len(head) - 1)))
     if not blocks:
@@ -191,26 +190,24 @@ def _tornado(model: str, told: dict[str, Any], units: str) -> Block:
         return paragraph(
             f"No motion gave every dam of the {model} model a slip: nothing can be held against each other."
         )
-    rows: list[tuple[Inline, ...]] = []
-    for each in told["fields"]:
-        ends = sorted(each["values"], key=lambda end: float(end["demand"]))
-        rows.append(
-            (Code(each["name"]), *(f"{_length(end['demand'], units)} ({end['value']})" for end in (ends[0], ends[-1])))
-        )
+    amounts = [
+        [(Amount(slip, zero="0"), f" ({value})") for slip, value in ends_of(each, units)] for each in told["fields"]
+    ]
+    # The case as it is, below the table, has its units.
+    *written, (base,) = in_one_unit([*amounts, (Amount(told["base"], zero="0"),)], units)
+    rows: tuple[tuple[Inline, ...], ...] = tuple(
+        (Code(each["name"]), *cells) for each, cells in zip(told["fields"], written, strict=True)
+    )
     left = f"; {told['left_out']:,} left out" if told["left_out"] else ""
     caption = (
         f"Mean residual slip, {model} model, over {told['motions']:,} motions at their strengths{left}; "
-        f"{_length(told['base'], units)} as the case is."
+        f"{base} as the case is."
     )
-    return Table(("field", "from", "to"), tuple(rows), caption, "lrr")
+    return Table(("field", "from", "to"), rows, caption, "lrr")
 
 
 def _within(value: float, interval: Sequence[float]) -> str:
     return f"{value:.2f} ({interval[0]:.2f} to {interval[1]:.2f})"
-
-
-def _length(value: float, units: str) -> str:
-    return length(value, units) if value else "0"
 
 
 def _p(line: dict[str, float] | None) -> str:
@@ -227,11 +224,16 @@ def _percent(share: float) -> str:
 
 def _named(asked: dict[str, Any]) -> str:
     period = asked.get("period")
-    name = str(asked["measure"])
-    name = name.upper() if name in ("pga", "pgv") else name
+    name = _NAMES.get(asked["measure"], str(asked["measure"]))
     return f"{name} at {period}" if period else name
 
 
-def _strength(value: float, measure: str) -> str:
-    unit = MEASURES[measure][0] if measure in MEASURES else "m/s^2"
-    return f"{digits(value / STANDARD_GRAVITY, 3)} g" if unit == "m/s^2" else f"{digits(value, 3)} {unit}"
+def _article(name: str) -> str:
+    return f"{'an' if name.startswith(('A', 'SA')) else 'a'} {name}"
+
+
+def _median(each: dict[str, Any], units: str) -> tuple[str, str]:
+    """Write the median strength of a curve, and what it lies within."""
+    scale, ends = strength_scale(each["measure"], units), each["median_interval"]
+    within = f" ({scaled(ends[0], scale)} to {scaled(ends[1], scale)})" if ends else ""
+    return scaled(each["median"], scale), within

@@ -14,7 +14,7 @@ from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.result.verdict import verdict
 from heeltoe.units.sentences import written
-from heeltoe.units.write import length
+from heeltoe.units.write import lengths
 from heeltoe.views.terminal.common import (
     label_grid,
     label_lines,
@@ -26,7 +26,7 @@ from heeltoe.views.terminal.decoupled import crack_lines
 from heeltoe.views.terminal.elastic import elastic_lines
 from heeltoe.views.terminal.sequence import print_sequence
 from heeltoe.views.words.motion import sampling
-from heeltoe.views.words.numbers import headline
+from heeltoe.views.words.numbers import Amount, in_one_unit
 from heeltoe.views.words.sequence import part_lines
 from heeltoe.views.words.spread import COLUMNS, spread_rows, spread_said
 from heeltoe.views.words.starts import of_what, starts
@@ -123,18 +123,19 @@ def _result_table(response: Response, units: str) -> Table:
     table.add_column("downstream", justify="right")
     table.add_column("upstream", justify="right")
 
-    def row(label: str, kind: str, downstream: float, upstream: float) -> None:
-        table.add_row(label, headline(downstream, kind, units), headline(upstream, kind, units))
-
     slip = response.residual_slip_m
     openings = (response.opening_upstream_m, response.opening_downstream_m)
-    row("residual slip", "slip", max(0.0, slip), max(0.0, -slip))
-    row("peak slip", "slip", response.peak_slip_downstream_m, -response.peak_slip_upstream_m)
-    row("largest rotation", "rotation", response.rocking_downstream_rad, response.rocking_upstream_rad)
-    if response.elastic:
-        row("largest opening, this face", "opening", *reversed(openings))
-    else:
-        row("opening it means, other face", "opening", *openings)
+    down, up = reversed(openings) if response.elastic else openings
+    opening = "largest opening, this face" if response.elastic else "opening it means, other face"
+    rows: tuple[tuple[str, str, float, float], ...] = (
+        ("residual slip", "slip", max(0.0, slip), max(0.0, -slip)),
+        ("peak slip", "slip", response.peak_slip_downstream_m, -response.peak_slip_upstream_m),
+        ("largest rotation", "rotation", response.rocking_downstream_rad, response.rocking_upstream_rad),
+        (opening, "opening", down, up),
+    )
+    cells = [(label, Amount(one, kind), Amount(other, kind)) for label, kind, one, other in rows]
+    for row in in_one_unit(cells, units):
+        table.add_row(*row)
     return table
 
 
@@ -172,8 +173,9 @@ def _chosen_lines(response: Response, units: str) -> list[tuple[str, str]]:
 
 
 def _slip_by_mode(response: Response, units: str) -> str:
-    parts = {name.replace("_", "-"): value for name, value in response.slip_by_mode_m.items()}
-    return ", ".join(f"{name} {length(value, units)}" for name, value in parts.items() if abs(value) >= 5e-6)
+    parts = {name.replace("_", "-"): value for name, value in response.slip_by_mode_m.items() if abs(value) >= 5e-6}
+    texts = lengths(list(parts.values()), units)
+    return ", ".join(f"{name} {text}" for name, text in zip(parts, texts, strict=True))
 
 
 def _strikes(response: Response, units: str) -> str:

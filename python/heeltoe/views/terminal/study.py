@@ -7,14 +7,12 @@ from typing import Any
 from rich.console import Console
 from rich.markup import escape
 
-from heeltoe.motion.intensity import MEASURES
 from heeltoe.study.opened import Opened
 from heeltoe.study.run import Outlook, Progress
-from heeltoe.units.parse import STANDARD_GRAVITY
-from heeltoe.units.write import length
 from heeltoe.views.terminal.common import print_title, print_warnings, quiet_table
 from heeltoe.views.terminal.study_answers import print_compared, print_hangs_on
-from heeltoe.views.words.studies import limit_of
+from heeltoe.views.words.numbers import Amount, Cell, in_one_unit
+from heeltoe.views.words.studies import limits_of, strength_scale
 
 
 def duration(seconds: float) -> str:
@@ -68,8 +66,9 @@ def print_study(found: Opened, console: Console, units: str = "si") -> None:
     table.add_column("", no_wrap=True)
     for each in found.summary:
         table.add_column(each["model"], justify="right", no_wrap=True)
-    for label, *cells in zip(*(_lines(each, units) for each in found.summary), strict=True):
-        table.add_row(label[0], *(text for _, text in (label, *cells)))
+    lines = zip(*map(_lines, found.summary), strict=True)
+    for cells in in_one_unit([(said[0][0], *(cell for _, cell in said)) for said in lines], units):
+        table.add_row(*cells)
     console.print(table)
     for each in found.summary:
         others = [f"{name} {count:,}" for name, count in each["outcomes"].items() if name != "ok"]
@@ -80,7 +79,7 @@ def print_study(found: Opened, console: Console, units: str = "si") -> None:
             console.print(f"[yellow]warning[/yellow]  {escape(said)}", highlight=False)
     if told["fragility"] is not None:
         _print_fragility(found.fragility, console, units)
-    print_compared(found, console)
+    print_compared(found, console, units)
     print_hangs_on(found, console, units)
     if found.told.get("seconds"):
         parts = ", ".join(f"{name} {_seconds(taken)}" for name, taken in found.told["seconds"].items())
@@ -97,10 +96,10 @@ def counted(count: int, what: str) -> str:
     return f"{count:,} {what}{'' if count == 1 else 's'}"
 
 
-def _lines(each: dict[str, Any], units: str) -> list[tuple[str, str]]:
+def _lines(each: dict[str, Any]) -> list[tuple[str, Cell]]:
     """Return what a summary says of one model, with labels."""
     lost = each["runs"] - sum(each["outcomes"].get(name, 0) for name in ("ok", "overturned"))
-    lines = [
+    lines: list[tuple[str, Cell]] = [
         ("runs", f"{each['runs']:,}"),
         ("without a result", f"{lost:,}"),
         ("that slide", f"{each['share_that_slides']:.1%}"),
@@ -108,8 +107,8 @@ def _lines(each: dict[str, Any], units: str) -> list[tuple[str, str]]:
     for name, label in (("residual_slip_m", "residual slip"), ("opening_upstream_m", "opening, upstream face")):
         values = each[name]
         for key, what in (("50%", "half stay below"), ("84%", "84 % stay below"), ("95%", "95 % stay below")):
-            lines.append((f"{label}: {what}", _length(values[key], units)))
-        lines.append((f"{label}: largest", _length(values["largest"], units)))
+            lines.append((f"{label}: {what}", Amount(values[key], zero="0")))
+        lines.append((f"{label}: largest", Amount(values["largest"], zero="0")))
     modes = ("sliding", "slide_rocking", "drifting")
     for name in modes:
         share = each["dominant_mode"].get(name)
@@ -117,40 +116,37 @@ def _lines(each: dict[str, Any], units: str) -> list[tuple[str, str]]:
     return lines
 
 
-def _length(value: float | None, units: str) -> str:
-    return "-" if value is None else length(value, units) if value else "0"
-
-
 def _print_fragility(curves: list[dict[str, Any]], console: Console, units: str) -> None:
     if not curves:
         return
     measure = curves[0]["measure"]
     models = list(dict.fromkeys(each["model"] for each in curves))
+    limits = limits_of([(each["limit"], each["value"]) for each in curves], units)
     for model in models:
         console.print()
         table = quiet_table()
         table.padding = (0, 2, 0, 0)
         exceeds = f"exceeds, {model}" if len(models) > 1 else "exceeds"
         for place, heading in enumerate((exceeds, f"median {measure}", "dispersion", "records", "other", "runs")):
-            table.add_column(heading, no_wrap=True, justify="left" if place < 3 else "right")
+            # Limits go into two lines, as there are, rather than any number is cut.
+            table.add_column(heading, no_wrap=place > 0, justify="left" if place < 3 else "right")
         mine = [each for each in curves if each["model"] == model]
         for each in mine:
             if each["median"] is not None:
-                table.add_row(*_fragility(each, units))
+                table.add_row(limits[each["limit"], each["value"]], *_fragility(each, units))
         if table.row_count:
             console.print(table)
         of = f"{model}, " if len(models) > 1 else ""
         for each in mine:
             if each["median"] is None:
-                what = limit_of(each["limit"], each["value"], units)
+                what = limits[each["limit"], each["value"]]
                 console.print(f"{of}{what}: {each['why']} ({each['exceeding']:,} of {each['runs']:,})", highlight=False)
     if all(each["median"] is None for each in curves):
         return
     said = [
         f"below each number what it lies within with {curves[0]['confidence']:.0%}, leaving out one event at a time"
     ]
-    unit = MEASURES[measure][0] if measure in MEASURES else "m/s^2"
-    said.append(f"medians in {'g' if unit == 'm/s^2' else unit}")
+    said.append(f"medians in {strength_scale(measure, units).unit}")
     said += ["* stronger or weaker than any motion here"] if not all(each["reached"] for each in curves) else []
     console.print("; ".join(said), style="dim", highlight=False)
     unknown = max(each["unknown"] for each in curves)
@@ -160,18 +156,17 @@ def _print_fragility(curves: list[dict[str, Any]], console: Console, units: str)
 
 def _fragility(each: dict[str, Any], units: str) -> tuple[str, ...]:
     """Return what is said of a curve."""
-    what = limit_of(each["limit"], each["value"], units)
     share = f"{each['exceeding'] / max(each['runs'], 1):.1%}"
-    median = _with(each["median"], each["median_interval"], each["measure"], "" if each["reached"] else " *")
+    factor = strength_scale(each["measure"], units).factor
+    median = _with(each["median"], each["median_interval"], factor, "" if each["reached"] else " *")
     dispersion = _with(each["dispersion"], each["dispersion_interval"])
-    return what, median, dispersion, _part(each["record"]), _part(each["other"]), share
+    return median, dispersion, _part(each["record"]), _part(each["other"]), share
 
 
-def _with(value: float, interval: tuple[float, float] | None, measure: str = "", mark: str = "") -> str:
+def _with(value: float, interval: tuple[float, float] | None, factor: float = 1.0, mark: str = "") -> str:
     """Write a number above what it lies within."""
-    scale = STANDARD_GRAVITY if measure in ("pga", "sa") else 1.0
-    ends = "" if interval is None else f"\n[dim]{interval[0] / scale:.2g} to {interval[1] / scale:.2g}[/]"
-    return f"{value / scale:.3g}{mark}{ends}"
+    ends = "" if interval is None else f"\n[dim]{factor * interval[0]:.2g} to {factor * interval[1]:.2g}[/]"
+    return f"{factor * value:.3g}{mark}{ends}"
 
 
 def _part(value: float | None) -> str:

@@ -8,12 +8,12 @@ from rich.console import Console
 from rich.markup import escape
 
 from heeltoe.study.opened import Opened
-from heeltoe.units.write import length
 from heeltoe.views.terminal.common import quiet_table
-from heeltoe.views.words.studies import TRAITS
+from heeltoe.views.words.numbers import Amount, Cell, in_one_unit
+from heeltoe.views.words.studies import TRAITS, ends_of, left_out
 
 
-def print_compared(found: Opened, console: Console) -> None:
+def print_compared(found: Opened, console: Console, units: str = "si") -> None:
     """Print how well each measure foretells the slip, the best first; nothing of a single motion."""
     if len({each["name"] for each in found.told["motions"]}) < 2:
         return
@@ -32,8 +32,7 @@ def print_compared(found: Opened, console: Console) -> None:
             cells = ["-" if line is None else f"{line['p']:.2f}" for line in lines]
             table.add_row(each["measure"], f"{each['efficiency']:.2f}", *cells)
         console.print(table)
-        left = f"{told['at_rest']:,} that slide no 0.1 mm and {told['unknown']:,} without a slip left out"
-        text = f"scatter of the logarithm of the slip about a line, over {told['runs']:,} runs; {left}"
+        text = f"scatter of the logarithm of the slip about a line, over {told['runs']:,} runs; {left_out(told, units)}"
         if traits:
             text += "; p: of what is left over hanging on something else of the events by chance"
         console.print(text, style="dim", highlight=False)
@@ -73,15 +72,16 @@ def _print_tornado(model: str, told: dict[str, Any], console: Console, units: st
     table.add_column(escape(f"slip at, {model}"), no_wrap=True)
     table.add_column("from", justify="right")
     table.add_column("to", justify="right")
+    rows: list[list[Cell]] = []
     for each in told["fields"]:
-        ends = sorted(each["values"], key=lambda end: float(end["demand"]))
-        table.add_row(
-            escape(each["name"]),
-            *(f"{_length(end['demand'], units)} [dim]({end['value']})[/]" for end in (ends[0], ends[-1])),
-        )
+        ends = [(Amount(slip, zero="0"), f" [dim]({escape(value)})[/]") for slip, value in ends_of(each, units)]
+        rows.append([escape(each["name"]), *ends])
+    # The case as it is, below the table, has its units.
+    *rows_said, (_, base) = in_one_unit([*rows, ["", Amount(told["base"], zero="0")]], units)
+    for cells in rows_said:
+        table.add_row(*cells)
     if told["base"] is not None:
         console.print(table)
-        base = _length(told["base"], units)
         note = f"residual slip, mean over {told['motions']:,} motions at their strengths; {base} as it is"
         console.print(note, style="dim", highlight=False)
     _print_left_out(told["left_out"], "motions in which a dam has no slip are left out", console)
@@ -95,7 +95,3 @@ def _print_left_out(count: int, what: str, console: Console) -> None:
 def _within(each: dict[str, Any], kind: str) -> str:
     low, high = each[f"{kind}_interval"]
     return f"{each[kind]:.2f} [dim]({low:.2f} to {high:.2f})[/]"
-
-
-def _length(value: float, units: str) -> str:
-    return length(value, units) if value else "0"

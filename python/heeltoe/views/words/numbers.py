@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 from heeltoe.units.systems import FOOT, POUND, unit_system
-from heeltoe.units.write import NOTHING, angle, digits, length
+from heeltoe.units.write import NOTHING, angle, digits, length, one_unit
 
 # Endings of names, the longest first, and what they mean.
 _ENDINGS = {
@@ -28,8 +28,6 @@ _ENDINGS = {
 }
 # Less than this [Pa] is what rounding leaves of no stress.
 _NO_PRESSURE = 1e-3
-# Digits behind the first of the largest number of a table.
-_ALIKE = 3
 
 
 @dataclass(frozen=True)
@@ -55,14 +53,6 @@ class Value:
     text: str
     quantity: str = ""
     shown: float = 0.0
-
-
-def _to(number: float, step: float) -> str:
-    """Write a number to a step, or where it is small to its own first three digits, up to a hundredth of the step."""
-    if not number:
-        return "0"
-    own = max(10.0 ** (math.floor(math.log10(abs(number))) - 2), 1e-2 * step)
-    return f"{number:.{max(0, round(-math.log10(min(step, own))))}f}"
 
 
 class Numbers:
@@ -112,11 +102,9 @@ class Numbers:
 
     def alike(self, values: Sequence[Value]) -> list[Value]:
         """Return numbers of one quantity in one unit, that of the largest, where they were written in several."""
-        quantity = values[0].quantity
-        most = max(abs(each.number) for each in values)
-        scale = self.units.scale(quantity, most)
-        step = 10.0 ** (math.floor(math.log10(scale(most))) - _ALIKE) if most else 0.0
-        return [replace(each, text=f"{_to(scale(each.shown), step)} {scale.unit}") for each in values]
+        texts, shown = [each.text for each in values], [each.shown for each in values]
+        written = one_unit(texts, shown, values[0].quantity, self.units.name)
+        return [replace(each, text=text) for each, text in zip(values, written, strict=True)]
 
     def text(self, number: float, quantity: str) -> str:
         """Write a number in SI as people read it, in the report's units."""
@@ -159,8 +147,52 @@ def kind(key: str) -> str:
     return next((meaning for ending, meaning in _ENDINGS.items() if last.endswith(ending)), "number")
 
 
-def headline(value: float | None, kind: str, units: str) -> str:
-    """Write a headline number; a dash where there is none, or nothing happens."""
-    if not value or not math.isfinite(value):
-        return "-"
-    return angle(value) if kind == "rotation" else length(value, units)
+@dataclass(frozen=True)
+class Amount:
+    """A number of a table whose unit hangs on the others there.
+
+    Attributes
+    ----------
+    value
+        In SI; None where there is none.
+    kind
+        ``"slip"``, ``"opening"`` or ``"rotation"``.
+    zero
+        What stands for nothing.
+    """
+
+    value: float | None
+    kind: str = "slip"
+    zero: str = "-"
+
+    @property
+    def quantity(self) -> str:
+        """What it is a number of, as :meth:`heeltoe.units.systems.Units.scale` takes it."""
+        return "rotation" if self.kind == "rotation" else "displacement"
+
+    def text(self, units: str) -> str:
+        """Write it by itself."""
+        assert self.value is not None
+        return angle(self.value) if self.kind == "rotation" else length(self.value, units)
+
+
+#: What stands in a cell: words, a number, or several of these one behind the other.
+Cell = str | Amount | tuple[str | Amount, ...]
+
+
+def in_one_unit(rows: Iterable[Sequence[Cell]], units: str) -> list[list[str]]:
+    """Write the cells of one table, each quantity in one unit; a dash where a number is missing or endless."""
+    table = [[cell if isinstance(cell, tuple) else (cell,) for cell in row] for row in rows]
+    amounts: dict[str, dict[Amount, str]] = {}
+    for part in (part for row in table for cell in row for part in cell):
+        if isinstance(part, Amount) and part.value and math.isfinite(part.value):
+            amounts.setdefault(part.quantity, {})[part] = part.text(units)
+    said: dict[Amount, str] = {}
+    for quantity, found in amounts.items():
+        values = [part.value or 0.0 for part in found]
+        said |= zip(found, one_unit(list(found.values()), values, quantity, units), strict=True)
+
+    def text(part: str | Amount) -> str:
+        return part if isinstance(part, str) else said.get(part, "-" if part.value is None else part.zero)
+
+    return [["".join(map(text, cell)) for cell in row] for row in table]

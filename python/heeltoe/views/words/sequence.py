@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.plain import plain
 from heeltoe.result.response import Response
-from heeltoe.views.words.numbers import headline
+from heeltoe.views.words.numbers import Amount, Cell, in_one_unit
 
 COLUMNS = ("motion", "peak", "slip in it", "slip after it", "opens upstream", "at rest", "static checks")
 
@@ -23,15 +23,19 @@ def part_lines(motion: GroundMotion, gravity: float) -> Iterator[str]:
         )
 
 
-def sequence_rows(response: Response, units: str) -> Iterator[tuple[str, ...]]:
-    """Walk the rows of :data:`COLUMNS`; slips are positive downstream."""
+def sequence_rows(response: Response, units: str) -> list[list[str]]:
+    """Return the rows of :data:`COLUMNS`; slips are positive downstream."""
+    rows: list[tuple[Cell, ...]] = []
     for number, each in enumerate(response.sequence, 1):
-        yield (
-            f"{number} ({each.begins_s:.4g} s)",
-            f"{each.pga_g:.3g} g",
-            headline(each.slip_m, "slip", units),
-            headline(each.residual_slip_m, "slip", units),
-            headline(each.opening_upstream_m, "opening", units),
-            "yes" if each.at_rest else "no",
-            "met" if each.static["ok"] else f"{len(each.static['missed'])} not met",
+        rows.append(
+            (
+                f"{number} ({each.begins_s:.4g} s)",
+                f"{each.pga_g:.3g} g",
+                Amount(each.slip_m),
+                Amount(each.residual_slip_m),
+                Amount(each.opening_upstream_m, "opening"),
+                "yes" if each.at_rest else "no",
+                "met" if each.static["ok"] else f"{len(each.static['missed'])} not met",
+            )
         )
+    return in_one_unit(rows, units)

@@ -5,17 +5,17 @@ from __future__ import annotations
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.units.sentences import written
-from heeltoe.views.words.numbers import headline
+from heeltoe.views.words.numbers import Amount, Cell, in_one_unit
 
 #: What stands above the numbers of a row.
 COLUMNS = ("this run", "mean", "std. dev.", "least", "most")
 
 
 def spread_rows(response: Response, units: str) -> list[list[str]]:
-    """Return label, value and spread of all that is not next to nothing."""
+    """Return label, value and spread of all that is not next to nothing, each quantity in one unit."""
     spread = response.spread
     assert spread is not None
-    rows = []
+    rows: list[list[Cell]] = []
     for each in HEADLINES:
         found = spread[each.key]
         if found is None:
@@ -25,8 +25,8 @@ def spread_rows(response: Response, units: str) -> list[list[str]]:
             continue
         if each.way < 0:
             values = [-values[0], -values[1], values[2], -values[4], -values[3]]
-        rows.append([each.label, *(headline(value, each.kind, units) for value in values)])
-    return rows
+        rows.append([each.label, *(Amount(value, each.kind) for value in values)])
+    return in_one_unit(rows, units)
 
 
 def spread_said(response: Response, units: str) -> str:

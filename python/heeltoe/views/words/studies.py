@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
-from heeltoe.units.write import length
+from collections.abc import Sequence
+from typing import Any
+
+from heeltoe.motion.intensity import MEASURES
+from heeltoe.result.contract import JOINT_METER_M
+from heeltoe.units.parse import STANDARD_GRAVITY
+from heeltoe.units.systems import Scale, unit_system
+from heeltoe.units.write import length, lengths
+from heeltoe.views.words.fields import shown_each
 
 KINDS = {"residual_slip": "residual slip", "peak_slip": "peak slip", "opening": "opening", "rotation": "rotation"}
 #: As headings.
@@ -18,3 +26,48 @@ def limit_of(limit: str, value: float, units: str = "si", of: str = "") -> str:
     """Write a limit with its amount; `of` stands between them."""
     amount = f"{value:.3g} rad" if limit == "rotation" else length(value, units)
     return f"{KINDS[limit]}{of} {amount}"
+
+
+def limits_of(limits: Sequence[tuple[str, float]], units: str = "si") -> dict[tuple[str, float], str]:
+    """Write the limits of one table, lengths in one unit."""
+    said = {each: limit_of(*each, units) for each in limits}
+    of_length = [each for each in said if each[0] != "rotation"]
+    amounts = lengths([value for _, value in of_length], units)
+    for each, amount in zip(of_length, amounts, strict=True):
+        number, unit = amount.split()
+        said[each] = f"{KINDS[each[0]]} {number.rstrip('0').rstrip('.') if '.' in number else number} {unit}"
+    return said
+
+
+def left_out(told: dict[str, Any], units: str) -> str:
+    """Say how many runs measures of strength are not compared by."""
+    read_to = length(JOINT_METER_M, units)
+    return f"{told['at_rest']:,} that slide no {read_to} and {told['unknown']:,} without a slip left out"
+
+
+def strength_scale(measure: str, units: str = "si") -> Scale:
+    """Return the unit in which people read how strong motions are: accelerations in g everywhere."""
+    unit = MEASURES[measure][0] if measure in MEASURES else "m/s^2"
+    if unit == "m/s^2":
+        return Scale(1.0 / STANDARD_GRAVITY, "g")
+    return unit_system(units).scale({"m/s": "velocity", "m": "length"}[unit])
+
+
+def values_said(given: Any, units: str = "si", path: str = "") -> str:
+    """Write a list of values of a field, or a distribution, as people read it."""
+    name = path.rpartition(".")[2]
+    if isinstance(given, list):
+        return ", ".join(shown_each(given, units, name))
+    there = {key.rstrip("_"): each for key, each in given.items() if each is not None}
+    told = dict(zip(there, shown_each(list(there.values()), units, name), strict=True))
+    kind = told.pop("distribution")
+    ends = [f"from {told.pop('from')} to {told.pop('to')}"] if "from" in told else []
+    return ", ".join([kind, *ends, *(f"{name} {each}" for name, each in told.items())])
+
+
+def ends_of(field: dict[str, Any], units: str) -> list[tuple[float, str]]:
+    """Return the least and the largest slip [m] that values of a field make, and those values as people read them."""
+    ends = sorted(field["values"], key=lambda end: float(end["demand"]))
+    least, *_, most = [ends[0], *ends]
+    texts = shown_each([str(each["value"]) for each in (least, most)], units, field["name"].rpartition(".")[2])
+    return [(float(each["demand"]), text) for each, text in zip((least, most), texts, strict=True)]

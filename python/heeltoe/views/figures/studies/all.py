@@ -17,7 +17,7 @@ def study_figures(found: Opened, units: str = "si") -> dict[str, Figure]:
         "bands": bands_figure(found, units),
         "fragility": fragility_figure(found, units) if asked else None,
         "slips": slips_figure(found, units),
-        "modes": modes_figure(found),
+        "modes": modes_figure(found, units),
         "sobol": sobol_figure(found) if method == "sensitivity" else None,
         "tornado": tornado_figure(found, units) if method == "one at a time" else None,
     }

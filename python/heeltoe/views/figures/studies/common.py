@@ -7,11 +7,10 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from heeltoe.motion.intensity import MEASURES
 from heeltoe.study.opened import Opened
-from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.systems import INCH
 from heeltoe.views.figures.style import heading
+from heeltoe.views.words.studies import strength_scale
 
 #: Okabe and Ito's, with dashes beside them, for models, limits and whatever else is told apart.
 LINES = (("#0072B2", "-"), ("#D55E00", "--"), ("#009E73", "-."), ("#CC79A7", ":"), ("#E69F00", "-"), ("#000000", "--"))
@@ -38,23 +37,21 @@ class Strength:
     label: str
 
 
-def strength_of(found: Opened) -> Strength:
+def strength_of(found: Opened, units: str = "si") -> Strength:
     """Return the measure in which the study counts."""
     study = found.told["study"]
     asked = study["fragility"] or (study["motions"] or {}).get("scale") or {}
     measure = asked.get("measure", "pga")
-    return measured("pga" if measure == "factor" else measure, asked.get("period"))
+    return measured("pga" if measure == "factor" else measure, asked.get("period"), units)
 
 
-def measured(measure: str, period: Any) -> Strength:
+def measured(measure: str, period: Any, units: str = "si") -> Strength:
     """Return a measure as people read it."""
-    unit = MEASURES[measure][0] if measure in MEASURES else "m/s^2"
     name = _WORDS.get(measure, measure)
     if measure == "sa":
         name = f"spectral acceleration at {float(str(period).split()[0]):g} s"
-    if unit == "m/s^2":
-        return Strength(measure, period, STANDARD_GRAVITY, f"{name} [g]")
-    return Strength(measure, period, 1.0, f"{name} [{unit}]")
+    scale = strength_scale(measure, units)
+    return Strength(measure, period, 1.0 / scale.factor, f"{name} [{scale.unit}]")
 
 
 def slip_scale(units: str) -> tuple[float, str]:

@@ -17,7 +17,7 @@ from heeltoe.study.walk import SHAKEN
 from heeltoe.units.write import length
 from heeltoe.views.figures.studies.common import LINES, Strength, farthest, headed, measured, slip_scale, strength_of
 from heeltoe.views.figures.style import WIDTH, styled
-from heeltoe.views.words.studies import limit_of
+from heeltoe.views.words.studies import limits_of
 
 #: More curves than these are a cloud: evenly chosen ones stand for them.
 _CURVES = 200
@@ -28,7 +28,7 @@ _SLIP = "residual_slip_m"
 def bands_figure(found: Opened, units: str = "si") -> Figure | None:
     """Draw what 16, 50 and 84 % of the runs stay below, by the strength of the motion; of an incremental dynamic
     analysis each motion beside. None where no strength varies or nothing slides."""
-    strength, largest = strength_of(found), farthest(found)
+    strength, largest = strength_of(found, units), farthest(found)
     by_model = found.bands(_SLIP, strength.measure, strength.period)
     if not largest > JOINT_METER_M or max(len(each["strength"]) for each in by_model.values()) < 2:
         return None
@@ -109,9 +109,10 @@ def fragility_figure(found: Opened, units: str = "si") -> Figure | None:
     fitted = [each for each in found.curves if each[1].median is not None]
     if not fitted:
         return None
-    strength = measured(asked["measure"], asked["period"])
+    strength = measured(asked["measure"], asked["period"], units)
     models = list(dict.fromkeys(name for name, _ in fitted))
     limits = list(dict.fromkeys((limit, value) for _, limit, value in found.counted))
+    said = limits_of(limits, units)
     figure = Figure(figsize=(WIDTH, 4.4), layout="constrained")
     panels = figure.subplots(1, len(models), sharex=True, sharey=True, squeeze=False)[0]
     strongest = max(tally.highest for tally in found.counted.values()) / strength.scale
@@ -121,7 +122,7 @@ def fragility_figure(found: Opened, units: str = "si") -> Figure | None:
             look = LINES[limits.index((curve.limit, curve.value)) % len(LINES)]
             middle, shares = observed(found.counted[name, curve.limit, curve.value])
             points = (np.array(middle) / strength.scale, np.array(shares))
-            label = limit_of(curve.limit, curve.value, units)
+            label = said[curve.limit, curve.value]
             _curve(axes, curve, (x, strength.scale), points, (*look, label))
         axes.set_title(f"{name} model", fontsize=9, loc="left")
         axes.set_xlabel(strength.label)

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from heeltoe.result.contract import JOINT_METER_M
 from heeltoe.study.answers import MODES, farther, modes
 from heeltoe.study.opened import Opened
-from heeltoe.units.write import length
+from heeltoe.units.write import length, number
 from heeltoe.views.figures.studies.common import LINES, farthest, headed, slip_scale, strength_of
 from heeltoe.views.figures.style import MODE_COLOURS, MODE_HATCHES, WIDTH, styled
 
@@ -48,13 +48,13 @@ def slips_figure(found: Opened, units: str = "si") -> Figure | None:
 
 
 @styled
-def modes_figure(found: Opened) -> Figure | None:
+def modes_figure(found: Opened, units: str = "si") -> Figure | None:
     """Draw which mode of motion makes most of the slip, in shares of the runs that slide at each strength; None where
     nothing slides."""
     names = [each["model"] for each in found.summary if each["dominant_mode"]]
     if not names:
         return None
-    strength = strength_of(found)
+    strength = strength_of(found, units)
     middle, counts = modes(found.walk, found.walk.measure(strength.measure, strength.period))
     occurring = counts.any(axis=(0, 1))
     figure = Figure(figsize=(WIDTH, 3.8), layout="constrained")
@@ -64,14 +64,14 @@ def modes_figure(found: Opened) -> Figure | None:
         total = runs.sum(axis=1)
         there = np.flatnonzero(total)
         bottom = np.zeros(there.size)
-        for number in np.flatnonzero(occurring).tolist():
-            mode = MODES[number]
-            share = runs[there, number] / total[there]
+        for which in np.flatnonzero(occurring).tolist():
+            mode = MODES[which]
+            share = runs[there, which] / total[there]
             kind = _KINDS[mode]
             look = {"color": MODE_COLOURS[kind], "hatch": MODE_HATCHES[kind], "edgecolor": "white"}
             axes.bar(np.arange(there.size), share, 0.85, bottom, label=_LABELS[mode], **look)
             bottom += share
-        axes.set_xticks(np.arange(there.size), [f"{middle[k] / strength.scale:.2g}" for k in there], fontsize=8)
+        axes.set_xticks(np.arange(there.size), [number(middle[k] / strength.scale, 2) for k in there], fontsize=8)
         turned = 45 if total.max() >= _LONG else 0
         for at, k in enumerate(there.tolist()):
             axes.text(at, 1.01, f"{total[k]:,}", ha="center", va="bottom", fontsize=7, rotation=turned)

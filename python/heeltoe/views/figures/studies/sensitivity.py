@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from heeltoe.study.opened import Opened
 from heeltoe.views.figures.studies.common import headed, slip_scale
 from heeltoe.views.figures.style import COLOURS, WIDTH, styled
+from heeltoe.views.words.studies import ends_of
 
 _HIGH, _LOW = COLOURS["rotation"], COLOURS["slip"]
 
@@ -52,9 +53,8 @@ def tornado_figure(found: Opened, units: str = "si") -> Figure | None:
     for axes, (name, told) in zip(panels, by_model.items(), strict=True):
         fields = told["fields"][::-1]
         for row, each in enumerate(fields):
-            _bar(
-                axes, row, [(str(end["value"]), scale * end["demand"]) for end in each["values"]], scale * told["base"]
-            )
+            ends = [(text, scale * slip) for slip, text in ends_of(each, units)]
+            _bar(axes, row, ends, scale * told["base"])
         axes.axvline(scale * told["base"], color="#444444", linewidth=0.8)
         axes.margins(x=0.2)
         _rows(axes, [each["name"] for each in fields])
@@ -74,9 +74,8 @@ def _panels(by_model: Mapping[str, Any], rows: int) -> tuple[Figure, list[Axes]]
     return figure, list(figure.subplots(len(by_model), 1, sharex=True, squeeze=False)[:, 0])
 
 
-def _bar(axes: Axes, row: int, values: list[tuple[str, float]], base: float) -> None:
+def _bar(axes: Axes, row: int, ends: list[tuple[str, float]], base: float) -> None:
     """Draw how far the slip goes from that of the case, to either side, and at which values."""
-    ends = sorted(values, key=lambda each: each[1])
     for (text, at), colour, side in ((ends[0], _LOW, "right"), (ends[-1], _HIGH, "left")):
         outward = at >= base if side == "left" else at <= base
         if not outward:
