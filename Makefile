@@ -12,7 +12,7 @@ export PYO3_PYTHON := $(abspath $(BIN)/python)
 WASM := wasm32-unknown-unknown
 ELAPSED = echo "$@: done in $$(( $$(date +%s) - $$(cat $(VENV)/.started) )) s"
 
-.PHONY: demo test test-slow test-pythons audit browser lint format validate bench clean help check
+.PHONY: demo test test-slow test-pythons audit browser lint format validate bench wheel try-wheel clean help check
 .DEFAULT_GOAL := help
 
 help:
@@ -25,6 +25,8 @@ help:
 	@echo "make lint       formatting, lints, types and directions of imports"
 	@echo "make validate   the reference cases as tables"
 	@echo "make bench      ours against named peers; writes benchmarks/results.md (PART=crack_dam for one part)"
+	@echo "make wheel      a wheel that needs no compiler, and the sdist, in out/dist; needs a network"
+	@echo "make try-wheel  install it into an empty environment and do with it what a user does"
 	@echo "make clean      remove what was built"
 
 check:
@@ -93,6 +95,20 @@ validate: check $(VENV)/.built
 bench: check $(VENV)/.built
 	$(BIN)/pip install --quiet --disable-pip-version-check -r requirements-bench.lock
 	$(BIN)/python benchmarks/run.py $(PART)
+	@$(ELAPSED)
+
+# Linked by zig against glibc 2.17 (2012), so that it runs on every Linux of today, whatever this machine has.
+ZIG := ziglang==0.17.1
+OLD_LINUX := $(if $(filter Linux,$(shell uname)),--zig --compatibility manylinux2014)
+
+wheel: check $(VENV)/.built
+	$(BIN)/pip install --quiet --disable-pip-version-check $(ZIG)
+	rm -rf out/dist
+	. $(BIN)/activate && maturin build --release --locked --sdist $(OLD_LINUX) --out out/dist
+	@$(ELAPSED)
+
+try-wheel: wheel
+	$(PYTHON) .ci/try_wheel.py out/dist
 	@$(ELAPSED)
 
 format:

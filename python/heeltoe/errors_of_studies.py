@@ -13,7 +13,7 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
     ),
     "vary-option": ("goes with one run, not with a table of runs", "leave it out, or --vary"),
     # study files and their directories
-    "study-file-missing": ("there is no such file", "give the path of a study file; examples/ has some"),
+    "study-file-missing": ("there is no such file", "give the path of a study file; `heeltoe examples` writes some"),
     "distribution-incomplete": ("is required and not there", "the distribution {distribution} needs it"),
     "distribution-foreign": ("is no number of the distribution {distribution}", "that has {fields}"),
     "distribution-order": ("{value} is not above {lowest}", "give the lower number first"),

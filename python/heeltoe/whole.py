@@ -105,8 +105,9 @@ def written(path: str | Path, field: str = "file") -> Iterator[Path]:
             yield fresh
             if target.exists():
                 before = target.stat()
-                with suppress(OSError):  # only the owner's own administrator may give a file away
-                    os.chown(fresh, before.st_uid, before.st_gid)
+                if sys.platform != "win32":
+                    with suppress(OSError):  # only the owner's own administrator may give a file away
+                        os.chown(fresh, before.st_uid, before.st_gid)
                 fresh.chmod(stat.S_IMODE(before.st_mode))
             fresh.replace(target)
 

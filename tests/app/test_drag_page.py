@@ -37,7 +37,7 @@ def test_after_a_drag_the_plot_is_the_answer(page, tmp_path):
     )
     page.wait_for_timeout(500)
     time, slip = map(np.array, page.evaluate(_PLOTTED))
-    case = read_case(example_path("typical-base", tmp_path)).with_({"motion.pga": "0.4 g"})
+    case = read_case(example_path("typical-base")).with_({"motion.pga": "0.4 g"})
     found = live(case, "rigid", earthquake(case)).histories
     expected = 1000.0 * np.interp(time, found["time_s"], found["slip_m"])
     assert abs(slip[-1]) > 1.0

@@ -268,4 +268,4 @@ def test_uploads_and_examples_are_found_by_their_names_alone(tmp_path):
     assert upload_path(session, "upload-1") == tmp_path / "upload-1"
     for name in ("", ".", "upload-*", "./upload-1", "../x/upload-1", "upload-1/", str(tmp_path / "upload-1")):
         assert upload_path(session, name) is None
-        assert example_path(name, tmp_path) is None
+        assert example_path(name) is None

@@ -29,6 +29,7 @@ USUAL: dict[str, list[str | Path]] = {
     "study": ["study.json", "--dry-run"],
     "validate": [],
     "new": [],
+    "examples": [],
     "app": ["--no-browser", "--public"],
     "explain": ["crack.friction"],
 }

@@ -70,7 +70,7 @@ def test_a_line_can_be_typed(line, place, request):
         # It serves until it is ended, which tests/app sees.
         COMMANDS[name].make_context(name, arguments)
         return
-    if name == "new":
+    if name in ("new", "examples"):
         arguments = ["another"]
     if "decoupled" in arguments:
         arguments = [argument.replace("mydam", "high") for argument in arguments]

@@ -41,7 +41,7 @@ def _open(session: Session, name: str) -> None:
     from heeltoe.app.case.draft import start
     from heeltoe.case.read import read_fields
 
-    path = example_path(name, session.folder)
+    path = example_path(name)
     if path is None:
         raise BadRequestError(f"{name} is no example; the first one is {FIRST}")
     start(session, read_fields(path))

@@ -21,7 +21,7 @@ from heeltoe.cli.common import BAD_INPUT, BUG, INTERRUPTED, LONGEST_PATH, NO_RES
 from heeltoe.cli.streams import console, streams
 from heeltoe.errors import InputError
 from heeltoe.plain import plain
-from heeltoe.whole import write_text
+from heeltoe.whole import check_directory, write_text, write_whole
 
 _OBJECTS_BEFORE_COLLECTING = 200_000
 # What a panic of the kernel is raised as; named, so that nothing is loaded for it.
@@ -113,6 +113,21 @@ def new(
     print(f"wrote {shown}; run it with: heeltoe run {shown}")
 
 
+def examples(
+    directory: Annotated[
+        Path, typer.Argument(metavar="DIR", show_default=False, help="A new directory; examples if not given.")
+    ] = Path("examples"),
+) -> None:
+    """Write the examples, cases and studies, to start from."""
+    from heeltoe.case.examples import copy_examples
+
+    if os.path.lexists(directory):
+        raise InputError("file-exists", str(directory))
+    check_directory(directory, "DIR")
+    written = write_whole(copy_examples, directory, (), field="DIR")
+    print(f"wrote {len(written)} cases and studies into {plain(directory, LONGEST_PATH)}")
+
+
 # In the order of the help.
 app.command(cls=run_command.Run)(run_command.run)
 for command in (
@@ -126,5 +141,6 @@ for command in (
     explain_command.explain,
     validate,
     new,
+    examples,
 ):
     app.command()(command)

@@ -1,0 +1,44 @@
+"""Say whether all that names the version names the same one; with a tag, whether that does, too.
+
+    python .ci/version.py [v1.2.3]
+
+The version stands in Cargo.toml. The lock file and CITATION.cff repeat it, and the changelog has a heading for it.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).parents[1]
+
+
+def problems(root: Path, tag: str | None = None) -> list[str]:
+    """Return what does not name the version of Cargo.toml, a sentence each."""
+    texts = {
+        name: (root / name).read_text(encoding="utf-8")
+        for name in ("Cargo.toml", "Cargo.lock", "CITATION.cff", "CHANGELOG.md")
+    }
+    version = str(tomllib.loads(texts["Cargo.toml"])["workspace"]["package"]["version"])
+    found = []
+    ours = [each for each in tomllib.loads(texts["Cargo.lock"])["package"] if each["name"].startswith("heeltoe")]
+    if {each["version"] for each in ours} != {version}:
+        found.append(f"Cargo.lock has another version of ours than {version}: run cargo update --workspace")
+    if not re.search(rf"^version: {re.escape(version)}$", texts["CITATION.cff"], re.MULTILINE):
+        found.append(f"CITATION.cff has another version than {version}")
+    heading = re.search(rf"^## {re.escape(version)} \((.+)\)$", texts["CHANGELOG.md"], re.MULTILINE)
+    if heading is None:
+        found.append(f"CHANGELOG.md has no heading for {version}")
+    if tag is not None and tag != f"v{version}":
+        found.append(f"the tag is {tag}, the version {version}")
+    if tag is not None and heading is not None:
+        date = re.search(r"^date-released: (\S+)$", texts["CITATION.cff"], re.MULTILINE)
+        if date is None or heading[1] != date[1]:
+            found.append(f"CHANGELOG.md dates {version} {heading[1]}, CITATION.cff {date[1] if date else 'nothing'}")
+    return found
+
+
+if __name__ == "__main__":
+    sys.exit("\n".join(problems(ROOT, *sys.argv[1:2])) or 0)
