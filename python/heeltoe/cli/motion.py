@@ -43,8 +43,8 @@ def motion(
     """Say what is in a record, or in the components of one: peaks, measures, origin, warnings; and draw it.
 
     PEER AT2, COSMOS and CSMIP V2, USGS SMC, K-NET, ESM and ITACA ASC, AFAD, GeoNet V1A and V2A, USC V2, CSMNC, UNAM,
-    BHRC and RENADIC V1, columns with or without a header, miniSEED and SAC (heeltoe[seismology]), all of these in zip
-    or gz.
+    BHRC and RENADIC V1, columns with or without a header, miniSEED and SAC (heeltoe[seismology]), all of these in
+    zip, tar, gz or bz2.
     """
     from heeltoe.motion.records.catalog import available
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import bz2
 import gzip
 import io
 import random
+import tarfile
 import zipfile
 
 import numpy as np
@@ -25,6 +27,27 @@ def zipped(files: dict[str, bytes], method: int = zipfile.ZIP_DEFLATED) -> bytes
         for name, content in files.items():
             packed.writestr(name, content)
     return whole.getvalue()
+
+
+def tarred(files: dict[str, bytes], *, links: dict[str, str] | None = None, kind: int = tarfile.PAX_FORMAT) -> bytes:
+    whole = io.BytesIO()
+    with tarfile.open(fileobj=whole, mode="w", format=kind) as packed:
+        for name, target in (links or {}).items():
+            link = tarfile.TarInfo(name)
+            link.type, link.linkname = tarfile.SYMTYPE, target
+            packed.addfile(link)
+        for name, content in files.items():
+            member = tarfile.TarInfo(name)
+            member.size = len(content)
+            packed.addfile(member, io.BytesIO(content))
+    return whole.getvalue()
+
+
+def with_checksum(header: bytearray) -> bytes:
+    """A header of a tar whose sum is right again."""
+    header[148:156] = b" " * 8
+    header[148:156] = b"%06o\0 " % sum(header)
+    return bytes(header)
 
 
 def miniseed(counts: np.ndarray = COUNTS, *, gap: bool = False) -> bytes:
@@ -102,7 +125,8 @@ def test_archives_that_lie_or_never_end(monkeypatch):
     monkeypatch.setattr(archive, "LARGEST_BYTES", 1_000_000)
     assert refused(bomb).code == "record-large"
     assert refused(gzip.compress(b"0\n" * 1_000_000), "a.gz").code == "record-large"
-    assert "it holds 300 files" in str(refused(zipped({f"{k}.txt": b"" for k in range(300)})))
+    for many in (zipped, tarred):
+        assert "it holds more than 200 files" in str(refused(many({f"{k}.txt": b"" for k in range(300)})))
     lying = bytearray(zipped({"a.txt": b"0 0.1\n" * 400_000}))
     at = lying.index(b"PK\x01\x02") + 24
     lying[at : at + 4] = (100).to_bytes(4, "little")
@@ -123,6 +147,64 @@ def test_archives_that_cannot_be_read():
     unknown = bytearray(good)
     unknown[8], unknown[good.index(b"PK\x01\x02") + 10] = 99, 99
     assert "compression" in str(refused(bytes(unknown)))
+
+
+# tar and bzip2
+
+WAYS = {"": bytes, ".gz": gzip.compress, ".bz2": bz2.compress}
+
+
+@pytest.mark.parametrize("ending", WAYS)
+@pytest.mark.parametrize("kind", [tarfile.USTAR_FORMAT, tarfile.GNU_FORMAT, tarfile.PAX_FORMAT])
+def test_a_tar_is_read_as_a_zip_is(ending, kind, tmp_path):
+    plain = read_text(esm().encode(), "a.asc")
+    # A name of more than its header has room for, and one that leads elsewhere.
+    long = f"../../{'d' * 90}/{'e' * 60}/a.asc"
+    data = WAYS[ending](tarred({long: esm().encode(), "readme.txt": b"read me\n"}, kind=kind))
+    (tmp_path / f"a.tar{ending}").write_bytes(data)
+    found = read_record(tmp_path / f"a.tar{ending}")
+    assert found.acceleration.tobytes() == plain.acceleration.tobytes()
+    assert [each.name for each in tmp_path.iterdir()] == [f"a.tar{ending}"]
+
+
+def test_what_stands_behind_bzip2_is_read():
+    plain = read_text(esm().encode(), "a.asc").acceleration.tobytes()
+    text = esm().encode()
+    for data in (bz2.compress(text), bz2.compress(text[:900]) + bz2.compress(text[900:])):
+        assert read_text(data, "a.asc.bz2").acceleration.tobytes() == plain
+    assert refused(bz2.compress(text)[:-20], "a.bz2").code == "record-archive"
+    assert refused(bz2.compress(b""), "a.bz2").code == "record-empty"
+
+
+def test_tars_that_lie_lead_elsewhere_or_never_end(monkeypatch, tmp_path):
+    secret = tmp_path / "secret.asc"
+    secret.write_text(esm())
+    linked = tarred({}, links={"a.asc": str(secret)})
+    assert refused(linked, "a.tar").code == "record-archive-empty"
+    good = tarred({"a.asc": esm().encode()})
+    assert refused(good[:2000], "a.tar").code == "record-archive"
+    assert "it stands in another one" in str(refused(tarred({"b.tar": good}), "a.tar"))
+    # The second header is torn: what stands behind it is not left out in silence.
+    two = bytearray(tarred({"a.asc": esm().encode(), "b.asc": esm().encode()}, kind=tarfile.USTAR_FORMAT))
+    two[two.index(b"b.asc")] ^= 1
+    assert "it is damaged" in str(refused(bytes(two), "a.tar"))
+    # A size below zero leads back to where it came from.
+    header = bytearray(good[:512])
+    header[124:136] = b"\xff" * 10 + b"\xfa\x00"
+    assert refused(with_checksum(header) + good[512:], "a.tar").code == "record-archive"
+    header[124:136] = b"\x80" + b"\x7f" * 11
+    assert refused(with_checksum(header) + good[512:], "a.tar").code == "record-archive"
+    monkeypatch.setattr(archive, "LARGEST_BYTES", 1_000_000)
+    bomb = tarred({f"{k}.txt": b"0\n" * 100_000 for k in range(6)})
+    for compress in (gzip.compress, bz2.compress):
+        assert len(compress(bomb)) < 20_000
+        assert refused(compress(bomb), "a.tar.gz").code == "record-large"
+    # A header says a gigabyte, of which nothing is there; one of holes is all zeros.
+    header = bytearray(tarred({"a.asc": b""}, kind=tarfile.GNU_FORMAT)[:512])
+    header[124:136] = b"%011o\0" % 2**30
+    assert refused(with_checksum(header) + bytes(1024), "a.tar").code in ("record-archive", "record-large")
+    header[156:157], header[483:495] = b"S", b"%011o\0" % 2**30
+    assert refused(with_checksum(header) + bytes(1024), "a.tar").code in ("record-archive", "record-large")
 
 
 # miniSEED and SAC
@@ -181,13 +263,16 @@ def test_without_obspy_the_remedy_is_said(tmp_path, monkeypatch):
         read_channels(tmp_path / "a.mseed")
 
 
-@pytest.mark.parametrize("sample", ["zip", "gz", "miniseed", "sac"])
+@pytest.mark.parametrize("sample", ["zip", "gz", "bz2", "tar", "tgz", "miniseed", "sac"])
 def test_whatever_is_done_to_them(sample):
     """A clear refusal, or finite values."""
     packed = {"a.mseed": miniseed(), "s.xml": station_xml()}
     data = {
         "zip": zipped({"a.asc": esm().encode()}),
         "gz": gzip.compress(esm().encode()),
+        "bz2": bz2.compress(esm().encode()),
+        "tar": tarred({"a.asc": esm().encode()}),
+        "tgz": gzip.compress(tarred({"a.asc": esm().encode()})),
         "miniseed": zipped(packed, zipfile.ZIP_STORED),
         "sac": sac(),
     }[sample]

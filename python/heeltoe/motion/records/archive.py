@@ -1,11 +1,17 @@
-"""Records in a zip or behind gzip: unpacked in memory alone, up to a bound, whatever an archive says of itself."""
+"""Records in a zip or a tar, or behind gzip or bzip2: unpacked in memory alone, up to a bound, whatever an archive says
+of itself."""
 
 from __future__ import annotations
 
+import bz2
+import gzip
 import io
+import tarfile
 import zipfile
 import zlib
+from collections.abc import Iterator
 from pathlib import PurePosixPath
+from typing import IO
 
 from heeltoe.errors import InputError
 
@@ -14,18 +20,32 @@ LARGEST_BYTES = 64_000_000
 # An event has three files for each station, and a readme or two.
 _MOST_MEMBERS = 200
 _GZIP, _ZIP = b"\x1f\x8b", (b"PK\x03\x04", b"PK\x05\x06")
-_PIECE = 1 << 20
+# Of bzip2 the size of its blocks comes between.
+_BZIP2, _BLOCK = b"BZh", (b"1AY&SY", b"\x17rE8P\x90")
+_TAR_AT, _TAR = 257, b"ustar"
+# A way of packing that is not known is a RuntimeError, a size beyond all memory an OverflowError.
+_DAMAGED = (zipfile.BadZipFile, tarfile.TarError, zlib.error)
+_DAMAGED += (EOFError, RuntimeError, ValueError, OverflowError, OSError)
 
 
 def is_archive(data: bytes) -> bool:
     """Whether a file holds others."""
-    return data.startswith((_GZIP, *_ZIP))
+    return data.startswith((_GZIP, *_ZIP)) or _is_bzip2(data) or _is_tar(data)
+
+
+def _is_bzip2(data: bytes) -> bool:
+    return data.startswith(_BZIP2) and data[4:].startswith(_BLOCK)
+
+
+def _is_tar(data: bytes) -> bool:
+    return data.startswith(_TAR, _TAR_AT)
 
 
 def unpacked(data: bytes, name: str) -> list[tuple[str, bytes]]:
     """Return the files in an archive, each with its name.
 
-    Nothing is written anywhere, so that a name may say what it likes. Archives in archives stay as they are.
+    Nothing is written anywhere, so that a name may say what it likes. Archives in archives stay as they are, but for a
+    tar that is compressed as a whole.
 
     Raises
     ------
@@ -33,49 +53,70 @@ def unpacked(data: bytes, name: str) -> list[tuple[str, bytes]]:
         Where it is damaged, encrypted, or holds more than any record.
     """
     try:
-        if data.startswith(_GZIP):
-            return [(name.removesuffix(".gz"), _inflated(data, name))]
-        return _members(data, name)
-    # A way of packing that is not known here is a RuntimeError.
-    except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, ValueError, OSError) as error:
+        if data.startswith(_ZIP):
+            return _taken(_zip_members(data, name), name)
+        if not _is_tar(data):
+            data, name = _inflated(data, name), name.removesuffix(".gz").removesuffix(".bz2")
+            if not _is_tar(data):
+                return [(name, data)]
+        return _taken(_tar_members(data), name)
+    except _DAMAGED as error:
         reason = " ".join(str(error).split())[:80] or type(error).__name__
         raise InputError("record-archive", name, reason=reason) from None
 
 
 def _inflated(data: bytes, name: str) -> bytes:
-    """The stretches behind gzip, one behind the other."""
-    whole = bytearray()
-    while data.startswith(_GZIP):
-        stretch = zlib.decompressobj(wbits=31)
-        while data and not stretch.eof:
-            whole += stretch.decompress(data, _PIECE)
-            data = stretch.unconsumed_tail
-            if len(whole) > LARGEST_BYTES:
-                raise _too_large(name)
-        if not stretch.eof:
-            raise EOFError("it ends too early")
-        data = stretch.unused_data
-    return bytes(whole)
+    """What stands behind gzip or bzip2, all stretches of it."""
+    with gzip.GzipFile(fileobj=io.BytesIO(data)) if data.startswith(_GZIP) else bz2.BZ2File(io.BytesIO(data)) as stream:
+        content = stream.read(LARGEST_BYTES + 1)
+    if len(content) > LARGEST_BYTES:
+        raise _too_large(name)
+    return content
 
 
-def _members(data: bytes, name: str) -> list[tuple[str, bytes]]:
+# Of each file of an archive: what it is called, and where its content is read.
+_Members = Iterator[tuple[str, IO[bytes]]]
+
+
+def _taken(members: _Members, name: str) -> list[tuple[str, bytes]]:
+    """Read files, which may state any size, until there are too many of them or too much is in them."""
     found: list[tuple[str, bytes]] = []
     left = LARGEST_BYTES
+    for own, member in members:
+        if len(found) == _MOST_MEMBERS:
+            raise InputError("record-archive", name, reason=f"it holds more than {_MOST_MEMBERS} files")
+        with member:
+            content = member.read(left + 1)
+        left -= len(content)
+        if left < 0:
+            raise _too_large(name)
+        found.append((PurePosixPath(own.replace("\\", "/")).name or name, content))
+    return found
+
+
+def _zip_members(data: bytes, name: str) -> _Members:
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
-        listed = [each for each in archive.infolist() if not each.is_dir()]
-        if len(listed) > _MOST_MEMBERS:
-            raise InputError("record-archive", name, reason=f"it holds {len(listed)} files")
-        for each in listed:
+        for each in archive.infolist():
             if each.flag_bits & 1:
                 raise InputError("record-archive", name, reason="it is encrypted")
-            # The size that an archive states may be a lie.
-            with archive.open(each) as member:
-                content = member.read(left + 1)
-            left -= len(content)
-            if left < 0:
-                raise _too_large(name)
-            found.append((PurePosixPath(each.filename.replace("\\", "/")).name or name, content))
-    return found
+            if not each.is_dir():
+                yield each.filename, archive.open(each)
+
+
+def _tar_members(data: bytes) -> _Members:
+    with tarfile.open(fileobj=io.BytesIO(data), mode="r:") as archive:
+        headers = 0
+        # Links and devices lead elsewhere and hold nothing of their own.
+        while (each := archive.next()) is not None:
+            headers += 1
+            if headers > 2 * _MOST_MEMBERS or each.size < 0:
+                raise ValueError("it never ends")
+            member = archive.extractfile(each) if each.isreg() else None
+            if member is not None:
+                yield each.name, member
+        # A header that is damaged ends it as its end does.
+        if data[archive.offset : archive.offset + tarfile.BLOCKSIZE].strip(b"\0"):
+            raise ValueError("it is damaged")
 
 
 def _too_large(name: str) -> InputError:
