@@ -24,8 +24,10 @@ _GZIP, _ZIP = b"\x1f\x8b", (b"PK\x03\x04", b"PK\x05\x06")
 _BZIP2, _BLOCK = b"BZh", (b"1AY&SY", b"\x17rE8P\x90")
 _TAR_AT, _TAR = 257, b"ustar"
 # A way of packing that is not known is a RuntimeError, a size beyond all memory an OverflowError.
-_DAMAGED = (zipfile.BadZipFile, tarfile.TarError, zlib.error)
-_DAMAGED += (EOFError, RuntimeError, ValueError, OverflowError, OSError)
+_DAMAGED: tuple[type[Exception], ...] = (
+    *(zipfile.BadZipFile, tarfile.TarError, zlib.error),
+    *(EOFError, RuntimeError, ValueError, OverflowError, OSError),
+)
 
 
 def is_archive(data: bytes) -> bool:
