@@ -311,10 +311,7 @@ def _rigid(case: Case, earthquake: Earthquake, output_step: float | None) -> Res
 def _decoupled(case: Case, earthquake: Earthquake, output_step: float | None) -> DecoupledResponse:
     from heeltoe.models.decoupled.model import run_decoupled
 
-    def run(through: Earthquake) -> DecoupledResponse:
-        return run_decoupled(case, through, output_step)
-
-    return until_rest(run, reach_of_block, earthquake, case.analysis.silence, swings=True)
+    return run_decoupled(case, earthquake, output_step)
 
 
 def _live(case: Case, earthquake: Earthquake) -> DecoupledResponse:

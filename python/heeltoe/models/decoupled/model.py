@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import fields
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.models.flexible.cost import Cost, check_cost
 from heeltoe.models.rigid.model import run_rigid
 from heeltoe.models.rigid.walk import walk
+from heeltoe.models.silence import reach_of_block, until_rest
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.references import cited
@@ -38,8 +39,18 @@ _CHANGE = 0.02
 _BYTES = 400.0
 
 
+@dataclass(frozen=True, eq=False)
+class _Run:
+    """What the block did under the motion of the crack, before anything is asked about that motion."""
+
+    earthquake: Earthquake
+    at_crack: CrackMotion
+    straightness: float
+    found: Response
+
+
 def run_decoupled(case: Case, earthquake: Earthquake, output_step: float | None = None) -> DecoupledResponse:
-    """Run the decoupled chain on a case with a crack at a height.
+    """Run the decoupled chain on a case with a crack at a height, on through silence until the dam is at rest.
 
     The part below the crack is elastic and carries the part above as a rigid body; the acceleration of the crack then
     drives the rigid model of the part above.
@@ -59,12 +70,16 @@ def run_decoupled(case: Case, earthquake: Earthquake, output_step: float | None 
     InputError
         Where the crack is at the base, or the case has no modulus.
     """
-    check_cost(case, Cost(0.0, _BYTES * earthquake.end / FIRST_STEP), "motion.duration")
-    part = chain(case)
-    at_crack, straightness = crack_motion(part, earthquake)
-    block = build_block(case)
-    step = step_of(earthquake) if output_step is None else output_step
-    found = run_rigid(case, at_crack.felt(case, earthquake), step, block)
+
+    def run(through: Earthquake) -> _Run:
+        check_cost(case, Cost(0.0, _BYTES * through.end / FIRST_STEP), "motion.duration")
+        at_crack, straightness = crack_motion(part, through)
+        step = step_of(through) if output_step is None else output_step
+        return _Run(through, at_crack, straightness, run_rigid(case, at_crack.felt(case, through), step, block))
+
+    part, block = chain(case), build_block(case)
+    last = until_rest(run, lambda each: reach_of_block(each.found), earthquake, case.analysis.silence, swings=True)
+    found, earthquake, at_crack = last.found, last.earthquake, last.at_crack
     if not found.summary:
         return of_the_chain(found, earthquake)
     rough = crack_motion_at(part, earthquake, 2.0 * at_crack.step)
@@ -72,7 +87,7 @@ def run_decoupled(case: Case, earthquake: Earthquake, output_step: float | None 
     level = _crack_level(case, part, at_crack, earthquake)
     level["convergence"] = {
         "step_s": at_crack.step,
-        "straightness": straightness,
+        "straightness": last.straightness,
         "half_the_modes": _of_half_the_modes(part, at_crack, earthquake),
         **_change(found.residual_slip_m, coarser.summary["slip"], rough.step),
     }
