@@ -53,13 +53,17 @@ demo: check $(VENV)/.built
 	@$(BIN)/heeltoe run examples/typical-base.toml --report --out out/demo
 	@$(ELAPSED)
 
+# Three processes for two cores: the tests of the app and of commands wait for other processes. In the order of the
+# folders those come first, and short files last.
+SIDE_BY_SIDE := -n 3 --dist loadfile --no-loadscope-reorder
+
 test: check $(VENV)/.built
 	cargo test --locked --quiet -p heeltoe
-	$(BIN)/pytest -q -m "not slow" -n 2 --dist loadfile
+	$(BIN)/pytest -q -m "not slow" $(SIDE_BY_SIDE)
 	@$(ELAPSED)
 
 test-slow: check $(VENV)/.built
-	$(BIN)/pytest -q -m slow -n 2
+	$(BIN)/pytest -q -m slow -n 2 --dist worksteal
 	@$(ELAPSED)
 
 test-pythons: check $(VENV)/.built

@@ -14,7 +14,7 @@ import pytest
 from heeltoe.whole import LISTED, READY, files, settle
 from shared.dams import BLOCK
 
-KILLS = 50
+KILLS = 30
 
 
 def start(directory: Path, title: str) -> subprocess.Popen[bytes]:
@@ -35,7 +35,7 @@ def title(directory: Path) -> str:
 
 
 @pytest.mark.slow
-def test_killed_at_fifty_moments_a_directory_holds_the_old_result_or_the_new(tmp_path):
+def test_killed_at_thirty_moments_a_directory_holds_the_old_result_or_the_new(tmp_path):
     place, moments = tmp_path / "out", random.Random("heeltoe")
     assert start(place, "run 0").wait() == 0
     (place / "notes.txt").write_text("mine")

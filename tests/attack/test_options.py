@@ -96,7 +96,7 @@ def test_all_commands_are_attacked():
 @pytest.mark.usefixtures("empty_figures")
 @pytest.mark.parametrize("name", USUAL)
 def test_some_words_for_every_option(name, tmp_path, record_property):
-    attack(name, tmp_path, 19, record_property)
+    attack(name, tmp_path, 41, record_property)
 
 
 @pytest.mark.slow

@@ -22,6 +22,7 @@ COARSE = ("--set", "flexible.elements_across=2", "--set", "flexible.evidence=non
 # What is added so that a command does not take long: an option given twice has its last value.
 QUICK = {
     "run": (*COARSE, "--duration", "1s"),
+    "statics": (*COARSE, "--set", "motion.duration=1s"),
     "animate": (*COARSE, "--set", "motion.duration=9s", "--fps", "1"),
     "periods": COARSE,
     "overturning": ("--count", "4"),

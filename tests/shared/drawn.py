@@ -20,7 +20,8 @@ def texts(figure):
 def check(figure, name):
     """Everything has its unit and its place."""
     renderer = FigureCanvasAgg(figure).get_renderer()
-    figure.draw(renderer)
+    # All is placed, and no pixel painted: what is painted is looked at in files.
+    figure.draw_without_rendering()
     canvas = figure.bbox.padded(1.0)
     for axes in figure.axes:
         for label in (axes.get_xlabel(), axes.get_ylabel()):

@@ -48,7 +48,7 @@ US = [(path, "us") for path in (BASE, BLOCK)]
 
 @pytest.mark.parametrize(
     ("path", "units"),
-    [*((path, "si") for path in ALL_EXAMPLES), *US],
+    [*(pytest.param(path, "si", marks=[pytest.mark.slow] * ("thesis" in path.parts)) for path in ALL_EXAMPLES), *US],
     ids=lambda value: getattr(value, "stem", value),
 )
 def test_every_figure_of_every_example(path, units):
