@@ -24,6 +24,12 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "uplift.intensity",
         "{field}: {intensity:g} means more pressure than the pattern gives",
     ),
+    "drains-raise": (
+        "caution",
+        "uplift.drain_efficiency",
+        "{field}: with {efficiency:g} the head at the drains is higher than without drains: drains that do nothing are "
+        'uplift.pattern = "triangular"',
+    ),
     "gravity-unusual": (
         "caution",
         "gravity",

@@ -111,6 +111,16 @@ def test_what_misses_the_crack_holds_nothing_and_is_told():
     assert uplift(case).vertical == pytest.approx(uplift(read_case(dam(uplift={"pattern": "triangular"}))).vertical)
 
 
+@pytest.mark.parametrize(("efficiency", "raised"), [(0.0, True), (0.19, True), (0.2, False), (0.67, False)])
+def test_drains_that_raise_the_head_are_told(efficiency, raised):
+    # A fifth of the way down a straight line has lost a fifth of its head.
+    drained = {"pattern": "drained", "drain_position": 0.2, "drain_efficiency": efficiency}
+    case = read_case(dam(uplift=drained))
+    assert ("drains-raise" in codes(case)) is raised
+    triangle = uplift(read_case(dam(uplift={"pattern": "triangular"}))).vertical
+    assert (uplift(case).vertical > triangle * (1.0 + 1e-12)) is raised
+
+
 @pytest.mark.parametrize(
     ("anchor", "said"),
     [

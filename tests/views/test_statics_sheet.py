@@ -153,6 +153,18 @@ def joints():
     return case, judge(case)
 
 
+def test_the_uplift_of_a_sheet_says_its_pressures(joints):
+    _, found = joints
+    usual = found.governing.statics.cases[0]
+    said = next(row[-1] for row in lines(usual, "si").rows if row[0] == "uplift")
+    told = [(float(place), float(pressure)) for pressure, place in re.findall(r"([\d.]+) at ([\d.]+)", said)]
+    points = dict.fromkeys(usual.pressures)
+    assert len(told) == len(points) > 2
+    for point, (place, pressure) in zip(points, told, strict=True):
+        assert (place, 1e3 * pressure) == pytest.approx(point, rel=1e-4)
+    assert said.endswith("in kPa and m from the heel of the crack")
+
+
 def test_the_report_has_every_sheet(joints):
     case, found = joints
     document = statics_document(case, found, {}, command="heeltoe statics x.toml --report")
@@ -178,13 +190,29 @@ def test_the_report_is_in_units_of_the_united_states_all_through(joints):
 
 
 def test_figures_of_every_load_case(joints):
-    _, found = joints
+    case, found = joints
     figures = statics_figures(found, "us")
     assert {f"forces-{slug(each.name)}" for each in found.governing.statics.cases} < set(figures)
     flood = figures["forces-flood"]
     said = [text.get_text() for axes in flood.axes for text in axes.texts]
     assert any(text.startswith("reservoir ") and "kip/ft" in text for text in said)
     assert any(text.startswith("R ") for text in said)
+    every = statics_figures(found, every=True)
+    count = sum(len(joint.statics.cases) for joint in found.joints)
+    assert len([name for name in every if "forces-" in name]) == count
+    others = {f"at-{joint.elevation_m:g}m-forces-flood" for joint in found.ranked[1:]}
+    assert others < set(every)
+    assert not others & set(figures)
+    name = min(others)
+    shown = html(statics_document(case, found, {name: every[name]}))
+    assert "Flood: forces with their arms" in shown
+
+
+def test_figures_of_every_section_need_a_place(tmp_path):
+    (tmp_path / "dam.json").write_text(json.dumps(DAM))
+    done = command("statics", tmp_path / "dam.json", "--every-section")
+    assert done.returncode == 2
+    assert done.stderr.startswith("heeltoe: --every-section: has no meaning without --out or --report")
 
 
 @pytest.mark.usefixtures("empty_figures")

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from heeltoe import flexible, read_case
+from heeltoe.result.tension import cracks_said, place_said
+from heeltoe.result.verdict import verdict
 from heeltoe.views.figures.all import all_figures
 from heeltoe.views.figures.stress.tension import tension_figure
+from heeltoe.views.report.html import html
+from heeltoe.views.report.write import build_report
 from heeltoe.views.words.tension import tension_line, tension_worth
 from shared.dams import BASE, COARSE, ENDS, HEIGHT
 from shared.drawn import check, texts
+from shared.report_reader import Reader
 
 SHORT = [*COARSE, "flexible.elements_across=4", "motion.duration=3s", ENDS]
 
@@ -30,6 +37,23 @@ def test_it_is_said_with_place_moment_and_strength(judged):
     strong = {**found, "strength": {**found["strength"], "exceeds": False}}
     assert "; within the 0.75 MPa" in tension_line(strong, "si")
     assert tension_line({**found, "strength": None}, "si").endswith("gives no concrete.tensile_strength to judge it by")
+
+
+def test_the_verdict_names_it_where_the_concrete_does_not_bear_it(judged):
+    found = judged.tension
+    said = verdict(judged)
+    assert f"Its tension of {found['stress_pa'] / 1e6:.3g} MPa {place_said(found)}" in said
+    assert "more than the 0.75 MPa that the concrete bears: that nothing else cracks does not hold." in said
+    assert "psi" in verdict(judged, "us")
+    strong = {**found, "strength": {**found["strength"], "exceeds": False}}
+    assert cracks_said(strong, "si") == cracks_said({**found, "strength": None}, "si") == cracks_said(None, "si") == ""
+
+
+def test_page_one_of_the_report_has_it(judged):
+    case = read_case(HEIGHT, [*SHORT, "concrete.tensile_strength=0.5 MPa"])
+    text = Reader(html(build_report(case, judged))).text
+    assert re.search(r"Largest tension in the concrete\s+[\d.]+ MPa", text)
+    assert re.search(r"What it bears in an earthquake\s+0\.75 MPa", text)
 
 
 def test_what_it_is_worth_is_said(judged):

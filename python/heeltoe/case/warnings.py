@@ -58,8 +58,12 @@ def case_warnings(case: Case) -> tuple[Notice, ...]:
 def _about_the_anchors(case: Case) -> Iterator[Notice]:
     """Walk what is to be said of where anchors and drains are."""
     section, whole = case.cut, case.outline
-    if case.uplift.drain_x is not None and not drains(case.uplift.drain_x, section)[0]:
+    there = case.uplift.drain_x is None or drains(case.uplift.drain_x, section)[0]
+    at = case.uplift_at_crack
+    if not there:
         yield Notice("drains-miss")
+    elif at.pattern == "drained" and (at.drain_efficiency or 0.0) < (at.drain_position or 0.0):
+        yield Notice("drains-raise", efficiency=at.drain_efficiency)
     near = _ON_FACE * (section.crest_elevation - section.base_elevation)
     faces = {
         "upstream": (section.upstream_face, case.reservoir),

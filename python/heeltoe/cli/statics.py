@@ -64,10 +64,13 @@ def statics(
         bool,
         typer.Option("--report", help="Write a report as PDF and HTML, into --out or a directory named by the case."),
     ] = False,
+    every_section: Annotated[
+        bool, typer.Option("--every-section", help="Figures of every section, not of the governing one alone.")
+    ] = False,
     units: CaseUnits = None,
 ) -> None:
     """Judge the stability before, during (pseudo-static) and after the earthquake."""
-    asked = _Asked(slip, model, motion, pga, vary or [], sheet, out, report)
+    asked = _Asked(slip, model, motion, pga, vary or [], sheet, out, report, every_section)
     asked.check()
     check_units(units)
     changes = [*(set_ or []), *([] if criteria is None else [_judged_by(criteria)])]
@@ -95,6 +98,7 @@ class _Asked:
     sheet: bool
     out: Path | None
     report: bool
+    every_section: bool
 
     def check(self) -> None:
         """Refuse what cannot be, or does not go together, before anything is read."""
@@ -109,7 +113,10 @@ class _Asked:
             from heeltoe.views.report.write import check_packages
 
             check_packages()
-        for option, asked in (("--report", self.report), ("--sheet", self.sheet)):
+        if self.every_section and self.out is None and not self.report:
+            raise InputError("needs-other", "--every-section", other="--out or --report")
+        options = (("--report", self.report), ("--sheet", self.sheet), ("--every-section", self.every_section))
+        for option, asked in options:
             if self.vary and asked:
                 raise InputError("vary-option", option)
 
@@ -168,7 +175,7 @@ def _write(
     say("writing")
     if isinstance(found, StaticsTable):
         return write_statics_table(found, place)
-    figures = statics_figures(found, units)
+    figures = statics_figures(found, units, every=asked.every_section)
 
     def report(fresh: Path) -> None:
         from heeltoe.views.report.statics import statics_document

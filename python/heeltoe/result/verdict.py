@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from heeltoe.result.contract import JOINT_METER_M, LEAST_M, LEAST_RAD
 from heeltoe.result.rest import comes_to_rest, last_of, motion_end, rests_from
 from heeltoe.result.sequence import sequence_said
+from heeltoe.result.tension import cracks_said
 from heeltoe.units.write import angle, length, speed
 
 # Not at run time: a response says its verdict in its JSON.
@@ -35,6 +36,7 @@ def verdict(response: Response, units: str = "si") -> str:
         ]
     elif response.elastic:
         sentences = [_elastic_slip(response, units), _openings(response, units), _elastic_end(response, units)]
+        sentences.append(cracks_said(response.summary.get("tension"), units))
     else:
         sentences = [_slip(response, units), _rocking(response, units), _end(response)]
     told = [*sentences, sequence_said(response.sequence, units), _limits(response, units)]

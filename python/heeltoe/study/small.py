@@ -225,6 +225,7 @@ def _numbers(response: Response) -> dict[str, Any]:
         **{name: found.get(name) for name in slips},
         **{f"slip_{name}_m": by_mode.get(name) for name in _MODES},
         **{name: found.get(name) for name in (*others, "impacts")},
+        "largest_tension_pa": (found.get("tension") or {}).get("stress_pa"),
         **({} if response.beside is None else {"beside_residual_slip_m": _beside(response.beside)}),
         "limits_met": all(check.met for check in response.limits) if response.limits else None,
         "outcome": response.outcome,

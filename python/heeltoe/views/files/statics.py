@@ -17,7 +17,9 @@ from heeltoe.whole import write_whole
 
 _REPORT = ("report.pdf", "report.html")
 _TABLES = ("result.json", "sheet.csv", "checks.csv", "table.csv", "table.parquet")
-_FIGURES = tuple(f"{name}{suffix}" for name in ("section", "checks", "forces-*") for suffix in (".png", ".svg"))
+_FIGURES = tuple(
+    f"{name}{suffix}" for name in ("section", "checks", "forces-*", "at-*-forces-*") for suffix in (".png", ".svg")
+)
 #: Names of all files that the static checks may leave.
 OWN = (*_TABLES, *_FIGURES, *_REPORT)
 

@@ -136,6 +136,12 @@ def _numbers(subject: Subject) -> Block:
             row = subject.row(each.full.capitalize(), each.key, sign=each.way)
             rows.append(row + ((_ratio(subject, each.key),) if both else ()))
         rows.append(("At the end of the run", *map(_end, subject.runs), *([""] if both else [])))
+    tensions = [run.response.summary.get("tension") for run in subject.runs]
+    if any(tensions):
+        rows.append(subject.row("Largest tension in the concrete", "tension.stress_pa") + (("",) if both else ()))
+    if any(each and each["strength"] for each in tensions):
+        bears = subject.row("What it bears in an earthquake", "tension.strength.dynamic_pa")
+        rows.append(bears + (("",) if both else ()))
     static = subject.row("Sliding safety factor under static loads", "static.sliding_safety_factor")
     rows.append(static + (("",) if both else ()))
     more = ("flexible / rigid",) if both else ()

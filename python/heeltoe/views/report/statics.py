@@ -13,7 +13,7 @@ from heeltoe.models.statics.load_case import LoadCase
 from heeltoe.plain import plain
 from heeltoe.result.write import build_info
 from heeltoe.units.sentences import quantity
-from heeltoe.views.figures.statics.all import slug
+from heeltoe.views.figures.statics.all import forces_name
 from heeltoe.views.report.build_input import case_rows
 from heeltoe.views.report.build_statics import missed_checks, remarks
 from heeltoe.views.report.content import (
@@ -76,13 +76,13 @@ def statics_document(
     found
         The checks.
     figures
-        Of the governing section, which are changed here to what a report needs.
+        Of the governing section, or of every section, which are changed here to what a report needs.
     units
         ``"si"`` or ``"us"``.
     command
         What was typed to get it.
     """
-    cases = {f"forces-{slug(each.name)}": each.name for each in found.governing.statics.cases}
+    cases = {forces_name(found, joint, each): each.name for joint in found.joints for each in joint.statics.cases}
     shown = {name: drawing(name, figures[name], _caption(name, cases)) for name in figures}
     subject = _Subject(case, found, shown, units, command)
     several = len(found.joints) > 1
@@ -191,11 +191,10 @@ def _checks(subject: _Subject, joint: Joint) -> Section:
 
 def _sheets(subject: _Subject, joint: Joint) -> Section:
     """Return the calculation sheets of a section, load case by load case."""
-    governs = joint is subject.found.governing
     blocks: list[Block] = []
     for each in joint.statics.cases:
         inner: list[Block] = []
-        figure = subject.figures.get(f"forces-{slug(each.name)}") if governs else None
+        figure = subject.figures.get(forces_name(subject.found, joint, each))
         inner += [_forces(subject, each), _steps(subject, each, joint), *([figure] if figure else [])]
         blocks.append(Section(f"{each.name[0].upper()}{each.name[1:]}", tuple(inner)))
     return Section(f"Calculation sheets, crack at {subject.at(joint)}", tuple(blocks))

@@ -15,6 +15,8 @@ from heeltoe.views.words.statics import check_cells
 
 # Digits of the largest number of a column; the others have as many behind the point, so that they add up.
 _DIGITS = 6
+# So many pressures of a crack are told.
+_MOST_POINTS = 6
 
 
 @dataclass(frozen=True)
@@ -84,7 +86,11 @@ def lines(found: LoadCase, units: str, about: str = "heel") -> Lines:
     turns = _column([line.moment_nm for line in every], to.moment)
     columns = (pushes, arms, pushes, arms, turns)
     rows = [
-        (line.name, *(column(value) for column, value in zip(columns, _numbers(line), strict=True)), _from(line, units))
+        (
+            line.name,
+            *(column(value) for column, value in zip(columns, _numbers(line), strict=True)),
+            _from(found, line, units),
+        )
         for line in shown
     ]
     last = sheet.sum
@@ -105,8 +111,15 @@ def _numbers(line: ForceLine) -> tuple[float | None, ...]:
     return line.horizontal_n, line.height_m, line.vertical_n, line.distance_m, line.moment_nm
 
 
-def _from(line: ForceLine, units: str) -> str:
-    return line.source.text(units)
+def _from(found: LoadCase, line: ForceLine, units: str) -> str:
+    """Say where a force comes from; of the water in the crack its pressures, which a checker integrates."""
+    said = line.source.text(units)
+    points = list(dict.fromkeys(found.pressures))
+    if line.name != "uplift" or len(points) > _MOST_POINTS:
+        return said
+    to = sheet_units(units)
+    listed = ", ".join(f"{_say(p / to.stress, 5)} at {_say(x / to.length, 5)}" for x, p in points)
+    return f"{said}: {listed}, in {to.names[3]} and {to.names[0]} from the heel of the crack"
 
 
 def _column(values: Sequence[float | None], unit: float) -> Callable[[float | None], str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from heeltoe.models.flexible.stress.tension import place_said
+from heeltoe.result.tension import place_said
 from heeltoe.units.sentences import written
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from heeltoe import flexible, read_case
-from heeltoe.models.flexible.stress.tension import place_said, share_beyond
+from heeltoe.models.flexible.stress.tension import share_beyond
+from heeltoe.result.tension import place_said
 from shared.dams import BASE, FAST, HEIGHT, example
 
 

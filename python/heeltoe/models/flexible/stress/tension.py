@@ -19,6 +19,7 @@ from heeltoe.models.flexible.stress.envelope import (
     largest_tension,
     tension_before,
 )
+from heeltoe.result.tension import place_said
 from heeltoe.warnings import Notice
 
 # What a part of the dam is called.
@@ -66,13 +67,6 @@ def tension_warnings(tension: Mapping[str, Any] | None) -> Iterator[Notice]:
             z_m=tension["z_m"],
             share=strength["share_beyond"],
         )
-
-
-def place_said(found: Mapping[str, Any]) -> str:
-    """Say where a largest stress is, its height apart."""
-    part = f"the part {found['part']} the crack"
-    place = found["place"]
-    return f"inside {part}" if place == "inside" else f"at the {place}{'' if place == 'base' else ' face'} of {part}"
 
 
 def share_beyond(dam: FlexibleDam, parts: Sequence[PartEnvelope], strength: float) -> float:

@@ -7,24 +7,33 @@ from functools import partial
 
 from matplotlib.figure import Figure
 
-from heeltoe.models.statics.joints import Joints
+from heeltoe.models.statics.joints import Joint, Joints
+from heeltoe.models.statics.load_case import LoadCase
 from heeltoe.views.figures.all import Figures
 from heeltoe.views.figures.section import section_figure
 from heeltoe.views.figures.statics.checks import statics_figure
 from heeltoe.views.figures.statics.forces import forces_figure
 
 
-def statics_figures(found: Joints, units: str = "si") -> Figures:
-    """Return the figures of static checks by name, those of the governing section: the section, the checks as bars,
-    and the forces of each load case."""
+def statics_figures(found: Joints, units: str = "si", *, every: bool = False) -> Figures:
+    """Return the figures of static checks by name: of the governing section itself, its checks as bars, and the forces
+    of each load case; with `every` those forces at the other sections, too."""
     joint = found.governing
     drawings: dict[str, Callable[[], Figure]] = {
         "section": lambda: section_figure(joint.case, units),
         "checks": lambda: statics_figure(joint.statics),
     }
-    for each in joint.statics.cases:
-        drawings[f"forces-{slug(each.name)}"] = partial(forces_figure, joint.case, each, units)
+    for place in found.ranked if every else (joint,):
+        for each in place.statics.cases:
+            drawings[forces_name(found, place, each)] = partial(forces_figure, place.case, each, units)
     return Figures(drawings)
+
+
+def forces_name(found: Joints, joint: Joint, load_case: LoadCase) -> str:
+    """Return the name of the figure of a load case at a section: of other sections than the governing one it begins
+    with the elevation in metres."""
+    place = "" if joint is found.governing else f"at-{joint.elevation_m:.10g}m-"
+    return f"{place}forces-{slug(load_case.name)}"
 
 
 def slug(name: str) -> str:
