@@ -12,7 +12,7 @@ export PYO3_PYTHON := $(abspath $(BIN)/python)
 WASM := wasm32-unknown-unknown
 ELAPSED = echo "$@: done in $$(( $$(date +%s) - $$(cat $(VENV)/.started) )) s"
 
-.PHONY: demo test test-slow test-pythons audit browser lint format validate bench wheel try-wheel clean help check
+.PHONY: demo test test-slow test-pythons audit browser lint format validate book peers bench wheel try-wheel clean help check
 .DEFAULT_GOAL := help
 
 help:
@@ -24,6 +24,8 @@ help:
 	@echo "make browser    install the browser that the tests of the app need; Debian's, needs a network"
 	@echo "make lint       formatting, lints, types and directions of imports"
 	@echo "make validate   the reference cases as tables"
+	@echo "make book       the validation book, docs/validation, from the reference cases (CASE=table-7.1 for one)"
+	@echo "make peers      independent codes on problems of known answer; their page of the book (PEER=MuJoCo for one)"
 	@echo "make bench      ours against named peers; writes benchmarks/results.md (PART=crack_dam for one part)"
 	@echo "make wheel      a wheel that needs no compiler, and the sdist, in out/dist; needs a network"
 	@echo "make try-wheel  install it into an empty environment and do with it what a user does"
@@ -96,8 +98,22 @@ lint: check $(VENV)/.built
 validate: check $(VENV)/.built
 	$(BIN)/heeltoe validate
 
+book: check $(VENV)/.built
+	$(BIN)/python -m heeltoe.validation.book docs/validation $(CASE)
+	$(BIN)/python benchmarks/peers.py --page
+	@$(ELAPSED)
+
+# What of the peers no wheel fits is not there then, and is said to be.
+PEERS = $(BIN)/pip install --quiet --disable-pip-version-check -r requirements-bench.lock \
+	|| echo "not all peers could be installed; what is missing is said below"
+
+peers: check $(VENV)/.built
+	@$(PEERS)
+	$(BIN)/python benchmarks/peers.py $(PEER)
+	@$(ELAPSED)
+
 bench: check $(VENV)/.built
-	$(BIN)/pip install --quiet --disable-pip-version-check -r requirements-bench.lock
+	@$(PEERS)
 	$(BIN)/python benchmarks/run.py $(PART)
 	@$(ELAPSED)
 

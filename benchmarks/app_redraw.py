@@ -14,7 +14,7 @@ from contextlib import ExitStack, contextmanager
 from statistics import median, quantiles
 from typing import Any
 
-from measure import NothingMeasured, heading, require, seconds, table
+from measure import Skipped, heading, require, seconds, table
 
 CASES = ("typical-base", "typical-height")
 #: The sliders by the paths of the case.
@@ -75,11 +75,12 @@ def served() -> Iterator[tuple[str, float]]:
 def browser() -> Iterator[Any]:
     """Start the browser."""
     found = next((each for each in map(shutil.which, _BROWSERS) if each), None)
-    require(found is not None, "there is no chromium")
+    if found is None:
+        raise Skipped("there is no chromium")
     try:
         from playwright.sync_api import sync_playwright
     except ImportError:
-        raise NothingMeasured("there is no playwright") from None
+        raise Skipped("there is no playwright") from None
     with sync_playwright() as tools:
         yield tools.chromium.launch(executable_path=found)
 

@@ -8,7 +8,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from measure import NothingMeasured, Timing, require
+from measure import Timing, require
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
@@ -23,10 +23,6 @@ ELASTIC_SLIP = 1.0536
 # Corners first, then the middles of the sides, counter-clockwise: the order of both programs.
 CORNERS: tuple[Node, ...] = ((-1, -1), (1, -1), (1, 1), (-1, 1))
 SIDES: tuple[Node, ...] = ((0, -1), (1, 0), (0, 1), (-1, 0))
-
-
-class Skipped(NothingMeasured):
-    """A peer that is not installed here, and why."""
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from statistics import median, quantiles
 from typing import Any
@@ -19,6 +19,10 @@ SHORTEST, LONGEST = 0.02, 4.0
 
 class NothingMeasured(Exception):
     """A benchmark whose work did not happen, or was too short to time; its numbers must not be believed."""
+
+
+class Skipped(NothingMeasured):
+    """A benchmark that cannot be run here, for want of a program or of records; the text says which."""
 
 
 @dataclass(frozen=True)
@@ -128,8 +132,15 @@ def machine() -> str:
 
 def heading(title: str, packages: Sequence[str]) -> str:
     """Markdown heading with date, machine and versions."""
-    versions = ", ".join(f"{name} {version(name)}" for name in packages)
+    versions = ", ".join(f"{name} {_version(name)}" for name in packages)
     return f"## {title}\n\nMeasured {datetime.now(UTC):%Y-%m-%d} on {machine()}; {versions}."
+
+
+def _version(package: str) -> str:
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return "(not installed)"
 
 
 def table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

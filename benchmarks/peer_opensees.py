@@ -21,8 +21,8 @@ import os
 from typing import Any
 
 import numpy as np
-from elastic_block import ALONG, MODULUS, POISSON, UP, Result, Skipped, mesh, steps_between
-from measure import repeat
+from elastic_block import ALONG, MODULUS, POISSON, UP, Result, mesh, steps_between
+from measure import Skipped, repeat
 from push_and_sine import (
     AMPLITUDE,
     DEPTH,

@@ -34,6 +34,11 @@ def _block(yield_g: float) -> Floats:
     return rectangle(100.0, 1.0, 2400.0, friction, push)
 
 
+def our_slip(motion: GroundMotion, yield_g: float) -> Floats:
+    """Return our slip at every sample of a record [m]."""
+    return run_block(_block(yield_g), Shaking(motion.time, -motion.acceleration), motion.time).histories["slip"]
+
+
 def _ours(motion: GroundMotion, yield_g: float, exact: Floats) -> tuple[list[list[str]], float, float]:
     """Rows of the table, and the time of one call and of one run in an ensemble [s]."""
     block, time, ground = _block(yield_g), motion.time, -motion.acceleration

@@ -18,8 +18,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from elastic_block import Floats, Result, Skipped, matrices, mesh, steps_between
-from measure import Timing, repeat, require
+from elastic_block import Floats, Result, matrices, mesh, steps_between
+from measure import Skipped, Timing, repeat, require
 
 # Found by trying on this very problem. Theta is that of the time stepping: one half keeps the energy of vibrations and
 # flutters, 0.55 wears them out down to steps of 2e-4 s but at 1e-4 s pivoting breaks off and the block flies away, 0.7

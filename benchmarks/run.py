@@ -1,4 +1,4 @@
-"""Run the benchmarks, all or those that are named, and write their tables to results.md.
+"""Run the benchmarks, all or those that are named; write their tables to results.md, our figures to history.md.
 
 python benchmarks/run.py                      # all parts, one after the other
 python benchmarks/run.py crack_dam crack_peers
@@ -13,7 +13,8 @@ import time
 from importlib import import_module
 from pathlib import Path
 
-from measure import NothingMeasured
+import history
+from measure import NothingMeasured, Skipped
 
 #: Modules with a `report`, and the title of the section that each writes; each is meant to stay below five minutes.
 PARTS = {
@@ -23,6 +24,7 @@ PARTS = {
     "rocking_peers": "Rotations of any size",
     "spectra_peers": "Response spectra",
     "crack_dam": "Flexible dams",
+    "growth": "How cost grows",
     "flexible_study": "Flexible studies",
     "crack_peers": "Elastic block beside peers",
     "app_redraw": "The app in a browser",
@@ -46,7 +48,8 @@ def _titled(section: str) -> tuple[str, str]:
 
 
 def main() -> None:
-    """Run the parts. One that measures nothing leaves its old section alone, and the whole fails in the end."""
+    """Run the parts. One that measures nothing leaves its old section alone, and the whole fails in the end; one that
+    cannot be run here says so, and is no failure."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("part", nargs="*", metavar="part", help=f"of {', '.join(PARTS)}; all without")
     wanted = parser.parse_args().part or list(PARTS)
@@ -57,12 +60,16 @@ def main() -> None:
         start = time.perf_counter()
         try:
             report = import_module(part).report()
+        except (ImportError, Skipped) as reason:
+            print(f"{part}: not measured here, its section stays: {reason}", file=sys.stderr)
+            continue
         except NothingMeasured as reason:
             print(f"{part}: nothing measured: {reason}", file=sys.stderr)
             failed = True
             continue
         old = TARGET.read_text(encoding="utf-8") if TARGET.exists() else ""
         TARGET.write_text(renewed(old, report), encoding="utf-8")
+        history.add(history.picked(report, history.commit_now()))
         print(f"{part}: {time.perf_counter() - start:.0f} s, written to {TARGET}")
     sys.exit(failed)
 

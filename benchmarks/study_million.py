@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from measure import heading, require, seconds, table
+from measure import Skipped, heading, require, seconds, table
 
 RUNS = (1_000_000, 3_000_000)
 ROOT = Path(__file__).parents[1]
@@ -76,7 +76,8 @@ def measured(runs: int) -> list[str]:
 
 def report(runs: Sequence[int] = RUNS) -> str:
     """Measure and return Markdown."""
-    require(RECORDS.is_dir(), f"there are no records in {RECORDS}")
+    if not RECORDS.is_dir():
+        raise Skipped(f"there are no records in {RECORDS}")
     columns = ["runs", "elapsed", "processor", *STEPS, "start, answers, figures", "peak memory"]
     return "\n\n".join(
         [

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -15,7 +16,7 @@ def run(monkeypatch):
     import run
 
     yield run
-    for name in ("run", "measure"):
+    for name in ("run", "measure", "history", "peers", "peers_declared", "peers_solve"):
         sys.modules.pop(name, None)
 
 
@@ -28,7 +29,7 @@ def test_results_have_a_section_for_every_part(run):
 def test_one_section_is_renewed(run):
     text = (FOLDER / "results.md").read_text(encoding="utf-8")
     new = run.renewed(text, "## Flexible dams\n\nnew")
-    assert "## Flexible dams\n\nnew\n\n## Flexible studies" in new
+    assert "## Flexible dams\n\nnew\n\n## How cost grows" in new
     before, after = (body[: body.index("## Flexible dams")] for body in (text, new))
     assert before == after
     assert run.renewed("", "## Rigid peers\n\nx") == f"{run.TITLE}\n\n## Rigid peers\n\nx\n"
@@ -41,7 +42,7 @@ def test_every_part_is_there(run):
 
 
 def test_what_measures_nothing_fails_and_writes_nothing(tmp_path):
-    for name in ("run.py", "measure.py"):
+    for name in ("run.py", "measure.py", "history.py"):
         (tmp_path / name).write_text((FOLDER / name).read_text(encoding="utf-8"), encoding="utf-8")
     (tmp_path / "crack_dam.py").write_text(
         "from measure import require\ndef report():\n    require(False, 'no dam')\n", encoding="utf-8"
@@ -52,3 +53,88 @@ def test_what_measures_nothing_fails_and_writes_nothing(tmp_path):
     assert found.returncode == 1
     assert "nothing measured: no dam" in found.stderr
     assert not (tmp_path / "results.md").exists()
+
+
+def test_what_cannot_be_measured_here_is_said_and_no_failure(tmp_path):
+    for name in ("run.py", "measure.py", "history.py"):
+        (tmp_path / name).write_text((FOLDER / name).read_text(encoding="utf-8"), encoding="utf-8")
+    (tmp_path / "crack_peers.py").write_text("import no_such_peer\n", encoding="utf-8")
+    (tmp_path / "study_million.py").write_text(
+        "from measure import Skipped\ndef report():\n    raise Skipped('no records')\n", encoding="utf-8"
+    )
+    found = subprocess.run(
+        [sys.executable, "run.py", "crack_peers", "study_million"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=60,
+    )
+    assert found.returncode == 0, found.stderr
+    assert "crack_peers: not measured here, its section stays: No module named 'no_such_peer'" in found.stderr
+    assert "study_million: not measured here, its section stays: no records" in found.stderr
+
+
+def test_figures_are_picked_kept_once_and_shown(run, tmp_path, monkeypatch):
+    import history
+
+    monkeypatch.setattr(history, "STORE", tmp_path / "history.csv")
+    monkeypatch.setattr(history, "TABLE", tmp_path / "history.md")
+    section = (
+        "## Flexible dams\n\nMeasured 2026-11-22 on 2 cores; Linux, Python 3.11.7; heeltoe 0.1.0, numpy 2.4.6."
+        "\n\n| base crack | 88 | 17 | 200 µs | 76.1 ms (1%) | 206 ms | 200 ms |"
+    )
+    found = history.picked(section, "abc1234")
+    assert [(each.version, each.figure, each.seconds) for each in found] == [("0.1.0", "20 s, base crack", "0.206")]
+    history.add(found)
+    history.add(found)
+    assert history.read() == found
+    assert "| 2026-11-22 | 0.1.0 | abc1234 | 206 ms |" in (tmp_path / "history.md").read_text(encoding="utf-8")
+    assert history.picked("## Flexible dams\n\nnothing", "abc1234") == []
+
+
+def test_the_history_is_that_of_its_figures(run):
+    import history
+
+    known = history.read()
+    assert known
+    assert {(each.part, each.figure) for each in known} <= {(part, name) for part, name, _ in history.FIGURES}
+    assert {part for part, *_ in history.FIGURES} <= set(run.PARTS.values())
+    assert (FOLDER / "history.md").read_text(encoding="utf-8") == history.page(known)
+
+
+def test_the_page_of_independent_codes_is_made_of_their_declarations(run):
+    import peers
+
+    lines = peers.read()
+    assert {line["program"] for line in lines} == {peer.name for peer in peers.PEERS}
+    assert peers.PAGE.read_text(encoding="utf-8") == peers.page(lines)
+    assert all((FOLDER / peer.script).is_file() for peer in peers.PEERS)
+
+
+def test_a_peer_that_is_not_installed_is_said_and_keeps_its_numbers(run, tmp_path, monkeypatch, capsys):
+    import peers
+
+    def absent():
+        raise ImportError("No module named 'mujoco'")
+
+    mujoco = replace(peers.PEERS[0], solve=absent)
+    monkeypatch.setattr(peers, "PEERS", (mujoco, *peers.PEERS[1:]))
+    monkeypatch.setattr(peers, "NUMBERS", tmp_path / "peers.csv")
+    monkeypatch.setattr(peers, "PAGE", tmp_path / "page.md")
+    before = (FOLDER / "peers.csv").read_text(encoding="utf-8")
+    peers.NUMBERS.write_text(before, encoding="utf-8")
+    monkeypatch.setattr(sys, "argv", ["peers.py", "MuJoCo"])
+    peers.main()
+    assert "MuJoCo: not installed (No module named 'mujoco')" in capsys.readouterr().err
+    assert peers.NUMBERS.read_text(encoding="utf-8") == before
+    assert "### MuJoCo" in peers.PAGE.read_text(encoding="utf-8")
+
+
+def test_an_independent_code_that_all_have_is_run_anew(run):
+    import peers
+
+    (scipy,) = (peer for peer in peers.PEERS if peer.name == "SciPy")
+    loose, strict = peers.run(scipy)
+    assert float(loose["error"]) < 1e-5
+    assert float(strict["error"]) < 1e-8
+    assert float(strict["heeltoe"]) < 1e-11

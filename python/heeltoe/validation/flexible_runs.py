@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
+import numpy as np
+
+from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
+from heeltoe.models.flexible.reduced import build_flexible_dam
+from heeltoe.models.flexible.shaken import ShakenDam
 from heeltoe.models.run import flexible
+from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.response import Response
 from heeltoe.validation.row import Row
 
+#: A little less, the very and a little more shaking.
+SCALES = np.array([0.99, 1.0, 1.01])
 #: The program warns where contact makes more than this part of the energy that goes about.
 GAINED = 1e-4
 
@@ -33,6 +42,12 @@ class Runs:
         """Run a case and return its residual slip [mm]."""
         return 1e3 * float(self(case, motion).residual_slip_m)
 
+    def moved(self, row: Row, case: Case, motion: GroundMotion) -> Row:
+        """Put beside the slip [mm] of a case what half the step and 1 % of the shaking make of it."""
+        slips = scattered(case, motion)
+        finer = float(_scaled(case, motion, SCALES[1:2], 0.5)[0])
+        return replace(row, finer=finer, spread=(min(slips), max(slips)))
+
     def energy(self) -> Iterator[Row]:
         """Say what the ledgers of all runs so far leave open, and what contact has made out of nothing."""
         remark = (
@@ -44,3 +59,17 @@ class Runs:
         )
         what = "most energy made by contact, over what it takes"
         yield Row(what, 0.0, self._gained, GAINED, relative=False, remark=remark, kind="condition")
+
+
+def scattered(case: Case, motion: GroundMotion) -> list[float]:
+    """Return the slips [mm] under a little less, the very and a little more shaking."""
+    return _scaled(case, motion, SCALES, 1.0)
+
+
+def _scaled(case: Case, motion: GroundMotion, scales: Floats, part: float) -> list[float]:
+    """Return the slips [mm] under multiples of the shaking, with a part of the step of the case."""
+    step = case.flexible.time_step
+    assert isinstance(step, float)
+    shaken = ShakenDam(case, build_flexible_dam(case), Earthquake(motion, None, motion.duration).shaking)
+    slips: list[float] = (1e3 * shaken.run_scaled(part * step, scales)["slip"]).tolist()
+    return slips

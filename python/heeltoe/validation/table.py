@@ -16,10 +16,7 @@ def run_all(name: str | None, console: Console) -> bool:
         run_case(name)
     passed = failed = deviating = informing = skipped = 0
     for each in [name] if name else CASES:
-        case = CASES[each]
-        # An optimizing Python keeps no docstrings.
-        heading = (case.__doc__ or "").strip().partition("\n")[0]
-        console.print(f"\n[bold]{each}[/bold]  {heading}")
+        console.print(f"\n[bold]{each}[/bold]  {CASES[each].title}")
         try:
             rows = run_case(each)
         except Skipped as reason:

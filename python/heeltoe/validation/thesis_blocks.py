@@ -40,7 +40,7 @@ def impulse() -> Iterator[Row]:
 
 
 def sine() -> Iterator[Row]:
-    """The same block, ground 0.5 g sin(pi t / 0.2): printed times of zero slip velocity."""
+    """Block 1 x 1 m, friction 0.2, ground 0.5 g sin(pi t / 0.2): printed times of zero slip velocity."""
     block = rectangle(1.0, 1.0, 0.2, gravity=9.80665)
     ground = sampled(lambda t: 0.5 * 9.80665 * np.sin(np.pi * t / 0.2), 1e-5, 1.6)
     found = run(block, *ground)

@@ -53,6 +53,44 @@ def overturning_pulses() -> Iterator[Row]:
             yield Row(f"{name}, w/p = {ratio}", reference, ours, 1e-5, remark="linearised block: its own p and alpha")
 
 
+def overturning_after_impact() -> Iterator[Row]:
+    """A / (alpha g) of full sines between which a slender block overturns after one impact, with P-Delta.
+
+    Below the first edge it stands, between both it overturns after one impact, above the second it stands again: the
+    safe region of Zhang and Makris, which ends where it overturns without impact.
+    """
+    case = _slender("p-delta")
+    block = build_block(case)
+    remark = (
+        "an independent program with the textbook's equation and Housner's ratio, integrated by SciPy (DOP853, 1e-11)"
+    )
+    for ratio, bracket, references in (
+        (3, (1.02, 2.5, 3.57), (1.398617, 3.505343)),
+        (4, (1.02, 3.0, 5.1), (1.771726, 4.907883)),
+        (5, (1.02, 4.5, 6.8), (2.880190, 6.456526)),
+        (6, (1.02, 6.4, 8.5), (4.813185, 8.020859)),
+    ):
+        for name, reference, (low, high) in zip(("from", "to"), references, pairwise(bracket), strict=True):
+            ours = _edge(case, block, ratio, (low, high))
+            yield Row(f"{name}, w/p = {ratio}", reference, ours, 1e-5, remark=remark, kind="prototype")
+
+
+def _edge(case: Case, block: Block, ratio: float, bracket: tuple[float, float]) -> float:
+    """Return the amplitude over g B / H at which overturning after one impact begins or ends, by bisection."""
+    below, (low, high) = _overturns(case, block, ratio, bracket[0]), bracket
+    while high - low > 1e-6:
+        middle = 0.5 * (low + high)
+        low, high = (middle, high) if _overturns(case, block, ratio, middle) == below else (low, middle)
+    return high
+
+
+def _overturns(case: Case, block: Block, ratio: float, amplitude: float) -> bool:
+    """Return whether a full sine overturns the block after one impact."""
+    time, pulse = _sine(block, ratio, whole=True)
+    found = _run(case, time, amplitude * _G * block.toe_distance / block.height * pulse)
+    return found.outcome == "overturned" and found.summary["impacts"] == 1.0
+
+
 def _slender(rotation: str) -> Case:
     """Return a block 1 m wide and 4 m high that does not slide."""
     return read_case(
@@ -75,14 +113,8 @@ def _run(
 
 def _least(case: Case, block: Block, ratio: float, *, whole: bool) -> float:
     """Return the least amplitude over g B / H that overturns the block before it strikes, by bisection."""
-    half, height, mass = block.toe_distance, block.height, block.mass_vertical
-    rate = math.sqrt(mass * _G * height / (block.inertia + mass * (height**2 + half**2)))
-    circular = ratio * rate
-    end = (2.0 if whole else 1.0) * math.pi / circular
-    time = np.linspace(0.0, end, 4001)
-    pulse = np.append(np.sin(circular * time), 0.0)
-    pulse[-2] = 0.0
-    time = np.append(time, end + 40.0 / rate)
+    half, height = block.toe_distance, block.height
+    time, pulse = _sine(block, ratio, whole=whole)
     low, high = 1.0, 12.0
     while high - low > 1e-6:
         middle = 0.5 * (low + high)
@@ -92,3 +124,15 @@ def _least(case: Case, block: Block, ratio: float, *, whole: bool) -> float:
         else:
             low = middle
     return high
+
+
+def _sine(block: Block, ratio: float, *, whole: bool) -> tuple[Floats, Floats]:
+    """Return a sine of the circular frequency `ratio` p, one of it or half of it, and long rest after it."""
+    half, height, mass = block.toe_distance, block.height, block.mass_vertical
+    rate = math.sqrt(mass * _G * height / (block.inertia + mass * (height**2 + half**2)))
+    circular = ratio * rate
+    end = (2.0 if whole else 1.0) * math.pi / circular
+    time = np.linspace(0.0, end, 4001)
+    pulse = np.append(np.sin(circular * time), 0.0)
+    pulse[-2] = 0.0
+    return np.append(time, end + 40.0 / rate), pulse

@@ -1,0 +1,99 @@
+"""Numbers of the book: as many digits as another machine finds too, and when two texts say the same."""
+
+from __future__ import annotations
+
+import math
+import re
+from itertools import pairwise
+
+from heeltoe.validation.row import Row
+
+#: Below this a deviation is rounding.
+ROUNDING = 1e-9
+#: Digits at the least, and at the most.
+FEWEST, MOST = 4, 8
+_NUMBER = re.compile(r"(< )?([-+]?\d+(?:\.(\d+))?(?:e([-+]?\d+))?)")
+
+
+def ours(row: Row) -> str:
+    """Return our number: a condition's as the power of ten that it stays below, others to what their tolerance asks."""
+    if _bounded(row):
+        return _below(abs(row.ours))
+    return number(row, row.ours)
+
+
+def reference(row: Row) -> str:
+    """Return the reference: as it is known from outside, and as our number where it is one of ours."""
+    return number(row, row.reference) if row.kind in ("own run", "condition") else f"{row.reference:.9g}"
+
+
+def number(row: Row, value: float) -> str:
+    """Return a number of a row to a hundredth of the row's tolerance."""
+    step = _step(row) * (abs(row.reference) if row.relative else 1.0)
+    wanted = FEWEST if step == 0.0 or value == 0.0 else math.floor(math.log10(abs(value) / step)) + 1
+    return f"{value:.{min(max(wanted, FEWEST), MOST)}g}"
+
+
+def deviation(row: Row) -> str:
+    """Return the deviation to two digits, and no finer than a hundredth of the tolerance."""
+    if _bounded(row):
+        return ""
+    step, value = _step(row), row.deviation
+    if row.tolerance == 0.0 == value:
+        return "0"
+    per_cent = row.relative and step >= 1e-6
+    unit, scale = (" %", 100.0) if per_cent else ("", 1.0)
+    if abs(value) < step:
+        return f"< {scale * step:.3g}{unit}"
+    rounded = scale * round(value / step) * step
+    digits = max(2, math.floor(math.log10(abs(rounded))) + 1)
+    return f"{rounded:+.{digits}g}{unit}"
+
+
+def tolerance(row: Row) -> str:
+    """Return the tolerance, and how far deviations are explained."""
+    if row.tolerance is None:
+        return "none"
+    limits = [row.tolerance] if row.explained is None else [row.tolerance, row.explained]
+    texts = [f"{100.0 * each:.3g} %" if row.relative and each >= 1e-4 else f"{each:.2g}" for each in limits]
+    return texts[0] if len(texts) == 1 else f"{texts[0]}; explained to {texts[1]}"
+
+
+def _step(row: Row) -> float:
+    """Return what a deviation is rounded to."""
+    if row.tolerance is None:
+        return 1e-4
+    if row.tolerance == 0.0:
+        return ROUNDING
+    return max(ROUNDING, 10.0 ** (math.floor(math.log10(row.tolerance)) - 2))
+
+
+def _bounded(row: Row) -> bool:
+    """Whether a number is to be small, and nothing else is asked of it."""
+    small = row.tolerance is not None and row.tolerance <= 1e-3
+    if row.tolerance == 0.0:
+        return False
+    return row.reference == 0.0 and not row.relative and abs(row.ours) < 1.0 and (small or row.kind == "condition")
+
+
+def _below(value: float) -> str:
+    """Return the power of ten that a number stays below."""
+    return f"< {10.0 ** (math.floor(math.log10(max(value, ROUNDING / 10.0) * 1.001)) + 1):.0e}"
+
+
+def alike(old: str, new: str) -> bool:
+    """Whether two texts are the same but for one in the last digit of their numbers; bounds, for one power of ten."""
+    parts = [_NUMBER.split(text)[::5] for text in (old, new)]
+    if parts[0] != parts[1]:
+        return False
+    pairs = zip(_NUMBER.finditer(old), _NUMBER.finditer(new), strict=True)
+    return all(_near(*pair) for pair in pairs)
+
+
+def _near(old: re.Match[str], new: re.Match[str]) -> bool:
+    if old[1] and new[1]:
+        return 0.09 < float(old[2]) / float(new[2]) < 11.0
+    # What is below a bound is between nothing and one of its last digits.
+    values = [0.0 if each[1] else float(each[2]) for each in (old, new)]
+    unit = max(10.0 ** (int(each[4] or 0) - len(each[3] or "")) for each in (old, new))
+    return all(abs(b - a) <= 1.01 * unit for a, b in pairwise(values))

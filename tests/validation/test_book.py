@@ -1,0 +1,86 @@
+"""The book prints what another machine finds too, sees what has changed, and makes its pages from rows."""
+
+import pytest
+
+from heeltoe.validation.book import numbers, pages, store
+from heeltoe.validation.book.__main__ import make
+from heeltoe.validation.row import Row
+
+
+@pytest.mark.parametrize(
+    ("row", "ours", "deviation", "tolerance"),
+    [
+        (Row("slip", 100.0, 104.0400001, 0.07), "104.04", "+4 %", "7 %"),
+        (Row("slip", 100.0, 100.00001, 0.07), "100", "< 0.01 %", "7 %"),
+        (Row("slip", 100.0, 119.9, 0.07, explained=0.22), "119.9", "+20 %", "7 %; explained to 22 %"),
+        (Row("slip", 1.0, 1.0 + 1e-13, 1e-12), "1", "< 1e-09", "1e-12"),
+        (Row("stress", 15.7, 15.72, 0.06, relative=False), "15.72", "+0.02", "0.06"),
+        (Row("events", 19.0, 19.0, 0.0), "19", "0", "0"),
+        (Row("ledger", 0.0, 3e-13, 1e-9, relative=False, kind="condition"), "< 1e-09", "", "1e-09"),
+        (Row("made", 0.0, 3.2e-6, 1e-4, relative=False, kind="condition"), "< 1e-05", "", "0.0001"),
+        (Row("lost", 0.0, 0.0123, None, relative=False), "0.0123", "+0.012", "none"),
+    ],
+)
+def test_numbers(row, ours, deviation, tolerance):
+    assert (numbers.ours(row), numbers.deviation(row), numbers.tolerance(row)) == (ours, deviation, tolerance)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "same"),
+    [
+        ("104.04", "104.05", True),
+        ("104.04", "104.06", False),
+        ("421", "421.4", True),
+        ("421", "423", False),
+        ("+4.1 %", "-4.1 %", False),
+        ("< 0.01 %", "+0.01 %", True),
+        ("< 0.01 %", "+0.03 %", False),
+        ("< 1e-05", "< 1e-06", True),
+        ("< 1e-05", "< 1e-08", False),
+        ("6.62 m in 50 s", "6.63 m in 50 s", True),
+        ("6.62 m in 50 s", "6.62 m in 60 s", False),
+        ("within", "outside", False),
+        ("143.1 to 146.2", "143.1 to 146.3", True),
+    ],
+)
+def test_the_same_but_for_the_last_digit(old, new, same):
+    assert numbers.alike(old, new) is same
+    assert numbers.alike(new, old) is same
+
+
+def test_drift_is_told():
+    before = [store.told(Row("slip", 100.0, 104.0, 0.07, remark="print"))]
+    assert store.drift(before, before) == []
+    now = [store.told(Row("slip", 100.0, 109.0, 0.07, remark="print"))]
+    told = "\n".join(store.drift(before, now))
+    assert "slip, ours: '104' before, '109' now" in told
+    assert "slip, verdict: 'within' before, 'outside' now" in told
+    assert store.drift(before, [*now, *now]) == ["1 rows before, 2 now"]
+    spread = [store.told(Row("slip", 100.0, 104.0, 0.07, remark="print", spread=(103.0, 105.0)))]
+    assert "columns" in store.drift(before, spread)[0]
+
+
+def test_a_row_outside_stands_out():
+    page = pages.page("impulse", [store.told(Row("slip", 100.0, 140.0, 0.07, remark="print", spread=(1.0, 2.0)))])
+    assert "**outside**" in page
+    assert "| slip [1] |" in page
+    assert "1. print" in page
+
+
+def test_one_page_is_made_anew(tmp_path, capsys):
+    make(tmp_path, ["impulse"])
+    make(tmp_path, ["sine"])
+    assert set(store.read(tmp_path)) == {"impulse", "sine"}
+    assert {path.name for path in tmp_path.glob("*.md")} == {"impulse.md", "sine.md", "index.md"}
+    assert "[sine](sine.md)" in (tmp_path / "index.md").read_text(encoding="utf-8")
+    assert "impulse: 2 rows" in capsys.readouterr().out
+
+
+def test_what_cannot_be_computed_stays(tmp_path, monkeypatch, capsys):
+    make(tmp_path, ["impulse"])
+    before = store.read(tmp_path)
+    monkeypatch.setenv("HEELTOE_RECORDS", str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    make(tmp_path, ["table-7.6-taft"])
+    assert store.read(tmp_path) == before
+    assert "table-7.6-taft: as it was; the record" in capsys.readouterr().out
