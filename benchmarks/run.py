@@ -24,7 +24,7 @@ PARTS = {
     "rocking_peers": "Rotations of any size",
     "spectra_peers": "Response spectra",
     "crack_dam": "Flexible dams",
-    "growth": "How cost grows",
+    "cost_growth": "How cost grows",
     "flexible_study": "Flexible studies",
     "crack_peers": "Elastic block beside peers",
     "app_redraw": "The app in a browser",

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from heeltoe.errors import InputError
-from heeltoe.validation import of_blocks, of_dams, of_statics
+from heeltoe.validation import of_dams, of_statics
+from heeltoe.validation.blocks import of_blocks
 from heeltoe.validation.declared import Declared
 from heeltoe.validation.row import Row
 

@@ -39,8 +39,8 @@ CASES: dict[str, Declared] = {
     "sarkar": Declared(
         textbook_walls.sarkar,
         ("statics",),
-        "B. K. Sarkar, Strength of Materials, chapter 14, by the public programs of its worked examples (FOSSEE, Scilab "
-        "textbook companion 3772)",
+        "B. K. Sarkar, Strength of Materials, chapter 14, by the public programs of its worked examples (FOSSEE, "
+        "Scilab textbook companion 3772)",
         _SUMS,
         _STILL,
     ),

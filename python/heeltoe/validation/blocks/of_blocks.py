@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from heeltoe.references import REFERENCES
-from heeltoe.validation import (
+from heeltoe.validation import random_blocks
+from heeltoe.validation.blocks import (
     closed_forms,
     elastic_bar,
     flexible_blocks,
-    random_blocks,
     sliding_spectra,
     thesis_blocks,
     turning,

@@ -1,0 +1,1 @@
+"""The reference cases of blocks: closed forms, prototypes, elastic blocks, sliding spectra."""
