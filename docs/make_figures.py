@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+from matplotlib.figure import Figure
+
 from heeltoe import decoupled, read_case, rigid
 from heeltoe.study.overturning import overturning_map
 from heeltoe.study.small import parse_axes, run_small
@@ -14,11 +16,16 @@ from heeltoe.views.figures.write import save
 HERE = Path(__file__).parent
 EXAMPLES = HERE.parent / "examples"
 
+
+def koyna_top() -> Figure:
+    """Return the picture of the README."""
+    return response_figure(rigid(read_case(EXAMPLES / "koyna-top.toml", ["motion.pga=1g", "motion.duration=15s"])))
+
+
 if __name__ == "__main__":
-    case = read_case(EXAMPLES / "koyna-top.toml", ["motion.pga=1g", "motion.duration=15s"])
     varied = parse_axes(["crack.friction=0.8,1.0,1.2", "uplift.pattern=uniform,triangular"])
     grid = run_small(EXAMPLES / "koyna.toml", [], varied, decoupled)
-    save(response_figure(rigid(case)), HERE / "koyna-top.png", dpi=110)
+    save(koyna_top(), HERE / "koyna-top.png", dpi=110)
     save(crack_level_figure(grid.responses[0]), HERE / "koyna-crack-level.png", dpi=110)
     save(slips_figure(grid), HERE / "koyna-slips.png", dpi=110)
     pulses = overturning_map(read_case(EXAMPLES / "slender.toml"), count=100)
