@@ -8,10 +8,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from heeltoe.case.dam import Reservoir
 from heeltoe.views.animation import look
 from heeltoe.views.animation.bodies import ACCURACY, Moments
 from heeltoe.views.animation.frames import STATUSES, automatic, build_scene, round_below
-from heeltoe.views.animation.picture import arrow_outlines
+from heeltoe.views.animation.picture import shore_of, arrow_outlines
 from shared.dams import example
 from shared.scenes import SMALL
 
@@ -171,6 +172,21 @@ def test_the_exaggeration_fits_dam_and_crack():
     assert automatic(0.1, SimpleNamespace(**{**vars(dam), "crack_width": 8.0})) == 20.0
     assert automatic(30.0, dam) == 1.0
     assert automatic(0.0, dam) == 1.0
+
+
+def test_water_above_the_crest_is_in_the_picture_and_goes_on_to_its_far_edge(block):
+    case, response = block
+    section = case.cut
+    deep = 1.1 * (section.crest_elevation - section.base_elevation)
+    case = case.model_copy(update={"reservoir": Reservoir.model_validate({"depth": f"{deep} m"})})
+    scene = build_scene(case, response, response.histories["time_s"][:1], None)
+    assert all(top > scene.water for *_, top in scene.views)
+    upper = scene.parts[0]
+    face, back = (upper.points[side] for side in (upper.upstream, upper.downstream))
+    shore, end = shore_of(face, back[-1], scene.water)
+    assert end == back[-1, 0]
+    assert shore[-1].tolist() == [end, scene.water]
+    assert shore_of(face, back[-1], face[-1, 1] - 1.0)[0] is face
 
 
 def test_arrows_point_where_the_force_goes():

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.arrays import Floats, Integers
+from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
 from heeltoe.models.flexible.history import CrackHistory
@@ -152,9 +153,9 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
         history_mode=mode[within],
         traces=_traces(response, within, system),
         base=section.base_elevation,
-        water=None if case.reservoir is None else section.base_elevation + case.reservoir.depth,
-        tailwater=None if case.tailwater is None else section.base_elevation + case.tailwater.depth,
-        views=_views(section, parts, exaggeration),
+        water=_level(section, case.reservoir),
+        tailwater=_level(section, case.tailwater),
+        views=_views(case, parts, exaggeration),
     )
 
 
@@ -268,16 +269,21 @@ def _traces(response: Response, within: NDArray[np.bool_], units: Units) -> tupl
     return found
 
 
-def _views(
-    section: CutSection, parts: tuple[Part, ...], exaggeration: float
-) -> tuple[tuple[float, float, float, float], ...]:
-    upper = parts[0]
+def _level(section: CutSection, water: Water | None) -> float | None:
+    return None if water is None else section.base_elevation + water.depth
+
+
+def _views(case: Case, parts: tuple[Part, ...], exaggeration: float) -> tuple[tuple[float, float, float, float], ...]:
+    section, upper = case.cut, parts[0]
     drawn = upper.points[upper.outline] + exaggeration * upper.displacements(upper.outline)
     low = np.minimum(drawn.min(axis=(0, 1)), upper.points.min(axis=0))
     high = np.maximum(drawn.max(axis=(0, 1)), upper.points.max(axis=0))
     points = np.vstack([part.points for part in parts])
     left, right = min(points[:, 0].min(), low[0]), max(points[:, 0].max(), high[0])
     base, height = section.base_elevation, section.crest_elevation - section.base_elevation
+    # Water above the crest is seen, its surface too.
+    levels = [_level(section, water) for water in (case.reservoir, case.tailwater)]
+    high[1] = max(high[1], *(level for level in levels if level is not None), high[1])
     top = max(section.crest_elevation, high[1])
     near_crack = section.height <= _SMALL * height
     # Below a crack that has no picture of its own there must be room for its forces.

@@ -239,11 +239,15 @@ class _View:
         artists: list[Any] = []
         for water, surface, level, upstream in self.waters:
             edge = self.sides[0 if upstream else 1]
-            face = np.vstack(
-                [drawn[id(part)][part.upstream if upstream else part.downstream] for part in reversed(scene.parts)]
+            face, back = (
+                np.vstack(
+                    [drawn[id(part)][part.upstream if side else part.downstream] for part in reversed(scene.parts)]
+                )
+                for side in (upstream, not upstream)
             )
-            water.set_xy(np.vstack([[edge, face[0, 1]], face, [edge, face[-1, 1]]]))
-            surface.set_data([edge, _at_level(face, level)], [level, level])
+            shore, end = shore_of(face, back[-1], level)
+            water.set_xy(np.vstack([[edge, face[0, 1]], shore, [edge, shore[-1, 1]]]))
+            surface.set_data([edge, end], [level, level])
             artists += [water, surface]
         for body in self.bodies:
             points = drawn[id(body.part)]
@@ -290,6 +294,13 @@ def _broken(segments: Floats) -> Floats:
     ends = np.full((len(segments), 1, 2), np.nan)
     found: Floats = np.concatenate([segments, ends], axis=1).reshape(-1, 2).T
     return found
+
+
+def shore_of(face: Floats, far_top: Floats, level: float) -> tuple[Floats, float]:
+    """Return what bounds the water before a face, and where its surface ends: above the crest at its far edge."""
+    if level <= face[-1, 1]:
+        return face, _at_level(face, level)
+    return np.vstack([face, far_top, [far_top[0], level]]), float(far_top[0])
 
 
 def _at_level(face: Floats, level: float) -> float:
