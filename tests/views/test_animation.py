@@ -12,7 +12,7 @@ from heeltoe.case.dam import Reservoir
 from heeltoe.views.animation import look
 from heeltoe.views.animation.bodies import ACCURACY, Moments
 from heeltoe.views.animation.frames import STATUSES, automatic, build_scene, round_below
-from heeltoe.views.animation.picture import shore_of, arrow_outlines
+from heeltoe.views.animation.picture import arrow_outlines, shore_of
 from shared.dams import example
 from shared.scenes import SMALL
 

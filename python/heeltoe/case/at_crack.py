@@ -85,7 +85,10 @@ def uplift_at_crack(uplift: Uplift, section: CutSection) -> Uplift:
     if uplift.drain_x is None:
         return uplift
     there, position = drains(uplift.drain_x, section)
-    # Halfway down the triangle is where drains in the middle change nothing.
+    if not np.any(there):
+        gone = dict.fromkeys(("drain_x", "drain_position", "drain_efficiency"))
+        return uplift.model_copy(update={**gone, "pattern": "triangular"})
+    # Of columns some have drains: halfway down the triangle is where those in the middle change nothing.
     found = {"drain_position": np.where(there, position, 0.5)}
     found["drain_efficiency"] = np.where(there, uplift.drain_efficiency or 0.0, 0.5)
     return uplift.model_copy(update={name: number(value) for name, value in found.items()})

@@ -96,6 +96,41 @@ def test_what_has_no_place_at_a_section_is_refused_there():
         heeltoe.statics_of_sections(case)
 
 
+def test_anchors_and_drains_count_at_the_joints_that_they_cross():
+    anchor = {"head_x": "0 m", "head_elevation": "100 m", "foot_x": "4 m", "foot_elevation": "10 m"}
+    drains = {"pattern": "drained", "drain_x": "30 m", "drain_efficiency": 0.6}
+    case = dam(anchors=[anchor | {"prestress": "1 MN/m"}], uplift=drains, statics={"sections": ["0 m", "20 m", "70 m"]})
+    found = heeltoe.statics_of_sections(case)
+    # Straight from the crest to 10 m up: 80 of 90 m below its head it is 80/90 of 4 m away, 30 m below a third of it.
+    places = {20.0: 80.0 / 90.0 * 4.0, 70.0: 30.0 / 90.0 * 4.0}
+    for joint in found.joints:
+        lines = {line.name: line for line in joint.statics.cases[0].sheet().lines}
+        held = lines["anchors"].vertical_n
+        codes = [each.code for each in joint.statics.warnings]
+        assert ("anchor-misses" in codes) is (joint.elevation_m not in places)
+        if joint.elevation_m in places:
+            assert lines["anchors"].distance_m == pytest.approx(places[joint.elevation_m])
+        assert held == pytest.approx(-1e6 * 90.0 / (90.0**2 + 4.0**2) ** 0.5 if joint.elevation_m in places else 0.0)
+        # Drains 30 m from the heel cross joints that are wider: of 80, 64 and 24 m the last is not.
+        assert ("drains-miss" in codes) is (joint.elevation_m == 70.0)
+        assert len(joint.statics.cases[0].pressures) == (2 if joint.elevation_m == 70.0 else 3)
+
+
+def test_a_joint_without_drains_opens_as_one_without_any():
+    """From the tip of its crack pressure goes straight to the toe, past where drains would be."""
+    given = {
+        "concrete": {"density": "2000 kg/m^3"},
+        "crack": {"friction": 0.9, "elevation": "50 m"},
+    }
+    drains = {"pattern": "drained", "drain_x": "60 m", "drain_efficiency": 0.6}
+    missed, without = (
+        heeltoe.statics(dam("98 m", uplift=uplift, **given)).cases[0] for uplift in (drains, {"pattern": "triangular"})
+    )
+    assert without.cracked_length_m > 1.0
+    assert missed.cracked_length_m == pytest.approx(without.cracked_length_m)
+    assert missed.pressures == without.pressures
+
+
 def test_checks_of_the_crack_alone_say_so():
     said = [str(each) for each in heeltoe.statics(dam(statics=LISTED)).warnings]
     assert any("statics.sections: these checks are of the crack alone" in each for each in said)

@@ -145,6 +145,11 @@ def _say(value: float, digits: int = _DIGITS) -> str:
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 
+def _within(value: float) -> str:
+    """Write a number of a product, which has a sign of its own."""
+    return f"({_say(value)})" if value < 0.0 else _say(value)
+
+
 @dataclass(frozen=True)
 class Step:
     """A step of the calculation.
@@ -279,7 +284,7 @@ class _Steps:
                 Step(
                     name,
                     f"σ = N/L (1 {sign} 6 e'/L)",
-                    f"{_say(self.normal)}/{_say(closed)} (1 {sign} 6 · {_say(away)}/{_say(closed)})",
+                    f"{_say(self.normal)}/{_say(closed)} (1 {sign} 6 · {_within(away)}/{_say(closed)})",
                     self._stress(shown),
                     *((limit, met) if governs and limit else ("", None)),
                 )
