@@ -12,7 +12,7 @@ export PYO3_PYTHON := $(abspath $(BIN)/python)
 WASM := wasm32-unknown-unknown
 ELAPSED = echo "$@: done in $$(( $$(date +%s) - $$(cat $(VENV)/.started) )) s"
 
-.PHONY: demo test test-slow test-pythons audit browser lint format validate book peers bench wheel try-wheel clean help check
+.PHONY: demo test test-slow test-pythons audit browser lint format validate book peers bench docs wheel try-wheel clean help check
 .DEFAULT_GOAL := help
 
 help:
@@ -26,6 +26,7 @@ help:
 	@echo "make validate   the reference cases as tables"
 	@echo "make book       the validation book, docs/validation, from the reference cases (CASE=table-7.1 for one)"
 	@echo "make peers      independent codes on problems of known answer; their page of the book (PEER=MuJoCo for one)"
+	@echo "make docs       the documentation as pages, in docs/_build/html"
 	@echo "make bench      ours against named peers; writes benchmarks/results.md (PART=crack_dam for one part)"
 	@echo "make wheel      a wheel that needs no compiler, and the sdist, in out/dist; needs a network"
 	@echo "make try-wheel  install it into an empty environment and do with it what a user does"
@@ -112,6 +113,11 @@ peers: check $(VENV)/.built
 	$(BIN)/python benchmarks/peers.py $(PEER)
 	@$(ELAPSED)
 
+docs: check $(VENV)/.built
+	$(BIN)/sphinx-build -W --keep-going -q -b html docs docs/_build/html
+	@echo "open docs/_build/html/index.html"
+	@$(ELAPSED)
+
 bench: check $(VENV)/.built
 	@$(PEERS)
 	$(BIN)/python benchmarks/run.py $(PART)
@@ -137,4 +143,4 @@ format:
 	$(BIN)/ruff check --fix .
 
 clean:
-	rm -rf $(VENV) target out python/heeltoe/*.so
+	rm -rf $(VENV) target out docs/_build docs/generated python/heeltoe/*.so

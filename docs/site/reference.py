@@ -1,0 +1,160 @@
+"""Pages of the reference, from what the code says of itself: fields, keys, columns, commands, the Python names."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import Any
+
+import typer
+
+import heeltoe
+from heeltoe.cli.main import app
+from heeltoe.views.explain.find import everything
+from heeltoe.views.explain.meaning import Meaning
+
+PAGES = {
+    "case": ("Fields of a case", ("field of a case",), "`heeltoe explain NAME` says the same on the terminal."),
+    "study": (
+        "Fields of a study",
+        ("field of a study",),
+        "What varies is a list of values or, under `vary.*`, a distribution; [studies](../studies.md) have examples.",
+    ),
+    "json": (
+        "Keys of the JSON",
+        ("key of the JSON",),
+        "What `--json` writes, and `response.to_json()` returns. `[]` is a place in a list, `*` any name. Numbers are "
+        "SI, per metre of dam. [How to read results in pandas](../howto/pandas.md) has examples.",
+    ),
+    "columns": (
+        "Columns of the tables",
+        ("column of the histories", "column of the events", "column of a study"),
+        "Parquet or CSV, SI. An elastic dam has no events; columns of what a model does not have are not there.",
+    ),
+}
+
+
+def write_reference(place: Path) -> None:
+    """Write the pages into a directory."""
+    for name, (title, kinds, said) in PAGES.items():
+        (place / f"{name}.md").write_text("\n".join(_page(title, kinds, said)), encoding="utf-8")
+    (place / "commands.md").write_text("\n".join(_commands()), encoding="utf-8")
+    (place / "python.md").write_text("\n".join(_python()), encoding="utf-8")
+
+
+def _page(title: str, kinds: tuple[str, ...], said: str) -> Iterator[str]:
+    yield from (f"# {title}", "", said, "")
+    for kind in kinds:
+        found = [each for each in everything() if each.kind == kind]
+        level = "##"
+        if len(kinds) > 1:
+            yield from (f"## {kind.removeprefix('column of ').capitalize()}", "")
+            level = "###"
+        for block, members in _blocks(found):
+            if block:
+                about = f" {_link(block.page)}" if block.page else ""
+                yield from (f"{level} {_text(block.name)}", "", f"{_text(block.meaning)}{about}", "")
+            for each in members:
+                yield from _entry(each, "" if block is None else block.page)
+
+
+def _blocks(found: list[Meaning]) -> Iterator[tuple[Meaning | None, list[Meaning]]]:
+    """Group names by the block that they stand in; those of no block come first."""
+    blocks = [each for each in found if each.parts]
+    inside = {name for block in blocks for name in block.parts}
+    yield None, [each for each in found if not each.parts and each.name not in inside]
+    by_name = {each.name: each for each in found}
+    for block in blocks:
+        yield block, [by_name[name] for name in block.parts if name in by_name and not by_name[name].parts]
+
+
+def _entry(each: Meaning, page: str) -> Iterator[str]:
+    """Walk the lines of a name, which links to a page only where its block does not."""
+    field = each.kind.startswith("field")
+    command = each.found_in if each.kind == "key of the JSON" and each.found_in != "heeltoe run --json" else ""
+    parts = [
+        each.holds if field or not each.holds else f"in {each.holds}",
+        each.default if each.default in ("", "it must be said") else f"default {each.default}",
+        each.limits,
+        f"read by {each.found_in}" if field and each.found_in not in ("", "all models", "what is shown alone") else "",
+        f"found in {command}" if command else "",
+    ]
+    said = _text("; ".join(filter(None, parts)))
+    more = [f"*{said}*" if said else "", _link(each.page) if each.page != page else ""]
+    yield f"`{each.name}`"
+    yield f": {_text(each.meaning)}" + "".join(f"\\\n  {line}" for line in [" ".join(filter(None, more))] if line)
+    yield ""
+
+
+def _link(page: str) -> str:
+    """Return a link to a page and the heading or the equation on it."""
+    if not page:
+        return ""
+    if " equation " in page:
+        file, number = page.split(" equation ")
+        name = file.removesuffix(".md")
+        return f'<a href="../{name}.html#equation-{number}">equation {number} of {name}</a>'
+    return f"[more](../{page})"
+
+
+def _text(text: str) -> str:
+    """Return a text in which stars and brackets are themselves."""
+    pieces = re.split(r"(`[^`]*`)", text)
+    return "".join(each if each.startswith("`") else re.sub(r"([*\[\]<>_])", r"\\\1", each) for each in pieces)
+
+
+def _commands() -> Iterator[str]:
+    """Walk the page of the commands."""
+    yield from (
+        "# Commands",
+        "",
+        "What `heeltoe COMMAND --help` says. Exit codes: 0 a result, 2 the input is wrong,",
+        "3 the run ended without a result to trust, 1 a bug.",
+        "",
+    )
+    commands: dict[str, Any] = typer.main.get_command(app).commands  # type: ignore[attr-defined]
+    for name, command in commands.items():
+        arguments = [each for each in command.params if each.param_type_name == "argument"]
+        options = [each for each in command.params if each.param_type_name == "option" and each.name != "help"]
+        said = " ".join((command.help or "").split())
+        called = " ".join([f"heeltoe {name}", *(each.metavar or each.name.upper() for each in arguments)])
+        yield from (f"## heeltoe {name}", "", _text(said), "", f"    {called}{' [OPTIONS]' if options else ''}", "")
+        for each in (*arguments, *options):
+            written = ", ".join(each.opts) if each.param_type_name == "option" else each.metavar or each.name.upper()
+            value = "" if each.param_type_name == "argument" or each.is_flag else f" {each.metavar or 'TEXT'}"
+            default = f" *Default: {each.default}.*" if _worth_saying(each) else ""
+            yield from (
+                f"`{written}{value}`",
+                "",
+                f": {_text(getattr(each, 'help', None) or 'What it is about.')}{default}",
+                "",
+            )
+
+
+def _worth_saying(parameter: Any) -> bool:
+    return isinstance(parameter.default, str | int | float) and not isinstance(parameter.default, bool)
+
+
+def _python() -> Iterator[str]:
+    """Walk the page of the public names: classes, then functions."""
+    yield from (
+        "# Python",
+        "",
+        "All public names; `dir(heeltoe)` lists them. [From Python](../python.md) shows how they go",
+        "together.",
+        "",
+    )
+    names = [(name, getattr(heeltoe, name)) for name in heeltoe.__all__]
+    yield from _named("Functions", (name for name, each in names if not inspect.isclass(each)), "autofunction")
+    yield from _named("Classes", (name for name, each in names if inspect.isclass(each)), "autoclass")
+
+
+def _named(title: str, names: Iterable[str], directive: str) -> Iterator[str]:
+    yield from (f"## {title}", "")
+    for name in names:
+        members = ["   :members:"] if directive == "autoclass" else []
+        if name == "Case":  # its fields have a page of their own
+            members = ["   :members: of, with_, plot"]
+        yield from ("```{eval-rst}", f".. {directive}:: heeltoe.{name}", *members, "```", "")
