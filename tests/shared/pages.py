@@ -11,7 +11,7 @@ from shared.dams import ROOT
 
 PAGES = {
     str(path.relative_to(ROOT)): path.read_text(encoding="utf-8")
-    for place in ("*.md", "docs/*.md", "docs/validation/*.md", "benchmarks/*.md")
+    for place in ("*.md", "docs/*.md", "docs/howto/*.md", "docs/validation/*.md", "benchmarks/*.md")
     for path in sorted(ROOT.glob(place))
 }
 
