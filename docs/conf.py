@@ -55,10 +55,10 @@ def _generate(app: Sphinx) -> None:
     write_gallery(place)
 
 
-def _without_book(app: Sphinx, page: str, source: list[str]) -> None:
-    """Leave the validation book out of the contents where its pages are not there."""
-    if page == "index" and not any((HERE / "validation").glob("*.md")):
-        source[0] = re.sub(r"```\{toctree\}\n:caption: Validation\n.*?```\n", "", source[0], flags=re.DOTALL)
+def _list_the_book(app: Sphinx, page: str, source: list[str]) -> None:
+    """Put the pages of the validation book below its first one, which knows nothing of Sphinx."""
+    if page == "validation/index":
+        source[0] += "\n```{toctree}\n:hidden:\n:glob:\n\n*\n```\n"
 
 
 def _number_equations(app: Sphinx, tree: Any) -> None:
@@ -83,6 +83,6 @@ def _lower_indices(app: Sphinx, tree: Any) -> None:
 def setup(app: Sphinx) -> None:
     """Hook the generators in."""
     app.connect("builder-inited", _generate)
-    app.connect("source-read", _without_book)
+    app.connect("source-read", _list_the_book)
     app.connect("doctree-read", _number_equations)
     app.connect("doctree-read", _lower_indices)
