@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import re
+import shutil
 import sys
 from pathlib import Path
 from typing import Any
@@ -53,10 +54,13 @@ def _generate(app: Sphinx) -> None:
     place.mkdir(exist_ok=True)
     write_reference(place)
     write_gallery(place)
+    shutil.copy(HERE.parent / "benchmarks" / "results.md", place / "benchmarks.md")
 
 
 def _list_the_book(app: Sphinx, page: str, source: list[str]) -> None:
-    """Put the pages of the validation book below its first one, which knows nothing of Sphinx."""
+    """Put the pages of the validation book below its first one, which knows nothing of Sphinx, and let links to the
+    results of the benchmarks lead to their copy here."""
+    source[0] = re.sub(r"\]\((?:\.\./)+benchmarks/results\.md", "](/generated/benchmarks.md", source[0])
     if page == "validation/index":
         source[0] += "\n```{toctree}\n:hidden:\n:glob:\n\n*\n```\n"
 
