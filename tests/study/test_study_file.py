@@ -167,6 +167,54 @@ def test_a_bad_study_gets_one_line_before_anything_runs(what, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+def wrongs(folder, text):
+    """All that is said of a study, one line each."""
+    said = command("study", study_file(folder, text), "--out", folder / "out")
+    assert said.returncode == 2
+    assert not (folder / "out").exists()
+    return [line.removeprefix("heeltoe: ") for line in said.stderr.splitlines()]
+
+
+def test_all_that_is_wrong_is_told_at_once(tmp_path):
+    depths = '"reservoir.depth" = ["5", "2 m", "99 m"]'
+    text = changed(GRID, FRICTION, f'"crack.fricton" = [0.3]\n"crack.mu" = [1]\n{depths}')
+    text = changed(text, "from = 0.2, to = 0.8, count = 3", 'from = "2 m", to = "3 m", count = 3')
+    text = changed(text, '"0.3 g", "0.9 g"', '"0.3", "-1 g"').replace('folder = "quakes"', 'files = ["x.txt", "y.txt"]')
+    lines = wrongs(tmp_path, text)
+    assert [line.partition(": ")[0] for line in lines] == [
+        *("vary.crack.fricton", "vary.crack.mu", "vary.reservoir.depth", "vary.reservoir.depth"),
+        *("vary.crack.restitution.from", "vary.crack.restitution.to", "motions", "motions"),
+        *("motions.scale.values[0]", "motions.scale.values[1]"),
+    ]
+    assert len(set(lines)) == len(lines)
+    with pytest.raises(InputError) as caught:
+        plan_of(read_study(tmp_path / "study.toml"))
+    assert [str(caught.value), *map(str, caught.value.others)] == lines
+    assert caught.value.__notes__ == lines[1:]
+
+
+def test_what_does_not_agree_is_told_at_once(tmp_path):
+    text = changed(GRID, FRICTION, '"crack.friction" = { std = 1, from = 2 }')
+    text = changed(text, "folder =", "unit = 'hm'\nfolder =")
+    fields = [line.partition(": ")[0] for line in wrongs(tmp_path, text)]
+    assert sorted(fields) == ["motions.unit", "vary.crack.friction.std", "vary.crack.friction.to"]
+    whole = changed(GRID, "[vary]", 'samples = 3\nmodel = ["rigid", "rigid"]\n[vary]')
+    assert [line.partition(": ")[0] for line in wrongs(tmp_path, whole)] == ["samples", "model"]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "path"),
+    [
+        ("from = 0.2, to = 0.8", "frmo = 0.2, size = 1, to = 0.8", "vary.crack.restitution"),
+        ('["0.3 g", "0.9 g"]', '{ frmo = "0.1 g", size = 1 }', "motions.scale.values"),
+    ],
+)
+def test_a_key_that_a_range_has_not_gets_those_that_it_has(old, new, path, tmp_path):
+    near, far = wrongs(tmp_path, changed(GRID, old, new))[:2]
+    assert near == f'{path}.frmo: no such field; did you mean "from"?'
+    assert far.startswith(f"{path}.size: no such field; the fields here are distribution, from, to, mode, mean, std,")
+
+
 def test_no_study_file(tmp_path):
     said = command("study", tmp_path / "none.toml")
     assert said.returncode == 2

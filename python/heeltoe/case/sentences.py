@@ -174,6 +174,8 @@ def block_of(annotation: object) -> type[BaseModel] | None:
     """Return the model that a field holds, also behind ``| None``; None where it holds a plain value."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return annotation
+    if typing.get_origin(annotation) is typing.Annotated:
+        return block_of(typing.get_args(annotation)[0])
     if isinstance(annotation, types.UnionType) or typing.get_origin(annotation) is typing.Union:
         return next(filter(None, map(block_of, typing.get_args(annotation))), None)
     return None
@@ -190,16 +192,19 @@ def kinds_in(annotation: object) -> Iterator[type[BaseModel]]:
 def _steps(location: Sequence[int | str], model: type[BaseModel]) -> Iterator[tuple[int | str, type[BaseModel], bool]]:
     """Walk a location: each part, the block that it stands in, and whether it only tells the kind of a block."""
     kinds: list[type[BaseModel]] = []
+    named = False
     for place, part in enumerate(location):
         tells = isinstance(part, str) and place > 0 and isinstance(location[place - 1], int) and len(kinds) > 1
         yield part, model, tells
         field = model.model_fields.get(str(part))
-        if isinstance(part, int) and len(kinds) == 1:
-            model = kinds[0]
+        if (isinstance(part, int) or named) and len(kinds) == 1:
+            # A block of a list, or one that the user has named.
+            model, named = kinds[0], False
         elif tells:
             model = next((kind for kind in kinds if part in _tags(kind)), model)
         elif field:
             kinds = list(kinds_in(field.annotation))
+            named = typing.get_origin(field.annotation) is dict
             model = block_of(field.annotation) or model
 
 
@@ -234,7 +239,7 @@ def _places(model: type[BaseModel], above: str = "") -> Iterator[tuple[str, str]
 
 def _suggestion(location: Sequence[int | str], model: type[BaseModel]) -> str:
     name = str(location[-1])
-    known = list(_owner(location, model).model_fields)
+    known = [field.alias or own for own, field in _owner(location, model).model_fields.items()]
     elsewhere = next((path for other, path in _places(model) if other == name), None)
     near = difflib.get_close_matches(name, known, n=1)
     if elsewhere or near:

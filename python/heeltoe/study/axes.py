@@ -18,6 +18,7 @@ from heeltoe.case.model import Case
 from heeltoe.case.paths import quantity_of, value_of
 from heeltoe.errors import InputError, shown
 from heeltoe.study.file import Distribution, Value
+from heeltoe.study.problems import Problems
 from heeltoe.units.parse import DIMENSIONS, parse
 
 
@@ -93,7 +94,7 @@ def axis_of(
     Raises
     ------
     InputError
-        Where there is no such field, or it cannot have such a value.
+        Where there is no such field, or it cannot have such values, with all of these.
     """
     quantity = quantity_of(path)
     if isinstance(given, Distribution):
@@ -111,7 +112,11 @@ def axis_of(
             _tried(case, Axis(path, quantity, (), None), float(value), beside)
         return Axis(path, quantity, tuple(numbers.tolist()), numbers, law)
     axis = Axis(path, quantity, given, None)
-    found = [value_of(_tried(case, axis, value, beside), path) for value in given]
+    found, problems = list[Any](), Problems()
+    for value in given:
+        with problems:
+            found.append(value_of(_tried(case, axis, value, beside), path))
+    problems.tell()
     if len({str(value) for value in found}) < len(found):
         raise InputError("study-twice", f"vary.{path}", shown(list(given)))
     if quantity is None:
@@ -152,30 +157,32 @@ def law_of(given: Distribution, read: Callable[[object, str], float], field: str
         Where its numbers do not make one.
     """
 
-    def number(name: str) -> float:
+    numbers, problems = dict[str, float](), Problems()
+    for name in ("from", "mode", "to", "mean", "std", "median", "lower", "upper"):
         value = getattr(given, "from_" if name == "from" else name)
-        return read(value, f"{field}.{name}")
-
+        if value is not None:
+            with problems:
+                numbers[name] = read(value, f"{field}.{name}")
+    problems.tell()
     if given.distribution in ("uniform", "triangular"):
-        low, high = number("from"), number("to")
+        low, high = numbers["from"], numbers["to"]
         if low >= high:
             raise InputError("distribution-order", f"{field}.to", shown(given.to), lowest=shown(given.from_))
         if given.distribution == "uniform":
             return stats.uniform(low, high - low)
-        middle = number("mode")
+        middle = numbers["mode"]
         if not low <= middle <= high:
             raise InputError("distribution-mode", f"{field}.mode", shown(given.mode))
         return stats.triang((middle - low) / (high - low), low, high - low)
-    low = -np.inf if given.lower is None else number("lower")
-    high = np.inf if given.upper is None else number("upper")
+    low, high = numbers.get("lower", -np.inf), numbers.get("upper", np.inf)
     if low >= high:
         raise InputError("distribution-order", f"{field}.upper", shown(given.upper), lowest=shown(given.lower))
     if given.distribution == "normal":
-        mean, std = number("mean"), number("std")
+        mean, std = numbers["mean"], numbers["std"]
         if std <= 0.0:
             raise InputError("distribution-spread", f"{field}.std", shown(given.std))
         return stats.truncnorm((low - mean) / std, (high - mean) / std, mean, std)
-    median, dispersion = number("median"), given.dispersion
+    median, dispersion = numbers["median"], given.dispersion
     assert dispersion is not None
     if median <= 0.0 or high <= 0.0:
         raise InputError("distribution-spread", f"{field}.median", shown(given.median))
@@ -235,5 +242,6 @@ def _tried(case: Case, axis: Axis, value: Any, others: Mapping[str, Any]) -> Cas
         if others:
             with suppress(InputError):
                 return case.with_({**others, **changes})
-        error.field = f"vary.{error.field}" if error.field == axis.path else f"vary.{axis.path}: {error.field}"
+        for each in (error, *error.others):
+            each.field = f"vary.{each.field}" if each.field == axis.path else f"vary.{axis.path}: {each.field}"
         raise

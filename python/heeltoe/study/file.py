@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from os import PathLike
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
@@ -21,7 +21,7 @@ from pydantic import (
 from heeltoe.case.fields import Count, Fields, TimeSpan, Truth
 from heeltoe.case.quantities import DimensionlessNumber, Duration, Length
 from heeltoe.case.read import read_fields
-from heeltoe.case.sentences import collected, first_error
+from heeltoe.case.sentences import collected, first_error, gathered
 from heeltoe.errors import InputError, shown
 from heeltoe.shown import Shown
 from heeltoe.units.parse import acceleration_unit
@@ -69,8 +69,8 @@ class Distribution(Fields):
     them."""
 
     @model_validator(mode="after")
-    @collected
-    def _complete(self) -> Self:
+    @gathered
+    def _complete(self) -> Iterator[InputError]:
         needed = {
             "uniform": ("from", "to"),
             "triangular": ("from", "mode", "to"),
@@ -84,12 +84,11 @@ class Distribution(Fields):
         }
         for name, value in given.items():
             if value is None and name in needed:
-                raise InputError("distribution-incomplete", name, distribution=self.distribution)
+                yield InputError("distribution-incomplete", name, distribution=self.distribution)
             if value is not None and name not in (*needed, *also):
-                raise InputError(
+                yield InputError(
                     "distribution-foreign", name, distribution=self.distribution, fields=", ".join((*needed, *also))
                 )
-        return self
 
 
 # Without names of their own the kinds leave no trace in the path of what is wrong with one.
@@ -162,16 +161,18 @@ class Motions(Fields):
     """Time between the numbers of files that do not state it."""
 
     @model_validator(mode="after")
-    @collected
-    def _one_source(self) -> Self:
+    @gathered
+    def _one_source(self) -> Iterator[InputError]:
         given = [name for name in ("folder", "files", "events") if getattr(self, name) is not None]
         if not given:
-            raise InputError("study-motions", "folder")
+            yield InputError("study-motions", "folder")
         if len(given) > 1:
-            raise InputError("fields-conflict", given[0], other=given[1])
+            yield InputError("fields-conflict", given[0], other=given[1])
         if self.unit is not None:
-            acceleration_unit(self.unit, "unit")
-        return self
+            try:
+                acceleration_unit(self.unit, "unit")
+            except InputError as error:
+                yield error
 
 
 class FragilityLimits(Fields):
@@ -238,29 +239,28 @@ class Study(Shown, Fields):
         return self.method in ("latin hypercube", "sobol", "sensitivity")
 
     @model_validator(mode="after")
-    @collected
-    def _agree(self) -> Self:
+    @gathered
+    def _agree(self) -> Iterator[InputError]:
         if self.drawn and self.samples is None:
-            raise InputError("missing-field", "samples", example="samples = 1000")
+            yield InputError("missing-field", "samples", example="samples = 1000")
         if not self.drawn and self.samples is not None:
-            raise InputError("needs-other", "samples", other="a method that draws")
+            yield InputError("needs-other", "samples", other="a method that draws")
         if self.correlation and self.method not in ("latin hypercube", "sobol"):
-            raise InputError("needs-other", "correlation", other='method "latin hypercube" or "sobol"')
+            yield InputError("needs-other", "correlation", other='method "latin hypercube" or "sobol"')
         if self.method in ("sobol", "sensitivity") and self.samples and self.samples & (self.samples - 1):
             near = 2 ** max(1, self.samples.bit_length() - 1)
-            raise InputError("study-power", "samples", self.samples, below=near, above=2 * near)
+            yield InputError("study-power", "samples", self.samples, below=near, above=2 * near)
         if len(set(self.model)) < len(self.model):
-            raise InputError("study-twice", "model", shown(list(self.model)))
-        for place, (first, second, _) in enumerate(self.correlation):
+            yield InputError("study-twice", "model", shown(list(self.model)))
+        for place, (first, second, _) in enumerate(self.correlation if self.drawn else ()):
             for name in (first, second):
                 if not isinstance(self.vary.get(name), Distribution):
-                    raise InputError("study-correlation", f"correlation[{place}]", shown(name))
+                    yield InputError("study-correlation", f"correlation[{place}]", shown(name))
             if first == second:
-                raise InputError("study-correlation", f"correlation[{place}]", shown(first))
+                yield InputError("study-correlation", f"correlation[{place}]", shown(first))
         for path in self.vary:
             if path.split(".")[0] == "motion":
-                raise InputError("study-motion-varies", f"vary.{path}")
-        return self
+                yield InputError("study-motion-varies", f"vary.{path}")
 
 
 def read_study(source: str | PathLike[str]) -> Study:
@@ -269,7 +269,7 @@ def read_study(source: str | PathLike[str]) -> Study:
     Raises
     ------
     InputError
-        The first thing that is wrong, and how many more there are.
+        The first thing that is wrong, with the others.
     """
     path = Path(source)
     try:

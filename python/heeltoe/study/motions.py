@@ -23,6 +23,7 @@ from heeltoe.motion.intensity import intensity
 from heeltoe.motion.records.catalog import is_record
 from heeltoe.plain import harmless
 from heeltoe.study.file import Event, Motions
+from heeltoe.study.problems import Problems
 
 # What the last part of a vertical component's name is.
 _VERTICAL = re.compile(r"up|ud\d?|v|ver|vert|vertical|z|dwn|down", re.IGNORECASE)
@@ -79,26 +80,38 @@ def shakes_of(motions: Motions, case: Case, directory: Path) -> tuple[tuple[Shak
         Where a record cannot be found, read or trusted, or components that are expected are not there.
     """
     events = list(_events(motions, directory))
-    found: list[Shake] = []
+    found, problems = list[Shake](), Problems()
     for number, event in enumerate(events):
-        if motions.pairs and len(event.horizontal) != 2:
-            raise InputError("study-pair", "motions.pairs", shown(event.name), count=len(event.horizontal))
-        if motions.vertical and event.vertical is None:
-            raise InputError("study-vertical", "motions.vertical", shown(event.name))
-        horizontal = [_read(motions, case, directory, name, "horizontal") for name in event.horizontal]
-        vertical = event.vertical and _read(motions, case, directory, event.vertical, "vertical")
-        references = [_reference(motions, each, case) for each in horizontal]
-        if motions.pairs:
-            references = [float(np.sqrt(np.prod(references)))] * 2
-        for motion, reference in zip(horizontal, references, strict=True):
-            shake = Shake(motion.name, number, motion, vertical or None, reference=reference)
-            found.append(shake)
-            if motions.both_signs:
-                found.append(replace(shake, turned=True))
+        with problems:
+            found += _shakes(motions, case, directory, number, event)
+    problems.tell()
     # Halves of letters are none that a table can hold.
     return tuple(replace(each, name=harmless(each.name)) for each in found), tuple(
         harmless(each.name) for each in events
     )
+
+
+def _shakes(motions: Motions, case: Case, directory: Path, number: int, event: Event) -> Iterator[Shake]:
+    """Walk the motions of an event."""
+    if motions.pairs and len(event.horizontal) != 2:
+        raise InputError("study-pair", "motions.pairs", shown(event.name), count=len(event.horizontal))
+    if motions.vertical and event.vertical is None:
+        raise InputError("study-vertical", "motions.vertical", shown(event.name))
+    horizontal, vertical, problems = list[GroundMotion](), None, Problems()
+    for name in event.horizontal:
+        with problems:
+            horizontal.append(_read(motions, case, directory, name, "horizontal"))
+    with problems:
+        vertical = event.vertical and _read(motions, case, directory, event.vertical, "vertical")
+    problems.tell()
+    references = [_reference(motions, each, case) for each in horizontal]
+    if motions.pairs:
+        references = [float(np.sqrt(np.prod(references)))] * 2
+    for motion, reference in zip(horizontal, references, strict=True):
+        shake = Shake(motion.name, number, motion, vertical or None, reference=reference)
+        yield shake
+        if motions.both_signs:
+            yield replace(shake, turned=True)
 
 
 def _reference(motions: Motions, motion: GroundMotion, case: Case) -> float:

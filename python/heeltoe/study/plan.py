@@ -25,6 +25,7 @@ from heeltoe.motion.measures import measures
 from heeltoe.study.axes import Axis, axis_of, beside, check_drawn, law_of
 from heeltoe.study.file import Distribution, Scale, Study
 from heeltoe.study.motions import Shake, shakes_of
+from heeltoe.study.problems import Problems
 from heeltoe.study.samples import MOST_SOBOL, Columns, Samples
 from heeltoe.units.parse import parse, parse_acceleration
 from heeltoe.warnings import Notice
@@ -274,26 +275,22 @@ def plan_of(study: Study) -> Plan:
     Raises
     ------
     InputError
-        Naming the first thing that cannot be.
+        Naming the first thing that cannot be, with the others.
     """
     case = read_case(study.directory / study.case)
     if study.title == "" and case.title:
         study = study.model_copy(update={"title": case.title})
-    axes = tuple(
-        axis_of(path, given, case, drawn=study.drawn, beside=beside(path, study.vary))
-        for path, given in study.vary.items()
-    )
-    if study.motions is None:
-        base = earthquake(case)
-        shakes: tuple[Shake, ...] = (Shake(base.motion.name, 0, base.motion, base.vertical),)
-        events: tuple[str, ...] = (base.motion.name,)
-        scale = None
-    else:
-        if case.aftershocks:
-            raise InputError("study-aftershocks", "motions")
-        shakes, events = shakes_of(study.motions, case, study.directory)
-        scale = _scale(study.motions.scale, case, drawn=study.drawn)
-    plan = Plan(study, case, axes, shakes, events, scale)
+    axes, problems = list[Axis](), Problems()
+    for path, given in study.vary.items():
+        with problems:
+            axes.append(axis_of(path, given, case, drawn=study.drawn, beside=beside(path, study.vary)))
+    shakes, events, scale = tuple[Shake, ...](), tuple[str, ...](), None
+    with problems:
+        shakes, events = _motions(study, case)
+    with problems:
+        scale = _scale(study.motions.scale, case, drawn=study.drawn) if study.motions else None
+    problems.tell()
+    plan = Plan(study, case, tuple(axes), shakes, events, scale)
     if plan.count > MOST:
         raise InputError("study-many", "study", f"{plan.count:.3g}", most=f"{MOST:.0e}")
     if study.method == "sobol" and plan.samples.count > MOST_SOBOL:
@@ -301,10 +298,22 @@ def plan_of(study: Study) -> Plan:
     if study.drawn:
         looked, _ = plan.samples.at(np.arange(min(plan.samples.count, _LOOKED_AT), dtype=np.int64))
         for axis in axes:
-            check_drawn(axis, looked[axis.path], case, beside(axis.path, study.vary))
+            with problems:
+                check_drawn(axis, looked[axis.path], case, beside(axis.path, study.vary))
+        problems.tell()
     elif study.method == "one at a time":
         _ = plan.samples
     return plan
+
+
+def _motions(study: Study, case: Case) -> tuple[tuple[Shake, ...], tuple[str, ...]]:
+    """Return the motions of a study and the names of their events: those of the case where it has none."""
+    if study.motions is None:
+        base = earthquake(case)
+        return (Shake(base.motion.name, 0, base.motion, base.vertical),), (base.motion.name,)
+    if case.aftershocks:
+        raise InputError("study-aftershocks", "motions")
+    return shakes_of(study.motions, case, study.directory)
 
 
 def _scale(scale: Scale | None, case: Case, *, drawn: bool) -> Axis | None:
@@ -330,8 +339,12 @@ def _scale(scale: Scale | None, case: Case, *, drawn: bool) -> Axis | None:
         if drawn:
             return Axis(scale.measure, quantity, (), np.zeros(0), law)
         raise InputError("needs-other", field, other="a method that draws, or a list of values")
-    numbers = np.array([number(value, f"{field}[{place}]") for place, value in enumerate(scale.values)])
-    return Axis(scale.measure, quantity, scale.values, numbers)
+    numbers, problems = list[float](), Problems()
+    for place, value in enumerate(scale.values):
+        with problems:
+            numbers.append(number(value, f"{field}[{place}]"))
+    problems.tell()
+    return Axis(scale.measure, quantity, scale.values, np.array(numbers))
 
 
 def _base(case: Case, axis: Axis) -> Any:
