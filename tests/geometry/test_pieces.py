@@ -18,16 +18,16 @@ SLOPED = [(0, 0), (36, 3), (6, 40), (6, 45), (0, 45)]
 def test_areas_and_moments_add_up(corners):
     whole = shapely.Polygon(corners)
     found = pieces(np.array(corners, dtype=float))
-    assert sum(each.area for each in found) == pytest.approx(whole.area)
+    assert sum(each.area_m2 for each in found) == pytest.approx(whole.area)
     for axis, middle in (("x", whole.centroid.x), ("z", whole.centroid.y)):
-        assert sum(each.area * getattr(each, axis) for each in found) == pytest.approx(whole.area * middle)
+        assert sum(each.area_m2 * getattr(each, f"{axis}_m") for each in found) == pytest.approx(whole.area * middle)
 
 
 def test_a_dam_is_a_rectangle_and_a_triangle():
     rectangle, triangle = pieces(np.array(DAM, dtype=float))
-    assert (rectangle.shape, rectangle.width, rectangle.height, rectangle.x) == ("rectangle", 6.0, 45.0, 3.0)
-    assert (triangle.shape, triangle.width, triangle.height, triangle.area) == ("triangle", 30.0, 40.0, 600.0)
-    assert (triangle.x, triangle.z) == pytest.approx((16.0, 40.0 / 3.0))
+    assert (rectangle.shape, rectangle.width_m, rectangle.height_m, rectangle.x_m) == ("rectangle", 6.0, 45.0, 3.0)
+    assert (triangle.shape, triangle.width_m, triangle.height_m, triangle.area_m2) == ("triangle", 30.0, 40.0, 600.0)
+    assert (triangle.x_m, triangle.z_m) == pytest.approx((16.0, 40.0 / 3.0))
 
 
 def test_one_piece_and_too_many_are_left_whole():
@@ -40,4 +40,4 @@ def test_a_slope_under_a_slope_is_a_quadrilateral():
     corners = np.array([(0.0, 0.0), (20.0, 4.0), (10.0, 30.0), (0.0, 35.0)])
     found = pieces(corners)
     assert [each.shape for each in found] == ["quadrilateral", "triangle"]
-    assert sum(each.area for each in found) == pytest.approx(shapely.Polygon(corners).area)
+    assert sum(each.area_m2 for each in found) == pytest.approx(shapely.Polygon(corners).area)

@@ -26,20 +26,20 @@ class Piece:
     ----------
     shape
         "rectangle", "triangle" or "quadrilateral".
-    width, height
-        Horizontal and upright side [m]; of a quadrilateral its mean height.
-    area
-        Area [m^2].
-    x, z
-        Of its centroid [m].
+    width_m, height_m
+        Horizontal and upright side; of a quadrilateral its mean height.
+    area_m2
+        Its area.
+    x_m, z_m
+        Of its centroid, downstream and up.
     """
 
     shape: str
-    width: float
-    height: float
-    area: float
-    x: float
-    z: float
+    width_m: float
+    height_m: float
+    area_m2: float
+    x_m: float
+    z_m: float
 
 
 def pieces(polygon: Floats) -> tuple[Piece, ...]:

@@ -68,10 +68,10 @@ def test_the_pieces_of_the_body_add_up_to_it():
     for found in heeltoe.statics(case).cases:
         for line in found.sheet("toe").lines:
             if line.name in ("weight", "inertia"):
-                assert [piece.name for piece in line.pieces] == [f"{line.name} 1", f"{line.name} 2"]
+                assert [piece.name for piece in line.parts] == [f"{line.name} 1", f"{line.name} 2"]
                 for part in ("horizontal_n", "vertical_n", "moment_nm"):
-                    whole = sum(getattr(piece, part) for piece in line.pieces)
+                    whole = sum(getattr(piece, part) for piece in line.parts)
                     assert whole == pytest.approx(getattr(line, part), rel=1e-9, abs=1e-3)
     sheet = only(heeltoe.statics(case), "usual").sheet()
     said = "rectangle 8 m by 100 m, concrete of 2400 kg/m³"
-    assert str(lines(sheet)["weight"].pieces[0].source) == said
+    assert str(lines(sheet)["weight"].parts[0].source) == said

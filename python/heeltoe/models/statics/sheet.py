@@ -43,7 +43,7 @@ class ForceLine:
         About the point, counter-clockwise.
     source
         Where the force comes from.
-    pieces
+    parts
         The same piece by piece of the section; nothing of what has none.
     """
 
@@ -54,7 +54,7 @@ class ForceLine:
     distance_m: float | None
     moment_nm: float
     source: Sentence
-    pieces: tuple[ForceLine, ...] = ()
+    parts: tuple[ForceLine, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -106,7 +106,7 @@ def sheet(
     for force in forces:
         line = _line(force, point, size, sources.get(force.name, Sentence("")))
         if force.name in _OF_THE_BODY:
-            line = replace(line, pieces=tuple(_pieces(force, pieces, point, size, sources)))
+            line = replace(line, parts=tuple(_pieces(force, pieces, point, size, sources)))
         lines.append(line)
     return Sheet(about, point, tuple(lines), _line(total("sum", forces), point, size, Sentence("")))
 
@@ -119,17 +119,17 @@ def _pieces(
     sources: Mapping[str, Sentence],
 ) -> Iterator[ForceLine]:
     """Return the lines of a force that is proportional to the area, each at the centroid of its piece."""
-    whole = math.fsum(piece.area for piece in pieces)
+    whole = math.fsum(piece.area_m2 for piece in pieces)
     for number, piece in enumerate(pieces, start=1):
-        share = piece.area / whole
+        share = piece.area_m2 / whole
         own = Resultant.at(
-            f"{force.name} {number}", (share * force.horizontal, share * force.vertical), (piece.x, piece.z)
+            f"{force.name} {number}", (share * force.horizontal, share * force.vertical), (piece.x_m, piece.z_m)
         )
         source = Sentence.of(
             "{shape} {width_m:.5g m} by {height_m:.5g m}, {of}",
             shape=piece.shape,
-            width_m=piece.width,
-            height_m=piece.height,
+            width_m=piece.width_m,
+            height_m=piece.height_m,
             of=sources.get(f"{force.name} of a piece", Sentence("at its centroid")),
         )
         yield _line(own, point, size, source)

@@ -7,6 +7,7 @@ import inspect
 import re
 from collections.abc import Iterator, Mapping
 
+from heeltoe.geometry.pieces import Piece
 from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.models.statics.checks import Check
@@ -36,6 +37,7 @@ _CLASSES: tuple[tuple[str, type, str], ...] = (
     ("", Statics, _STATICS),
     ("cases[].", LoadCase, _STATICS),
     ("cases[].forces[].", ForceLine, _STATICS),
+    ("cases[].pieces[].", Piece, _STATICS),
     ("checks[].", Check, _STATICS),
     ("governing.*.", Check, _STATICS),
 )
@@ -49,7 +51,7 @@ _PROPERTIES: dict[type, tuple[str, ...]] = {
 # Attributes that the JSON does not have, or says by keys of their own.
 _NOT_THERE = {
     "histories", "mode", "event_log", "gravity", "vertical", "summary", "seconds", "sources", "ends_m", "moment_nm",
-    "crack", "envelope",
+    "crack", "envelope", "parts",
 }  # fmt: skip
 # The longest ending first.
 _UNITS = {
@@ -61,6 +63,7 @@ _UNITS = {
     "_1_s": "1/s",
     "_rad": "rad",
     "_nm": "N m per metre of dam",
+    "_m2": "m²",
     "_kg": "kg per metre of dam",
     "_pa": "Pa",
     "_hz": "Hz",

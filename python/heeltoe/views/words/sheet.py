@@ -79,7 +79,7 @@ def lines(found: LoadCase, units: str, about: str = "heel") -> Lines:
     length, force, moment, _ = to.names
     acting = [line for line in sheet.lines if line.horizontal_n or line.vertical_n or line.moment_nm]
     # What has pieces is taken piece by piece: the rows add up to the sum.
-    shown = [each for line in acting for each in line.pieces or (line,)]
+    shown = [each for line in acting for each in line.parts or (line,)]
     every = [*shown, sheet.sum]
     pushes = _column([each for line in every for each in (line.horizontal_n, line.vertical_n)], to.force)
     arms = _column([each for line in shown for each in (line.height_m, line.distance_m)], to.length)
