@@ -18,6 +18,8 @@ from heeltoe.validation.row import Row
         (Row("events", 19.0, 19.0, 0.0), "19", "0", "0"),
         (Row("ledger", 0.0, 3e-13, 1e-9, relative=False, kind="condition"), "< 1e-09", "", "1e-09"),
         (Row("made", 0.0, 3.2e-6, 1e-4, relative=False, kind="condition"), "< 1e-05", "", "0.0001"),
+        (Row("peak", 0.5, 0.41234, 0.1, relative=False, digits=2), "0.41", "", "0.1"),
+        (Row("made", 0.0, 0.6, None, relative=False, digits=0), numbers.VARIES, "", "none"),
         (Row("lost", 0.0, 0.0123, None, relative=False), "0.0123", "+0.012", "none"),
     ],
 )

@@ -151,6 +151,7 @@ CASES: dict[str, Declared] = {
             r"gamma (?P<x>[\d.]+): slip",
             "Newmark's gamma",
             "slip [mm]",
+            "y",
             panels=(("crack at the base", "base crack"), ("crack at 90 m", "crack at 90 m")),
         ),
         long=True,

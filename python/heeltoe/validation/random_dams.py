@@ -162,4 +162,5 @@ def random_dams() -> Iterator[Row]:
                 relative=False,
                 remark=remark,
                 kind="condition",
+                digits=None if name == "ordinary" else 0,
             )

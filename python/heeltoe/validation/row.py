@@ -37,6 +37,9 @@ class Row:
         Largest deviation that `remark` explains, where it is more than the tolerance: it is said, and no failure.
     finer
         Ours with half the step, where there is one and it was tried.
+    digits
+        How many digits another machine finds too, where these are fewer than the tolerance asks for: a motion that
+        rings or is chaotic. None at all with 0.
     spread
         Least and most of ours under 1 % less to 1 % more shaking, where it was tried.
     """
@@ -49,6 +52,7 @@ class Row:
     remark: str = ""
     kind: Kind = "closed form"
     explained: float | None = None
+    digits: int | None = None
     finer: float | None = None
     spread: tuple[float, float] | None = None
 

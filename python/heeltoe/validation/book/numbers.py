@@ -8,6 +8,8 @@ from itertools import pairwise
 
 from heeltoe.validation.row import Row
 
+#: Said in place of a number that no other machine finds again.
+VARIES = "not the same on two machines"
 #: Below this a deviation is rounding.
 ROUNDING = 1e-9
 #: Digits at the least, and at the most.
@@ -17,6 +19,8 @@ _NUMBER = re.compile(r"(< )?([-+]?\d+(?:\.(\d+))?(?:e([-+]?\d+))?)")
 
 def ours(row: Row) -> str:
     """Return our number: a condition's as the power of ten that it stays below, others to what their tolerance asks."""
+    if row.digits == 0:
+        return VARIES
     if _bounded(row):
         return _below(abs(row.ours))
     return number(row, row.ours)
@@ -29,6 +33,8 @@ def reference(row: Row) -> str:
 
 def number(row: Row, value: float) -> str:
     """Return a number of a row to a hundredth of the row's tolerance."""
+    if row.digits is not None:
+        return f"{value:.{row.digits}g}"
     step = _step(row) * (abs(row.reference) if row.relative else 1.0)
     wanted = FEWEST if step == 0.0 or value == 0.0 else math.floor(math.log10(abs(value) / step)) + 1
     return f"{value:.{min(max(wanted, FEWEST), MOST)}g}"
@@ -36,7 +42,7 @@ def number(row: Row, value: float) -> str:
 
 def deviation(row: Row) -> str:
     """Return the deviation to two digits, and no finer than a hundredth of the tolerance."""
-    if _bounded(row):
+    if _bounded(row) or row.digits is not None:
         return ""
     step, value = _step(row), row.deviation
     if row.tolerance == 0.0 == value:
