@@ -10,10 +10,14 @@ from __future__ import annotations
 import argparse
 import csv
 import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from importlib import metadata
 from pathlib import Path
 
+import peers_solve
 from measure import NothingMeasured
-from peers_declared import PEERS, PROBLEMS, Peer
+from peers_solve import Solved
 
 HERE = Path(__file__).parent
 NUMBERS = HERE / "peers.csv"
@@ -34,6 +38,160 @@ answer is known. Anyone can run them:
 What is not installed is named and its numbers stay as they were. Their times, beside ours at no larger error, are in
 [results.md](../../benchmarks/results.md). Settings are those that serve each program best on this very problem.
 """
+
+
+@dataclass(frozen=True)
+class Peer:
+    """A program.
+
+    Attributes
+    ----------
+    name, package
+        Its name, and that of what is installed; no package where no registry has it.
+    licence, what, needs
+        Its licence, what it is, and what a machine must have for it.
+    script
+        Of this folder, which hands the problem to it.
+    problem
+        Which of `PROBLEMS` it solves.
+    solve
+        Solves it.
+    cannot
+        What of heeltoe's work it cannot do.
+    """
+
+    name: str
+    package: str
+    licence: str
+    what: str
+    needs: str
+    script: str
+    problem: str
+    solve: Callable[[], list[Solved]]
+    cannot: tuple[str, ...]
+
+    def version(self) -> str:
+        """Return the version that is installed."""
+        try:
+            return metadata.version(self.package) if self.package else peers_solve.siconos_version()
+        except metadata.PackageNotFoundError:
+            return "unknown"
+
+
+PROBLEMS = {
+    "sliding both ways": "A block of 4 m by 1 m and 1 t, friction 0.3, under a constant push of 0.15 g on a base that "
+    "moves with 0.6 g at 2 Hz for 5 s. The exact slip is a sum of sines between stops, 1.0538997745 m in the end. "
+    "Errors are the largest at any tenth of a second.",
+    "sliding one way": "Newmark's block under 30 s of El Centro 1940 (180, NGA) at 0.4 g, yielding at 0.1 g; straight "
+    "between the samples. The exact slip is summed in wider numbers. Errors are the largest at any sample, relative to "
+    "the slip in the end.",
+    "an elastic block": "The block that slides both ways made elastic, 20 GPa, no damping, 16 by 4 elements. Errors "
+    "are against the exact slip of the rigid one; the elastic one slides some 0.3 mm less, so that no smaller error "
+    "means anything.",
+    "rocking": "A block of 1 m by 4 m let go at half its slenderness, at rotations of any size, each blow with "
+    "Housner's ratio. The exact moments of the blows are integrals of its energy. Errors are the largest "
+    "relative ones of them.",
+}
+
+_NO_DAM = "uplift, virtual water, masses that differ along and across: none of a dam's loads"
+_REGISTRY = "`pip install -r requirements-bench.lock`"
+
+PEERS = (
+    Peer(
+        "MuJoCo",
+        "mujoco",
+        "Apache 2.0",
+        "A rigid-body engine for robots; contact is soft, by a convex optimisation in every step.",
+        _REGISTRY,
+        "peer_mujoco.py",
+        "sliding both ways",
+        peers_solve.mujoco,
+        (
+            "a coefficient of restitution: its contacts are springs and dampers of the step's own stiffness",
+            "friction that holds without creep: softened friction slips a little while it sticks",
+            "events: its error falls with the step, and not below the softness of the contact",
+            _NO_DAM,
+        ),
+    ),
+    Peer(
+        "PyBullet",
+        "pybullet",
+        "zlib",
+        "Bullet, a rigid-body engine for games and robots, called from Python step by step.",
+        f"{_REGISTRY}; where no wheel fits, a compiler for C++",
+        "peer_pybullet.py",
+        "sliding both ways",
+        peers_solve.pybullet,
+        (
+            "one law of impact for a corner: it shares a blow among contact points in its own way",
+            "contact solved to rounding: sequential impulses stop after a number of sweeps",
+            "vertical gaps below its margin of contact: it keeps bodies apart by a slop",
+            _NO_DAM,
+        ),
+    ),
+    Peer(
+        "pySLAMMER",
+        "pyslammer",
+        "GPL 3.0",
+        "Sliding blocks for slopes in earthquakes, after SLAMMER of the US Geological Survey.",
+        _REGISTRY,
+        "peer_pyslammer.py",
+        "sliding one way",
+        peers_solve.pyslammer,
+        (
+            "sliding upstream: its block goes one way",
+            "rocking, uplift of a corner, impact",
+            "vertical motion; friction that differs at rest and in motion",
+            _NO_DAM,
+        ),
+    ),
+    Peer(
+        "OpenSees",
+        "openseespy",
+        "free for research, own licence",
+        "Finite elements for structures in earthquakes; contact by a penalty on pairs of nodes.",
+        f"{_REGISTRY}; Linux on x86-64, macOS or Windows; on Debian libblas3",
+        "peer_opensees.py",
+        "an elastic block",
+        peers_solve.opensees,
+        (
+            "contact without a penalty that gets through: of five kinds one does, with its direction of friction fixed",
+            "faces that slide past each other: a pair of nodes stays a pair (zeroLengthContact2D)",
+            "a body that is quick to step: all freedoms are solved for anew in each iteration",
+            "undamped blocks with schemes that keep energy: they flutter as they slide",
+        ),
+    ),
+    Peer(
+        "Siconos",
+        "",
+        "Apache 2.0",
+        "Nonsmooth dynamics: Moreau and Jean's stepping with solvers for frictional contact.",
+        "Debian's `python3-siconos` and Debian's own Python; another Python runs it beside itself",
+        "peer_siconos.py",
+        "an elastic block",
+        peers_solve.siconos,
+        (
+            "finite elements of plane bodies: it is handed the matrices of this project's mesh",
+            "contact of nodes that travel along another face, without being told of each new place",
+            "installation by pip: no package registry of Python has it",
+            _NO_DAM,
+        ),
+    ),
+    Peer(
+        "SciPy",
+        "scipy",
+        "BSD",
+        "An integrator with events (DOP853) and the textbook's equation: what one would write oneself.",
+        "nothing that heeltoe does not need itself",
+        "rocking_peers.py",
+        "rocking",
+        peers_solve.scipy,
+        (
+            "sliding with rocking, drift, blows with restitution: each is a program of its own around the integrator",
+            "blows that follow each other ever faster: every one is an event to be found",
+        ),
+    ),
+)
 
 
 def page(lines: list[Line]) -> str:

@@ -16,7 +16,7 @@ def run(monkeypatch):
     import run
 
     yield run
-    for name in ("run", "measure", "history", "peers", "peers_declared", "peers_solve"):
+    for name in ("run", "measure", "history", "peers", "peers_solve"):
         sys.modules.pop(name, None)
 
 

@@ -58,6 +58,8 @@ def test_drift_is_told():
     assert "slip, ours: '104' before, '109' now" in told
     assert "slip, verdict: 'within' before, 'outside' now" in told
     assert store.drift(before, [*now, *now]) == ["1 rows before, 2 now"]
+    assert store.drift(before, [now[0] | {"verdict": "within"}], chaotic=True) == []
+    assert "verdict" in store.drift(before, now, chaotic=True)[0]
     spread = [store.told(Row("slip", 100.0, 104.0, 0.07, remark="print", spread=(103.0, 105.0)))]
     assert "columns" in store.drift(before, spread)[0]
 

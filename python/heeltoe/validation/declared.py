@@ -35,6 +35,8 @@ class Declared:
         Whether it takes more than a moment; the slow tests compute it.
     records
         Whether it needs strong-motion records that are no part of the project.
+    chaotic
+        Whether another machine finds other numbers; its page is then held to words and verdicts alone.
     """
 
     rows: Callable[[], Iterable[Row]]
@@ -45,6 +47,7 @@ class Declared:
     chart: Chart | None = None
     long: bool = False
     records: bool = False
+    chaotic: bool = False
 
     @property
     def title(self) -> str:

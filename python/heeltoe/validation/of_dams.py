@@ -156,5 +156,6 @@ CASES: dict[str, Declared] = {
         ),
         long=True,
         records=True,
+        chaotic=True,
     ),
 }

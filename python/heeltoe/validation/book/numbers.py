@@ -87,11 +87,16 @@ def _below(value: float) -> str:
     return f"< {10.0 ** (math.floor(math.log10(max(value, ROUNDING / 10.0) * 1.001)) + 1):.0e}"
 
 
-def alike(old: str, new: str) -> bool:
-    """Whether two texts are the same but for one in the last digit of their numbers; bounds, for one power of ten."""
+def alike(old: str, new: str, *, any_number: bool = False) -> bool:
+    """Whether two texts are the same but for one in the last digit of their numbers; bounds, for one power of ten.
+
+    Or for their numbers altogether.
+    """
     parts = [_NUMBER.split(text)[::5] for text in (old, new)]
     if parts[0] != parts[1]:
         return False
+    if any_number:
+        return True
     pairs = zip(_NUMBER.finditer(old), _NUMBER.finditer(new), strict=True)
     return all(_near(*pair) for pair in pairs)
 

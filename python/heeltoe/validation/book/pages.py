@@ -68,6 +68,7 @@ def page(name: str, rows: Rows) -> str:
                 f"- Convergence: {case.convergence}",
                 f"- Spread: {case.spread}",
                 f"- Again: `heeltoe validate {name}`{_needs(case)}",
+                *_chaotic(case),
             )
         )
     )
@@ -108,6 +109,10 @@ def _plain(text: str) -> str:
 
 def _needs(case: Declared) -> str:
     return "; it needs records that are no part of the project, and says so where they are not there" * case.records
+
+
+def _chaotic(case: Declared) -> list[str]:
+    return ["- On another machine: other numbers, as contact here makes energy; the same verdicts"] * case.chaotic
 
 
 def _in_words(found: Counter[str]) -> str:
