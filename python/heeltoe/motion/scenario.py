@@ -20,7 +20,7 @@ import numpy as np
 from heeltoe.arrays import Floats
 from heeltoe.errors import InputError
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.motion.stochastic import Parameters, stochastic_motion
+from heeltoe.motion.stochastic import Parameters, Source, stochastic_motion
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.warnings import Notice
 
@@ -91,16 +91,16 @@ def _two_sided(share: float) -> float:
     return float(min(0.5, -np.log(max(1.0 - (share - at_zero) * above / top, 1e-300)) / above))
 
 
-def source_corner(magnitude: float) -> float:
-    """Return the corner frequency [Hz] of an earthquake's source after Brune (1970): 4.9e6 beta (stress / M0)^(1/3).
+def source_of(magnitude: float) -> Source:
+    """Return the source of an earthquake after Atkinson and Silva (2000), with two corners.
 
-    In the units of Boore (2003), Pure and Applied Geophysics 160, 635-676: beta = 3.5 km/s, a stress parameter of
-    100 bar, as is usual for active regions, and the seismic moment M0 [dyn cm] of Hanks and Kanamori (1979). Below it
-    the acceleration of the source falls with the square of the frequency, as f^2 / (f^2 + corner^2): what the
-    critically damped high-pass of the motions does, so that this is its corner.
+    Bulletin of the Seismological Society of America 90, 255-274: log fa = 2.181 - 0.496 M, log fb = 2.41 - 0.408 M,
+    log share = 0.605 - 0.255 M. At long periods the acceleration of a fault of some size falls earlier and less steeply
+    than with the one corner of Brune (1970), whose motions come out up to twice too strong at 3 s to 10 s.
     """
-    moment = 10.0 ** (1.5 * magnitude + 16.05)
-    return float(4.9e6 * 3.5 * (100.0 / moment) ** (1.0 / 3.0))
+    return Source(
+        10.0 ** (2.181 - 0.496 * magnitude), 10.0 ** (2.41 - 0.408 * magnitude), 10.0 ** (0.605 - 0.255 * magnitude)
+    )
 
 
 def scenario_parameters(
@@ -133,9 +133,9 @@ def scenario_parameters(
         if not low <= value <= high:
             raise InputError("synthetic-range", name, f"{value:g}{unit}", bounds=f"{low:g} to {high:g}{unit}")
     scores = normal_scores(magnitude, distance, vs30, reverse)
-    corner = source_corner(magnitude)
+    source = source_of(magnitude)
     if seed is None:
-        return replace(parameters_of(scores, gravity), corner=corner)
+        return replace(parameters_of(scores, gravity), source=source)
     correlation = np.eye(6)
     for i, row in enumerate(_RHO):
         correlation[i, i + 1 :] = correlation[i + 1 :, i] = row
@@ -148,14 +148,14 @@ def scenario_parameters(
         except InputError:
             continue
         if 0.2 <= drawn.duration / drawn.middle <= 4.9:
-            return replace(drawn, corner=corner)
+            return replace(drawn, source=source)
 
 
 def synthetic(name: str, *, gravity: float = STANDARD_GRAVITY, field: str = "motion.file") -> GroundMotion:
     """Return the motion that a name such as ``synthetic:M6.5,20km,seed=3,vs30=760,fault=reverse`` orders.
 
     Without ``scatter=yes`` the parameters are the medians, and only the noise differs between seeds. A ``step`` [s]
-    refines the motion, exactly; it divides 0.01 s. A ``corner`` [Hz] of the high-pass goes before that of the source.
+    refines the motion, exactly; it divides 0.01 s. A high-pass of one ``corner`` [Hz] takes the place of the source.
 
     Raises
     ------
@@ -175,7 +175,7 @@ def synthetic(name: str, *, gravity: float = STANDARD_GRAVITY, field: str = "mot
             gravity=gravity,
         )
         if "corner" in order:
-            parameters = replace(parameters, corner=order["corner"])
+            parameters = replace(parameters, corner=order["corner"], source=None)
     except _Form as reason:
         raise InputError("synthetic-form", field, name, reason=reason) from None
     except InputError as error:

@@ -26,6 +26,23 @@ _REST = 9.0
 
 
 @dataclass(frozen=True)
+class Source:
+    """The spectrum of an earthquake's source, as :func:`heeltoe.motion.scenario.source_of` has it.
+
+    Attributes
+    ----------
+    lower, upper
+        Its corner frequencies [Hz].
+    share
+        Of the upper corner, from 0 to 1.
+    """
+
+    lower: float
+    upper: float
+    share: float
+
+
+@dataclass(frozen=True)
 class Parameters:
     """What a generated motion is like, in expectation over all seeds.
 
@@ -44,7 +61,9 @@ class Parameters:
     bandwidth
         Damping ratio of the filter: small is narrow-banded.
     corner
-        Corner frequency [Hz] of the high-pass.
+        Corner frequency [Hz] of the high-pass, where no source takes its place.
+    source
+        Of the earthquake, whose spectrum the motion has at long periods.
     """
 
     arias: float
@@ -54,6 +73,7 @@ class Parameters:
     frequency_rate: float = 0.0
     bandwidth: float = 0.3
     corner: float = 0.1
+    source: Source | None = None
 
     def __post_init__(self) -> None:
         for name, low, high, unit in (
@@ -111,9 +131,9 @@ def stochastic_motion(
 
     where sigma^2 = sum_i h^2 makes the variance one before modulation. The high-pass is their critically damped
     oscillator, which leaves neither velocity nor displacement behind; what is not yet at rest where the
-    motion is ended, below a thousandth, a polynomial takes away.
+    motion is ended, below a thousandth, a polynomial takes away. A source goes in its place, see :func:`_two_corners`.
 
-    The Arias intensity is that of `parameters` on average over seeds, less what the high-pass takes; it is not
+    The Arias intensity is that of `parameters` on average over seeds, less what high-pass or source takes; it is not
     scaled to it, as its scatter is part of the model.
 
     Parameters
@@ -131,7 +151,9 @@ def stochastic_motion(
     from scipy.stats import gamma
 
     shape, scale = modulation(parameters)
-    rest = _REST / (2.0 * np.pi * parameters.corner)
+    source = parameters.source
+    lowest = parameters.corner if source is None else source.lower
+    rest = _REST / (2.0 * np.pi * lowest)
     count = int(np.ceil((scale * float(gamma.ppf(0.999, shape)) + rest) / STEP)) + 1
     time: Floats = STEP * np.arange(count, dtype=np.float64)
     noise = np.random.Generator(np.random.PCG64(seed)).standard_normal(count)
@@ -141,13 +163,15 @@ def stochastic_motion(
     filtered = _filtered_noise(noise, 2.0 * np.pi * frequency, parameters.bandwidth)
     # The integral of a^2 is 2 g / pi times the Arias intensity.
     power = 2.0 * gravity / np.pi * parameters.arias * gamma.pdf(time, shape, scale=scale)
-    high_pass = signal.bilinear(*_critical(parameters.corner), fs=1.0 / STEP)
-    acceleration = signal.lfilter(*high_pass, np.sqrt(power) * filtered)
+    acceleration = np.sqrt(power) * filtered
+    for numerator, denominator in [_critical(lowest)] if source is None else _two_corners(source):
+        acceleration = signal.lfilter(*signal.bilinear(numerator, denominator, fs=1.0 / STEP), acceleration)
+    long_periods = f"high-pass {lowest:.3g} Hz" if source is None else f"source {lowest:.3g} and {source.upper:.3g} Hz"
     said = (
         f"filtered, modulated white noise after Rezaeian and Der Kiureghian (2010): Arias intensity "
         f"{parameters.arias:.4g} m/s, D5-95 {parameters.duration:.4g} s, t_mid {parameters.middle:.4g} s, frequency "
         f"{parameters.frequency:.4g} Hz there, changing by {parameters.frequency_rate:.3g} Hz/s, bandwidth "
-        f"{parameters.bandwidth:.3g}, high-pass {parameters.corner:.3g} Hz, seed {seed}"
+        f"{parameters.bandwidth:.3g}, {long_periods}, seed {seed}"
     )
     motion = GroundMotion(
         name, time, acceleration, format="synthetic", units_as_read="m/s^2", source="made to order", processing=(said,)
@@ -155,13 +179,28 @@ def stochastic_motion(
     return baseline(motion, 3, displacement=True)
 
 
-def _critical(corner: float) -> tuple[list[float], list[float]]:
+# Coefficients of powers of s, the highest first.
+_Filter = tuple[list[float], list[float]]
+
+
+def _critical(corner: float) -> _Filter:
     """Numerator and denominator of s^2 / (s + w)^2, the critically damped high-pass.
 
     Its bilinear transform has the double zero at frequency zero that makes velocity and displacement vanish.
     """
     w = 2.0 * np.pi * corner
     return [1.0, 0.0, 0.0], [1.0, 2.0 * w, w * w]
+
+
+def _two_corners(source: Source) -> list[_Filter]:
+    """Numerators and denominators of two filters whose amplitude, together, is that of a source of two corners.
+
+    The spectrum f^2 ((1 - share) / (1 + (f / lower)^2) + share / (1 + (f / upper)^2)), one where the frequency is high,
+    is that of s^2 (s + z)^2 / ((s + l)^2 (s + u)^2) with 1 / z^2 = (1 - share) / u^2 + share / l^2: no approximation.
+    """
+    low, up = (2.0 * np.pi * each for each in (source.lower, source.upper))
+    z = float(1.0 / np.sqrt((1.0 - source.share) / up**2 + source.share / low**2))
+    return [_critical(source.lower), ([1.0, 2.0 * z, z * z], [1.0, 2.0 * up, up * up])]
 
 
 def _filtered_noise(noise: Floats, circular: Floats, damping: float) -> Floats:
