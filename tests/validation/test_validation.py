@@ -36,7 +36,7 @@ def _judge(name):
     assert all(row.remark for row in rows if row.tolerance is None or row.explained or row.kind == "thesis")
     outside = [f"{row.what}: {row.ours_text} instead of {row.reference_text}" for row in rows if row.holds is False]
     assert not outside
-    drift = store.drift(store.read(BOOK)[name], [store.told(row) for row in rows], chaotic=CASES[name].chaotic)
+    drift = store.drift(store.read(BOOK)[name], [store.told(row) for row in rows], steady=CASES[name].steady)
     assert not drift, "\n".join(["make book:", *drift])
 
 
@@ -44,6 +44,7 @@ def _judge(name):
 def test_pages_are_made_of_the_stored_rows(name):
     assert (BOOK / f"{pages.file_of(name)}.md").read_text(encoding="utf-8") == pages.page(name, store.read(BOOK)[name])
     assert (BOOK / f"{pages.file_of(name)}.png").exists() == (CASES[name].chart is not None)
+    assert (BOOK / f"{pages.file_of(name)}-history.png").exists() == (CASES[name].history is not None)
 
 
 def test_the_matrix_is_made_of_the_stored_rows():

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Literal
 
+from heeltoe.result.response import Response
 from heeltoe.validation.chart import Chart
 from heeltoe.validation.row import Row
 
@@ -31,12 +32,15 @@ class Declared:
         How far ours moves with a little more or less shaking, or why that does not apply.
     chart
         How its rows are drawn, where a figure says more than the table.
+    history
+        Runs what its figure of histories shows.
     long
         Whether it takes more than a moment; the slow tests compute it.
     records
         Whether it needs strong-motion records that are no part of the project.
-    chaotic
-        Whether another machine finds other numbers; its page is then held to words and verdicts alone.
+    steady
+        How far, as a part of them, numbers may be from ours on another machine: a motion in which dams strike carries
+        rounding on. Where it is infinite the page is held to words and verdicts alone.
     """
 
     rows: Callable[[], Iterable[Row]]
@@ -45,9 +49,10 @@ class Declared:
     convergence: str
     spread: str
     chart: Chart | None = None
+    history: Callable[[], Response] | None = None
     long: bool = False
     records: bool = False
-    chaotic: bool = False
+    steady: float = 0.0
 
     @property
     def title(self) -> str:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from heeltoe.references import REFERENCES
 from heeltoe.validation import evidence, flexible_dams, koyna, penalty, random_dams, thesis_dams
 from heeltoe.validation.chart import Chart
@@ -11,6 +13,8 @@ _EXACT = "Exact from event to event: there is no step and no mesh."
 _HALF = "Ours with half the step stands beside it; what the mesh does to dams like these is the case `halving`."
 _ONE_PER_CENT = "Ours under 99 % and 101 % of the shaking stands beside it."
 _PROTOTYPE = "an independent program made after it"
+# What other arithmetic has been seen to move, and some more: of slips of cracks at the base, and at a height.
+_BASE_STEADY, _HIGH_STEADY = 0.01, 0.02
 _CHAPTER_7 = f"{REFERENCES['flexible']}"
 _BY_DEPTH = Chart(r"(?P<series>friction [\d.]+), water (?P<x>[\d.]+) m", "depth of water [m]", "slip [mm]", "y")
 
@@ -23,6 +27,7 @@ CASES: dict[str, Declared] = {
         f"{_PROTOTYPE}",
         _EXACT,
         "What is chaotic is judged by its spread under 99 to 101 % of the shaking.",
+        history=thesis_dams.triangular_response,
         records=True,
     ),
     "table-7.6-taft": Declared(
@@ -32,6 +37,7 @@ CASES: dict[str, Declared] = {
         _EXACT,
         _ONE_PER_CENT,
         _BY_DEPTH,
+        history=thesis_dams.typical_response,
         records=True,
     ),
     "table-7.6-el-centro": Declared(
@@ -84,6 +90,7 @@ CASES: dict[str, Declared] = {
         Chart(r"(?P<x>[\d.]+) GPa: slip", "modulus [GPa]", "slip [mm]", log="x"),
         long=True,
         records=True,
+        steady=_BASE_STEADY,
     ),
     "table-7.7": Declared(
         flexible_dams.table_7_7,
@@ -94,6 +101,7 @@ CASES: dict[str, Declared] = {
         Chart(r"(?P<series>friction [\d.]+), water (?P<x>[\d.]+) m: slip", "depth of water [m]", "slip [mm]", "y"),
         long=True,
         records=True,
+        steady=_BASE_STEADY,
     ),
     "table-7.8": Declared(
         flexible_dams.table_7_8,
@@ -104,6 +112,7 @@ CASES: dict[str, Declared] = {
         Chart(r"^(?P<x>[\d.]+) GPa: slip", "modulus [GPa]", "slip [mm]", log="x"),
         long=True,
         records=True,
+        steady=_BASE_STEADY,
     ),
     "table-7.10": Declared(
         flexible_dams.table_7_10,
@@ -114,6 +123,7 @@ CASES: dict[str, Declared] = {
         _BY_DEPTH,
         long=True,
         records=True,
+        steady=_HIGH_STEADY,
     ),
     "damping": Declared(
         flexible_dams.damping,
@@ -123,6 +133,7 @@ CASES: dict[str, Declared] = {
         _ONE_PER_CENT,
         long=True,
         records=True,
+        steady=_BASE_STEADY,
     ),
     "halving": Declared(
         flexible_dams.halving,
@@ -132,6 +143,7 @@ CASES: dict[str, Declared] = {
         "Where a single run says little about the mesh its remark has the spread.",
         long=True,
         records=True,
+        steady=_HIGH_STEADY,
     ),
     "evidence": Declared(
         evidence.evidence,
@@ -156,6 +168,6 @@ CASES: dict[str, Declared] = {
         ),
         long=True,
         records=True,
-        chaotic=True,
+        steady=math.inf,
     ),
 }

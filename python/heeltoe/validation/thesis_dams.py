@@ -14,6 +14,7 @@ from heeltoe.models.run import rigid
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.records import read_record
 from heeltoe.motion.records.catalog import find
+from heeltoe.result.response import Response
 from heeltoe.validation.row import Row, Skipped
 from heeltoe.validation.sources import ENDS_WITH_MOTION
 
@@ -44,6 +45,17 @@ def taft() -> Iterator[Row]:
             good = 0.10 if printed < 10.0 else 0.07
             yield Row(label, printed, ours, good, remark=_ANOTHER_VERSION, kind="thesis", spread=(least, most))
             yield Row(label, prototype, ours, 1e-3, remark="the same record, exact events", kind="prototype")
+
+
+def typical_response() -> Response:
+    """Shake the typical dam, friction 1, 95 m of water, by Taft."""
+    record = record_named("taft-1952-s69e-caltech")
+    return rigid(_typical(95.0, 1.0), record.scaled_to(0.4 * _G).cut(30.0))
+
+
+def triangular_response() -> Response:
+    """Shake the triangular dam, friction 1.4, by Taft at 0.9 g."""
+    return rigid(_triangle(1.4, 0.5), record_named("taft-1952-s69e-caltech").scaled_to(0.9 * _G))
 
 
 def el_centro() -> Iterator[Row]:
@@ -119,6 +131,7 @@ def _slip_mm(case: Case, record: GroundMotion, peak_g: float = 0.4) -> float:
 def _typical(depth: float, friction: float) -> Case:
     return read_case(
         {
+            "title": f"Typical dam, friction {friction:g}, {depth:g} m of water",
             "gravity": f"{_G} m/s^2",
             "section": {
                 "height": "100 m",
@@ -137,6 +150,7 @@ def _typical(depth: float, friction: float) -> Case:
 
 def _triangle(friction: float, extent: float) -> Case:
     fields: dict[str, Any] = {
+        "title": f"Triangular dam, friction {friction:g}",
         "gravity": f"{_G} m/s^2",
         "section": {"polygon": [["0 m", "0 m"], ["97.536 m", "0 m"], ["0 m", "121.92 m"]]},
         "concrete": {"density": "2430 kg/m^3"},

@@ -23,7 +23,12 @@ _TWO_PROTOTYPES = "Two independent programs made after the thesis: exact events,
 
 CASES: dict[str, Declared] = {
     "impulse": Declared(
-        thesis_blocks.impulse, ("rigid",), f"{REFERENCES['rigid']}: the printed parabolas", _EXACT, _PULSE
+        thesis_blocks.impulse,
+        ("rigid",),
+        f"{REFERENCES['rigid']}: the printed parabolas",
+        _EXACT,
+        _PULSE,
+        history=thesis_blocks.impulse_response,
     ),
     "sine": Declared(
         thesis_blocks.sine,
@@ -103,7 +108,14 @@ CASES: dict[str, Declared] = {
         _ONE_PER_CENT,
         records=True,
     ),
-    "drifting": Declared(thesis_blocks.drifting, ("rigid",), _TWO_PROTOTYPES, _EXACT, _PULSE),
+    "drifting": Declared(
+        thesis_blocks.drifting,
+        ("rigid",),
+        _TWO_PROTOTYPES,
+        _EXACT,
+        _PULSE,
+        history=thesis_blocks.drifting_response,
+    ),
     "dry-block": Declared(thesis_blocks.dry_block, ("rigid",), _TWO_PROTOTYPES, _EXACT, _PULSE),
     "bouncing-bar": Declared(
         elastic_bar.bouncing_bar,

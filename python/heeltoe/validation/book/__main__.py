@@ -9,6 +9,7 @@ from pathlib import Path
 from heeltoe.validation.book import pages, store
 from heeltoe.validation.cases import CASES, run_case
 from heeltoe.validation.row import Skipped
+from heeltoe.views.figures.histories import response_figure
 from heeltoe.views.figures.write import save
 
 
@@ -25,6 +26,8 @@ def make(folder: Path, names: list[str]) -> None:
             continue
         if chart := CASES[name].chart:
             save(chart.draw(rows), folder / f"{pages.file_of(name)}.png", dpi=90)
+        if history := CASES[name].history:
+            save(response_figure(history()), folder / f"{pages.file_of(name)}-history.png", dpi=90)
         book[name] = [store.told(row) for row in rows]
         sys.stdout.write(f"{name}: {len(rows)} rows, {time.perf_counter() - start:.0f} s\n")
         sys.stdout.flush()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from itertools import pairwise
 
 from heeltoe.validation.row import Row
 
@@ -87,24 +86,22 @@ def _below(value: float) -> str:
     return f"< {10.0 ** (math.floor(math.log10(max(value, ROUNDING / 10.0) * 1.001)) + 1):.0e}"
 
 
-def alike(old: str, new: str, *, any_number: bool = False) -> bool:
-    """Whether two texts are the same but for one in the last digit of their numbers; bounds, for one power of ten.
-
-    Or for their numbers altogether.
-    """
+def alike(old: str, new: str, steady: float = 0.0) -> bool:
+    """Whether two texts are the same but for one in the last digit of their numbers, or for a part of these; bounds,
+    for one power of ten."""
     parts = [_NUMBER.split(text)[::5] for text in (old, new)]
     if parts[0] != parts[1]:
         return False
-    if any_number:
-        return True
     pairs = zip(_NUMBER.finditer(old), _NUMBER.finditer(new), strict=True)
-    return all(_near(*pair) for pair in pairs)
+    return all(_near(*pair, steady) for pair in pairs)
 
 
-def _near(old: re.Match[str], new: re.Match[str]) -> bool:
+def _near(old: re.Match[str], new: re.Match[str], steady: float) -> bool:
     if old[1] and new[1]:
-        return 0.09 < float(old[2]) / float(new[2]) < 11.0
+        return steady == math.inf or 0.09 < float(old[2]) / float(new[2]) < 11.0
     # What is below a bound is between nothing and one of its last digits.
-    values = [0.0 if each[1] else float(each[2]) for each in (old, new)]
+    a, b = (0.0 if each[1] else float(each[2]) for each in (old, new))
     unit = max(10.0 ** (int(each[4] or 0) - len(each[3] or "")) for each in (old, new))
-    return all(abs(b - a) <= 1.01 * unit for a, b in pairwise(values))
+    # A deviation in per cent moves by what the number moves.
+    whole = 100.0 if old.string[old.end() :].startswith(" %") else max(abs(a), abs(b))
+    return abs(b - a) <= 1.01 * unit or abs(b - a) <= steady * whole

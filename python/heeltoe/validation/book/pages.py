@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -68,12 +69,14 @@ def page(name: str, rows: Rows) -> str:
                 f"- Convergence: {case.convergence}",
                 f"- Spread: {case.spread}",
                 f"- Again: `heeltoe validate {name}`{_needs(case)}",
-                *_chaotic(case),
+                *_elsewhere(case),
             )
         )
     )
     if case.chart:
         parts.append(f"![{_plain(case.title)}]({file_of(name)}.png)")
+    if case.history:
+        parts.append(f"![Slip, rotation and modes over time]({file_of(name)}-history.png)")
     parts.append(f"{len(rows)} rows: {_in_words(counted(rows))}.")
     parts += [_rows(rows), *_remarks(rows)]
     return "\n\n".join(parts) + "\n"
@@ -111,8 +114,14 @@ def _needs(case: Declared) -> str:
     return "; it needs records that are no part of the project, and says so where they are not there" * case.records
 
 
-def _chaotic(case: Declared) -> list[str]:
-    return ["- On another machine: other numbers, as contact here makes energy; the same verdicts"] * case.chaotic
+def _elsewhere(case: Declared) -> list[str]:
+    """Return what is the same on another machine, where it is not all."""
+    if case.steady == 0.0:
+        return []
+    numbers = (
+        "numbers are others" if case.steady == math.inf else f"numbers are within {100.0 * case.steady:g} % of these"
+    )
+    return [f"- On another machine: {numbers}, verdicts the same; a dam that strikes carries rounding on"]
 
 
 def _in_words(found: Counter[str]) -> str:

@@ -36,8 +36,8 @@ def told(row: Row) -> dict[str, str]:
     return found
 
 
-def drift(old: Rows, new: Rows, *, chaotic: bool = False) -> list[str]:
-    """Return what is no longer as it was, a line each; of a chaotic case, words and verdicts alone."""
+def drift(old: Rows, new: Rows, *, steady: float = 0.0) -> list[str]:
+    """Return what is no longer as it was, a line each; numbers may be off by a part of them."""
     if len(old) != len(new):
         return [f"{len(old)} rows before, {len(new)} now"]
     found = []
@@ -48,7 +48,7 @@ def drift(old: Rows, new: Rows, *, chaotic: bool = False) -> list[str]:
         found += [
             f"{now['what']}, {name}: {before[name]!r} before, {now[name]!r} now"
             for name in now
-            if not numbers.alike(before[name], now[name], any_number=chaotic)
+            if not numbers.alike(before[name], now[name], steady=steady)
         ]
     return found
 
