@@ -36,6 +36,21 @@ def test_three_components_in_one_go(records):
     assert sorted(each.name for each in records.glob("*.png")) == [f"{name}.motion.png" for name in "abc"]
 
 
+@pytest.mark.parametrize(("units", "pgd", "speed"), [("si", "m", "m/s"), ("us", "in", "ft/s")])
+def test_components_stand_side_by_side_in_one_unit(units, pgd, speed, records):
+    run = command("motion", "a.asc", "b.asc", "c.asc", "--units", units, "--no-figure", cwd=records)
+    lines = {line[:22].strip(): line[22:] for line in run.stdout.splitlines()}
+    assert lines["component"].split() == ["HNE", "HNN", "HNZ"]
+    for label, unit in (("PGV", speed), ("PGD", pgd), ("Arias intensity", speed)):
+        numbers, found = lines[label].split()[::2], lines[label].split()[1::2]
+        assert found == [unit] * 3
+        share = 0.49 if label == "Arias intensity" else 0.7
+        assert float(numbers[1]) == pytest.approx(share * float(numbers[0]), rel=2e-3)
+    # Four are printed one below the other.
+    run = command("motion", *["a.asc"] * 4, "--no-figure", cwd=records)
+    assert run.stdout.count("significant duration") == 4
+
+
 def test_components_of_two_earthquakes_are_told(records):
     (records / "d.asc").write_text(esm(EVENT_NAME="ELSEWHERE", EVENT_DATE_YYYYMMDD="19990101"))
     run = command("motion", "a.asc", "d.asc", "--no-figure", cwd=records)

@@ -14,6 +14,8 @@ from heeltoe.plain import plain
 from heeltoe.units.parse import STANDARD_GRAVITY, parse
 from heeltoe.units.systems import unit_system
 
+# More motions than these are printed one below the other.
+_SIDE_BY_SIDE = 3
 _ABOUT = ("event", "station", "component", "date", "channel", "format", "units_as_read")
 
 if TYPE_CHECKING:
@@ -69,13 +71,19 @@ def motion(
 def _show(motions: list[GroundMotion], misfits: list[Misfit], words: Console, units: str, components: bool) -> None:
     from heeltoe.motion.check import check_pair
     from heeltoe.views.terminal.common import print_warnings
-    from heeltoe.views.terminal.motion import print_motion
+    from heeltoe.views.terminal.motion import print_motion, print_motions
 
+    side_by_side = 1 < len(motions) <= _SIDE_BY_SIDE
+    if side_by_side:
+        print_motions(motions, words, units)
     for k, each in enumerate(motions):
-        print_motion(each, words, units)
+        if not side_by_side:
+            print_motion(each, words, units)
         if misfits:
-            words.print(f"  {misfits[k]}", soft_wrap=True, markup=False)
-        words.print()
+            whose = f"{plain(each.name)}: " if side_by_side else "  "
+            words.print(f"{whose}{misfits[k]}", soft_wrap=True, markup=False)
+        if not side_by_side:
+            words.print()
     if components:
         said = [each.text(units) for other in motions[1:] for each in check_pair(motions[0], other)]
         print_warnings(tuple(dict.fromkeys(said)), words)

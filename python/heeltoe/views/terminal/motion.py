@@ -2,17 +2,39 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from rich.console import Console
 from rich.markup import escape
 
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.units.parse import STANDARD_GRAVITY
-from heeltoe.views.terminal.common import label_lines, print_warnings
-from heeltoe.views.words.motion import about_motion, suspicions
+from heeltoe.views.terminal.common import label_lines, print_warnings, quiet_table
+from heeltoe.views.words.motion import about_motion, about_motions, suspicions
 
 
 def print_motion(motion: GroundMotion, console: Console, units: str = "si", gravity: float = STANDARD_GRAVITY) -> None:
     """Print what is in a record."""
     console.print(label_lines((label, escape(text)) for label, text in about_motion(motion, units, gravity)))
-    own = (each.text(units) for each in motion.warnings)
-    print_warnings((*own, *suspicions(motion, units, gravity)), console)
+    print_warnings(_doubts(motion, units, gravity), console)
+
+
+def print_motions(
+    motions: Sequence[GroundMotion], console: Console, units: str = "si", gravity: float = STANDARD_GRAVITY
+) -> None:
+    """Print what is in the components of a record, side by side, each quantity in one unit."""
+    table = quiet_table()
+    (_, names), *lines = about_motions(motions, units, gravity)
+    table.add_column("", no_wrap=True)
+    for name in names:
+        # Names of files are long, and cut short they are all the same.
+        table.add_column(escape(name), overflow="fold")
+    for label, texts in lines:
+        table.add_row(label, *map(escape, texts))
+    console.print(table)
+    said = [(each.name, text) for each in motions for text in _doubts(each, units, gravity)]
+    print_warnings((text if name in text else f"{name}: {text}" for name, text in said), console)
+
+
+def _doubts(motion: GroundMotion, units: str, gravity: float) -> list[str]:
+    return [*(each.text(units) for each in motion.warnings), *suspicions(motion, units, gravity)]

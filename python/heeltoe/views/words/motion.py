@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import partial
 
 from heeltoe.errors import InputError
@@ -10,7 +11,7 @@ from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import measures
 from heeltoe.plain import plain
 from heeltoe.units.parse import STANDARD_GRAVITY
-from heeltoe.units.sentences import quantity, written
+from heeltoe.units.sentences import numbers, quantity
 from heeltoe.views.words.sequence import part_lines
 
 
@@ -23,38 +24,50 @@ def about_motion(
     motion: GroundMotion, units: str = "si", gravity: float = STANDARD_GRAVITY
 ) -> tuple[tuple[str, str], ...]:
     """Return labels and texts of all that is known of a motion."""
-    lines = (
-        ("name", motion.name),
-        ("event", motion.event),
-        ("station", motion.station),
-        ("component", motion.component),
-        ("date", motion.date),
-        ("format", motion.format),
-        ("read as", motion.units_as_read),
-        ("samples", f"{motion.time.size}, {sampling(motion)}, {motion.duration:.5g} s in all"),
-        ("PGA", f"{motion.pga / gravity:.5g} g"),
-        ("PGV", quantity(motion.pgv, ".4g m/s", units)),
-        ("PGD", quantity(motion.pgd, ".4g m", units)),
-        *_measures(motion, gravity, units),
-        ("processing", "; ".join(motion.processing)),
-        ("motions", "; then ".join(part_lines(motion, gravity))),
-        ("source", motion.source),
+    return tuple((label, text) for label, (text,) in about_motions([motion], units, gravity))
+
+
+def about_motions(
+    motions: Sequence[GroundMotion], units: str = "si", gravity: float = STANDARD_GRAVITY
+) -> list[tuple[str, list[str]]]:
+    """Return labels, and a text for each motion, of all that is known of motions, each quantity in one unit."""
+    found = [measures(each, gravity) for each in motions]
+
+    def amounts(values: Sequence[float], form: str) -> list[str]:
+        texts, unit = numbers(values, form, units)
+        return [f"{text} {unit}" for text in texts]
+
+    def measured(name: str, form: str) -> list[str]:
+        return [quantity(each[name], form) if name in each else "" for each in found]
+
+    ends = zip(
+        amounts([each["end_velocity_m_s"] for each in found], ".3g m/s"),
+        amounts([each["end_displacement_m"] for each in found], ".3g m"),
+        strict=True,
     )
-    return tuple((label, plain(text)) for label, text in lines if text)
-
-
-def _measures(motion: GroundMotion, gravity: float, units: str) -> list[tuple[str, str]]:
-    found = measures(motion, gravity)
-    lines = [
-        ("Arias intensity", quantity(found["arias_intensity_m_s"], ".4g m/s", units)),
-        ("CAV", quantity(found["cav_m_s"], ".4g m/s", units)),
-    ]
-    if "significant_duration_s" in found:
-        lines.append(("significant duration", f"{found['significant_duration_s']:.4g} s (5-95 %)"))
-    if "mean_period_s" in found:
-        lines.append(("mean period", f"{found['mean_period_s']:.4g} s"))
-    end = written("{end_velocity_m_s:.3g m/s}, {end_displacement_m:.3g m}", units, **found)
-    return [*lines, ("at the end, from rest", end)]
+    samples = [f"{each.time.size}, {sampling(each)}, {each.duration:.5g} s in all" for each in motions]
+    lines = (
+        ("name", [each.name for each in motions]),
+        ("event", [each.event for each in motions]),
+        ("station", [each.station for each in motions]),
+        ("component", [each.component for each in motions]),
+        ("date", [each.date for each in motions]),
+        ("format", [each.format for each in motions]),
+        ("read as", [each.units_as_read for each in motions]),
+        ("samples", samples),
+        ("PGA", [f"{each.pga / gravity:.5g} g" for each in motions]),
+        ("PGV", amounts([each.pgv for each in motions], ".4g m/s")),
+        ("PGD", amounts([each.pgd for each in motions], ".4g m")),
+        ("Arias intensity", amounts([each["arias_intensity_m_s"] for each in found], ".4g m/s")),
+        ("CAV", amounts([each["cav_m_s"] for each in found], ".4g m/s")),
+        ("significant duration", [text and f"{text} (5-95 %)" for text in measured("significant_duration_s", ".4g s")]),
+        ("mean period", measured("mean_period_s", ".4g s")),
+        ("at the end, from rest", [", ".join(each) for each in ends]),
+        ("processing", ["; ".join(each.processing) for each in motions]),
+        ("motions", ["; then ".join(part_lines(each, gravity)) for each in motions]),
+        ("source", [each.source for each in motions]),
+    )
+    return [(label, list(map(plain, texts))) for label, texts in lines if any(texts)]
 
 
 def suspicions(motion: GroundMotion, units: str = "si", gravity: float = STANDARD_GRAVITY) -> tuple[str, ...]:
