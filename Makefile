@@ -115,7 +115,7 @@ peers: check $(VENV)/.built
 	@$(ELAPSED)
 
 docs: check $(VENV)/.built
-	$(BIN)/sphinx-build -W --keep-going -q -b html docs docs/_build/html
+	$(BIN)/sphinx-build -W -E --keep-going -q -b html docs docs/_build/html
 	@echo "open docs/_build/html/index.html"
 	@$(ELAPSED)
 

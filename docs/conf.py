@@ -42,6 +42,7 @@ html_theme = "furo"
 html_title = f"heeltoe {release}"
 html_static_path = ["static"]
 html_css_files = ["heeltoe.css"]
+html_show_copyright = False
 html_show_sourcelink = html_copy_source = False
 
 # One letter, and what stands below it.
