@@ -52,3 +52,9 @@ def test_a_tag_is_the_version_and_its_date_stands_in_both_places(tmp_path):
     assert problems(tmp_path, f"v{VERSION}") == []
     (tmp_path / "CHANGELOG.md").write_text(log.replace(heading, f"## {VERSION} (unreleased)"), encoding="utf-8")
     assert "unreleased" in problems(tmp_path, f"v{VERSION}")[0]
+
+
+@pytest.mark.parametrize("name", ["requirements.lock", "requirements-bench.lock"])
+def test_lock_files_pin_what_some_python_does_not_bring(name):
+    text = (ROOT / name).read_text(encoding="utf-8")
+    assert "were not pinned" not in text, "run pip-compile with --allow-unsafe"
