@@ -35,15 +35,20 @@ def keys(found, path=""):
 
 
 @pytest.fixture(scope="module")
-def results(tmp_path_factory):
+def study(tmp_path_factory):
+    place = tmp_path_factory.mktemp("study")
+    run_study(study_file(place, DRAWN), place / "out")
+    return open_study(place / "out")
+
+
+@pytest.fixture(scope="module")
+def results(tmp_path_factory, study):
     """JSON of every command."""
     anchored = example("anchored", *FAST, "limits.residual_slip=1mm")
     koyna = read_case(KOYNA, [*FAST, "concrete.tensile_strength=1MPa"])
     full = koyna.with_("flexible.evidence=full", "motion.duration=1s", "decoupled.rotation=true")
     block = run(read_case(HEIGHT, FAST), "rigid")
-    place = tmp_path_factory.mktemp("study")
-    run_study(study_file(place, DRAWN), place / "out")
-    said = command("motion", "record.txt", "--no-figure", "--json", "-", cwd=_record(place))
+    said = command("motion", "record.txt", "--no-figure", "--json", "-", cwd=_record(tmp_path_factory.mktemp("record")))
     return {
         "rigid": run(anchored, "rigid").to_json(),
         "flexible": run(full, "both").to_json(),
@@ -56,7 +61,7 @@ def results(tmp_path_factory):
         "periods": dam_periods(koyna, 2).to_json(),
         "overturning": overturning_map(read_case(SLENDER), count=12).to_json(),
         "motion": json.loads(said.stdout),
-        "study": open_study(place / "out").to_json(),
+        "study": study.to_json(),
     }
 
 
@@ -106,9 +111,8 @@ def test_every_column_of_a_run_is_explained(model):
     assert set(response.events_table().column_names) <= told["column of the events"] or model == "flexible"
 
 
-def test_every_column_of_a_study_is_explained(tmp_path):
-    run_study(study_file(tmp_path, DRAWN), tmp_path / "out")
-    for name in open_study(tmp_path / "out").to_table().column_names:
+def test_every_column_of_a_study_is_explained(study):
+    for name in study.to_table().column_names:
         assert explain(name)
 
 
@@ -128,7 +132,7 @@ def test_every_field_is_explained_with_a_sentence():
     [
         ("crack.friction", ["a number", "0 or more, 10 at most", "all models", "rigid.md equation 5"]),
         ("reservoir.depth", ["a length", '"100 m"', "all models"]),
-        ("crack.inclination", ["0 deg", "45 deg at most"]),
+        ("crack.inclination", ["0 deg", "-45° or more, 45° at most"]),
         ("crack.restitution", ["0.5", "the rigid model and the decoupled chain"]),
         ("flexible.contact", ["one of coulomb, idce", "the flexible model"]),
         ("analysis.time_limit", ["600 s"]),

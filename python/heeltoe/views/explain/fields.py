@@ -17,6 +17,7 @@ from heeltoe.study.file import Distribution, Study
 from heeltoe.units.parse import DIMENSIONS
 from heeltoe.views.explain.meaning import Meaning
 from heeltoe.views.explain.pages import page_of
+from heeltoe.views.words.fields import shown
 
 _COMPARED = {"gt": "more than {}", "ge": "{} or more", "lt": "less than {}", "le": "{} at most"}
 _PLAIN = {bool: "true or false", int: "a whole number", float: "a number", str: "a text"}
@@ -150,7 +151,7 @@ def _limits(field: FieldInfo) -> str:
         for name, words in _COMPARED.items():
             if hasattr(each, name):
                 value = float(getattr(each, name))
-                number = f"{value * 57.29577951308232:.4g} deg" if unit == "rad" else f"{value:.10g} {unit}".strip()
+                number = shown(f"{value:.10g} {unit}") if unit else f"{value:.10g}"
                 found.append(words.format(number))
     return ", ".join(dict.fromkeys(found))
 
@@ -162,4 +163,5 @@ def _shown(value: object, unit: str) -> str:
         return "true" if value else "false"
     if isinstance(value, tuple):
         return ", ".join(map(str, value))
-    return f"{value:.10g} {unit}".strip() if isinstance(value, float) else str(value)
+    number = f"{value:.10g}" if isinstance(value, float) else str(value)
+    return shown(f"{number} {unit}") if unit and isinstance(value, float) else number

@@ -36,7 +36,7 @@ def print_meanings(found: Sequence[Meaning], console: Console) -> None:
             ("default", each.default),
             ("range", each.limits),
             ("read by" if each.kind == "field of a case" else "found in", each.found_in),
-            ("more in", f"docs/{each.page}" if each.page else ""),
+            ("more in", f"docs/{each.page.replace(' equation', ', equation')}" if each.page else ""),
         ]
         told = [(f"  {label}", escape(text)) for label, text in lines if text]
         if told:
