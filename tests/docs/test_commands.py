@@ -72,7 +72,7 @@ def test_a_line_can_be_typed(line, place, request):
         COMMANDS[name].make_context(name, arguments)
         return
     if name in ("new", "examples"):
-        arguments = ["another"]
+        arguments = [f"another-{len(list(place.iterdir()))}"]
     if "decoupled" in arguments:
         arguments = [argument.replace("mydam", "high") for argument in arguments]
     arguments = [argument.replace("FILE", "my-record.AT2") for argument in arguments]
