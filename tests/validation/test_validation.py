@@ -83,6 +83,7 @@ def test_the_tables_are_printed():
     text = io.StringIO()
     assert run_all("impulse", Console(file=text, width=160))
     assert "slip after 0.4 s" in text.getvalue()
+    assert "chapters IV and V: the printed parabolas" in " ".join(text.getvalue().split())
     assert "2 within what their reference is good for, 0 deviate and say why, 0 outside" in text.getvalue()
 
 

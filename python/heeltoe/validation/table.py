@@ -16,7 +16,8 @@ def run_all(name: str | None, console: Console) -> bool:
         run_case(name)
     passed = failed = deviating = informing = skipped = 0
     for each in [name] if name else CASES:
-        console.print(f"\n[bold]{each}[/bold]  {CASES[each].title}")
+        console.print(f"\n[bold]{each}[/bold]  {escape(CASES[each].title)}")
+        console.print(f"  [dim]{escape(CASES[each].source)}[/dim]")
         try:
             rows = run_case(each)
         except Skipped as reason:
