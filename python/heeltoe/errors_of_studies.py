@@ -62,5 +62,6 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
         "there is no scheduler at {value} ({reason})",
         "start one with `dask scheduler`, or leave it out",
     ),
+    "study-scenario-count": ("{value} is no number of motions", "give 1 to {most}"),
     "study-many": ("{value} are too many", "give at most {most}"),
 }

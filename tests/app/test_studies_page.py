@@ -85,6 +85,22 @@ def test_what_is_wrong_is_said_at_its_field(studies):
     studies.wait_for_function("() => /^1,000 runs/.test(document.querySelector('.outlook').textContent)")
 
 
+def test_a_folder_of_records_is_taken(studies, tmp_path):
+    (tmp_path / "quakes").mkdir()
+    for name in ("one-000", "one-090"):
+        rows = "".join(f"{0.01 * k:.2f} {0.3 * (-1) ** (k // 9):.3f}\n" for k in range(60))
+        (tmp_path / "quakes" / f"{name}.txt").write_text(f"# units: time [s], acceleration [g]\n{rows}")
+    (tmp_path / "quakes" / "notes.txt").write_text("none")
+    studies.select_option("#study-source", "records")
+    studies.set_input_files("#study-folder", tmp_path / "quakes")
+    studies.wait_for_selector("#study-folder-said >> text=/^2 of 3 files read; notes.txt/")
+    for name in ("one-000", "one-090"):
+        assert studies.is_checked(f"label:has-text('{name}.txt') input")
+    studies.fill("#study-scenario-magnitude", "6.5")
+    studies.wait_for_selector("[data-field=scenario] > .wrong >> text=distance")
+    assert studies.is_disabled("text=Run the study")
+
+
 def test_a_study_is_found_again_cancelled_and_gone_on_with(context, address):
     page = context.new_page()
     page.goto(f"{address}#studies")

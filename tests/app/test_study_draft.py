@@ -105,6 +105,21 @@ def test_the_motion_of_the_case_takes_strengths(session):
     assert study["motions"]["both_signs"]
 
 
+def test_motions_are_ordered_by_magnitude_and_distance(session):
+    order = {"scenario.magnitude": "6.5", "scenario.distance": "20 km", "scenario.count": "3"}
+    form = {**FORM, "source": "records", "ordered": "synthetic:M7.0,30km,seed=4; synthetic:M7.0,30km,seed=5", **order}
+    _, study, _ = asked = study_asked(form, session)
+    names = [f"synthetic:M6.5,20km,seed={seed},scatter=yes" for seed in (1, 2, 3)]
+    ordered = [{"horizontal": [f"synthetic:M7.0,30km,seed={seed}"]} for seed in (4, 5)]
+    scenario = [{"horizontal": [name], "magnitude": 6.5, "distance": "20 km"} for name in names]
+    assert study["motions"]["events"] == [*ordered, *scenario]
+    assert "5 runs" in look(asked, session.folder / "study-5", 100)["outlook"]
+    for wrong, field in (("count", "0"), ("count", "x"), ("magnitude", ""), ("distance", "far"), ("distance", "9000")):
+        with pytest.raises(InputError) as refused:
+            study_asked({**form, f"scenario.{wrong}": field}, session)
+        assert refused.value.field == ("scenario.count" if wrong == "count" else "scenario")
+
+
 def test_every_choice_is_a_field_of_a_study(session):
     found = choices(session)
     assert {"crack.friction", "reservoir.depth", "uplift.pattern"} <= {each["path"] for each in found["fields"]}

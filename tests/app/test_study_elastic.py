@@ -27,7 +27,7 @@ def processes() -> set[int]:
 
 
 @pytest.mark.slow
-def test_a_study_of_elastic_dams_is_cancelled_and_gone_on_with(tmp_path):
+def test_a_study_of_elastic_dams_is_cancelled_and_gone_on_with(tmp_path, capfd):
     with (
         TestClient(application(Settings("127.0.0.1", 8642, tmp_path)), base_url=HOME) as client,
         client.websocket_connect("/talk", headers={"host": "127.0.0.1:8642", "origin": HOME}) as tab,
@@ -53,6 +53,9 @@ def test_a_study_of_elastic_dams_is_cancelled_and_gone_on_with(tmp_path):
         while processes() - before and time.monotonic() < deadline:
             time.sleep(0.2)
         assert not processes() - before
+        # What its workers shared and put aside is given back.
+        assert "leaked" not in capfd.readouterr().err
+        assert not list(tmp_path.rglob(".workers-*"))
 
         tab.send_json({"do": "study form"})
         number = heard(lambda told: told["of"] == "study form")["studies"][0]["number"]

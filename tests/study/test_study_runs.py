@@ -114,7 +114,9 @@ def test_the_same_bits_whatever_the_parts_and_whoever_runs_them(tmp_path):
     pieces = [run for start in range(0, plan.count, 3) for run in parts.run_part(plan, start, start + 3).to_pylist()]
     assert pieces == whole
     stretches = [(number, 5 * number, min(5 * number + 5, plan.count)) for number in range(4)]
-    worked = dict(run_on_workers(plan, stretches))
+    (tmp_path / "work" / ".workers-left").mkdir(parents=True)
+    worked = dict(run_on_workers(plan, stretches, tmp_path / "work"))
+    assert not list((tmp_path / "work").iterdir())
     assert [run for part in sorted(worked) for run in worked[part].to_pylist()] == whole
 
 
@@ -243,14 +245,14 @@ def test_files_of_somebody_else_are_left_alone(tmp_path):
 def test_no_scheduler_and_no_package_are_said(tmp_path, monkeypatch):
     plan = plan_of(read_study(study_file(tmp_path, GRID)))
     with pytest.raises(InputError) as refused:
-        list(run_on_workers(plan, [(0, 0, 1)], "nowhere://1"))
+        list(run_on_workers(plan, [(0, 0, 1)], tmp_path, "nowhere://1"))
     assert refused.value.code == "study-scheduler"
     with pytest.raises(InputError, match="there is no scheduler at nowhere://1"):
         run_study(tmp_path / "study.toml", tmp_path / "out", scheduler="nowhere://1")
     assert not (tmp_path / "out").exists()
     monkeypatch.setattr("heeltoe.study.schedule.find_spec", lambda name: None)
     with pytest.raises(InputError) as refused:
-        list(run_on_workers(plan, [(0, 0, 1)]))
+        list(run_on_workers(plan, [(0, 0, 1)], tmp_path))
     assert refused.value.code == "study-package"
 
 

@@ -51,9 +51,11 @@ def copied(path: Path, name: str, folder: Path) -> str:
 
 
 def zipped(folder: Path, path: Path, *, without: tuple[str, ...] = ()) -> Path:
-    """Write all files of a folder into one, but those that have one of these names."""
+    """Write all files of a folder into one, but those that have one of these names or are hidden with their folder."""
     with ZipFile(path, "w", ZIP_DEFLATED) as archive:
         for each in sorted(folder.rglob("*")):
-            if each.is_file() and each != path and each.name not in without:
-                archive.write(each, f"{folder.name}/{each.relative_to(folder).as_posix()}")
+            inner = each.relative_to(folder)
+            hidden = any(part.startswith(".") for part in inner.parts[:-1])
+            if each.is_file() and each != path and each.name not in without and not hidden:
+                archive.write(each, f"{folder.name}/{inner.as_posix()}")
     return path

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import multiprocessing
 import signal
+import sys
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from itertools import count
@@ -19,8 +20,8 @@ Work = Callable[..., dict[str, Any]]
 Tell = Callable[[dict[str, Any]], Awaitable[None]]
 
 _NUMBERS = count(1)
-# A process that does not end by itself when asked to is ended after this [s].
-_PATIENCE_S = 3.0
+# A process that does not end by itself when asked to is ended after this [s]; one that has others ends them before.
+_PATIENCE_S = 10.0
 
 
 class Job:
@@ -116,6 +117,9 @@ def _lost(code: int | None) -> str:
 def _run(there: Connection, work: Work, arguments: tuple[Any, ...]) -> None:
     """Run in the process of a job."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if not multiprocessing.current_process().daemon:
+        # Its processes are ended, and what they share is given back, on the way out.
+        signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
     try:
         there.send(("done", work(lambda text, share=None: there.send(("says", (text, share))), *arguments)))
     except InputError as error:

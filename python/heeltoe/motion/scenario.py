@@ -162,8 +162,8 @@ def synthetic(name: str, *, gravity: float = STANDARD_GRAVITY, field: str = "mot
     InputError
         Where the name is not of this form, or asks for what the relations cannot say.
     """
+    order = order_of(name, field=field)
     try:
-        order = _read(name)
         magnitude, distance, vs30 = order["magnitude"], order["distance"], order.get("vs30", 760.0)
         seed = int(order["seed"])
         parameters = scenario_parameters(
@@ -176,8 +176,6 @@ def synthetic(name: str, *, gravity: float = STANDARD_GRAVITY, field: str = "mot
         )
         if "corner" in order:
             parameters = replace(parameters, corner=order["corner"], source=None)
-    except _Form as reason:
-        raise InputError("synthetic-form", field, name, reason=reason) from None
     except InputError as error:
         error.field = field
         raise
@@ -190,6 +188,20 @@ def synthetic(name: str, *, gravity: float = STANDARD_GRAVITY, field: str = "mot
     if not (6.0 <= magnitude <= 7.6 and 10.0 <= distance <= 100.0 and vs30 >= 600.0):
         said.append(Notice("motion-beyond-relations", field=field, name=motion.name))
     return motion.with_warnings(*said)
+
+
+def order_of(name: str, *, field: str = "motion.file") -> dict[str, float]:
+    """Return what a name orders: magnitude, distance [km], seed and what else it says; truths are 0 and 1.
+
+    Raises
+    ------
+    InputError
+        Where it is not of the form of :func:`synthetic`.
+    """
+    try:
+        return _read(name)
+    except _Form as reason:
+        raise InputError("synthetic-form", field, name, reason=reason) from None
 
 
 class _Form(ValueError):

@@ -217,7 +217,7 @@ def _run(plan: Plan, store: Store, scheduler: str | None, progress: Callable[[Pr
     if not missing:
         return
     parts = [(part, *store.stretch(part)) for part in missing]
-    ran = run_here(plan, parts) if _alone(plan, scheduler) else run_on_workers(plan, parts, scheduler)
+    ran = run_here(plan, parts) if _alone(plan, scheduler) else run_on_workers(plan, parts, store.directory, scheduler)
     done = store.count - sum(stop - start for _, start, stop in parts)
     began, made, failed = monotonic(), 0, 0
     seconds: dict[str, float] = {}

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import os
+import shutil
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack
 from importlib.util import find_spec
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import pyarrow as pa
@@ -16,6 +19,8 @@ from heeltoe.study.plan import Plan
 
 #: Parts that are under way for each worker: it need not wait for the next, and results do not pile up.
 _AHEAD = 2
+#: What the folders begin with in which workers of ours put aside what they do not hold.
+_ASIDE = ".workers-"
 Part = tuple[int, int, int]
 
 
@@ -25,7 +30,9 @@ def run_here(plan: Plan, parts: Sequence[Part]) -> Iterator[tuple[int, pa.Table]
         yield part, run_part(plan, start, stop, threads=0)
 
 
-def run_on_workers(plan: Plan, parts: Sequence[Part], address: str | None = None) -> Iterator[tuple[int, pa.Table]]:
+def run_on_workers(
+    plan: Plan, parts: Sequence[Part], directory: Path, address: str | None = None
+) -> Iterator[tuple[int, pa.Table]]:
     """Yield the parts as they get done by workers of Dask.
 
     Parameters
@@ -34,6 +41,8 @@ def run_on_workers(plan: Plan, parts: Sequence[Part], address: str | None = None
         The study.
     parts
         Number, first run and end of each.
+    directory
+        Of the results; workers that are started here leave nothing outside of it, nor in it.
     address
         Of a scheduler that is there; one worker for each core of this machine is started where it is not given.
 
@@ -48,6 +57,9 @@ def run_on_workers(plan: Plan, parts: Sequence[Part], address: str | None = None
     with ExitStack() as stack:
         if address is None:
             cores = min(os.cpu_count() or 1, len(parts))
+            for left in directory.glob(f"{_ASIDE}*"):
+                shutil.rmtree(left, ignore_errors=True)
+            aside = TemporaryDirectory(prefix=_ASIDE, dir=directory, ignore_cleanup_errors=True)
             # Workers are started anew, not forked: what the parent's threads hold would be held for ever.
             # Any port does for a server that nobody asks: the usual one may be that of another study.
             cluster = stack.enter_context(
@@ -57,6 +69,7 @@ def run_on_workers(plan: Plan, parts: Sequence[Part], address: str | None = None
                     dashboard_address=None,
                     scheduler_kwargs={"dashboard_address": ":0"},
                     silence_logs=40,
+                    local_directory=stack.enter_context(aside),
                 )
             )
             client = stack.enter_context(Client(cluster))

@@ -15,7 +15,7 @@ from heeltoe.app.case.typed import typed
 from heeltoe.case.paths import value_of
 from heeltoe.errors import InputError
 from heeltoe.motion.records.catalog import MADE_TO_ORDER, available
-from heeltoe.motion.scenario import PREFIX
+from heeltoe.motion.scenario import PREFIX, order_of, scenario_parameters
 from heeltoe.study.file import Distribution, Measure, Method, Model, Scale
 
 if TYPE_CHECKING:
@@ -172,8 +172,11 @@ def _motions(form: Mapping[str, Any], session: Session) -> dict[str, Any]:
         read = {"unit": motion.unit if motion else None, "time_step": _seconds(motion.time_step if motion else None)}
     else:
         read = {name: _text(form, f"motions.{name}").strip() for name in ("unit", "time_step")}
-        chosen += [each.strip() for each in _text(form, "ordered").split(";") if each.strip()]
         events = _events(chosen, vertical=bool(form.get("vertical")))
+        # Each order is an earthquake of its own, whatever its name ends with.
+        ordered = [each.strip() for each in _text(form, "ordered").split(";") if each.strip()]
+        events += [*({"horizontal": [each]} for each in ordered), *_scenario(form)]
+        chosen += ordered
     known = {name for name, _ in available()} | session.sent.keys()
     for name in chosen:
         if name not in known and not name.startswith(PREFIX):
@@ -185,6 +188,28 @@ def _motions(form: Mapping[str, Any], session: Session) -> dict[str, Any]:
     if scale:
         told["scale"] = scale
     return told
+
+
+def _scenario(form: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return motions made to order for one magnitude and distance, each with its seed; none where not asked."""
+    magnitude, distance = (_text(form, f"scenario.{name}").strip() for name in ("magnitude", "distance"))
+    if not (magnitude or distance):
+        return []
+    count = _whole(_text(form, "scenario.count").strip() or "1")
+    if not isinstance(count, int) or not 1 <= count <= MOST_RECORDS:
+        raise InputError("study-scenario-count", "scenario.count", count, most=MOST_RECORDS)
+    far = distance.removesuffix("km").strip()
+    given = [*([f"M{magnitude}"] if magnitude else []), *([f"{far}km"] if far else [])]
+    names = [f"{PREFIX}{','.join(given)},seed={seed},scatter=yes" for seed in range(1, count + 1)]
+    # What cannot be made is said at its field, before it stands in the file under the name of an event.
+    order = order_of(names[0], field="scenario")
+    try:
+        scenario_parameters(order["magnitude"], order["distance"])
+    except InputError as error:
+        error.field = "scenario"
+        raise
+    known = {"magnitude": order["magnitude"], "distance": f"{order['distance']:g} km"}
+    return [{"horizontal": [name], **known} for name in names]
 
 
 def _seconds(time_step: float | None) -> str | None:

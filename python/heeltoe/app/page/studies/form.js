@@ -1,6 +1,7 @@
 /** The form of a study: what varies and how, which earthquakes, which limits. It only gathers; the server judges. */
 import { element } from "../dom.js";
 import { check, field, select } from "./fields.js";
+import { RecordFolder } from "./folder.js";
 import { VaryRows } from "./vary.js";
 
 const METHODS = /** @type {Record<string, string>} */ ({
@@ -21,9 +22,14 @@ const BEGIN = {
 };
 
 export class StudyForm {
-  /** @param {() => void} changed Called whenever the study is another one. */
-  constructor(changed) {
+  /**
+   * @param {() => void} changed Called whenever the study is another one.
+   * @param {(file: File) => Promise<string>} send Sends a record and returns what it is called here.
+   * @param {() => void} renew Called when there are other records.
+   */
+  constructor(changed, send, renew) {
     this.changed = changed;
+    this.folder = new RecordFolder(send, renew);
     /** @type {Record<string, HTMLInputElement | HTMLSelectElement>} */
     this.inputs = {};
     this.vary = new VaryRows(changed);
@@ -37,6 +43,7 @@ export class StudyForm {
   /** Draw it anew with what can be chosen, what was typed kept. @param {any} choices */
   show(choices) {
     const before = this.root.hasChildNodes() ? this.read() : null;
+    if (before) before.records.push(...this.folder.taken());
     this.choices = choices;
     this.vary.fields = choices.fields;
     this.vary.root.querySelector("[data-field=correlation]")?.remove();
@@ -78,8 +85,14 @@ export class StudyForm {
         "div",
         { class: "of-records" },
         element("div", { class: "records", tabindex: "0", role: "group", "aria-label": "Records" }, ...groups),
-        element("p", { class: "faint" }, "A record of yours is added on the page Motion; records whose names differ in their last part alone are of one event."),
-        this._field("ordered", "Made to order", "as synthetic:M6.5,20km,seed=1; several with ; between them"),
+        element("p", { class: "faint" }, "Records whose names differ in their last part alone are of one event."),
+        this.folder.root,
+        element(
+          "div",
+          { role: "group", "aria-label": "Made to order", "data-field": "scenario" },
+          element("div", { class: "pair" }, this._field("scenario.magnitude", "Magnitude", "of motions made to order", "6.5"), this._field("scenario.distance", "Distance [km]", "from the fault", "20"), this._field("scenario.count", "How many", "each drawn anew", "7")),
+        ),
+        this._field("ordered", "Other orders", "as synthetic:M6.5,20km,seed=1,fault=reverse; several with ; between them"),
         element("div", { class: "pair" }, this._field("motions.unit", "Unit", "of files that do not state it", "g"), this._field("motions.time_step", "Time step", "of files that do not state it", "0.01 s")),
         element("div", { class: "ticks" }, this._tick("pairs", "horizontal components in pairs"), this._tick("vertical", "with vertical components"), this._tick("every", "every dam meets every motion")),
       ),

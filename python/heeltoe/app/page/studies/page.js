@@ -20,10 +20,19 @@ export function studiesPage(talk) {
   const list = element("ul", { class: "studies" });
   const none = element("p", { class: "faint" }, "None yet. They stay as long as the app runs, also while the page is closed.");
   const said = element("div", { class: "said-of", tabindex: "-1" });
-  const form = new StudyForm(() => {
-    clearTimeout(looking);
-    looking = setTimeout(look, PATIENCE_MS);
-  });
+  const form = new StudyForm(
+    () => {
+      clearTimeout(looking);
+      looking = setTimeout(look, PATIENCE_MS);
+    },
+    async (file) => {
+      const { name } = await talk.upload(file);
+      const told = await talk.answer("record", { file: name, called: file.name });
+      if (told.error) throw new Error(told.error.text);
+      return told.called;
+    },
+    ask,
+  );
 
   function look() {
     outlook.textContent = "counting the runs";

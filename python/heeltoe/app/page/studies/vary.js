@@ -79,7 +79,7 @@ class VaryRow {
     const groups = {};
     for (const each of fields) {
       groups[each.block] ||= /** @type {HTMLOptGroupElement} */ (element("optgroup", { label: each.block }));
-      groups[each.block].append(element("option", { value: each.path }, each.label));
+      groups[each.block].append(element("option", { value: each.path }, `${each.block}: ${each.label}`));
     }
     this.path.append(...Object.values(groups));
     this.path.value = given.path;
@@ -125,9 +125,10 @@ class VaryRow {
     this.inputs.values.input.placeholder = known.choices.slice(0, 2).join(", ");
     const at = `vary.${known.path}`;
     this.root.dataset.field = at;
-    this.root.setAttribute("aria-label", known.label);
-    this.off.setAttribute("aria-label", `Remove ${known.label}`);
-    for (const [name, { root }] of Object.entries(this.inputs)) root.dataset.field = name === "values" ? `${at}[` : `${at}.${name}`;
+    const name = `${known.block}: ${known.label}`;
+    this.root.setAttribute("aria-label", name);
+    this.off.setAttribute("aria-label", `Remove ${name}`);
+    for (const [each, { root }] of Object.entries(this.inputs)) root.dataset.field = each === "values" ? `${at}[` : `${at}.${each}`;
   }
 
   read() {
