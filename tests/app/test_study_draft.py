@@ -132,3 +132,9 @@ def test_errors_come_back_from_other_processes():
     error.field = "study"
     back = pickle.loads(pickle.dumps(error))
     assert (str(back), back.args, back.code) == (str(error), error.args, "study-many")
+
+
+def test_what_stands_in_an_empty_form_is_in_the_units_that_are_chosen(session):
+    session.units = "us"
+    assert choices(session)["units"] == "us"
+    assert next(each for each in choices(session)["fields"] if each["path"] == "reservoir.depth")["now"].endswith(" ft")

@@ -278,7 +278,7 @@ def test_the_command():
         "statics.seismic_coefficient=0.1",
     )
     assert shown.returncode == 0, shown.stderr
-    for words in ("CDA, critical structure", "sliding factor", "post-seismic", "0.1500 m: --slip", "Verdict", "fail"):
+    for words in ("CDA, critical structure", "sliding factor", "post-seismic", "150.0 mm: --slip", "Verdict", "fail"):
         assert words in shown.stdout, words
 
 

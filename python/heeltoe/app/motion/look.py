@@ -138,7 +138,9 @@ def drawn_motion(motion: GroundMotion, gravity: float, units: str, *, doubts: bo
     share = 100.0 * intensity / intensity[-1] if intensity[-1] > 0.0 else intensity
     kept = thinned([motion.acceleration, velocity, displacement], _BINS)
     system = unit_system(units)
-    speed, length = system.scale("velocity"), system.scale("length")
+    # The unit of the peak that is said above: metres, or inches up to ten feet.
+    speed = system.scale("velocity")
+    length = system.scale("displacement", motion.pgd) if units == "us" else system.scale("length")
     spectrum = response_spectrum(motion)
     curves = {
         "time": (motion.time[kept], "s"),

@@ -44,6 +44,7 @@ def choices(session: Session) -> dict[str, Any]:
         "scales": list(get_args(Scale.model_fields["measure"].annotation)),
         "measures": list(get_args(Measure)),
         "limits": list(_LIMITS),
+        "units": session.units,
         "records": _records(session),
         "elastic": case is not None and case.concrete.modulus is not None,
         "own": (case is not None and case.motion is not None and case.motion.told()) or "",

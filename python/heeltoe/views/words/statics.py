@@ -32,7 +32,7 @@ def basis(found: Statics, units: str) -> list[tuple[str, str]]:
         depth = none if level is None else f"{quantity(level, '.2f m', units)} of water"
         lines.append((label, f"{depth}, with cohesion" if bonded and key.startswith("sliding") else depth))
     if found.slip_m is not None:
-        lines.append(("residual slip", f"{quantity(found.slip_m, '.4f m', units)}: {found.slip_source}"))
+        lines.append(("residual slip", f"{quantity(found.slip_m, '.1f mm', units)}: {found.slip_source}"))
     return lines
 
 

@@ -13,12 +13,14 @@ const METHODS = /** @type {Record<string, string>} */ ({
 });
 const MODELS = /** @type {Record<string, string>} */ ({ rigid: "rigid block", decoupled: "rigid block on an elastic part", flexible: "elastic dam" });
 const LIMITS = /** @type {Record<string, string>} */ ({ residual_slip: "Residual slip", peak_slip: "Peak slip", opening: "Opening", rotation: "Rotation" });
+/** Slips that people ask for, in the units that are chosen. @type {Record<string, string>} */
+const SLIPS = { si: "10 mm, 150 mm", us: "0.5 in, 6 in" };
 const DRAWN = ["latin hypercube", "sobol", "sensitivity"];
 /** What people begin with. @type {Record<string, Record<string, any>>} */
 const BEGIN = {
   Grid: { method: "grid", source: "case", "scale.measure": "", vary: [{ path: "crack.friction", kind: "list", values: "0.8, 1.0, 1.2" }, { path: "reservoir.depth", kind: "uniform", from: "80 %", to: "100 %", count: "3" }] },
   "Stronger and stronger (IDA)": { method: "grid", source: "case", "scale.measure": "pga", "scale.kind": "list", "scale.values": "0.1 g, 0.2 g, 0.3 g, 0.4 g, 0.5 g, 0.6 g, 0.8 g, 1.0 g", both_signs: true, vary: [] },
-  Fragility: { method: "latin hypercube", samples: "1000", source: "records", "scale.measure": "pga", "scale.kind": "drawn", "scale.from": "0.1 g", "scale.to": "1.2 g", both_signs: true, "fragility.measure": "pga", "limit.residual_slip": "10 mm, 150 mm", vary: [{ path: "crack.friction", kind: "lognormal", median: "now", dispersion: "0.15" }] },
+  Fragility: { method: "latin hypercube", samples: "1000", source: "records", "scale.measure": "pga", "scale.kind": "drawn", "scale.from": "0.1 g", "scale.to": "1.2 g", both_signs: true, "fragility.measure": "pga", "limit.residual_slip": "slips", vary: [{ path: "crack.friction", kind: "lognormal", median: "now", dispersion: "0.15" }] },
 };
 
 export class StudyForm {
@@ -111,13 +113,13 @@ export class StudyForm {
 
   /** @param {any} choices */
   _fragility(choices) {
-    const limits = choices.limits.map((/** @type {string} */ name) => this._field(`limit.${name}`, LIMITS[name] || name, "", name === "rotation" ? "0.001" : "10 mm, 150 mm", `fragility.limits.${name}`));
+    const limits = choices.limits.map((/** @type {string} */ name) => this._field(`limit.${name}`, LIMITS[name] || name, "", name === "rotation" ? "0.001" : SLIPS[choices.units], `fragility.limits.${name}`));
     return element(
       "fieldset",
       { "data-field": "fragility" },
       element("legend", {}, "Fragility"),
       element("p", { class: "faint" }, "Limits, of which each has a curve; none without."),
-      element("div", { class: "pair" }, ...limits),
+      element("div", { class: "pair limits" }, ...limits),
       this._select("fragility.measure", "Over", choices.measures.map((/** @type {string} */ name) => [name, name])),
       this._field("fragility.period", "Period", "of sa", "0.3 s"),
       this._field("fragility.confidence", "Confidence", "the probability of the intervals", "0.9"),
@@ -197,7 +199,7 @@ export class StudyForm {
         if (kind === "model") input.checked = models.includes(rest.join(".")) && !input.disabled;
         else if (kind === "record") input.checked = (given.records || this._some()).includes(rest.join("."));
         else input.checked = Boolean(given[name]);
-      } else if (name in given) input.value = given[name];
+      } else if (name in given) input.value = given[name] === "slips" ? SLIPS[this.choices.units] : given[name];
       else if (anew && name !== "title") input.value = input instanceof HTMLSelectElement ? input.options[0].value : "";
     }
     this.vary.write(given.vary || []);
