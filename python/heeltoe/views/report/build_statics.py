@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
+from heeltoe.units.sentences import quantity
 from heeltoe.units.write import NOTHING
 from heeltoe.views.report.content import Block, Inline, Notes, Section, Strong, Table, glued, paragraph
 from heeltoe.views.report.subject import Subject
@@ -92,8 +93,8 @@ def _slip(subject: Subject) -> Inline:
 def _cases(subject: Subject, found: Statics) -> Table:
     n = subject.numbers
     rows: list[tuple[Inline, ...]] = [("Outcome", *(each.outcome for each in found.cases))]
-    for label, key, quantity in _CASES:
-        cells = [n(f"statics.cases.{place}.{key}", quantity) for place in range(len(found.cases))]
+    for label, key, kind in _CASES:
+        cells = [n(f"statics.cases.{place}.{key}", kind) for place in range(len(found.cases))]
         if any(isinstance(cell, Value) and cell.number for cell in cells):
             rows.append((label, *cells))
     rows.append(("Resultant in", *(each.resultant_zone or NOTHING for each in found.cases)))
@@ -157,10 +158,10 @@ def remarks(found: Statics, units: str, number_of: Callable[[str], str]) -> Note
 def _levels(subject: Subject) -> Table:
     n = subject.numbers
     rows: list[tuple[Inline, ...]] = []
-    highest = n("statics.highest_water_level_m", "length")
     for name, label in _LEVELS.items():
         cell = n(f"statics.critical_water_level_m.{name}", "length")
-        rows.append((label, _with(highest, "", "none up to ") if cell == NOTHING else cell))
-    return Table(
-        ("", "depth of the reservoir"), tuple(rows), "Water levels at which the usual loads get critical.", "lr"
-    )
+        rows.append((label, "none" if cell == NOTHING else cell))
+    assert subject.statics is not None
+    highest = quantity(subject.statics.highest_water_level_m, ".4g m", subject.units)
+    caption = f"Water levels at which the usual loads get critical, looked for up to {highest}."
+    return Table(("", "depth of the reservoir"), tuple(rows), caption, "lr")
