@@ -194,6 +194,18 @@ class CrackAnchor(Protocol):
     @property
     def shear_stiffness(self) -> float: ...
 
+class CrackLine(Protocol):
+    """A crack; see :class:`heeltoe.kernel.dam.CrackLine`."""
+
+    @property
+    def upper(self) -> tuple[int, int]: ...
+    @property
+    def lower(self) -> tuple[int, int]: ...
+    @property
+    def friction(self) -> tuple[float, float]: ...
+    @property
+    def give(self) -> tuple[float, float]: ...
+
 class StressRows(Protocol):
     """Stresses by the modes; see :class:`heeltoe.models.flexible.stress.places.StressRows`."""
 
@@ -203,43 +215,40 @@ class StressRows(Protocol):
     def stride(self) -> int: ...
 
 class CrackedDam:
-    """Two elastic parts with a frictional crack between them; immutable, so that many runs may share one.
+    """Elastic parts with frictional cracks between them; immutable, so that many runs may share one.
 
     Parameters
     ----------
     upper, lower
-        The parts; without a lower one the crack is on a rigid plane.
-    friction
-        Coefficients at rest and sliding.
+        The parts; without a lower one the only crack is on a rigid plane. Of several cracks `upper` has the first,
+        third, ... part from the crest down side by side, and `lower` the others.
+    cracks
+        From the crest down.
     contactors
         Which nodes are watched, 1 to 5.
     water
         Where its pressure follows the opening.
     anchors
-        Those with stiffness. Neither goes with the penalty method.
-    give
-        Rotation of the crack's faces [rad] and gap [m] that elastic deformation alone accounts for: rocking and
-        drifting are what goes beyond.
+        Those with stiffness. Neither goes with the penalty method, nor do they or that go with several cracks.
     """
 
     def __init__(
         self,
         upper: ReducedBody,
         lower: ReducedBody | None,
-        friction: tuple[float, float],
+        cracks: Sequence[CrackLine],
         contactors: int,
         water: FollowingWater | None = None,
         anchors: Sequence[CrackAnchor] = (),
-        give: tuple[float, float] = (0.0, 0.0),
     ) -> None: ...
-    def still(self) -> tuple[float, int, Floats, Floats, Floats] | None:
+    def still(self) -> tuple[list[float], list[int], Floats, Floats, Floats, Floats] | None:
         """Return the state before the earthquake with the crack let go; None where friction does not hold the dam.
 
         Returns
         -------
-        slip, open contacts, amplitudes of the upper and of the lower part, force
-            Slip since the crack was bonded [m]; forces on the nodes of the upper face, all along the crack, then all
-            across it [N].
+        slip, open contacts, amplitudes of the upper and of the lower part, forces on both
+            Slip of each crack since it was bonded [m]; forces on the nodes of cracks, all along them, then all across
+            them [N].
         """
     def run(
         self,
@@ -277,10 +286,11 @@ class CrackedDam:
         Returns
         -------
         summary, frames, upper, lower, force, status, modes of the upper and the lower part, extremes of both
-            ``CRACK_SUMMARY_FIELDS`` and the largest tension [N] of each anchor; then tables with one row for each
-            frame: ``FRAME_FIELDS``, positions of the crack nodes of either face (all along the crack, then all across
-            it) [m], mean forces on those of the upper face since the frame before [N], statuses of the watched nodes,
-            amplitudes. Extremes are tables of ``EXTREME_FIELDS`` with one row for each place.
+            For each crack ``CRACK_SUMMARY_FIELDS`` and the largest tension [N] of each anchor; for each crack of each
+            frame ``FRAME_FIELDS``. Then tables with one row for each frame: positions of the crack nodes of either
+            part (all along their cracks, then all across them) [m], mean forces on those of the upper part, and with
+            several cracks of the lower one, since the frame before [N], statuses of the watched nodes, amplitudes.
+            Extremes are tables of ``EXTREME_FIELDS`` with one row for each place.
         """
 
     def run_many(
@@ -293,4 +303,4 @@ class CrackedDam:
         penalty: tuple[float, float, float] | None = None,
         ending: Ending | None = None,
     ) -> Floats:
-        """Shake it once for each pair of factors, on `threads` cores (0 for all); rows of summaries."""
+        """Shake it once for each pair of factors, on `threads` cores (0 for all); rows of summaries, crack by crack."""

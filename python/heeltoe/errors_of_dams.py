@@ -49,6 +49,19 @@ OF_DAMS: dict[str, tuple[str, str]] = {
         "give an elevation with one piece of concrete",
     ),
     "crack-no-width": ("the section has no width at {value}", "give an elevation where it has one"),
+    "cracks-meet": (
+        "the crack at {value} meets or crosses that at {other}, or leaves less than {least} between them",
+        "give them another elevation or inclination",
+    ),
+    "several-cracks": (
+        "{model} knows one crack alone, since what is above one of several is no single block",
+        "run the flexible model, which knows several, or leave out [[further_cracks]]",
+    ),
+    "one-crack-value": (
+        "{value} does not go with {other}: it is known of one crack alone",
+        "choose another, or one crack",
+    ),
+    "one-crack-only": ("does not go with {other}: it is known of one crack alone", "remove it, or the further cracks"),
     "friction-missing": ("is required and not there", "give friction, or both static_friction and kinetic_friction"),
     "friction-order": ("{value} is below kinetic_friction, {kinetic}", "give a static_friction of at least {kinetic}"),
     "uplift-option-foreign": (

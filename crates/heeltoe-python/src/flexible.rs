@@ -1,8 +1,8 @@
 //! The flexible model, bound to Python.
 
 use heeltoe::flexible::{
-    many, simulate, Dam, Extreme, FaceAnchor, Give, Inside, Modes, Penalty, Point, Scheme, Shaking, Sides,
-    Stressed, Stresses, Summary, Wanted,
+    many, simulate, Dam, Extreme, FaceAnchor, Give, Inside, Line, Modes, Penalty, Point, Scheme, Shaking,
+    Sides, Span, Stressed, Stresses, Summary, Wanted,
 };
 use heeltoe::inside::Law;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods};
@@ -99,17 +99,41 @@ impl CrackAnchor {
     }
 }
 
-/// Slip, number of open contacts, amplitudes of both bodies, forces on the nodes of the upper face.
+/// A crack as Python gives it.
+#[derive(FromPyObject)]
+pub struct CrackLine {
+    upper: (usize, usize),
+    lower: (usize, usize),
+    friction: [f64; 2],
+    give: (f64, f64),
+}
+
+impl CrackLine {
+    fn line(&self) -> Line {
+        let span = |(first, count): (usize, usize)| Span { first, count };
+        Line {
+            nodes: [span(self.upper), span(self.lower)],
+            friction: self.friction,
+            give: Give {
+                rotation: self.give.0,
+                gap: self.give.1,
+            },
+        }
+    }
+}
+
+/// Slip and number of open contacts of each crack, amplitudes of both bodies, forces on the nodes of both.
 type Rest<'py> = (
-    f64,
-    usize,
+    Vec<f64>,
+    Vec<usize>,
+    Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
 );
 
 type Run<'py> = (
-    Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<f64>>,
@@ -162,6 +186,9 @@ impl CrackedDam {
         if !self.dam.inside.is_empty() {
             return Err(wrong("the penalty method knows contact alone in the crack"));
         }
+        if self.dam.cracks.len() > 1 {
+            return Err(wrong("the penalty method knows one crack"));
+        }
         if self.dam.bodies.upper.dampers() > 0 {
             return Err(wrong("the penalty method has no dashpots between the modes"));
         }
@@ -176,32 +203,27 @@ impl CrackedDam {
 #[pymethods]
 impl CrackedDam {
     #[new]
-    #[pyo3(signature = (upper, lower, friction, contactors, water=None, anchors=Vec::new(), give=(0.0, 0.0)))]
+    #[pyo3(signature = (upper, lower, cracks, contactors, water=None, anchors=Vec::new()))]
     #[allow(clippy::too_many_arguments)]
     fn new(
         py: Python<'_>,
         upper: ReducedBody,
         lower: Option<ReducedBody>,
-        friction: [f64; 2],
+        cracks: Vec<CrackLine>,
         contactors: u8,
         water: Option<FollowingWater>,
         anchors: Vec<CrackAnchor>,
-        give: (f64, f64),
     ) -> PyResult<Self> {
         let dam = Dam {
             bodies: Sides {
                 upper: upper.body()?,
                 lower: lower.map(|body| body.body()).transpose()?,
             },
-            friction,
+            cracks: cracks.iter().map(CrackLine::line).collect(),
             contactors,
             inside: Inside {
                 water: water.map(|water| water.water()).transpose()?,
                 anchors: anchors.iter().map(CrackAnchor::anchor).collect(),
-            },
-            give: Give {
-                rotation: give.0,
-                gap: give.1,
             },
             still: None,
         };
@@ -215,11 +237,12 @@ impl CrackedDam {
         let still = self.dam.still.as_ref()?;
         let [above, below] = still.amplitudes(&self.dam);
         Some((
-            still.slip,
-            still.open(),
+            still.slip.clone(),
+            still.open.clone(),
             above.into_pyarray(py),
             below.into_pyarray(py),
             still.force[0].clone().into_pyarray(py),
+            still.force[1].clone().into_pyarray(py),
         ))
     }
 
@@ -246,7 +269,7 @@ impl CrackedDam {
             scale: [1.0; 2],
         };
         let stresses = stresses.as_ref().map(StressRows::stressed).transpose()?;
-        let reached = |run: &heeltoe::flexible::Run| Some([run.summary.end_time, run.summary.slip]);
+        let reached = |run: &heeltoe::flexible::Run| Some([run.summary().end_time, run.summary().slip]);
         let run = watched(py, ending.as_ref().map(Bound::get), reached, |stop| {
             let wanted = Wanted {
                 stride,
@@ -257,12 +280,13 @@ impl CrackedDam {
             simulate(&self.dam, &shaking, &scheme, wanted)
         })?;
         let frames = run.frames;
-        let count = frames.rows.len();
+        let (cracks, rows) = (run.cracks.len(), frames.rows.len());
+        let count = rows / cracks;
         let extremes = run.extremes.unwrap_or_default();
         let table = |of: Vec<Extreme>| shaped(py, of.iter().flat_map(Extreme::row).collect(), of.len());
         Ok((
-            numbers(&run.summary).into_pyarray(py),
-            shaped(py, frames.rows.as_flattened().to_vec(), count)?,
+            shaped(py, run.cracks.iter().flat_map(numbers).collect(), cracks)?,
+            shaped(py, frames.rows.as_flattened().to_vec(), rows)?,
             shaped(py, frames.upper, count)?,
             shaped(py, frames.lower, count)?,
             shaped(py, frames.force, count)?,
@@ -301,7 +325,8 @@ impl CrackedDam {
             |_| None,
             |stop| pool.install(|| many::run(&self.dam, &shaking, &scheme, &scales, stop)),
         )?;
-        shaped(py, runs.iter().flat_map(numbers).collect(), scales.len())
+        let runs = runs.concat();
+        shaped(py, runs.iter().flat_map(numbers).collect(), runs.len())
     }
 }
 

@@ -59,16 +59,7 @@ class Crack(Fields):
     @model_validator(mode="after")
     @gathered
     def _one_friction(self) -> Iterator[InputError]:
-        pair = {"static_friction": self.static_friction, "kinetic_friction": self.kinetic_friction}
-        given = [name for name, value in pair.items() if value is not None]
-        if self.friction is not None and given:
-            yield InputError("fields-conflict", "friction", other=given[0])
-        if self.friction is None and len(given) < 2:
-            yield InputError(
-                "friction-missing", next((name for name in pair if given and name not in given), "friction")
-            )
-        elif self.mu_static < self.mu_kinetic:
-            yield InputError("friction-order", "static_friction", f"{self.mu_static:g}", kinetic=f"{self.mu_kinetic:g}")
+        return _frictions_agree(self)
 
     @property
     def mu_static(self) -> float:
@@ -84,6 +75,63 @@ class Crack(Fields):
         """Return the one of its own, or the one for both; zero where the case says neither."""
         given = self.friction if own is None else own
         return 0.0 if given is None else given
+
+
+def _frictions_agree(crack: Crack | FurtherCrack) -> Iterator[InputError]:
+    """Walk what is wrong with the coefficients that a crack gives: one for both, or one of each."""
+    pair = {"static_friction": crack.static_friction, "kinetic_friction": crack.kinetic_friction}
+    given = {name: value for name, value in pair.items() if value is not None}
+    if crack.friction is not None and given:
+        yield InputError("fields-conflict", "friction", other=next(iter(given)))
+    if crack.friction is None and len(given) < 2:
+        yield InputError("friction-missing", next((name for name in pair if given and name not in given), "friction"))
+    elif given and crack.friction is None and given["static_friction"] < given["kinetic_friction"]:
+        static, kinetic = given["static_friction"], given["kinetic_friction"]
+        yield InputError("friction-order", "static_friction", f"{static:g}", kinetic=f"{kinetic:g}")
+
+
+class FurtherCrack(Fields):
+    """One more crack beside that of `[crack]`, above or below it; what it does not say of friction and uplift is as there.
+
+    The flexible model alone knows several cracks; the static checks judge each as a section.
+    """
+
+    elevation: Annotated[Length, Field(ge=0.0)]
+    """Height of the crack at the upstream face above the lowest point of the section."""
+    inclination: Annotated[Angle, Field(ge=-STEEPEST, le=STEEPEST)] = Field(default="0 deg", validate_default=True)
+    """Angle of the crack to the horizontal; positive where it rises downstream."""
+    friction: FrictionCoefficient | None = None
+    """Coefficient of friction, at rest and sliding."""
+    static_friction: FrictionCoefficient | None = None
+    """Coefficient of friction at rest, where it differs from that of sliding."""
+    kinetic_friction: FrictionCoefficient | None = None
+    """Coefficient of friction while sliding."""
+    uplift: Literal["none", "uniform", "triangular"] | None = None
+    """Pattern of the uplift in it, as `uplift.pattern` has it, where it is another one."""
+    uplift_intensity: Annotated[DimensionlessNumber, Field(ge=0.0, le=10.0)] | None = None
+    """Factor on the pressure in it, where it is another one."""
+
+    @model_validator(mode="after")
+    @gathered
+    def _frictions(self) -> Iterator[InputError]:
+        if self.friction is not None or self.static_friction is not None or self.kinetic_friction is not None:
+            yield from _frictions_agree(self)
+
+    def beside(self, crack: Crack) -> Crack:
+        """Return it as a crack of its own."""
+        names = ("friction", "static_friction", "kinetic_friction")
+        given = {name: getattr(self, name) for name in names}
+        own = given if any(value is not None for value in given.values()) else {}
+        return crack.model_copy(update={"elevation": self.elevation, "inclination": self.inclination, **own})
+
+    def wet(self, uplift: Uplift) -> Uplift:
+        """Return the uplift in it."""
+        changes: dict[str, object] = {}
+        if self.uplift is not None and self.uplift != uplift.pattern:
+            changes = dict.fromkeys((*UPLIFT_OPTIONS, "drain_x")) | {"pattern": self.uplift}
+        if self.uplift_intensity is not None:
+            changes["intensity"] = self.uplift_intensity
+        return uplift.model_copy(update=changes)
 
 
 class Water(Fields):

@@ -13,7 +13,8 @@ from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
 from heeltoe.case.at_crack import AnchorAtCrack, anchor_at_crack, flat, too_flat, uplift_at_crack
 from heeltoe.case.changes import apply
-from heeltoe.case.dam import Anchor, Concrete, Crack, Ice, Reservoir, Silt, Uplift, Water
+from heeltoe.case.cracks import many_cracks, places_of
+from heeltoe.case.dam import Anchor, Concrete, Crack, FurtherCrack, Ice, Reservoir, Silt, Uplift, Water
 from heeltoe.case.fields import Fields
 from heeltoe.case.motion import Aftershock, Motion
 from heeltoe.case.options import Analysis, Decoupled, Flexible, Limits, StaticsChoice
@@ -51,6 +52,8 @@ class Case(Shown, Fields):
     """The concrete."""
     crack: Crack
     """The crack."""
+    further_cracks: tuple[FurtherCrack, ...] = ()
+    """Cracks beside it, in any order."""
     reservoir: Reservoir | None = None
     """The water upstream."""
     tailwater: Water | None = None
@@ -84,6 +87,7 @@ class Case(Shown, Fields):
         parts = [
             f"dam of {max(levels) - min(levels):.4g} m",
             f"crack at {self.crack.elevation:.4g} m, friction {self.crack.mu_kinetic:g}",
+            *(f"another at {crack.elevation:.4g} m" for crack in self.further_cracks),
             f"water of {self.reservoir.depth:.4g} m" if self.reservoir else "no water",
             plain(self.motion.told()) if self.motion else "no motion",
         ]
@@ -108,6 +112,7 @@ class Case(Shown, Fields):
                 yield InputError("needs-other", f"{name}.follows_vertical_motion", other="motion.vertical")
         if self.aftershocks and self.motion is None:
             yield InputError("needs-other", "aftershocks", other="a motion")
+        yield from many_cracks(self)
         if self.statics.drain_diameter is not None and self.uplift.pattern != "drained":
             yield InputError("needs-other", "statics.drain_diameter", other='uplift.pattern = "drained"')
 
@@ -179,6 +184,22 @@ class Case(Shown, Fields):
         return cut(self.outline, elevation, inclination)
 
     @cached_property
+    def cracks(self) -> tuple[Case, ...]:
+        """The case with one crack alone, for each of its cracks from the crest down.
+
+        Raises
+        ------
+        InputError
+            Where two cracks meet or cross.
+        """
+        return places_of(self)[0]
+
+    @cached_property
+    def asked(self) -> int:
+        """Which of them is that of ``[crack]``."""
+        return places_of(self)[1]
+
+    @cached_property
     def anchors_at_crack(self) -> tuple[AnchorAtCrack, ...]:
         """The anchors by their distance from the heel and their inclination to the normal of the crack; those that do
         not cross it do nothing."""
@@ -208,6 +229,8 @@ class Case(Shown, Fields):
 _MADE_OF = {
     "outline": {"section"},
     "cut": {"section", "crack"},
+    "cracks": set(Case.model_fields),
+    "asked": {"section", "crack", "further_cracks"},
     "anchors_at_crack": {"section", "crack", "anchors"},
     "uplift_at_crack": {"section", "crack", "uplift"},
 }
@@ -297,6 +320,8 @@ def misfits(case: Case) -> Iterator[tuple[bool, Callable[[], InputError]]]:
     for place, joint in enumerate(choice.sections):
         field = f"statics.sections[{place}].elevation"
         yield outside(case.outline, joint.elevation), partial(_outside, field, joint.elevation, height)
+    if case.further_cracks:
+        _ = case.cracks  # says so itself where they meet
     section = case.cut
     for place, anchor in enumerate(case.anchors):
         if anchor.distance is not None:

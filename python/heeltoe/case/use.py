@@ -36,6 +36,7 @@ READ_BY: dict[str, frozenset[str]] = {
     "concrete.tensile_strength": frozenset({"flexible"}),
     "concrete.dynamic_tension": frozenset({"flexible"}),
     "crack.restitution": _BLOCKS,
+    "further_cracks": frozenset({"flexible", "statics"}),
     "reservoir.virtual_mass_rotates": _BLOCKS,
     "tailwater.virtual_mass_rotates": _BLOCKS,
     "reservoir.hydrodynamic": _BLOCKS | {"statics"},

@@ -24,22 +24,56 @@ CONTACT_STATUSES = tuple(_kernel.CONTACT_STATUSES)
 Ending = _kernel.Ending
 
 
+@dataclass(frozen=True)
+class CrackLine:
+    """A crack.
+
+    Attributes
+    ----------
+    upper, lower
+        First and number of the nodes of either face, among those of the part it belongs to; (0, 0) for a rigid plane.
+    friction
+        Coefficients at rest and sliding.
+    give
+        Rotation [rad] and gap [m] of the faces that elastic deformation alone accounts for.
+    """
+
+    upper: tuple[int, int]
+    lower: tuple[int, int]
+    friction: tuple[float, float]
+    give: tuple[float, float] = (0.0, 0.0)
+
+
+def only_crack(
+    upper: ReducedBody,
+    lower: ReducedBody | None,
+    friction: tuple[float, float],
+    give: tuple[float, float] = (0.0, 0.0),
+) -> tuple[CrackLine, ...]:
+    """Return the crack between two parts that have no other."""
+    above, below = (0 if part is None else part.position.size // 2 for part in (upper, lower))
+    return (CrackLine((0, above), (0, below), friction, give),)
+
+
 @dataclass(frozen=True, eq=False)
 class DamRun:
-    """What an elastic dam did; f frames, k nodes on the crack, m modes.
+    """What an elastic dam did; f frames, k nodes on cracks, m modes.
 
     Attributes
     ----------
     summary
-        Numbers by name.
+        Numbers by name, of the crack asked of.
     tension
         Largest tension of each anchor with stiffness [N].
     frames
-        Columns (f,) by name.
+        Columns (f,) by name, of the crack asked of.
+    summaries, all_frames
+        The same of all cracks, from the crest down.
     upper, lower
-        (f, 2 k) where the nodes of either face are, all along the crack, then all across it [m].
+        (f, 2 k) where the nodes of either part are, all along their cracks, then all across them [m].
     force
-        (f, 2 k) mean forces on the nodes of the upper face since the frame before [N].
+        (f, 2 k) mean forces on the nodes of the upper part since the frame before, and with several cracks on those of
+        the lower one behind them [N].
     status
         (f, c) of each watched node, counting :data:`CONTACT_STATUSES`.
     modes
@@ -52,6 +86,8 @@ class DamRun:
     summary: Mapping[str, float]
     tension: tuple[float, ...]
     frames: Mapping[str, Floats]
+    summaries: tuple[Mapping[str, float], ...]
+    all_frames: tuple[Mapping[str, Floats], ...]
     upper: Floats
     lower: Floats
     force: Floats
@@ -72,64 +108,68 @@ class DamRun:
 
 @dataclass(frozen=True, eq=False)
 class AtRest:
-    """An elastic dam before the earthquake, its crack let go; k nodes on the crack, m modes.
+    """An elastic dam before the earthquake, its cracks let go; k nodes on cracks, m modes.
 
     Attributes
     ----------
-    slip
-        Since the crack was bonded [m].
+    slips
+        Of each crack since it was bonded [m].
     open_contacts
-        How many of the watched nodes are open.
+        How many of the watched nodes of each are open.
     modes
         (m,) amplitudes of the upper and of the lower part.
-    force
-        (2, k) forces on the nodes of the upper face, along and across the crack [N].
+    forces
+        (2, k) forces on the nodes of the upper and of the lower part, along and across their cracks [N].
     """
 
-    slip: float
-    open_contacts: int
+    slips: tuple[float, ...]
+    open_contacts: tuple[int, ...]
     modes: tuple[Floats, Floats]
-    force: Floats
+    forces: tuple[Floats, Floats]
 
 
 class CrackedDam:
-    """Two elastic parts with a frictional crack between them; immutable, so that many runs may share one.
+    """Elastic parts with frictional cracks between them; immutable, so that many runs may share one.
 
     Parameters
     ----------
     upper, lower
-        The parts; without a lower one the crack is on a rigid plane.
-    friction
-        Coefficients at rest and sliding.
+        The parts; without a lower one the only crack is on a rigid plane. Of several cracks `upper` has the first,
+        third, ... part from the crest down side by side, and `lower` the others.
+    cracks
+        From the crest down.
     contactors
         Which nodes are watched, 1 to 5.
     water
         Where its pressure follows the opening.
     anchors
-        Those with stiffness. Neither goes with the penalty method.
-    give
-        Rotation [rad] and gap [m] of the crack's faces that elastic deformation alone accounts for.
+        Those with stiffness. Neither goes with the penalty method, nor do they or that go with several cracks.
+    asked
+        Which crack is told of first.
     """
 
     def __init__(
         self,
         upper: ReducedBody,
         lower: ReducedBody | None,
-        friction: tuple[float, float],
+        cracks: Sequence[CrackLine],
         contactors: int,
         water: FollowingWater | None = None,
         anchors: Sequence[CrackAnchor] = (),
-        give: tuple[float, float] = (0.0, 0.0),
+        *,
+        asked: int = 0,
     ) -> None:
-        self._dam = _kernel.CrackedDam(upper, lower, friction, contactors, water, anchors, give)
+        self._dam = _kernel.CrackedDam(upper, lower, cracks, contactors, water, anchors)
+        self._cracks, self._asked = len(cracks), asked
 
     def still(self) -> AtRest | None:
         """Return the state before the earthquake; None where friction does not hold the dam."""
         found = self._dam.still()
         if found is None:
             return None
-        slip, opened, above, below, force = found
-        return AtRest(slip, opened, (above, below), force.reshape(2, -1))
+        slips, opened, above, below, *forces = found
+        up, down = (force.reshape(2, -1) for force in forces)
+        return AtRest(tuple(slips), tuple(opened), (above, below), (up, down))
 
     def run(
         self,
@@ -162,14 +202,19 @@ class CrackedDam:
         ending
             What may end the run from another thread.
         """
-        row, frames, upper, lower, force, status, above, below, *extremes = self._dam.run(
+        table, frames, upper, lower, force, status, above, below, *extremes = self._dam.run(
             ground, step, theta, stride, stride > 0, stresses, penalty, ending
         )
-        names, numbers = _kernel.CRACK_SUMMARY_FIELDS, row.tolist()
+        names, rows = _kernel.CRACK_SUMMARY_FIELDS, table.tolist()
+        summaries = tuple(dict(zip(names, row, strict=False)) for row in rows)
+        of_cracks = frames.reshape(-1, self._cracks, len(_kernel.FRAME_FIELDS))
+        all_frames = tuple(columns(_kernel.FRAME_FIELDS, of_cracks[:, k]) for k in range(self._cracks))
         return DamRun(
-            summary=dict(zip(names, numbers, strict=False)),
-            tension=tuple(numbers[len(names) :]),
-            frames=columns(_kernel.FRAME_FIELDS, frames),
+            summary=summaries[self._asked],
+            tension=tuple(rows[0][len(names) :]),
+            frames=all_frames[self._asked],
+            summaries=summaries,
+            all_frames=all_frames,
             upper=upper,
             lower=lower,
             force=force,
@@ -189,7 +234,24 @@ class CrackedDam:
         penalty: tuple[float, float, float] | None = None,
         ending: Ending | None = None,
     ) -> dict[str, Floats]:
-        """Shake it once for each pair of factors, (n, 2), on `threads` cores (0 for all); the numbers, (n,) by name."""
+        """Shake it as :meth:`run_many_cracks` does; the numbers of the crack asked of."""
+        found = self.run_many_cracks(ground, step, theta, scales, threads=threads, penalty=penalty, ending=ending)
+        return found[self._asked]
+
+    def run_many_cracks(
+        self,
+        ground: Floats,
+        step: float,
+        theta: float,
+        scales: Floats,
+        *,
+        threads: int = 0,
+        penalty: tuple[float, float, float] | None = None,
+        ending: Ending | None = None,
+    ) -> tuple[dict[str, Floats], ...]:
+        """Shake it once for each pair of factors, (n, 2), on `threads` cores (0 for all); the numbers, (n,) by name, for
+        each crack."""
         pairs = [(across, up) for across, up in scales.tolist()]
         rows = self._dam.run_many(ground, step, theta, pairs, threads, penalty, ending)
-        return columns(_kernel.CRACK_SUMMARY_FIELDS, rows[:, : len(_kernel.CRACK_SUMMARY_FIELDS)])
+        names = _kernel.CRACK_SUMMARY_FIELDS
+        return tuple(columns(names, rows[k :: self._cracks, : len(names)]) for k in range(self._cracks))

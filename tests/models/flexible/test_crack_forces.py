@@ -10,7 +10,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from heeltoe import GroundMotion, InputError, flexible, read_case
-from heeltoe.kernel.dam import CrackedDam
+from heeltoe.kernel.dam import CrackedDam, only_crack
 from heeltoe.models.flexible.inside import FollowingWater
 from heeltoe.models.flexible.reduced import build_flexible_dam
 from heeltoe.models.flexible.step import longest_step
@@ -163,7 +163,11 @@ def test_a_change_over_a_wide_opening_is_none(elevation):
     def slip(opening):
         water = dataclasses.replace(dam.water, opening=opening) if opening else None
         upper, lower = (*dam.reduced, None)[:2]
-        return CrackedDam(upper, lower, (1.0, 1.0), 3, water).run(shaking, 2e-4, 0.52).summary["slip"]
+        return (
+            CrackedDam(upper, lower, only_crack(upper, lower, (1.0, 1.0)), 3, water)
+            .run(shaking, 2e-4, 0.52)
+            .summary["slip"]
+        )
 
     assert abs(slip(None)) > 0.01
     assert slip(1e9) == pytest.approx(slip(None), rel=1e-6)
@@ -185,7 +189,7 @@ def test_a_rising_block_by_its_equation_of_motion(law):
     part = dam.reduced[0]
     pressed = dataclasses.replace(part, load=part.load + part.shapes[:, 5:] @ (still * share))
     water = FollowingWater(law, opening, (still * share,), (reservoir * share,))
-    kernel = CrackedDam(pressed, None, (0.3, 0.3), 3, water)
+    kernel = CrackedDam(pressed, None, only_crack(pressed, None, (0.3, 0.3)), 3, water)
     step, steps = 2e-5, 2000
     run = kernel.run(np.tile([0.0, -fall], (steps, 1)), step, 0.52, stride=10)
     time, rise = run.frames["time"], run.frames["opening_heel"]

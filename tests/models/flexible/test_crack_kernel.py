@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from heeltoe import read_case
-from heeltoe.kernel.dam import CrackedDam
+from heeltoe.kernel.dam import CrackedDam, only_crack
 from heeltoe.models.flexible.reduced import ReducedBody, build_flexible_dam
 from heeltoe.validation.random_dams import LEFT, MADE, draw
 
@@ -196,7 +196,9 @@ def test_a_lower_part_that_cannot_move_is_a_plane(contactors):
         dampers=np.zeros((3, 1)),
         damper_signs=np.ones(3),
     )
-    found = CrackedDam(one.reduced[0], still, (FRICTION, FRICTION), contactors).run(a, dt, 0.52, stride=1)
+    found = CrackedDam(one.reduced[0], still, only_crack(one.reduced[0], still, (FRICTION, FRICTION)), contactors).run(
+        a, dt, 0.52, stride=1
+    )
     plane = run(one, a, dt)
     assert abs(plane.summary["slip"]) > 0.05
     assert found.frames["slip"] == pytest.approx(plane.frames["slip"], abs=1e-9)
@@ -214,7 +216,8 @@ def test_parts_that_do_not_fit_are_refused():
         ),
     ):
         with pytest.raises(ValueError, match=text):
-            CrackedDam(dataclasses.replace(part, **wrong), None, (0.5, 0.5), 3)
+            misfit = dataclasses.replace(part, **wrong)
+            CrackedDam(misfit, None, only_crack(misfit, None, (0.5, 0.5)), 3)
 
 
 # Random dams

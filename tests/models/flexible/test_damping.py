@@ -9,7 +9,7 @@ import pytest
 import scipy.linalg
 
 from heeltoe import InputError, read_case
-from heeltoe.kernel.dam import CrackedDam
+from heeltoe.kernel.dam import CrackedDam, only_crack
 from heeltoe.models.flexible.elastic import dofs, side_by_side
 from heeltoe.models.flexible.modes import lowest
 from heeltoe.models.flexible.reduced import build_flexible_dam
@@ -206,7 +206,7 @@ def test_parts_must_agree_in_their_dashpots():
         one.reduced[1], dampers=np.empty((0, one.reduced[1].load.size)), damper_signs=np.empty(0)
     )
     with pytest.raises(ValueError, match="dashpot"):
-        CrackedDam(one.reduced[0], lower, (0.6, 0.6), 3)
+        CrackedDam(one.reduced[0], lower, only_crack(one.reduced[0], lower, (0.6, 0.6)), 3)
 
 
 def test_the_penalty_method_wants_a_damping_without_dashpots():

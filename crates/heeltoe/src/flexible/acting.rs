@@ -12,6 +12,7 @@
 //! stiffness of the concrete, and loses energy at the same small rate. The static pressure and the prestress are among
 //! the static loads of the bodies; here are the differences from them.
 
+use super::line::Face;
 use super::moving::TimeStep;
 use super::observe::height;
 use super::sides::Faces;
@@ -180,7 +181,7 @@ impl<'a> Acting<'a> {
 /// Gap of a node of one face to the other; `sign` is -1 for the lower one.
 #[inline(always)]
 fn gap(own: &[f64], other: &[f64], sign: f64, node: usize) -> f64 {
-    sign * (own[own.len() / 2 + node] - height(other, own[node]))
+    sign * (own[own.len() / 2 + node] - height(Face::whole(other), own[node]))
 }
 
 fn gaps(own: &[f64], other: &[f64], sign: f64) -> Vec<f64> {

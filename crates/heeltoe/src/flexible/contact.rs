@@ -10,22 +10,27 @@
 //! with `t` along the crack and `n` across it; plus for a node of the upper face. A sliding node travels from segment
 //! to segment; one that sticks keeps the material point it stands on.
 
+use std::ops::Range;
+
+use super::line::{Face, Meeting, Place};
 use super::sides::Faces;
 
-/// Weights of crack nodes in the motion of the upper face against the lower one.
+/// Weights of the nodes of both bodies in the motion of the upper face of a crack against the lower one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Pair {
-    /// Two nodes of the upper face with their weights.
+    /// Two nodes of the upper body with their weights.
     pub upper: [(usize, f64); 2],
-    /// Two nodes of the lower face with their weights, which are negative; not used on a rigid plane.
+    /// Two nodes of the lower body with their weights, which are negative where it is below the crack; not used on a rigid
+    /// plane.
     pub lower: [(usize, f64); 2],
 }
 
 /// A node that is watched.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Contactor {
+    /// Its place on its face.
     pub node: usize,
-    /// Whether it belongs to the upper face.
+    /// Whether this is the upper one of its crack.
     pub of_upper: bool,
     /// Whether it counts at the very end of the other face. Where the ends of both faces are watched and meet, one of
     /// them must not, or the same constraint would be there twice.
@@ -41,39 +46,37 @@ pub(super) struct Contacts {
     pub gaps: Vec<f64>,
     /// Which pairs the last `update` changed.
     pub moved: Vec<bool>,
+    /// Faces of each crack, and which of the contactors are its own.
+    cracks: Vec<(Place, Range<usize>)>,
+    /// Whether the only crack is on a rigid plane.
     rigid_plane: bool,
 }
 
 impl Contacts {
-    /// Choose the contactors, by the five kinds of Zhu (2004), section 6.3: 1 all nodes of the upper face, 2 of the
-    /// lower, 3 all of the upper and the ends of the lower, 4 the reverse, 5 all of both. On a rigid plane, without
-    /// `lower` nodes, those of the upper face are watched.
-    pub(super) fn new(kind: u8, upper: usize, lower: usize) -> Self {
-        let all = |count: usize, of_upper: bool, closed: bool| {
-            (0..count).map(move |node| Contactor {
-                node,
-                of_upper,
-                closed,
-                segment: 0,
-            })
-        };
-        let ends = |count: usize, of_upper: bool| {
-            all(count, of_upper, false).filter(move |c| c.node == 0 || c.node + 1 == count)
-        };
-        let contactors: Vec<_> = match (lower, kind) {
-            (0, _) | (_, 1) => all(upper, true, true).collect(),
-            (_, 2) => all(lower, false, true).collect(),
-            (_, 4) => all(lower, false, true).chain(ends(upper, true)).collect(),
-            (_, 5) => all(upper, true, true).chain(all(lower, false, true)).collect(),
-            _ => all(upper, true, true).chain(ends(lower, false)).collect(),
-        };
+    /// Choose the contactors of each crack, by the five kinds of Zhu (2004), section 6.3: 1 all nodes of the upper face, 2
+    /// of the lower, 3 all of the upper and the ends of the lower, 4 the reverse, 5 all of both. On a rigid plane, without
+    /// lower nodes, those of the upper face are watched.
+    pub(super) fn new(kind: u8, places: &[Place]) -> Self {
+        let mut contactors = Vec::new();
+        let mut cracks = Vec::new();
+        for place in places {
+            let first = contactors.len();
+            contactors.extend(chosen(kind, place.upper.count, place.lower.count));
+            cracks.push((*place, first..contactors.len()));
+        }
         Contacts {
             pairs: vec![None; contactors.len()],
             gaps: vec![f64::INFINITY; contactors.len()],
             moved: vec![true; contactors.len()],
             contactors,
-            rigid_plane: lower == 0,
+            rigid_plane: places.len() == 1 && places[0].lower.count == 0,
+            cracks,
         }
+    }
+
+    /// Which contactors are those of each crack.
+    pub(super) fn of_cracks(&self) -> impl Iterator<Item = Range<usize>> + '_ {
+        self.cracks.iter().map(|(_, range)| range.clone())
     }
 
     /// Number of contactors, whether they meet anything or not.
@@ -81,10 +84,9 @@ impl Contacts {
         self.contactors.len()
     }
 
-    /// Find every contactor's place on the other face. Positions are all along the crack, then all across it;
-    /// `sticks` says which nodes keep their place.
+    /// Find every contactor's place on the other face; `sticks` says which nodes keep their place.
     #[inline(always)]
-    pub(super) fn update(&mut self, upper: &[f64], lower: &[f64], sticks: impl Fn(usize) -> bool) {
+    pub(super) fn update(&mut self, faces: Faces, sticks: impl Fn(usize) -> bool) {
         if self.rigid_plane {
             let first = self.pairs[0].is_none();
             self.moved.fill(first);
@@ -95,25 +97,23 @@ impl Contacts {
                 };
                 self.pairs = self.contactors.iter().map(|c| Some(pair(c))).collect();
             }
-            self.gaps.copy_from_slice(&upper[upper.len() / 2..]);
+            self.gaps.copy_from_slice(&faces.upper[faces.upper.len() / 2..]);
             return;
         }
-        for (k, c) in self.contactors.iter_mut().enumerate() {
-            let (own, other) = if c.of_upper {
-                (upper, lower)
-            } else {
-                (lower, upper)
-            };
-            self.moved[k] = false;
-            if !(sticks(k) && self.pairs[k].is_some()) {
-                let pair = c.place(own, other);
-                self.moved[k] = pair != self.pairs[k];
-                self.pairs[k] = pair;
+        for (place, range) in &self.cracks {
+            let meeting = place.of(faces);
+            for k in range.clone() {
+                self.moved[k] = false;
+                if !(sticks(k) && self.pairs[k].is_some()) {
+                    let pair = self.contactors[k].place(meeting).map(|pair| pair.among(place));
+                    self.moved[k] = pair != self.pairs[k];
+                    self.pairs[k] = pair;
+                }
+                self.gaps[k] = match &self.pairs[k] {
+                    Some(pair) => pair.relative(faces, 1),
+                    None => f64::INFINITY,
+                };
             }
-            self.gaps[k] = match &self.pairs[k] {
-                Some(pair) => pair.relative(Faces { upper, lower }, 1),
-                None => f64::INFINITY,
-            };
         }
     }
 
@@ -153,11 +153,44 @@ impl Contacts {
     }
 }
 
+/// Choose the contactors of a crack between faces of so many nodes.
+fn chosen(kind: u8, upper: usize, lower: usize) -> Vec<Contactor> {
+    let all = |count: usize, of_upper: bool, closed: bool| {
+        (0..count).map(move |node| Contactor {
+            node,
+            of_upper,
+            closed,
+            segment: 0,
+        })
+    };
+    let ends = |count: usize, of_upper: bool| {
+        all(count, of_upper, false).filter(move |c| c.node == 0 || c.node + 1 == count)
+    };
+    match (lower, kind) {
+        (0, _) | (_, 1) => all(upper, true, true).collect(),
+        (_, 2) => all(lower, false, true).collect(),
+        (_, 4) => all(lower, false, true).chain(ends(upper, true)).collect(),
+        (_, 5) => all(upper, true, true).chain(all(lower, false, true)).collect(),
+        _ => all(upper, true, true).chain(ends(lower, false)).collect(),
+    }
+}
+
 impl Contactor {
-    /// Find the segment below or above the node, from where it was last.
-    fn place(&mut self, own: &[f64], other: &[f64]) -> Option<Pair> {
+    /// Find the segment below or above the node, from where it was last; nodes are counted on either face.
+    fn place(&mut self, faces: Meeting) -> Option<Pair> {
+        let (Face { along: own, .. }, Face { along, .. }) = if self.of_upper {
+            (faces.upper, faces.lower)
+        } else {
+            (faces.lower, faces.upper)
+        };
+        if along.is_empty() {
+            // On a rigid plane.
+            return Some(Pair {
+                upper: [(self.node, 1.0), (self.node, 0.0)],
+                lower: [(0, 0.0); 2],
+            });
+        }
         let t = own[self.node];
-        let along = &other[..other.len() / 2];
         let (first, last) = (along[0], along[along.len() - 1]);
         let inside = if self.closed {
             first <= t && t <= last
@@ -191,6 +224,24 @@ impl Contactor {
 }
 
 impl Pair {
+    /// Count the nodes of both faces among those of the bodies.
+    #[inline(always)]
+    fn among(self, place: &Place) -> Self {
+        let upper = self
+            .upper
+            .map(|(node, weight)| (place.upper.first + node, weight));
+        let lower = self
+            .lower
+            .map(|(node, weight)| (place.lower.first + node, weight));
+        if place.turned {
+            return Pair {
+                upper: lower,
+                lower: upper,
+            };
+        }
+        Pair { upper, lower }
+    }
+
     /// Motion of the upper face against the lower one: `direction` 0 along the crack, 1 across it.
     #[inline(always)]
     fn relative(&self, faces: Faces, direction: usize) -> f64 {

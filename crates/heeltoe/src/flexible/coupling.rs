@@ -1,4 +1,4 @@
-//! The contact problem of a step, put together from what both faces do.
+//! The contact problem of a step, of all cracks at once, put together from what both bodies do.
 //!
 //! With the crack's answers `W` of both parts and the weights `B` of the nodes at each contact
 //!
@@ -9,14 +9,17 @@
 //! as [`super::coulomb`] needs them; with dashpots (see [`super::dampers`]) less what they hold back, `G -= V N V^T` with
 //! `V = B W_cd`.
 
+use std::ops::Range;
+
 use super::body::Group;
 use super::contact::{Contacts, Pair};
 use super::coulomb::{Problem, Report, Solver};
 use super::dam::Dam;
+use super::line::Place;
 use super::sides::{Faces, Sides};
 use super::status::Status;
 
-/// The contact problem of a step, in terms of the faces.
+/// The contact problem of a step, in terms of both bodies.
 pub(super) struct Crack {
     pub contacts: Contacts,
     pub problem: Problem,
@@ -25,6 +28,8 @@ pub(super) struct Crack {
     /// Velocities before the step, and whether the contact was closed.
     pub before: Vec<f64>,
     pub closed: Vec<bool>,
+    /// Coefficients of friction of each contact that sticks, and that slips.
+    friction: Vec<[f64; 2]>,
     /// State of damping that the answers belong to.
     damping: Option<usize>,
 }
@@ -32,16 +37,20 @@ pub(super) struct Crack {
 impl Crack {
     /// `dampers` is the number of dashpots that hold the crack back.
     pub(super) fn new(dam: &Dam, dampers: usize) -> Self {
-        let lower = dam.bodies.lower.as_ref().map_or(0, |body| body.nodes);
-        let contacts = Contacts::new(dam.contactors, dam.bodies.upper.nodes, lower);
+        let contacts = Contacts::new(dam.contactors, &Place::all(dam));
         let m = contacts.len();
+        let friction: Vec<[f64; 2]> = contacts
+            .of_cracks()
+            .zip(&dam.cracks)
+            .flat_map(|(range, line)| range.map(|_| line.friction))
+            .collect();
         Crack {
             problem: Problem {
                 g: vec![0.0; 4 * m * m],
                 b: vec![0.0; 2 * m],
                 h: vec![0.0; m],
-                mu_stick: vec![dam.friction[0]; m],
-                mu_slip: dam.friction[1],
+                mu_stick: friction.iter().map(|mu| mu[0]).collect(),
+                mu_slip: friction.iter().map(|mu| mu[1]).collect(),
                 scale: vec![0.0; 2 * m],
             },
             solver: Solver::new(m),
@@ -50,6 +59,7 @@ impl Crack {
             closed: vec![true; m],
             contacts,
             damping: None,
+            friction,
         }
     }
 
@@ -63,8 +73,7 @@ impl Crack {
         answers: impl Fn() -> Sides<Answer<'w>>,
     ) {
         let status = &self.solver.status;
-        self.contacts
-            .update(position.upper, position.lower, |k| status[k] == Status::Stick);
+        self.contacts.update(position, |k| status[k] == Status::Stick);
         if self.damping != Some(damping) {
             self.contacts.moved.fill(true);
             self.damping = Some(damping);
@@ -79,9 +88,12 @@ impl Crack {
 
     /// Take over the states of the contacts from the step before; `problem.b` is zero where nothing is met.
     #[inline(always)]
-    pub(super) fn set_up(&mut self, friction: [f64; 2]) {
-        let states = self.solver.status.iter_mut().zip(&mut self.problem.mu_stick);
-        for ((pair, closed), (status, mu)) in self.contacts.pairs.iter().zip(&mut self.closed).zip(states) {
+    pub(super) fn set_up(&mut self) {
+        let limits = self.friction.iter().zip(&mut self.problem.mu_stick);
+        let states = self.solver.status.iter_mut().zip(limits);
+        for ((pair, closed), (status, (friction, mu))) in
+            self.contacts.pairs.iter().zip(&mut self.closed).zip(states)
+        {
             *closed = status.closed();
             match (pair, *status) {
                 (None, _) => *status = Status::Absent,
@@ -129,11 +141,11 @@ impl Crack {
         self.contacts.spread(&self.solver.p, upper, lower);
     }
 
-    /// Sums of the impulses along and across the crack.
+    /// Sums of the impulses of some contacts along and across their crack.
     #[inline(always)]
-    pub(super) fn sums(&self) -> [f64; 2] {
+    pub(super) fn sums(&self, contacts: Range<usize>) -> [f64; 2] {
         let (along, across) = self.solver.p.split_at(self.contacts.len());
-        [along.iter().sum(), across.iter().sum()]
+        [along, across].map(|impulses| impulses[contacts.clone()].iter().sum())
     }
 }
 

@@ -4,25 +4,23 @@ use super::acting::{FaceAnchor, Inside};
 use super::body::ReducedBody;
 use super::envelope::Stressed;
 use super::idce::Penalty;
+use super::line::Line;
 use super::sides::Sides;
-use super::stance::Give;
 use super::start::{self, Still};
 use crate::stop::Stop;
 
-/// Two bodies, and the crack between them.
+/// Two bodies, and the cracks between them: of several, see the module `line`.
 pub struct Dam {
-    /// Above and below the crack.
+    /// Above and below the crack; of several, every other part.
     pub bodies: Sides<ReducedBody>,
-    /// Coefficients of friction of a node that sticks and of one that slips.
-    pub friction: [f64; 2],
+    /// The cracks, from the crest down.
+    pub cracks: Vec<Line>,
     /// Which nodes are watched, by the five kinds of Zhu (2004), section 6.3: 1 all nodes of the upper face, 2 of the
     /// lower, 3 all of the upper and the ends of the lower, 4 the reverse, 5 all of both. On a rigid plane those of the
     /// upper face are.
     pub contactors: u8,
-    /// What acts in the crack beside contact.
+    /// What acts in the only crack beside contact.
     pub inside: Inside,
-    /// What tells rocking and drifting from elastic deformation.
-    pub give: Give,
     /// The state before the earthquake, see [`Dam::rested`]; none where friction does not hold the dam, which then starts
     /// from the state with its crack bonded.
     pub still: Option<Still>,
@@ -47,7 +45,7 @@ impl Dam {
         }
     }
 
-    /// Whether water and anchors are at nodes that are there.
+    /// Whether cracks, water and anchors are at nodes that are there.
     ///
     /// # Errors
     /// Says what is not.
@@ -58,6 +56,23 @@ impl Dam {
         }
         let lower = below.as_ref().map_or(0, ReducedBody::nodes);
         let counts = [self.bodies.upper.nodes(), lower];
+        let mut met = [0, 0];
+        for (k, line) in self.cracks.iter().enumerate() {
+            for (side, span) in line.nodes.iter().enumerate() {
+                let body = (k + side) % 2;
+                if span.first + span.count > counts[body] || (span.count < 2 && (side, span.count) != (1, 0))
+                {
+                    return Err("a crack needs two nodes or more of each body, which are there");
+                }
+                met[body] += span.count;
+            }
+        }
+        if met != counts {
+            return Err("every node of a body needs its crack");
+        }
+        if self.cracks.len() > 1 && !self.inside.is_empty() {
+            return Err("water that follows and anchors know one crack alone");
+        }
         let forces = |of: &[Vec<f64>; 2]| [of[0].len(), of[1].len()] == counts;
         let water = self.inside.water.as_ref();
         if water.is_some_and(|water| !forces(&water.still) || !forces(&water.full)) {

@@ -2,6 +2,7 @@
 //! `sum of impulses / time`.
 
 use super::body::{Group, ReducedBody};
+use super::dam::Dam;
 use super::ledger::Ledger;
 use super::observe::Motion;
 use super::result::Summary;
@@ -12,13 +13,14 @@ use crate::table::columns;
 /// States of the run at equal distances in time, beginning with the start.
 #[derive(Clone, Debug, Default)]
 pub struct Frames {
-    /// One row of [`Frames::FIELDS`] for each.
+    /// One row of [`Frames::FIELDS`] for each crack of each, from the crest down.
     pub rows: Vec<[f64; Self::FIELDS.len()]>,
     /// Positions of the crack nodes of the upper face, all along the crack, then all across it (m).
     pub upper: Vec<f64>,
     /// The same of the lower face.
     pub lower: Vec<f64>,
-    /// Mean forces on the nodes of the upper face since the frame before (N).
+    /// Mean forces on the nodes of the upper face since the frame before (N); of several cracks on those of both bodies,
+    /// the upper one first.
     pub force: Vec<f64>,
     /// Status of each contactor, by its place among [`Status::NAMES`].
     pub status: Vec<u8>,
@@ -32,14 +34,20 @@ impl Frames {
     /// Names of the numbers in a row.
     pub const FIELDS: [&'static str; Snapshot::FIELDS.len()] = Snapshot::FIELDS;
 
-    /// Add a frame.
-    pub(super) fn keep(&mut self, now: &Snapshot) {
-        self.rows.push(now.row());
-        self.upper.extend_from_slice(now.faces.upper);
-        self.lower.extend_from_slice(now.faces.lower);
-        let rate = now.since.rate();
-        self.force.extend(now.since.nodes.iter().map(|p| p * rate));
-        self.status.extend(now.status.iter().map(|s| *s as u8));
+    /// Add a frame: what its cracks do, from the crest down, where all nodes are, and the state of all contacts.
+    pub(super) fn keep<'a>(
+        &mut self,
+        cracks: impl Iterator<Item = Snapshot<'a>>,
+        faces: Faces,
+        since: &Since,
+        status: &[Status],
+    ) {
+        self.rows.extend(cracks.map(|now| now.row()));
+        self.upper.extend_from_slice(faces.upper);
+        self.lower.extend_from_slice(faces.lower);
+        let rate = since.rate();
+        self.force.extend(since.nodes.iter().map(|p| p * rate));
+        self.status.extend(status.iter().map(|s| *s as u8));
     }
 
     /// Add the amplitudes of the modes of both bodies to a frame.
@@ -54,27 +62,39 @@ impl Frames {
 
 /// Impulses since the last frame.
 pub(super) struct Since {
-    pub nodes: Vec<f64>,
-    pub sum: [f64; 2],
-    pub time: f64,
+    /// On the nodes of the upper body and, with several cracks, of the lower one.
+    nodes: Vec<f64>,
+    /// Of each crack, along and across it.
+    sums: Vec<[f64; 2]>,
+    time: f64,
 }
 
 impl Since {
-    pub(super) fn new(upper: &ReducedBody) -> Self {
+    pub(super) fn new(dam: &Dam) -> Self {
+        // Of the only crack the forces on the lower face are those on the upper one.
+        let bodies = if dam.cracks.len() == 1 { 1 } else { 2 };
         Since {
-            nodes: vec![0.0; upper.columns()],
-            sum: [0.0; 2],
+            nodes: vec![0.0; dam.bodies.iter().take(bodies).map(ReducedBody::columns).sum()],
+            sums: vec![[0.0; 2]; dam.cracks.len()],
             time: 0.0,
         }
     }
 
+    /// Add the impulses on the nodes of both bodies, and the sums of each crack.
     #[inline(always)]
-    pub(super) fn add(&mut self, nodes: &[f64], sum: [f64; 2], dt: f64) {
-        for (total, p) in self.nodes.iter_mut().zip(nodes) {
+    pub(super) fn add(&mut self, nodes: Faces, sums: impl Iterator<Item = [f64; 2]>, dt: f64) {
+        for (total, p) in self.nodes.iter_mut().zip(nodes.upper.iter().chain(nodes.lower)) {
             *total += p;
         }
-        self.sum = [self.sum[0] + sum[0], self.sum[1] + sum[1]];
+        for (total, sum) in self.sums.iter_mut().zip(sums) {
+            *total = [total[0] + sum[0], total[1] + sum[1]];
+        }
         self.time += dt;
+    }
+
+    /// Mean force along and across a crack.
+    pub(super) fn force(&self, crack: usize) -> [f64; 2] {
+        self.sums[crack].map(|sum| sum * self.rate())
     }
 
     /// What makes a mean force of an impulse.
@@ -88,17 +108,17 @@ impl Since {
 
     pub(super) fn clear(&mut self) {
         self.nodes.fill(0.0);
-        self.sum = [0.0; 2];
+        self.sums.fill([0.0; 2]);
         self.time = 0.0;
     }
 }
 
-/// The state at one moment.
+/// The state of a crack at one moment.
 pub(super) struct Snapshot<'a> {
-    pub faces: Faces<'a>,
     pub status: &'a [Status],
     pub motion: &'a Motion,
-    pub since: &'a Since,
+    /// Mean force along and across it since the frame before.
+    pub force: [f64; 2],
     pub summary: &'a Summary,
     pub ledger: &'a Ledger,
 }
@@ -110,8 +130,8 @@ columns!(Snapshot<'_>, now => {
     "rotation": now.motion.rotation,
     "opening_heel": now.motion.opening_heel,
     "opening_toe": now.motion.opening_toe,
-    "normal_force": now.since.sum[1] * now.since.rate(),
-    "friction_force": now.since.sum[0] * now.since.rate(),
+    "normal_force": now.force[1],
+    "friction_force": now.force[0],
     "touching": now.touching(),
     "state": f64::from(now.summary.final_state as u8),
     "energy_stored": now.ledger.stored,

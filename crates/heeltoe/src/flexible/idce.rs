@@ -30,7 +30,7 @@ use super::dam::{Dam, Shaking, Wanted};
 use super::ledger::Ledger;
 use super::newmark::{Before, Moving};
 use super::result::{Outcome, Run};
-use super::sides::Sides;
+use super::sides::{Faces, Sides};
 use super::status::Status;
 use super::walk::Walk;
 use super::wide::Plain;
@@ -61,13 +61,17 @@ pub(super) fn simulate(dam: &Dam, shaking: &Shaking, penalty: &Penalty, wanted: 
     newmark.stress();
     for (step, ends) in ground.windows(2).enumerate() {
         let ends = [ends[0], ends[1]].map(|a| [scale[0] * a[0], scale[1] * a[1]]);
-        let force = newmark.step(ends);
+        newmark.step(ends);
         let position = newmark.bodies.faces(|body| &body.position);
-        newmark.walk.book(step, position, force[1]);
+        newmark.walk.book(step, position, 1.0);
         newmark.damping = usize::from(!newmark.walk.crack.solver.status.contains(&Status::Stick));
         if newmark.walk.observed() {
             let nodes: Vec<f64> = newmark.bodies.upper.force.iter().map(|f| f * dt).collect();
-            newmark.walk.gather(&nodes, force.map(|f| f * dt));
+            let nodes = Faces {
+                upper: &nodes,
+                lower: &[],
+            };
+            newmark.walk.gather(nodes, *dt);
         }
         if newmark.walk.due(step) {
             newmark.balance();
@@ -113,9 +117,8 @@ impl<'a> Newmark<'a> {
         }
     }
 
-    /// Take a step with the ground's accelerations at its ends; returns the sum of the forces of contact along and across
-    /// the crack.
-    fn step(&mut self, ends: [[f64; 2]; 2]) -> [f64; 2] {
+    /// Take a step with the ground's accelerations at its ends.
+    fn step(&mut self, ends: [[f64; 2]; 2]) {
         let (penalty, damping, dt) = (self.penalty, self.damping, self.dt);
         let mut before: Vec<Before> = Vec::new();
         for body in self.bodies.iter_mut() {
@@ -125,10 +128,9 @@ impl<'a> Newmark<'a> {
         let crack = &mut self.walk.crack;
         let held = spring_energy(crack, penalty.stiffness);
         let report = crack.solver.solve::<Plain>(&mut crack.problem, &mut Known);
-        self.walk.summary.note(report);
+        self.walk.steps.note(report);
         let (upper, lower) = self.bodies.both_mut(|body| &mut body.force);
         self.walk.crack.impulses(upper, lower);
-        let force = self.walk.crack.sums();
         let mut work = [0.0; 2];
         for (k, (body, before)) in self.bodies.iter_mut().zip(&before).enumerate() {
             let own = body.correct(before, damping, penalty, dt, &mut self.ledger);
@@ -147,7 +149,8 @@ impl<'a> Newmark<'a> {
         ledger.impact -= made[1];
         ledger.gained += (made[0] + made[1]).max(0.0);
         ledger.turnover += work[0].abs() + work[1].abs();
-        force
+        // It knows one crack alone.
+        self.walk.cracks[0].summary.lost = [ledger.friction, ledger.impact];
     }
 
     /// Write the contact problem, on where the nodes were and where they would be without contact.
@@ -176,7 +179,7 @@ impl<'a> Newmark<'a> {
             }
             *before = (free - *before) / dt;
         }
-        crack.set_up(self.walk.dam.friction);
+        crack.set_up();
     }
 
     /// All that nothing else explains is the scheme's own; so this ledger always closes.
@@ -203,10 +206,10 @@ impl<'a> Newmark<'a> {
         let ledger = self.ledger;
         let lost = ledger.input + ledger.start - ledger.stored - ledger.penalty;
         let sound = ledger.gained <= (BLOWN_UP[0] * lost).max(BLOWN_UP[1] * ledger.turnover);
-        if !(sound && ledger.stored.is_finite() && self.walk.summary.slip.is_finite()) {
-            self.walk.summary.outcome = Outcome::BlownUp;
+        if !(sound && ledger.stored.is_finite() && self.walk.cracks[0].summary.slip.is_finite()) {
+            self.walk.steps.outcome = Outcome::BlownUp;
         }
-        self.walk.end(ledger, Vec::new())
+        self.walk.end(ledger, &[])
     }
 }
 

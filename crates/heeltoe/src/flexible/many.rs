@@ -6,8 +6,14 @@ use super::simulate;
 use crate::parallel::each;
 use crate::stop::Stop;
 
-/// Shake the dam once for each pair of factors on the horizontal and the vertical acceleration.
-pub fn run(dam: &Dam, shaking: &Shaking, scheme: &Scheme, scales: &[[f64; 2]], stop: Stop) -> Vec<Summary> {
+/// Shake the dam once for each pair of factors on the horizontal and the vertical acceleration; what each crack does.
+pub fn run(
+    dam: &Dam,
+    shaking: &Shaking,
+    scheme: &Scheme,
+    scales: &[[f64; 2]],
+    stop: Stop,
+) -> Vec<Vec<Summary>> {
     each(scales.len(), 1, |k| {
         let shaking = Shaking {
             scale: scales[k],
@@ -17,6 +23,6 @@ pub fn run(dam: &Dam, shaking: &Shaking, scheme: &Scheme, scales: &[[f64; 2]], s
             stop,
             ..Wanted::default()
         };
-        simulate(dam, &shaking, scheme, wanted).summary
+        simulate(dam, &shaking, scheme, wanted).cracks
     })
 }

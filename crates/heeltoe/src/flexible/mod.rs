@@ -1,4 +1,4 @@
-//! The flexible model: two elastic bodies in their vibration modes, and a frictional crack between them.
+//! The flexible model: elastic parts of a dam in their vibration modes, and frictional cracks between them.
 //!
 //! Each mode obeys `w'' + c w' + omega^2 w = f - gamma a(t) + shapes^T p`, with the forces p of contact found in every step,
 //! so that nothing passes through the crack and friction is Coulomb's.
@@ -15,6 +15,7 @@ mod envelope;
 mod frames;
 mod idce;
 mod ledger;
+mod line;
 pub mod many;
 mod moving;
 mod newmark;
@@ -37,6 +38,7 @@ pub use envelope::{Extreme, Stressed, Stresses};
 pub use frames::Frames;
 pub use idce::Penalty;
 pub use ledger::Ledger;
+pub use line::{Line, Span};
 pub use observe::State;
 pub use result::{Outcome, Run, Summary};
 pub use sides::Sides;

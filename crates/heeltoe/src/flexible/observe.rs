@@ -6,7 +6,7 @@
 //!
 //! with t along the crack and n across it; both are zero at the start.
 
-use super::sides::Faces;
+use super::line::{Face, Meeting};
 use crate::table::named;
 
 /// The motion of the upper face against the lower one.
@@ -21,12 +21,12 @@ pub(super) struct Motion {
 impl Motion {
     /// Measure; `zero` is the mean position along the crack of the upper face less that of the lower at the start.
     #[inline(always)]
-    pub(super) fn of(faces: Faces, zero: f64) -> Self {
+    pub(super) fn of(faces: Meeting, zero: f64) -> Self {
         let (upper, lower) = (faces.upper, faces.lower);
-        let k = upper.len() / 2;
-        let ends = [0, k - 1].map(|node| upper[k + node] - height(lower, upper[node]));
+        let last = upper.along.len() - 1;
+        let ends = [0, last].map(|node| upper.across[node] - height(lower, upper.along[node]));
         let mut rotation = chord(upper);
-        if !lower.is_empty() {
+        if !lower.along.is_empty() {
             rotation -= chord(lower);
         }
         Motion {
@@ -40,27 +40,25 @@ impl Motion {
 
 /// Mean of the positions, or velocities, along the crack; zero for a rigid plane.
 #[inline(always)]
-pub(super) fn mean_along(face: &[f64]) -> f64 {
-    let k = face.len() / 2;
-    face[..k].iter().sum::<f64>() / k.max(1) as f64
+pub(super) fn mean_along(face: Face) -> f64 {
+    face.along.iter().sum::<f64>() / face.along.len().max(1) as f64
 }
 
 /// Rotation of the line from heel to toe.
 #[inline(always)]
-fn chord(face: &[f64]) -> f64 {
-    let k = face.len() / 2;
-    (face[2 * k - 1] - face[k]) / (face[k - 1] - face[0])
+fn chord(face: Face) -> f64 {
+    let last = face.along.len() - 1;
+    (face.across[last] - face.across[0]) / (face.along[last] - face.along[0])
 }
 
 /// Height of the lower face at `t`; beyond its ends that of the end, and zero on a rigid plane.
 #[inline(always)]
-pub(super) fn height(face: &[f64], t: f64) -> f64 {
-    if face.is_empty() {
+pub(super) fn height(face: Face, t: f64) -> f64 {
+    let Face { along, across } = face;
+    if along.is_empty() {
         return 0.0;
     }
-    let k = face.len() / 2;
-    let (along, across) = face.split_at(k);
-    let j = along.partition_point(|a| *a <= t).clamp(1, k - 1) - 1;
+    let j = along.partition_point(|a| *a <= t).clamp(1, along.len() - 1) - 1;
     let s = ((t - along[j]) / (along[j + 1] - along[j])).clamp(0.0, 1.0);
     across[j] + s * (across[j + 1] - across[j])
 }

@@ -25,15 +25,15 @@ named! {
 /// What a run leaves behind.
 #[derive(Clone, Debug)]
 pub struct Run {
-    /// Its end, peaks and sums.
-    pub summary: Summary,
+    /// Its end, peaks and sums, for each crack from the crest down.
+    pub cracks: Vec<Summary>,
     /// States at equal distances in time, if they were asked for.
     pub frames: Frames,
     /// Extremes of the stresses at each place of both bodies, if they were asked for.
     pub extremes: Option<Sides<Vec<Extreme>>>,
 }
 
-/// Peaks and sums over all steps.
+/// Peaks and sums over all steps, of one crack; how the run ended, its steps and its energies are those of the dam.
 #[derive(Clone, Debug, Default)]
 pub struct Summary {
     /// How it ended.
@@ -68,8 +68,10 @@ pub struct Summary {
     pub impact_velocity: f64,
     /// Largest sum of the normal forces of contact (N).
     pub peak_normal_force: f64,
-    /// Where the energy went.
+    /// Where the energy of the whole dam went.
     pub ledger: Ledger,
+    /// What of it was lost in this crack, along it and across it (J).
+    pub lost: [f64; 2],
     /// Steps taken.
     pub steps: u64,
     /// Sets of states tried in all steps.
@@ -126,7 +128,16 @@ columns!(Summary, s => {
     "sweeps": s.sweeps as f64,
     "contact_residual": s.residual,
     "final_state": f64::from(s.final_state as u8),
+    "crack_friction": s.lost[0],
+    "crack_impact": s.lost[1],
 });
+
+impl Run {
+    /// That of the first crack.
+    pub fn summary(&self) -> &Summary {
+        &self.cracks[0]
+    }
+}
 
 impl Summary {
     /// Count how a step's contact problem was solved.

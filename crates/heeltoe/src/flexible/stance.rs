@@ -13,9 +13,9 @@
 //! The rotation is that of the straight lines that fit both faces best, each node with its share of the crack. What
 //! leaves the other face by less than `give.gap` still stands on its nearest node.
 
-use super::contact::Contacts;
+use super::contact::Contactor;
+use super::line::{Face, Meeting};
 use super::observe::State;
-use super::sides::Faces;
 use super::status::Status;
 
 /// A part that stands on less of the crack than this, about one end, may be rocking: with a pressure that falls off
@@ -44,16 +44,13 @@ pub(super) struct Stance {
 }
 
 impl Stance {
-    pub(super) fn new(give: Give, contacts: &Contacts, faces: Faces) -> Self {
-        let [upper, lower] = [faces.upper, faces.lower].map(|face| lengths(&face[..face.len() / 2]));
+    /// Of the crack with these contactors.
+    pub(super) fn new(give: Give, contactors: &[Contactor], faces: Meeting) -> Self {
+        let [upper, lower] = [faces.upper, faces.lower].map(|face| lengths(face.along));
         let own = |of_upper: bool| if of_upper { &upper } else { &lower };
         Stance {
             give,
-            lengths: contacts
-                .contactors
-                .iter()
-                .map(|c| own(c.of_upper)[c.node])
-                .collect(),
+            lengths: contactors.iter().map(|c| own(c.of_upper)[c.node]).collect(),
             upper: slopes(faces.upper, &upper),
             lower: slopes(faces.lower, &lower),
         }
@@ -61,17 +58,23 @@ impl Stance {
 
     /// Tell what the part does, from where both faces are, the state of each contact and the gaps.
     #[inline(always)]
-    pub(super) fn state(&self, faces: Faces, contacts: &Contacts, status: &[Status]) -> State {
+    pub(super) fn state(
+        &self,
+        faces: Meeting,
+        contactors: &[Contactor],
+        gaps: &[f64],
+        status: &[Status],
+    ) -> State {
         let mut stand = Stand::on(faces);
         for (k, status) in status.iter().enumerate() {
             if status.closed() {
-                stand.add(contacts, k, self.lengths[k], *status != Status::Stick);
+                stand.add(&contactors[k], self.lengths[k], *status != Status::Stick);
             }
         }
         if stand.length == 0.0 {
-            let nearest = (0..status.len()).min_by(|a, b| contacts.gaps[*a].total_cmp(&contacts.gaps[*b]));
+            let nearest = (0..status.len()).min_by(|a, b| gaps[*a].total_cmp(&gaps[*b]));
             match nearest {
-                Some(k) if contacts.gaps[k] <= self.give.gap => stand.add(contacts, k, self.lengths[k], true),
+                Some(k) if gaps[k] <= self.give.gap => stand.add(&contactors[k], self.lengths[k], true),
                 _ => return State::Drifting,
             }
         }
@@ -90,7 +93,7 @@ impl Stance {
 
 /// What the part above the crack stands on.
 struct Stand<'a> {
-    faces: Faces<'a>,
+    faces: Meeting<'a>,
     /// Ends of where both faces are.
     heel: f64,
     toe: f64,
@@ -104,10 +107,10 @@ struct Stand<'a> {
 
 impl<'a> Stand<'a> {
     #[inline(always)]
-    fn on(faces: Faces<'a>) -> Self {
-        let ends = |face: &[f64]| match face.len() / 2 {
-            0 => (f64::NEG_INFINITY, f64::INFINITY),
-            k => (face[0], face[k - 1]),
+    fn on(faces: Meeting<'a>) -> Self {
+        let ends = |face: Face| match face.along {
+            [] => (f64::NEG_INFINITY, f64::INFINITY),
+            along => (along[0], along[along.len() - 1]),
         };
         let (upper, lower) = (ends(faces.upper), ends(faces.lower));
         Stand {
@@ -122,14 +125,13 @@ impl<'a> Stand<'a> {
     }
 
     #[inline(always)]
-    fn add(&mut self, contacts: &Contacts, contactor: usize, length: f64, slips: bool) {
-        let contactor = &contacts.contactors[contactor];
+    fn add(&mut self, contactor: &Contactor, length: f64, slips: bool) {
         let face = if contactor.of_upper {
             self.faces.upper
         } else {
             self.faces.lower
         };
-        let place = face[contactor.node];
+        let place = face.along[contactor.node];
         self.first = self.first.min(place);
         self.last = self.last.max(place);
         self.length += length;
@@ -148,8 +150,8 @@ fn lengths(along: &[f64]) -> Vec<f64> {
 }
 
 /// Shares of the nodes' motions across the crack in the slope of the straight line that fits them best.
-fn slopes(face: &[f64], lengths: &[f64]) -> Vec<f64> {
-    let along = &face[..lengths.len()];
+fn slopes(face: Face, lengths: &[f64]) -> Vec<f64> {
+    let along = face.along;
     let mean = |of: &dyn Fn(f64) -> f64| along.iter().zip(lengths).map(|(x, w)| w * of(*x)).sum::<f64>();
     let middle = mean(&|x| x) / mean(&|_| 1.0);
     let spread = mean(&|x| (x - middle).powi(2));
@@ -162,7 +164,6 @@ fn slopes(face: &[f64], lengths: &[f64]) -> Vec<f64> {
 
 /// Rotation of a face; none of a rigid plane.
 #[inline(always)]
-fn turned(face: &[f64], slopes: &[f64]) -> f64 {
-    let across = &face[slopes.len()..];
-    across.iter().zip(slopes).map(|(n, share)| share * n).sum()
+fn turned(face: Face, slopes: &[f64]) -> f64 {
+    face.across.iter().zip(slopes).map(|(n, share)| share * n).sum()
 }

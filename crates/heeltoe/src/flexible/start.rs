@@ -9,10 +9,13 @@
 //! with the conditions of contact and Coulomb on the motion of the step, as in [`super::coulomb`], until nothing moves
 //! any more. The small `s` holds a part that is free; it plays no part in the state that is found.
 
+use std::ops::Range;
+
 use super::body::{Group, ReducedBody};
 use super::coulomb::Known;
 use super::coupling::{Answer, Crack};
 use super::dam::Dam;
+use super::line::Place;
 use super::observe::mean_along;
 use super::sides::Sides;
 use super::status::Status;
@@ -38,8 +41,10 @@ pub struct Still {
     /// Force and state of each contact.
     pub(super) contact: Vec<f64>,
     pub(super) status: Vec<Status>,
-    /// By how much the crack has slipped since it was bonded.
-    pub slip: f64,
+    /// By how much each crack has slipped since it was bonded, from the crest down.
+    pub slip: Vec<f64>,
+    /// Number of contacts of each that are open.
+    pub open: Vec<usize>,
 }
 
 impl Still {
@@ -51,14 +56,6 @@ impl Still {
             kept(&dam.bodies.upper, &self.modes[0]),
             lower.map_or(Vec::new(), |body| kept(body, &self.modes[1])),
         ]
-    }
-
-    /// Number of contacts that are open.
-    pub fn open(&self) -> usize {
-        self.status
-            .iter()
-            .filter(|status| **status == Status::Open)
-            .count()
     }
 }
 
@@ -143,15 +140,19 @@ pub(super) fn find(dam: &Dam, stop: Stop) -> Option<Still> {
     }
     let mut sides = dam.bodies.map(|body| Side::new(body, HOLD * lowest));
     let mut crack = Crack::new(dam, 0);
-    let bonded = slip(&sides);
+    let places = Place::all(dam);
+    let bonded = slips(&places, &sides);
     let stretched = dam
         .bodies
         .iter()
         .flat_map(|body| [stretch(body), bent(body)].concat());
     let scale = stretched.fold(0.0_f64, |a, u| a.max(u.abs()));
     // A part that begins off the plane below it, as one that leans, is let go as it is.
-    let across = &sides.upper.position[sides.upper.body.nodes..];
-    if sides.lower.is_none() && across.iter().any(|gap| gap.abs() > scale) {
+    let off = |place: &Place| {
+        let faces = place.of(sides.faces(|side| &side.position));
+        faces.lower.along.is_empty() && faces.upper.across.iter().any(|gap| gap.abs() > scale)
+    };
+    if places.iter().any(off) {
         return None;
     }
     let mut settled = 0;
@@ -164,14 +165,16 @@ pub(super) fn find(dam: &Dam, stop: Stop) -> Option<Still> {
         for side in sides.iter_mut() {
             moved = moved.max(side.finish());
         }
-        let upper = &sides.upper;
-        let reach = upper.position[upper.body.nodes - 1] - upper.position[0];
-        if !(moved.is_finite() && moved < reach) {
+        let reach = |place: &Place| {
+            let along = place.of(sides.faces(|side| &side.position)).upper.along;
+            along[along.len() - 1] - along[0]
+        };
+        if !(moved.is_finite() && places.iter().all(|place| moved < reach(place))) {
             return None;
         }
         settled = if moved <= NOTHING * scale { settled + 1 } else { 0 };
         if settled == 6 {
-            return Some(still(&sides, crack, bonded));
+            return Some(still(&places, &sides, crack, &bonded));
         }
     }
     None
@@ -190,7 +193,7 @@ fn step(dam: &Dam, crack: &mut Crack, sides: &mut Sides<Side>) {
     let free = sides.faces(|side| &side.free);
     crack.contacts.relative(free, &mut crack.problem.b);
     crack.problem.h.copy_from_slice(&crack.contacts.gaps);
-    crack.set_up(dam.friction);
+    crack.set_up();
     crack.solver.solve::<Plain>(&mut crack.problem, &mut Known);
     let (upper, lower) = sides.both_mut(|side| &mut side.force);
     crack.impulses(upper, lower);
@@ -213,12 +216,16 @@ fn stretch(body: &ReducedBody) -> Vec<f64> {
     body.at_crack(&pairs.map(amplitude).collect::<Vec<_>>())
 }
 
-fn slip(sides: &Sides<Side>) -> f64 {
-    let faces = sides.faces(|side| &side.position);
-    mean_along(faces.upper) - mean_along(faces.lower)
+fn slips(places: &[Place], sides: &Sides<Side>) -> Vec<f64> {
+    let faces = places
+        .iter()
+        .map(|place| place.of(sides.faces(|side| &side.position)));
+    faces
+        .map(|faces| mean_along(faces.upper) - mean_along(faces.lower))
+        .collect()
 }
 
-fn still(sides: &Sides<Side>, crack: Crack, bonded: f64) -> Still {
+fn still(places: &[Place], sides: &Sides<Side>, crack: Crack, bonded: &[f64]) -> Still {
     let status = crack
         .solver
         .status
@@ -229,14 +236,26 @@ fn still(sides: &Sides<Side>, crack: Crack, bonded: f64) -> Still {
             _ if crack.solver.p[crack.contacts.len() + k] > 0.0 => Status::Stick,
             _ => Status::Open,
         });
+    let status: Vec<Status> = status.collect();
+    let open = |range: Range<usize>| {
+        status[range]
+            .iter()
+            .filter(|status| **status == Status::Open)
+            .count()
+    };
     let (upper, lower) = (&sides.upper, sides.lower.as_ref());
     let both = |of: &dyn Fn(&Side) -> Vec<f64>| [of(upper), lower.map_or(Vec::new(), of)];
     Still {
-        status: status.collect(),
-        slip: slip(sides) - bonded,
+        open: crack.contacts.of_cracks().map(open).collect(),
+        slip: slips(places, sides)
+            .iter()
+            .zip(bonded)
+            .map(|(now, bonded)| now - bonded)
+            .collect(),
         modes: [upper.q.clone(), lower.map_or(Vec::new(), |side| side.q.clone())],
         position: both(&|side| side.position.clone()),
         force: both(&|side| side.force.clone()),
+        status,
         contact: crack.solver.p,
     }
 }

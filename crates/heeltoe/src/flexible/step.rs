@@ -74,11 +74,11 @@ fn run<W: Wide>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run
     moreau.stress::<W>();
     for step in 0..shaking.ground.len() {
         moreau.set_up::<W>();
-        let impulse = moreau.contact::<W>();
+        moreau.contact::<W>();
         let position = moreau.bodies.faces(|body| &body.position);
-        moreau.walk.book(step, position, impulse[1] / shaking.dt);
+        moreau.walk.book(step, position, shaking.dt);
         if moreau.walk.observed() {
-            moreau.walk.gather(&moreau.bodies.upper.impulse, impulse);
+            moreau.walk.gather(moreau.bodies.faces(|body| &body.impulse), 1.0);
         }
         moreau.join();
         // The modes follow, and begin the next step.
@@ -97,7 +97,7 @@ fn run<W: Wide>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run
     }
     let ledger = moreau.balance();
     let tensions = moreau.acting.map_or_else(Vec::new, |acting| acting.peaks);
-    moreau.walk.end(ledger, tensions)
+    moreau.walk.end(ledger, &tensions)
 }
 
 /// The dam on its way.
@@ -197,7 +197,7 @@ impl<'a> Moreau<'a> {
         for ((h, gap), approach) in crack.problem.h.iter_mut().zip(&contacts.gaps).zip(approach) {
             *h = (gap.max(0.0) / dt).max(back * approach);
         }
-        crack.set_up(self.walk.dam.friction);
+        crack.set_up();
     }
 
     /// Let what is in the crack beside contact push the nodes of both faces.
@@ -251,10 +251,9 @@ impl<'a> Moreau<'a> {
         }
     }
 
-    /// Solve the contact problem and move the nodes; the bodies get their impulses, the ledger its works. Returns the sum
-    /// of the impulses along and across the crack.
+    /// Solve the contact problem and move the nodes; the bodies get their impulses, the ledger its works.
     #[inline(always)]
-    fn contact<W: Wide>(&mut self) -> [f64; 2] {
+    fn contact<W: Wide>(&mut self) {
         let crack = &mut self.walk.crack;
         let softness = crack.softness(self.walk.dam.softness());
         let report = match self.still.filter(|_| self.quiet) {
@@ -276,7 +275,7 @@ impl<'a> Moreau<'a> {
                 crack.solver.solve::<W>(&mut crack.problem, &mut faces)
             }
         };
-        self.walk.summary.note(report);
+        self.walk.steps.note(report);
         self.book_contact(softness);
         let before = self.acted();
         if !self.quiet {
@@ -288,26 +287,32 @@ impl<'a> Moreau<'a> {
             }
         }
         self.book_acted(before);
-        self.walk.crack.sums()
     }
 
     /// Book the work of the impulses of contact.
     #[inline(always)]
     fn book_contact(&mut self, softness: f64) {
         let theta = self.step.theta;
+        let ledger = &mut self.ledger;
         let crack = &self.walk.crack;
         let m = crack.contacts.len();
         let (p, u) = (&crack.solver.p, &crack.solver.u);
-        let work = [0..m, m..2 * m].map(|part| {
-            let p = &p[part.clone()];
-            let own = if softness > 0.0 { softness * dot(p, p) } else { 0.0 };
-            (1.0 - theta) * dot(p, &crack.before[part.clone()]) + theta * (dot(p, &u[part]) - own)
-        });
-        let ledger = &mut self.ledger;
-        ledger.friction -= work[0];
-        ledger.impact -= work[1];
-        ledger.gained += (work[0] + work[1]).max(0.0);
-        ledger.turnover += work[0].abs() + work[1].abs();
+        let mut gained = 0.0;
+        for (watch, of) in self.walk.cracks.iter_mut().zip(crack.contacts.of_cracks()) {
+            let work = [of.clone(), m + of.start..m + of.end].map(|part| {
+                let p = &p[part.clone()];
+                let own = if softness > 0.0 { softness * dot(p, p) } else { 0.0 };
+                (1.0 - theta) * dot(p, &crack.before[part.clone()]) + theta * (dot(p, &u[part]) - own)
+            });
+            for (lost, work) in watch.summary.lost.iter_mut().zip(work) {
+                *lost -= work;
+            }
+            ledger.friction -= work[0];
+            ledger.impact -= work[1];
+            ledger.turnover += work[0].abs() + work[1].abs();
+            gained += work[0] + work[1];
+        }
+        ledger.gained += gained.max(0.0);
     }
 
     /// Work of the impulses of water and anchors on the velocities as they are.

@@ -6,6 +6,7 @@ use super::contact::Contacts;
 use super::coulomb::{Known, Problem, Report, Solver};
 use super::coupling::{Answer, Crack};
 use super::dam::Dam;
+use super::line::{Line, Place};
 use super::observe::State;
 use super::sides::{Faces, Sides};
 use super::stance::{Give, Stance};
@@ -42,7 +43,7 @@ fn random(dice: &mut Dice, contacts: usize, coupling: f64, mu: f64) -> Problem {
         b: (0..n).map(|_| dice.roll()).collect(),
         h: (0..contacts).map(|_| dice.roll().max(0.0)).collect(),
         mu_stick: vec![mu; contacts],
-        mu_slip: mu,
+        mu_slip: vec![mu; contacts],
     }
 }
 
@@ -53,7 +54,7 @@ fn violation(problem: &Problem, p: &[f64]) -> f64 {
     (0..n / 2).fold(0.0, |worst, c| {
         let (u_t, u_n) = (u(c), u(n / 2 + c) + problem.h[c]);
         let (p_t, p_n) = (p[c], p[n / 2 + c]);
-        let limit = problem.mu_slip * p_n;
+        let limit = problem.mu_slip[c] * p_n;
         let mut found = [-u_n, -p_n, (u_n * p_n).abs(), p_t.abs() - limit, 0.0];
         // Whoever slips does so against the whole of friction.
         found[4] = (u_t.abs() * (limit - p_t.abs())).max(u_t * p_t);
@@ -110,7 +111,7 @@ fn single(b: [f64; 2], mu: f64) -> (Status, Vec<f64>, Report) {
         b: b.to_vec(),
         h: vec![0.0],
         mu_stick: vec![mu],
-        mu_slip: mu,
+        mu_slip: vec![mu],
     };
     let mut solver = Solver::new(1);
     let report = solver.solve::<Plain>(&mut problem, &mut Known);
@@ -153,7 +154,7 @@ fn pivoting_keeps_the_order_of_the_unknowns() {
         b: vec![0.01, 0.02, -1.0, -1.0],
         h: vec![0.0; 2],
         mu_stick: vec![10.0; 2],
-        mu_slip: 10.0,
+        mu_slip: vec![10.0; 2],
     };
     let mut solver = Solver::new(2);
     let report = solver.solve::<Plain>(&mut problem, &mut Known);
@@ -167,18 +168,24 @@ fn stands(first: usize, slope: f64, status: Status) -> State {
     let along = (0..9).map(|k| 1.25 * f64::from(k));
     let flat: Vec<f64> = along.clone().chain([0.0; 9]).collect();
     let turned: Vec<f64> = along.clone().chain(along.map(|x| slope * (10.0 - x))).collect();
-    let mut contacts = Contacts::new(3, 9, 0);
-    contacts.update(&turned, &[], |_| false);
+    let place = Place::only(9, 0);
+    let mut contacts = Contacts::new(3, &[place]);
+    let faces = |upper| Faces { upper, lower: &[] };
+    contacts.update(faces(&turned), |_| false);
     let give = Give {
         rotation: 1e-3,
         gap: 1e-4,
     };
-    let faces = |upper| Faces { upper, lower: &[] };
-    let stance = Stance::new(give, &contacts, faces(&flat));
+    let stance = Stance::new(give, &contacts.contactors, place.of(faces(&flat)));
     let states: Vec<Status> = (0..9)
         .map(|k| if k < first { Status::Open } else { status })
         .collect();
-    stance.state(faces(&turned), &contacts, &states)
+    stance.state(
+        place.of(faces(&turned)),
+        &contacts.contactors,
+        &contacts.gaps,
+        &states,
+    )
 }
 
 #[test]
@@ -242,10 +249,9 @@ fn what_has_not_moved_keeps_its_answer() {
                 upper: body(&mut dice),
                 lower: Some(body(&mut dice)),
             },
-            friction: [0.6; 2],
+            cracks: vec![Line::only([5, 5], [0.6; 2], Give::default())],
             contactors,
             inside: Inside::default(),
-            give: Give::default(),
             still: None,
         };
         let answers = answers(&mut dice);

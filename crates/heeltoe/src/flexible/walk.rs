@@ -1,57 +1,147 @@
-//! What every scheme does around its steps: the crack, what is read off it, frames, and whether the dam is still there.
+//! What every scheme does around its steps: the cracks, what is read off them, frames, and whether the dam is still there.
 //!
 //! A scheme finds where the crack would go without contact, `x_f`, solves the contact problem, and lets its bodies follow;
 //! then the step is booked here, with what happened between the motion before it and the one after.
 
+use std::ops::Range;
+
 use super::body::Group;
+use super::contact::Contactor;
 use super::coupling::Crack;
 use super::dam::{Dam, Wanted};
 use super::envelope::Envelope;
 use super::frames::{Frames, Since, Snapshot};
 use super::ledger::Ledger;
+use super::line::Place;
 use super::observe::{mean_along, Motion};
 use super::result::{Outcome, Run, Summary};
 use super::sides::{Faces, Sides};
-use super::stance::Stance;
+use super::stance::{Give, Stance};
 use super::wide::Wide;
 
 /// A slip or opening of so many widths of the crack is off any scale.
 const REACH: f64 = 100.0;
 
-/// The crack under way, and all that is noted of it.
-pub(super) struct Walk<'a> {
-    pub dam: &'a Dam,
-    pub crack: Crack,
+/// One crack under way, and all that is noted of it.
+pub(super) struct Watch {
+    place: Place,
+    /// Its contacts.
+    contacts: Range<usize>,
     pub summary: Summary,
-    dt: f64,
-    wanted: Wanted<'a>,
     /// Mean position along the crack of the upper face less that of the lower one at the start.
     zero: f64,
     motion: Motion,
     stance: Stance,
     reach: f64,
+}
+
+impl Watch {
+    fn new(
+        dam: &Dam,
+        place: Place,
+        contacts: Range<usize>,
+        contactors: &[Contactor],
+        give: Give,
+        start: Faces,
+    ) -> Self {
+        let faces = place.of(start);
+        let zero = mean_along(faces.upper) - mean_along(faces.lower);
+        let along = place.of(dam.bodies.faces(|body| &body.position)).upper.along;
+        Watch {
+            stance: Stance::new(give, &contactors[contacts.clone()], faces),
+            summary: Summary::default(),
+            zero,
+            motion: Motion::of(faces, zero),
+            reach: REACH * (along[along.len() - 1] - along[0]),
+            contacts,
+            place,
+        }
+    }
+
+    /// Book a step that has brought the nodes here.
+    #[inline(always)]
+    fn book(&mut self, end: f64, dt: f64, position: Faces, crack: &Crack, normal_force: f64) {
+        let faces = self.place.of(position);
+        let after = Motion::of(faces, self.zero);
+        let slip = after.slip - self.motion.slip;
+        let own = self.contacts.clone();
+        let state = self.stance.state(
+            faces,
+            &crack.contacts.contactors[own.clone()],
+            &crack.contacts.gaps[own.clone()],
+            &crack.solver.status[own],
+        );
+        let summary = &mut self.summary;
+        summary.end_time = end;
+        summary.time_by_state[state as usize] += dt;
+        summary.slip_by_state[state.slips_as()] += slip;
+        summary.slip = after.slip;
+        summary.slip_velocity = slip / dt;
+        summary.slip_max = summary.slip_max.max(after.slip);
+        summary.slip_min = summary.slip_min.min(after.slip);
+        summary.rotation_max = summary.rotation_max.max(after.rotation);
+        summary.rotation_min = summary.rotation_min.min(after.rotation);
+        summary.opening_heel = summary.opening_heel.max(after.opening_heel);
+        summary.opening_toe = summary.opening_toe.max(after.opening_toe);
+        summary.peak_normal_force = summary.peak_normal_force.max(normal_force);
+        summary.final_state = state;
+        self.motion = after;
+        self.strikes(crack);
+    }
+
+    /// Count the nodes that have come down in this step, and how fast they came.
+    #[inline(always)]
+    fn strikes(&mut self, crack: &Crack) {
+        let summary = &mut self.summary;
+        let approach = &crack.before[crack.contacts.len()..];
+        for k in self.contacts.clone() {
+            let speed = -approach[k];
+            if crack.solver.status[k].closed() && !crack.closed[k] && speed > 0.0 {
+                summary.impacts += 1;
+                summary.impact_velocity = summary.impact_velocity.max(speed);
+            }
+            summary.penetration = summary.penetration.max(-crack.contacts.gaps[k]);
+        }
+    }
+}
+
+/// The cracks under way, and all that is noted of them.
+pub(super) struct Walk<'a> {
+    pub dam: &'a Dam,
+    /// The contact problem of all cracks.
+    pub crack: Crack,
+    /// From the crest down.
+    pub cracks: Vec<Watch>,
+    /// How the steps were solved, and how the run ends.
+    pub steps: Summary,
+    dt: f64,
+    wanted: Wanted<'a>,
     since: Since,
     frames: Frames,
     envelope: Option<Envelope<'a>>,
 }
 
 impl<'a> Walk<'a> {
-    /// `start` is where the nodes of both faces are.
+    /// `start` is where the nodes of both bodies are.
     pub(super) fn new(dam: &'a Dam, dt: f64, wanted: Wanted<'a>, start: Faces) -> Self {
-        let zero = mean_along(start.upper) - mean_along(start.lower);
-        let upper = &dam.bodies.upper;
-        let crack = Crack::new(dam, upper.dampers);
+        let crack = Crack::new(dam, dam.bodies.upper.dampers);
+        let contactors = &crack.contacts.contactors;
+        let cracks = Place::all(dam)
+            .into_iter()
+            .zip(crack.contacts.of_cracks())
+            .zip(&dam.cracks);
         Walk {
             dam,
-            stance: Stance::new(dam.give, &crack.contacts, start),
+            cracks: cracks
+                .map(|((place, contacts), line)| {
+                    Watch::new(dam, place, contacts, contactors, line.give, start)
+                })
+                .collect(),
             crack,
-            summary: Summary::default(),
+            steps: Summary::default(),
             dt,
             wanted,
-            zero,
-            motion: Motion::of(start, zero),
-            reach: REACH * (upper.position[upper.nodes - 1] - upper.position[0]),
-            since: Since::new(upper),
+            since: Since::new(dam),
             frames: Frames::default(),
             envelope: wanted.stresses.map(Envelope::new),
         }
@@ -69,63 +159,36 @@ impl<'a> Walk<'a> {
         self.observed() && (step + 1).is_multiple_of(self.wanted.stride)
     }
 
-    /// Book a step that has brought the nodes here, with the mean normal force of contact in it.
+    /// Book a step that has brought the nodes here; what the contact problem has found is a force times this `time`.
     #[inline(always)]
-    pub(super) fn book(&mut self, step: usize, position: Faces, normal_force: f64) {
-        let after = Motion::of(position, self.zero);
-        let slip = after.slip - self.motion.slip;
-        let state = self
-            .stance
-            .state(position, &self.crack.contacts, &self.crack.solver.status);
-        let summary = &mut self.summary;
-        summary.end_time = (step + 1) as f64 * self.dt;
-        summary.time_by_state[state as usize] += self.dt;
-        summary.slip_by_state[state.slips_as()] += slip;
-        summary.slip = after.slip;
-        summary.slip_velocity = slip / self.dt;
-        summary.slip_max = summary.slip_max.max(after.slip);
-        summary.slip_min = summary.slip_min.min(after.slip);
-        summary.rotation_max = summary.rotation_max.max(after.rotation);
-        summary.rotation_min = summary.rotation_min.min(after.rotation);
-        summary.opening_heel = summary.opening_heel.max(after.opening_heel);
-        summary.opening_toe = summary.opening_toe.max(after.opening_toe);
-        summary.peak_normal_force = summary.peak_normal_force.max(normal_force);
-        summary.final_state = state;
-        self.motion = after;
-        self.strikes();
-    }
-
-    /// Count the nodes that have come down in this step, and how fast they came.
-    #[inline(always)]
-    fn strikes(&mut self) {
-        let (crack, summary) = (&self.crack, &mut self.summary);
-        let approach = &crack.before[crack.contacts.len()..];
-        for (k, status) in crack.solver.status.iter().enumerate() {
-            let speed = -approach[k];
-            if status.closed() && !crack.closed[k] && speed > 0.0 {
-                summary.impacts += 1;
-                summary.impact_velocity = summary.impact_velocity.max(speed);
-            }
-            summary.penetration = summary.penetration.max(-crack.contacts.gaps[k]);
+    pub(super) fn book(&mut self, step: usize, position: Faces, time: f64) {
+        let end = (step + 1) as f64 * self.dt;
+        for watch in &mut self.cracks {
+            let [_, normal] = self.crack.sums(watch.contacts.clone());
+            watch.book(end, self.dt, position, &self.crack, normal / time);
         }
     }
 
-    /// Add the impulses of a step, on the nodes of the upper face and in all, to those since the last frame.
+    /// Add the impulses of a step, on the nodes of both bodies, to those since the last frame; what the contact problem
+    /// has found times `factor` are impulses.
     #[inline(always)]
-    pub(super) fn gather(&mut self, nodes: &[f64], sum: [f64; 2]) {
-        self.since.add(nodes, sum, self.dt);
+    pub(super) fn gather(&mut self, nodes: Faces, factor: f64) {
+        let crack = &self.crack;
+        let sum = |watch: &Watch| crack.sums(watch.contacts.clone()).map(|sum| sum * factor);
+        self.since.add(nodes, self.cracks.iter().map(sum), self.dt);
     }
 
     /// Keep a frame.
     pub(super) fn keep(&mut self, position: Faces, modes: &Sides<&[Group]>, ledger: &Ledger) {
-        self.frames.keep(&Snapshot {
-            faces: position,
-            status: &self.crack.solver.status,
-            motion: &self.motion,
-            since: &self.since,
-            summary: &self.summary,
+        let (since, status) = (&self.since, &self.crack.solver.status);
+        let cracks = self.cracks.iter().enumerate().map(|(k, watch)| Snapshot {
+            status: &status[watch.contacts.clone()],
+            motion: &watch.motion,
+            force: since.force(k),
+            summary: &watch.summary,
             ledger,
         });
+        self.frames.keep(cracks, position, since, status);
         if self.wanted.modes {
             self.frames.keep_modes(&self.dam.bodies, modes);
         }
@@ -142,17 +205,20 @@ impl<'a> Walk<'a> {
     #[inline(always)]
     pub(super) fn stress<W: Wide>(&mut self, modes: &Sides<&[Group]>) {
         if let Some(envelope) = &mut self.envelope {
-            envelope.add::<W>(self.summary.end_time, modes);
+            envelope.add::<W>(self.cracks[0].summary.end_time, modes);
         }
     }
 
-    /// Whether the upper part is off any scale, which the outcome says, or somebody has stopped the run.
+    /// Whether a part above a crack is off any scale, which the outcome says, or somebody has stopped the run.
     #[inline(always)]
     pub(super) fn lost(&mut self) -> bool {
-        let (slip, opening) = (self.motion.slip, self.motion.opening_heel);
-        let here = slip.abs() < self.reach && opening.abs() < self.reach;
-        if !here {
-            self.summary.outcome = if slip.is_finite() {
+        let mut here = true;
+        for Watch { motion, reach, .. } in &self.cracks {
+            if motion.slip.abs() < *reach && motion.opening_heel.abs() < *reach {
+                continue;
+            }
+            here = false;
+            self.steps.outcome = if motion.slip.is_finite() && self.steps.outcome != Outcome::BlownUp {
                 Outcome::Lost
             } else {
                 Outcome::BlownUp
@@ -162,14 +228,21 @@ impl<'a> Walk<'a> {
     }
 
     /// Hand over what there is to tell.
-    pub(super) fn end(self, ledger: Ledger, tensions: Vec<f64>) -> Run {
-        let summary = Summary {
+    pub(super) fn end(self, ledger: Ledger, tensions: &[f64]) -> Run {
+        let steps = &self.steps;
+        let told = |watch: Watch| Summary {
             ledger,
-            tensions,
-            ..self.summary
+            tensions: tensions.to_vec(),
+            outcome: steps.outcome,
+            steps: steps.steps,
+            iterations: steps.iterations,
+            most_iterations: steps.most_iterations,
+            sweeps: steps.sweeps,
+            residual: steps.residual,
+            ..watch.summary
         };
         Run {
-            summary,
+            cracks: self.cracks.into_iter().map(told).collect(),
             frames: self.frames,
             extremes: self.envelope.map(Envelope::end),
         }

@@ -20,12 +20,14 @@ from heeltoe.models.flexible.stress.places import StressPlaces, stress_places
 # The earthquake plays no part in any dam, nor does what is asked of a run or read by other models.
 _OF_RUNS = ("time_step", "evidence", "theta", "penalty_factor", "newmark_gamma", "newmark_beta")
 _ANY: Any = dict.fromkeys(("title", "project", "motion", "analysis", "limits", "statics", "decoupled"), True)
+_FRICTION = {"friction", "static_friction", "kinetic_friction"}
 _STRENGTH = {"tensile_strength", "dynamic_tension"}
 #: What a dam that is ready to be shaken does not depend on.
 NOT_OF_DAM: Any = _ANY | {"crack": {"restitution"}, "concrete": _STRENGTH, "flexible": set(_OF_RUNS)}
 #: What its modes do not depend on.
 NOT_OF_MODES: Any = _ANY | {
-    "crack": {"restitution", "friction", "static_friction", "kinetic_friction"},
+    "crack": {"restitution", *_FRICTION},
+    "further_cracks": {"__all__": _FRICTION},
     "concrete": {"damping", *_STRENGTH},
     "flexible": {*_OF_RUNS, "damping", "damping_on_water", "contact", "contactors"},
 }
@@ -39,8 +41,8 @@ class BondedDam(Dam):
     ----------
     bent
         (2 n,) displacements of each body under the static loads [m].
-    bonded_force
-        (2 k,) forces on the upper body's crack nodes then, x and z in turn [N].
+    bonded_forces
+        (2 k,) forces on the nodes of each crack's upper face then, x and z in turn [N].
     modes
         Of each body.
     basis_error
@@ -51,7 +53,7 @@ class BondedDam(Dam):
     """
 
     bent: tuple[Floats, ...]
-    bonded_force: Floats
+    bonded_forces: tuple[Floats, ...]
     modes: tuple[Modes, ...]
     basis_error: float
     stress_places: tuple[StressPlaces, ...]
@@ -90,13 +92,13 @@ def _build(case: Case) -> BondedDam:
     mesh = dam_mesh(case)
     check_cost(case, building([part_of(case, each.crack.size, each.nodes.size) for each in mesh.parts]))
     bonded = dam(case, mesh)
-    *bent, force = bonded_state(bonded)
+    bent, forces = bonded_state(bonded)
     modes, errors = _modes(case, bonded)
     return BondedDam(
         bodies=bonded.bodies,
         tie=bonded.tie,
-        bent=tuple(bent[: len(bonded.bodies)]),
-        bonded_force=force,
+        bent=bent,
+        bonded_forces=forces,
         modes=modes,
         basis_error=max(errors),
         stress_places=tuple(map(stress_places, bonded.bodies, modes)),

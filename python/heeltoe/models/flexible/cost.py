@@ -6,6 +6,7 @@ elements across; tests/models/flexible/test_cost.py measures again. Both numbers
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -74,10 +75,13 @@ def part_of(case: Case, nodes: int, freedoms: float | None = None) -> Part:
 def parts_of(case: Case) -> list[Part]:
     """Return what the parts of a case will be, without their meshes."""
     options = case.flexible
-    across = [options.elements_across]
-    if case.crack.elevation > 0.0:
+    across = [options.elements_across] * (1 + len(case.further_cracks))
+    lowest = min(case.crack.elevation, *(each.elevation for each in case.further_cracks), math.inf)
+    if lowest > 0.0:
         across.append(options.elements_across_below or options.elements_across)
-    return [part_of(case, 2 * each + 1) for each in across]
+    # A part between two cracks has the nodes of both.
+    both = [int(0 < place <= len(case.further_cracks)) for place in range(len(across))]
+    return [part_of(case, (1 + twice) * (2 * each + 1)) for each, twice in zip(across, both, strict=True)]
 
 
 def building(parts: Sequence[Part]) -> Cost:

@@ -27,7 +27,7 @@ TOLD = 5
 
 @dataclass(frozen=True, eq=False)
 class Damping:
-    """Damping of the parts of a dam, the upper one first; m modes each.
+    """Damping of the parts of a dam, from the crest down; m modes each.
 
     Attributes
     ----------
@@ -76,7 +76,7 @@ def damping_of(case: Case, dam: Dam, modes: tuple[Modes, ...]) -> Damping:
     dam
         The elastic bodies.
     modes
-        Of the upper and, if there is one, of the lower part.
+        Of each part.
     """
     choice, ratio = case.flexible.damping, case.concrete.damping
     omega, bonded = _bonded(dam, modes, _MODAL + 1 if choice == "modal" else TOLD)
@@ -86,9 +86,9 @@ def damping_of(case: Case, dam: Dam, modes: tuple[Modes, ...]) -> Damping:
         coefficients = (0.0, 2.0 * ratio / omega[0])
     elif choice == "modal":
         coefficients = None
-    lag = _crack_motion(dam, modes) if choice in ("relative", "modal") else ()
+    lags = _crack_motions(dam, modes) if choice in ("relative", "modal") else []
     dry = choice == "relative" and not case.flexible.damping_on_water
-    water = _water_motion(dam, modes, lag) if dry else ()
+    water = _water_motion(dam, modes, lags) if dry else ()
     if dry:
         coefficients = _dry_rayleigh(omega, 1.0 - _norms(water, bonded), ratio)
     mass, stiffness = coefficients or (0.0, 2.0 * ratio / omega[-1])
@@ -96,18 +96,21 @@ def damping_of(case: Case, dam: Dam, modes: tuple[Modes, ...]) -> Damping:
     rows: tuple[Floats, ...] = tuple(np.empty((0, each.omega_squared.size)) for each in modes)
     free = sticking
     if choice in ("relative", "deformation"):
-        sticking[0][: modes[0].rigid] = 0.0
+        for coefficients_of, each in zip(sticking, modes, strict=True):
+            coefficients_of[: each.rigid] = 0.0
     if choice == "relative":
-        rows = tuple(math.sqrt(mass) * np.vstack(both) for both in zip(lag, *([water] if dry else []), strict=True))
+        rows = tuple(
+            math.sqrt(mass) * np.vstack(all_of) for all_of in zip(*lags, *([water] if dry else []), strict=True)
+        )
     elif choice == "modal":
         below = omega[:-1]
         shares = np.sqrt(below * (2.0 * ratio - stiffness * below))[:, None]
-        rows = _without_slip([shares * each[:-1] for each in bonded], lag, modes[0].rigid)
+        rows = _without_slip([shares * each[:-1] for each in bonded], lags, modes)
     elif choice == "thesis":
         free = (np.zeros_like(sticking[0]), *(_own(each, ratio) for each in modes[1:]))
     signs = np.ones(len(rows[0]))
     if dry:
-        signs[len(lag[0]) :] = -1.0
+        signs[sum(len(lag[0]) for lag in lags) :] = -1.0
     ratios = _ratios(sticking, (rows, signs), omega, bonded)[:TOLD]
     return Damping(sticking, free, rows, signs, coefficients, periods, ratios)
 
@@ -133,40 +136,44 @@ def _bonded(dam: Dam, modes: tuple[Modes, ...], count: int) -> tuple[Floats, tup
     return np.sqrt(squares), tuple((basis.shapes.T @ piece).T for basis, piece in zip(modes, pieces, strict=True))
 
 
-def _crack_motion(dam: Dam, modes: tuple[Modes, ...]) -> tuple[Floats, ...]:
-    """Return rows (3, m) for each part: how the upper part would have to move as a rigid body, in addition to the
-    motion of its rigid modes, to follow the lower face without slip; with the sign of a lag.
+def _crack_motions(dam: Dam, modes: tuple[Modes, ...]) -> list[list[Floats]]:
+    """Return for each crack rows (3, m) for each part: how the part above it would have to move as a rigid body, in
+    addition to the motion of its rigid modes, to follow the lower face without slip; with the sign of a lag.
 
     The rigid motion is fitted to the nodes of a crack face by least squares along the crack. Zero while the crack is
     bonded means that the fits to both faces are the same.
     """
-    upper, basis = dam.upper, modes[0]
-    rigid = basis.shapes[:, : basis.rigid]
-    face = dofs(upper.mesh.crack)
-    rows = [_fit(upper.mesh.nodes[upper.mesh.crack], rigid[face]) @ basis.shapes[face]]
-    rows[0][:, : basis.rigid] = 0.0
-    if dam.lower is not None:
-        crack = dam.lower.mesh.crack
-        points = dam.lower.mesh.nodes[crack]
-        plane = np.linalg.lstsq(_plane(upper.mesh.nodes[upper.mesh.crack]), rigid[face], rcond=None)[0]
-        rows.append(-_fit(points, _plane(points) @ plane) @ modes[1].shapes[dofs(crack)])
-    return tuple(rows)
+    found = []
+    for crack in range(dam.free):
+        upper, basis, lower = dam.bodies[crack].mesh, modes[crack], dam.below(crack)
+        rigid = basis.shapes[:, : basis.rigid]
+        face, points = dofs(upper.faces[-1]), upper.nodes[upper.faces[-1]]
+        rows = [np.zeros((3, each.omega_squared.size)) for each in modes]
+        rows[crack] = _fit(points, rigid[face]) @ basis.shapes[face]
+        rows[crack][:, : basis.rigid] = 0.0
+        if lower is not None:
+            met = lower.mesh.faces[0]
+            plane = np.linalg.lstsq(_plane(points), rigid[face], rcond=None)[0]
+            points = lower.mesh.nodes[met]
+            rows[crack + 1] = -_fit(points, _plane(points) @ plane) @ modes[crack + 1].shapes[dofs(met)]
+        found.append(rows)
+    return found
 
 
-def _water_motion(dam: Dam, modes: tuple[Modes, ...], lag: tuple[Floats, ...]) -> tuple[Floats, ...]:
+def _water_motion(dam: Dam, modes: tuple[Modes, ...], lags: list[list[Floats]]) -> tuple[Floats, ...]:
     """Return rows (w, m) for each part whose squares are the mass of the water times that of the motion that the mass
-    term damps: of the upper part relative to the rigid motion fitted to the crack face, of the lower part all."""
-    upper, basis = dam.upper, modes[0]
-    wet, root = _root_of_water(upper)
-    rigid = root @ basis.shapes[wet, : basis.rigid]
-    own = root @ basis.shapes[wet]
-    own[:, : basis.rigid] = 0.0
-    rows = [own - rigid @ lag[0]]
-    if dam.lower is not None:
-        wet, root = _root_of_water(dam.lower)
-        rows[0] = np.vstack([rows[0], np.zeros((len(root), rows[0].shape[1]))])
-        rows.append(np.vstack([-rigid @ lag[1], root @ modes[1].shapes[wet]]))
-    return tuple(rows)
+    term damps: of a part above a crack relative to the rigid motion fitted to its face there, of one that is held all."""
+    found: list[list[Floats]] = [[] for _ in modes]
+    for place, (body, basis) in enumerate(zip(dam.bodies, modes, strict=True)):
+        wet, root = _root_of_water(body)
+        rigid = root @ basis.shapes[wet, : basis.rigid]
+        own = root @ basis.shapes[wet]
+        own[:, : basis.rigid] = 0.0
+        for other, rows in enumerate(found):
+            moved = np.zeros((len(root), modes[other].omega_squared.size)) if other != place else own
+            lag = lags[place][other] if place < dam.free and other in (place, place + 1) else None
+            rows.append(moved if lag is None else moved - rigid @ lag)
+    return tuple(np.vstack(rows) for rows in found)
 
 
 def _root_of_water(body: Body) -> tuple[NDArray[np.int64], Floats]:
@@ -212,11 +219,14 @@ def _fit(points: Floats, shapes: Floats) -> Floats:
     return np.asarray(np.linalg.solve(shapes.T @ twice, twice.T), dtype=np.float64)
 
 
-def _without_slip(rows: list[Floats], lag: tuple[Floats, ...], rigid: int) -> tuple[Floats, ...]:
-    """Take out of rows what they feel of the rigid motion of the upper part against the lower face."""
-    held = rows[0][:, :rigid].copy()
-    rows[0][:, :rigid] = 0.0
-    return tuple(each - held @ motion for each, motion in zip(rows, lag, strict=True))
+def _without_slip(rows: list[Floats], lags: list[list[Floats]], modes: tuple[Modes, ...]) -> tuple[Floats, ...]:
+    """Take out of rows what they feel of the rigid motion of each part above a crack against the lower face."""
+    for place, lag in enumerate(lags):
+        count = modes[place].rigid
+        held = rows[place][:, :count].copy()
+        rows[place][:, :count] = 0.0
+        rows = [each - held @ motion for each, motion in zip(rows, lag, strict=True)]
+    return tuple(rows)
 
 
 def _ratios(

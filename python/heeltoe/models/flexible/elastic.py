@@ -1,4 +1,4 @@
-"""Two elastic bodies: stiffness, mass, static loads, the bonded dam and stresses.
+"""Elastic bodies: stiffness, mass, static loads, the bonded dam and stresses.
 
 Linear elasticity on eight-node serendipity quadrilaterals with 3 x 3 Gauss points and consistent mass (Zienkiewicz
 and Taylor, The Finite Element Method, volume 1), per metre of dam. Degree of freedom 2 i is the displacement of node
@@ -6,7 +6,7 @@ i downstream, 2 i + 1 that upwards."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -73,15 +73,16 @@ class Body:
 
 @dataclass(frozen=True, eq=False)
 class Dam:
-    """The parts of a dam, and how they hang together while the crack is bonded.
+    """The parts of a dam, and how they hang together while its cracks are bonded.
 
     Attributes
     ----------
     bodies
-        The part above the crack, free, and, if the foundation is no rigid plane, the part below it.
+        The parts above a crack, free, from the crest down, and, if the foundation is no rigid plane, the part below all
+        cracks. Crack k is between bodies k and k + 1, or below the last.
     tie
-        Displacements of the upper, then of the lower part are ``tie @ free``, with the crack bonded and the base
-        held. Where the nodes of the two faces do not match, those of the upper follow the lower face.
+        Displacements of one part after the other are ``tie @ free``, with the cracks bonded and the base held. Where the
+        nodes of the two faces of a crack do not match, those of the upper follow the lower face.
     """
 
     bodies: tuple[Body, ...]
@@ -94,8 +95,17 @@ class Dam:
 
     @property
     def lower(self) -> Body | None:
-        """The part below it; None where the foundation is a rigid plane."""
+        """The part below the first crack; None where that is on a rigid plane."""
         return self.bodies[1] if len(self.bodies) > 1 else None
+
+    @property
+    def free(self) -> int:
+        """How many parts are free, which is how many cracks there are."""
+        return len(self.bodies) - bool(self.bodies[-1].mesh.fixed.size)
+
+    def below(self, crack: int) -> Body | None:
+        """The part below a crack, None where that is on a rigid plane."""
+        return self.bodies[crack + 1] if crack + 1 < len(self.bodies) else None
 
 
 def dam(case: Case, mesh: DamMesh) -> Dam:
@@ -113,31 +123,35 @@ def dam(case: Case, mesh: DamMesh) -> Dam:
     InputError
         Where the case has no Young's modulus, or one that is no solid's.
     """
-    return Dam(tuple(_body(case, each, above=each is mesh.upper) for each in mesh.parts), _tie(mesh))
+    return Dam(tuple(_body(case, each, place) for place, each in enumerate(mesh.parts)), _tie(mesh))
 
 
-def bonded_state(dam: Dam) -> tuple[Floats, Floats, Floats]:
-    """Return the static equilibrium under all static loads with the crack bonded.
+def bonded_state(dam: Dam) -> tuple[tuple[Floats, ...], tuple[Floats, ...]]:
+    """Return the static equilibrium under all static loads with the cracks bonded.
 
     Returns
     -------
-    upper, lower : ndarray
-        Displacements of the two parts, shape (2 n,) each [m]; empty where there is no lower part.
-    crack_force : ndarray, shape (2 k,)
-        Forces of the lower part, or of the foundation, on the crack nodes of the upper [N per m], x downstream and z
-        up in turn.
+    displacements : tuple of ndarray
+        Of each part, shape (2 n,) [m].
+    crack_forces : tuple of ndarray, shape (2 k,)
+        For each crack forces of what is below it on the nodes of its upper face [N per m], x downstream and z up in
+        turn.
     """
     from scipy.sparse.linalg import splu
 
     load = np.concatenate([body.load for body in dam.bodies])
     stiffness = (dam.tie.T @ side_by_side(dam, "stiffness") @ dam.tie).tocsc()
     displacements = dam.tie @ splu(stiffness).solve(dam.tie.T @ load)
-    upper, lower = np.split(displacements, [dam.upper.load.size])
-    return upper, lower, (dam.upper.stiffness @ upper - dam.upper.load)[dofs(dam.upper.mesh.crack)]
+    moved = np.split(displacements, np.cumsum([body.load.size for body in dam.bodies])[:-1])
+    forces = [
+        (body.stiffness @ each - body.load)[dofs(body.mesh.faces[-1])]
+        for body, each in zip(dam.bodies[: dam.free], moved, strict=False)
+    ]
+    return tuple(moved), tuple(forces)
 
 
 def side_by_side(dam: Dam, name: str) -> Sparse:
-    """Return a matrix of both parts, upper first and unconnected; `name` is that of a field of :class:`Body`."""
+    """Return a matrix of all parts, upper first and unconnected; `name` is that of a field of :class:`Body`."""
     return sparse.block_diag([getattr(body, name) for body in dam.bodies], format="csc")
 
 
@@ -199,7 +213,8 @@ def principal(
     return centre + radius, centre - radius, np.arctan2(2.0 * xz, xx - zz) / 2.0
 
 
-def _body(case: Case, mesh: BodyMesh, *, above: bool) -> Body:
+def _body(case: Case, mesh: BodyMesh, place: int) -> Body:
+    above = place == 0
     elasticity = _elasticity(case)
     stiffness, mass, lift = _matrices(mesh, elasticity)
     concrete = case.concrete.density * mass
@@ -207,12 +222,14 @@ def _body(case: Case, mesh: BodyMesh, *, above: bool) -> Body:
         "weight": -case.concrete.density * case.gravity * lift,
         "reservoir": water_forces(mesh, case, upstream=True),
         "tailwater": water_forces(mesh, case, upstream=False),
-        "uplift": uplift_forces(mesh, case, above=above),
+        "uplift": np.sum(
+            [uplift_forces(face, alone, above=up) for face, alone, up in _at_cracks(case, mesh, place)], axis=0
+        ),
     }
     if above and any(nappe_heads(case)):
         loads["nappe"] = nappe_forces(mesh, case)
     if case.ice:
-        loads["ice"] = ice_forces(mesh, case, above=above)
+        loads["ice"] = _ice(case, mesh, place)
     if case.silt:
         loads["silt"] = silt_forces(mesh, case)
     if case.anchors:
@@ -224,6 +241,20 @@ def _body(case: Case, mesh: BodyMesh, *, above: bool) -> Body:
     water = virtual_masses(mesh, case, above=above)
     load = np.sum(list(loads.values()), axis=0)
     return Body(mesh, stiffness, (concrete + water).tocsc(), concrete, load, loads, following, elasticity)
+
+
+def _at_cracks(case: Case, mesh: BodyMesh, place: int) -> list[tuple[BodyMesh, Case, bool]]:
+    """Return a part with each of its crack faces alone, the case with that crack alone, and whether it is above it."""
+    found = [] if place == 0 else [(replace(mesh, crack=mesh.faces[0], top=0), case.cracks[place - 1], False)]
+    if place < len(case.cracks):
+        found.append((replace(mesh, crack=mesh.faces[-1], top=0), case.cracks[place], True))
+    return found
+
+
+def _ice(case: Case, mesh: BodyMesh, place: int) -> Floats:
+    """Return the push of the ice on a part, which has it where no other one has."""
+    pushes = [ice_forces(face, alone, above=up) for face, alone, up in _at_cracks(case, mesh, place)]
+    return pushes[0] if all(push.any() for push in pushes) else np.zeros_like(pushes[0])
 
 
 def _elasticity(case: Case) -> Floats:
@@ -289,28 +320,36 @@ def _skfem_mesh(mesh: BodyMesh) -> tuple[Any, Integers, Integers]:
 
 def _tie(mesh: DamMesh) -> Sparse:
     """Eliminate what is held or follows."""
-    upper, lower = mesh.upper, mesh.lower
-    size = upper.nodes.size
-    loose = np.setdiff1d(np.arange(size), dofs(upper.crack))
-    if lower is None:
-        return sparse.csr_array((np.ones(loose.size), (loose, np.arange(loose.size))), (size, loose.size))
-    free = np.setdiff1d(np.arange(lower.nodes.size), dofs(lower.fixed))
-    column = np.full(lower.nodes.size, -1)
-    column[free] = loose.size + np.arange(free.size)
-    leaders, shares = _led(upper, lower)
-    followers = np.repeat(upper.crack, 3)
-    rows = np.concatenate([loose, size + free, 2 * followers, 2 * followers + 1])
-    columns = np.concatenate([np.arange(loose.size), column[free], column[2 * leaders], column[2 * leaders + 1]])
-    values = np.concatenate([np.ones(loose.size + free.size), shares, shares])
-    there = (columns >= 0) & (values != 0.0)
-    shape = (size + lower.nodes.size, loose.size + free.size)
-    return sparse.csr_array((values[there], (rows[there], columns[there])), shape)
+    parts = mesh.parts
+    starts = np.cumsum([0, *(part.nodes.size for part in parts)])
+    rows, columns, values = [], [], []
+    # The column of each displacement that is free.
+    column = np.full(starts[-1], -1)
+    count = 0
+    for part, start in zip(parts, starts, strict=False):
+        held = dofs(part.fixed if part.fixed.size else part.faces[-1])
+        free = start + np.setdiff1d(np.arange(part.nodes.size), held)
+        column[free] = count + np.arange(free.size)
+        count += free.size
+        rows.append(free)
+        columns.append(column[free])
+        values.append(np.ones(free.size))
+    for upper, lower, high, low in zip(parts, parts[1:], starts, starts[1:], strict=False):
+        leaders, shares = _led(upper, lower)
+        followers = np.repeat(upper.faces[-1], 3)
+        for axis in (0, 1):
+            rows.append(high + 2 * followers + axis)
+            columns.append(column[low + 2 * leaders + axis])
+            values.append(shares)
+    row, place, value = (np.concatenate(each) for each in (rows, columns, values))
+    there = (place >= 0) & (value != 0.0)
+    return sparse.csr_array((value[there], (row[there], place[there])), (starts[-1], count))
 
 
 def _led(upper: BodyMesh, lower: BodyMesh) -> tuple[Integers, Floats]:
     """Return for each crack node of the upper part three nodes of the lower face and their shares in it, flat."""
     # Along a straight crack that is not upright, x tells the places as well as the distance does.
-    x, face = upper.nodes[upper.crack, 0], lower.nodes[lower.crack, 0]
+    x, face = upper.nodes[upper.faces[-1], 0], lower.nodes[lower.faces[0], 0]
     edge = 2 * np.searchsorted(face[2:-1:2], x)
     start, middle, end = face[edge], face[edge + 1], face[edge + 2]
     bend, slope = start - 2.0 * middle + end, (end - start) / 2.0
@@ -318,4 +357,4 @@ def _led(upper: BodyMesh, lower: BodyMesh) -> tuple[Integers, Floats]:
     s = 2.0 * (x - middle) / (slope + np.sqrt(slope**2 + 2.0 * bend * (x - middle)))
     shares = edge_shapes(np.clip(s, -1.0, 1.0))
     shares[np.abs(shares) < 1e-12] = 0.0
-    return lower.crack[edge[:, None] + [0, 1, 2]].reshape(-1), shares.reshape(-1)
+    return lower.faces[0][edge[:, None] + [0, 1, 2]].reshape(-1), shares.reshape(-1)

@@ -11,7 +11,8 @@ from heeltoe.models.flexible.shaken import ShakenDam
 
 
 def self_excitation(shaken: ShakenDam, run: DamRun) -> Growth | None:
-    """Return how a vibration of the dam grows as it slides; None where it never slides.
+    """Return how a vibration of the dam grows as it slides; None where it never slides, or has several cracks, of which
+    any number may slide at once.
 
     Parameters
     ----------
@@ -23,7 +24,7 @@ def self_excitation(shaken: ShakenDam, run: DamRun) -> Growth | None:
     """
     raw = run.summary
     sliding = raw["time_sliding"] + raw["time_slide_rocking"]
-    if sliding <= 0.0:
+    if sliding <= 0.0 or len(shaken.dam.lines) > 1:
         return None
     rate, period = growth_of(shaken.dam, shaken.case.crack.mu_kinetic)
     found = Growth(rate, period, sliding, None)

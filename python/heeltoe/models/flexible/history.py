@@ -36,11 +36,13 @@ class CrackHistory:
     status
         (f, c) status of each watched node, counting :data:`heeltoe.kernel.CONTACT_STATUSES`.
     modes
-        (f, m) amplitudes of the modes of the upper and, if there is one, of the lower part.
+        (f, m) amplitudes of the modes of each part, from the crest down.
     dam
         The dam they belong to.
     contactors
         Which nodes are watched, 1 to 5 as in ``flexible.contactors`` of the case.
+    place
+        Which of the dam's cracks it is, from the crest down.
     """
 
     time: Floats
@@ -51,6 +53,7 @@ class CrackHistory:
     modes: tuple[Floats, ...]
     dam: FlexibleDam
     contactors: int = 3
+    place: int = 0
 
     def __repr__(self) -> str:
         nodes = self.upper_position.shape[-1]
@@ -85,6 +88,13 @@ class CrackHistory:
         """Positions of the nodes of the upper and, if there is one, of the lower face."""
         return (self.upper_position,) if self.lower_position is None else (self.upper_position, self.lower_position)
 
+    @property
+    def drawn(self) -> tuple[Floats, ...]:
+        """Where the nodes of the faces are in the mesh (k, 2) [m]."""
+        above, below = self.dam.bodies[self.place].mesh, self.dam.below(self.place)
+        upper = above.nodes[above.faces[-1]]
+        return (upper,) if below is None else (upper, below.mesh.nodes[below.mesh.faces[0]])
+
     def node_gaps(self) -> tuple[Floats, ...]:
         """Return the gap (f, k) [m] from the nodes of each face to the other; NaN where they are beyond its end."""
         if self.lower_position is None:
@@ -98,13 +108,13 @@ class CrackHistory:
     def forces(self) -> Floats:
         """Return `force` with the first frame, which has no time before it, filled from the static state."""
         found = self.force.copy()
-        found[0] = self.dam.crack_force
+        found[0] = self.dam.crack_forces[self.place]
         return found
 
     def node_status(self) -> tuple[NDArray[np.int8], ...]:
         """Return `status` (f, k) for the nodes of each face, -1 where they are not watched."""
         counts = [face.shape[2] for face in self.faces]
-        watched = _watched(counts, self.contactors)
+        watched = watched_nodes(counts, self.contactors)
         total = sum(nodes.size for _, nodes in watched)
         if total != self.status.shape[1]:
             raise ValueError(f"contactors {self.contactors} are {total} nodes, the history has {self.status.shape[1]}")
@@ -141,7 +151,7 @@ def crack_table(history: CrackHistory) -> pa.Table:
         {
             "time_s": np.repeat(history.time, sum(counts)),
             "node": _every_frame(history, [np.arange(count, dtype=np.int32) for count in counts]),
-            "x_m": _every_frame(history, [body.mesh.nodes[body.mesh.crack, 0] for body in history.dam.bodies]),
+            "x_m": _every_frame(history, [points[:, 0] for points in history.drawn]),
             "side": _named(_every_frame(history, [np.full(count, k) for k, count in enumerate(counts)]), _SIDES),
             "along_m": _rows([face[:, 0] for face in history.faces]),
             "across_m": _rows([face[:, 1] for face in history.faces]),
@@ -175,7 +185,7 @@ def _named(numbers: NDArray[Any], names: list[str]) -> pa.Array:
     return pa.DictionaryArray.from_arrays(pa.array(numbers, mask=numbers < 0), names).cast(pa.string())
 
 
-def _watched(nodes: list[int], contactors: int) -> list[tuple[int, Integers]]:
+def watched_nodes(nodes: list[int], contactors: int) -> list[tuple[int, Integers]]:
     """Return the nodes that are watched, face by face, in the order of the kernel (Zhu 2004, section 6.3)."""
     every = [(face, np.arange(count)) for face, count in enumerate(nodes)]
     if len(nodes) == 1:

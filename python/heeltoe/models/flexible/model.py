@@ -6,7 +6,7 @@ import math
 
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
-from heeltoe.kernel.dam import DAM_STATES, DamRun
+from heeltoe.kernel.dam import DamRun
 from heeltoe.mechanics.block import Block, build_block, static_state
 from heeltoe.models.flexible.cost import check_cost
 from heeltoe.models.flexible.excitation import self_excitation
@@ -17,7 +17,8 @@ from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.models.flexible.shaken import ShakenDam
 from heeltoe.models.flexible.stress.envelope import envelope_of
 from heeltoe.models.flexible.stress.tension import tension_of, tension_warnings
-from heeltoe.models.flexible.tables import energy_of, histories_of, history_of, summary_of
+from heeltoe.models.flexible.several import at_cracks, modes_of, penetration_of, several_of
+from heeltoe.models.flexible.tables import energy_of, histories_of, histories_of_cracks, summary_of
 from heeltoe.models.flexible.warnings import outcome_of, stands, warnings_of
 from heeltoe.models.silence import until_rest
 from heeltoe.motion.earthquake import Earthquake
@@ -60,7 +61,8 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
     outcome, advice = outcome_of(dam, block, run)
     # One that slides by itself needs no vibration to go on.
     growth = None if outcome == "unstable" else self_excitation(shaken, run)
-    history, envelope = history_of(case, dam, run), envelope_of(dam, run)
+    cracks, envelope = histories_of_cracks(case, dam, run), envelope_of(dam, run)
+    history = cracks[dam.asked]
     tension = None if outcome == "unstable" else tension_of(found, envelope)
     return FlexibleResponse(
         model="flexible",
@@ -68,27 +70,29 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
         outcome=outcome,
         advice=advice,
         warnings=(
-            *warnings_of(shaken, run, history, evidence, growth, block.sliding_safety_factor, outcome),
+            *warnings_of(shaken, run, cracks, found.evidences, growth, block.sliding_safety_factor, outcome),
             *tension_warnings(tension),
         ),
         summary=summary_of(shaken, run, evidence)
         | {
             "self_excitation": None if growth is None else growth.to_json(),
             "tension": tension,
-            "penetration_m": {"watched": run.summary["penetration"], "any_in_frames": history.deepest_penetration()},
+            "penetration_m": penetration_of(run, history),
+            **several_of(found, cracks),
         },
         energy=energy_of(run),
         motion=earthquake.motion,
         vertical=earthquake.vertical,
         gravity=case.gravity,
-        histories=histories_of(shaken.shaking, run),
-        mode=tuple(DAM_STATES[int(state)] for state in run.frames["state"]),
+        histories=histories_of(shaken.shaking, run, dam.asked),
+        mode=modes_of(run, dam.asked),
         event_log={},
         static=static_state(block),
         references=_references(case, dam),
         silence_s=earthquake.silence,
         crack=history,
         envelope=envelope,
+        at_cracks=at_cracks(found, cracks),
     )
 
 
@@ -121,8 +125,11 @@ def _reach(dam: FlexibleDam, block: Block, run: DamRun) -> float:
     """Return what :func:`until_rest` asks of a run."""
     if outcome_of(dam, block, run)[0] != "ok":
         return -math.inf
-    moved = tuple(run.frames[name] for name in ("time", "slip", "opening_heel", "opening_toe"))
-    return still_since(*moved) + LAST_S if last_change(*moved).rest else math.inf
+    reach = -math.inf
+    for frames in run.all_frames:
+        moved = tuple(frames[name] for name in ("time", "slip", "opening_heel", "opening_toe"))
+        reach = max(reach, still_since(*moved) + LAST_S if last_change(*moved).rest else math.inf)
+    return reach
 
 
 def _references(case: Case, dam: FlexibleDam) -> tuple[str, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -35,6 +35,8 @@ class Answer:
     ----------
     shaken, run, evidence
         What is told.
+    evidences
+        That of each crack, from the crest down; none where none is asked for.
     beside
         The dam with the other mesh, and its run with frames; None where there is none.
     """
@@ -43,6 +45,7 @@ class Answer:
     run: DamRun
     evidence: Evidence | None
     beside: tuple[ShakenDam, DamRun] | None = None
+    evidences: tuple[Evidence, ...] = ()
 
 
 def answer(shaken: ShakenDam, frame_step: float, asked: str, first: DamRun | None = None) -> Answer:
@@ -67,19 +70,24 @@ def answer(shaken: ShakenDam, frame_step: float, asked: str, first: DamRun | Non
     full = asked == "full"
     while True:
         stand = _Stand(trials, level, full=full)
-        found = stand.evidence()
-        finer = _finer(found, level, options)
+        found = stand.evidences()
+        finer = _finer(_worst(found), level, options)
         if finer is None:
             break
-        wanted = _Stand(trials, finer, full=full).wanted(means=found.mean)
+        wanted = _Stand(trials, finer, full=full).wanted(means=any(each.mean for each in found))
         work = trials.work + trials.cost(wanted)
         if work > BUDGET or not trials.expected(finer, work).within(case):
-            found = stand.evidence(spent=True)
+            found = stand.evidences(spent=True)
             break
         level = finer
     mesh = stand.mesh
     beside = None if mesh is None else (trials.dam_of(mesh.mesh), trials.whole(mesh))
-    return Answer(trials.dam_of(level.mesh), trials.whole(level), found, beside)
+    return Answer(trials.dam_of(level.mesh), trials.whole(level), found[trials.asked], beside, found)
+
+
+def _worst(found: Sequence[Evidence]) -> Evidence:
+    """Return the evidence of the crack whose slip is the least certain, the first of them where several are as bad."""
+    return max(found, key=lambda each: (not each.converged, each.slip.uncertainty / each.allowed))
 
 
 def _finer(found: Evidence, level: Level, options: Flexible) -> Level | None:
@@ -147,19 +155,25 @@ class _Stand:
                 wanted.append((self.mesh, SCALES if means else _AS_IT_IS))
         return wanted
 
-    def evidence(self, *, spent: bool = False) -> Evidence:
-        """Return what the run at this level is worth."""
+    def evidences(self, *, spent: bool = False) -> tuple[Evidence, ...]:
+        """Return what the run at this level is worth, crack by crack."""
         trials = self._trials
         trials.prepare([level for level in (self._level, self.mesh) if level is not None], self.wanted(means=False))
-        run, other = trials.numbers(self._level, _AS_IT_IS), trials.numbers(self._step, _AS_IT_IS)
-        varied = trials.numbers(self._cheap, SCALES) if self._full else None
+        found = [self._evidence(crack, spent=spent) for crack in range(trials.cracks)]
+        # Runs and their cost are those of all.
+        return tuple(replace(each, runs=trials.runs, work=trials.work) for each in found)
+
+    def _evidence(self, crack: int, *, spent: bool) -> Evidence:
+        trials = self._trials
+        run, other = trials.numbers(self._level, _AS_IT_IS, crack), trials.numbers(self._step, _AS_IT_IS, crack)
+        varied = trials.numbers(self._cheap, SCALES, crack) if self._full else None
         step = float(run["residual_slip_m"][0] - other["residual_slip_m"][0])
         mean = varied is not None and _scatter(varied["residual_slip_m"], step)
         if mean:
-            varied = trials.numbers(self._own, SCALES)
+            varied = trials.numbers(self._own, SCALES, crack)
         scales = SCALES if mean else _AS_IT_IS
-        beside = None if self.mesh is None else trials.numbers(self.mesh, scales)
-        own = trials.numbers(self._own, scales) if self._full else run
+        beside = None if self.mesh is None else trials.numbers(self.mesh, scales, crack)
+        own = trials.numbers(self._own, scales, crack) if self._full else run
         worth = {
             each.key: _worth(
                 float(own[each.key].mean()) if mean else float(run[each.key][0]),

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, ClassVar, Self
 
+from heeltoe.arrays import Floats
 from heeltoe.result.response import Of, Response
 
 # Not at run time: who asks whether a response is one of these need not wait for the elastic parts.
@@ -17,6 +18,25 @@ if TYPE_CHECKING:
 _LETS_GO_S = 0.02
 
 
+@dataclass(frozen=True, eq=False)
+class AtCrack:
+    """What one of several cracks did.
+
+    Attributes
+    ----------
+    elevation
+        Of its upstream end above the lowest point of the section [m].
+    summary, histories, mode, crack
+        As in :class:`FlexibleResponse`, of this crack.
+    """
+
+    elevation: float
+    summary: Mapping[str, Any]
+    histories: Mapping[str, Floats]
+    mode: tuple[str, ...]
+    crack: CrackHistory
+
+
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
 class FlexibleResponse(Response):
     """Result of the flexible model, signs and attributes as in :class:`~heeltoe.result.response.Response`.
@@ -26,11 +46,28 @@ class FlexibleResponse(Response):
     crack
         What crack and parts did, frame by frame.
     envelope
-        The largest stresses of the upper and, if there is one, of the lower part over the run.
+        The largest stresses of each part over the run, from the crest down.
+    at_cracks
+        Of several cracks what each did, from the crest down; empty where there is one.
     """
 
     crack: CrackHistory
     envelope: tuple[PartEnvelope, ...]
+    at_cracks: tuple[AtCrack, ...] = field(default=())
+
+    def at_crack(self, place: int) -> Self:
+        """Return the response with the numbers and histories of one of several cracks, from the crest down, in the place of
+        those of ``[crack]``; limits and what stands beside it are left out."""
+        found = self.at_cracks[place]
+        return replace(
+            self,
+            summary={**self.summary, **found.summary},
+            histories=found.histories,
+            mode=found.mode,
+            crack=found.crack,
+            limits=(),
+            beside=None,
+        )
 
     elastic: ClassVar[bool] = True
 
@@ -59,6 +96,8 @@ class FlexibleResponse(Response):
     time_step_s = Of[float]("Their length [s].")
     contact_iterations_per_step = Of[float]("Tries until the contact forces are found.")
     contact_residual = Of[float]("Worst violation of the contact conditions, over the impulse.")
+    cracks = Of[list[dict[str, Any]]]("What each of several cracks did, from the crest down.")
+    governing_crack = Of[int]("Which of several cracks slips most, from the crest down.")
     evidence = Of[Mapping[str, Any] | None](
         "How far step, mesh and 1 % of the shaking move it; None where none was wanted."
     )

@@ -14,7 +14,7 @@ from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.flexible.modes import part_periods
 from heeltoe.models.flexible.reduced import FlexibleDam
 from heeltoe.models.flexible.step import longest_step
-from heeltoe.models.flexible.stress.places import StressRows
+from heeltoe.models.flexible.stress.places import StressRows, in_bodies
 from heeltoe.motion.moments import step_ends, step_means
 
 #: A blow lasts about as long as the part above the crack takes for one vibration; the step is this part of it.
@@ -52,7 +52,7 @@ class ShakenDam:
         InputError
             Where the step of the case is too long to follow it, or what acts in the crack is too stiff for any step.
         """
-        period = float(part_periods(self.dam.modes[0], 1)[0])
+        period = self._period()
         given = self.case.flexible.time_step
         wanted = given or usual_step(period)
         step, field = longest_step(self.dam, self.case.flexible.theta, wanted)
@@ -66,9 +66,13 @@ class ShakenDam:
             )
         return given
 
+    def _period(self) -> float:
+        """Return the longest period of the part above a crack that vibrates fastest [s]."""
+        return min(float(part_periods(modes, 1)[0]) for modes in self.dam.modes[: self.dam.free])
+
     def may_step(self, step: float) -> bool:
         """Whether a step [s] still follows the dam and what acts in its crack, so that a run can be compared."""
-        period = float(part_periods(self.dam.modes[0], 1)[0])
+        period = self._period()
         followed, _ = longest_step(self.dam, self.case.flexible.theta, step)
         return step <= min(followed, period / _TOO_FEW_STEPS, self.shaking.end / 2.0)
 
@@ -80,7 +84,7 @@ class ShakenDam:
         if frame_step is not None:
             stride = max(1, min(count, round(frame_step / step)))
             often = max(1, round(min(_STRESS_STEP, frame_step) / step))
-            stresses = StressRows(tuple(each.rows for each in self.dam.stress_places), often)
+            stresses = StressRows(in_bodies(self.dam.stress_places), often)
         return self.dam.kernel.run(
             self._ground(count),
             step,
@@ -94,11 +98,17 @@ class ShakenDam:
     def run_scaled(
         self, step: float, scales: Floats, ending: Ending | None = None, threads: int = 0
     ) -> dict[str, Floats]:
-        """Run once for each factor on the ground motion, side by side; (n,) arrays by name."""
+        """Run once for each factor on the ground motion, side by side; (n,) arrays by name, of the crack asked of."""
+        return self.run_scaled_cracks(step, scales, ending, threads)[self.dam.asked]
+
+    def run_scaled_cracks(
+        self, step: float, scales: Floats, ending: Ending | None = None, threads: int = 0
+    ) -> tuple[dict[str, Floats], ...]:
+        """Return the same for each crack."""
         count, step = self._steps(step)
         pairs = np.column_stack([scales, scales])
         theta = self.case.flexible.theta
-        return self.dam.kernel.run_many(
+        return self.dam.kernel.run_many_cracks(
             self._ground(count), step, theta, pairs, threads=threads, penalty=self._penalty(), ending=ending
         )
 

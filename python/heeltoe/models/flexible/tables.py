@@ -11,8 +11,8 @@ from heeltoe.case.model import Case
 from heeltoe.kernel.dam import DAM_STATES, DamRun
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.flexible.evidence import Evidence
-from heeltoe.models.flexible.history import CrackHistory
-from heeltoe.models.flexible.reduced import FlexibleDam
+from heeltoe.models.flexible.history import CrackHistory, watched_nodes
+from heeltoe.models.flexible.reduced import FlexibleDam, apart
 from heeltoe.models.flexible.shaken import ShakenDam
 from heeltoe.result.response import Energy
 
@@ -28,29 +28,44 @@ def anchors_of(case: Case, run: DamRun) -> list[dict[str, float | None]]:
     return found
 
 
-def history_of(case: Case, dam: FlexibleDam, run: DamRun) -> CrackHistory:
-    """Return the frames of a run."""
-    time = run.frames["time"]
+def histories_of_cracks(case: Case, dam: FlexibleDam, run: DamRun) -> tuple[CrackHistory, ...]:
+    """Return the frames of a run, crack by crack from the crest down."""
+    time, modes = run.frames["time"], apart(run.modes, dam.modes)
+    bodies = [table.reshape(time.size, 2, -1) for table in (run.upper, run.lower)]
+    nodes = bodies[0].shape[2]
+    # Of the only crack the kernel keeps the forces on the upper face alone.
+    split = np.split(run.force, [2 * nodes], axis=1)
+    forces = [table.reshape(time.size, 2, -1) for table in split]
+    found, watched = [], 0
+    for place, line in enumerate(dam.lines):
+        (first, count), (low, counted) = line.upper, line.lower
+        side = place % 2
+        contacts = contactors_of([count, counted][: 1 + bool(counted)], case.flexible.contactors)
+        found.append(
+            CrackHistory(
+                time=time,
+                upper_position=bodies[side][:, :, first : first + count],
+                lower_position=bodies[1 - side][:, :, low : low + counted] if counted else None,
+                force=forces[side][:, :, first : first + count],
+                status=run.status[:, watched : watched + contacts],
+                modes=modes,
+                dam=dam,
+                contactors=case.flexible.contactors,
+                place=place,
+            )
+        )
+        watched += contacts
+    return tuple(found)
 
-    def pairs(table: Floats) -> Floats:
-        return table.reshape(time.size, 2, -1)
 
-    return CrackHistory(
-        time=time,
-        upper_position=pairs(run.upper),
-        lower_position=pairs(run.lower) if run.lower.size else None,
-        force=pairs(run.force),
-        status=run.status,
-        modes=run.modes[: len(dam.modes)],
-        dam=dam,
-        contactors=case.flexible.contactors,
-    )
+def contactors_of(nodes: list[int], contactors: int) -> int:
+    """Return how many nodes of a crack are watched."""
+    return sum(each.size for _, each in watched_nodes(nodes, contactors))
 
 
-def summary_of(shaken: ShakenDam, run: DamRun, evidence: Evidence | None) -> dict[str, Any]:
-    """Return the numbers of the contract."""
-    raw, dam, case = run.summary, shaken.dam, shaken.case
-    coefficients = dam.damping.coefficients
+def crack_summary(dam: FlexibleDam, run: DamRun, place: int, evidence: Evidence | None) -> dict[str, Any]:
+    """Return the numbers of the contract that a crack has."""
+    raw, line = run.summaries[place], dam.lines[place]
     return {
         "residual_slip_m": raw["slip"],
         "peak_slip_downstream_m": raw["slip_max"],
@@ -67,20 +82,37 @@ def summary_of(shaken: ShakenDam, run: DamRun, evidence: Evidence | None) -> dic
             "drifting": raw["slip_drifting"],
         },
         "time_by_mode_s": {name.replace("-", "_"): raw[f"time_{name.replace('-', '_')}"] for name in DAM_STATES},
-        "elastic_give": {"rotation_rad": dam.give[0], "gap_m": dam.give[1]},
+        "elastic_give": {"rotation_rad": line.give[0], "gap_m": line.give[1]},
         "impacts": int(raw["impacts"]),
         "largest_impact_velocity_m_s": raw["largest_impact_velocity"],
         "peak_normal_force_n": raw["peak_normal_force"],
-        "final_mode": run.final_state,
+        "final_mode": DAM_STATES[int(raw["final_state"])],
         "final_slip_velocity_m_s": raw["slip_velocity"],
+        "crack_width_m": dam.sections[place].crack_width,
+        # Where single runs scatter, what is shown first is the mean of several.
+        **({} if evidence is None else {name: each.value for name, each in evidence.worth.items()}),
+    }
+
+
+def start_of(dam: FlexibleDam, place: int) -> dict[str, Any]:
+    """Return how a crack stands before the earthquake."""
+    start = dam.start
+    return {"stands": start.stands, "slip_m": start.slips[place], "open_contacts": start.open_contacts[place]}
+
+
+def summary_of(shaken: ShakenDam, run: DamRun, evidence: Evidence | None) -> dict[str, Any]:
+    """Return the numbers of the contract, of the crack asked of and of the dam."""
+    raw, dam, case = run.summary, shaken.dam, shaken.case
+    coefficients = dam.damping.coefficients
+    return {
+        **crack_summary(dam, run, dam.asked, evidence),
         "end_time_s": raw["end_time"],
-        "crack_width_m": dam.section.crack_width,
         "periods_s": dam.periods.tolist(),
         "mesh": {
             "elements": [len(body.mesh.elements) for body in dam.bodies],
             "nodes": [len(body.mesh.nodes) for body in dam.bodies],
             "modes": [int(basis.omega_squared.size) for basis in dam.modes],
-            "crack_nodes": int(dam.upper.mesh.crack.size),
+            "crack_nodes": dam.lines[dam.asked].upper[1],
             "basis_error": dam.basis_error,
         },
         "damping": case.flexible.damping,
@@ -88,13 +120,7 @@ def summary_of(shaken: ShakenDam, run: DamRun, evidence: Evidence | None) -> dic
         "damping_ratios": dam.damping.ratios.tolist(),
         "rayleigh_mass_1_s": coefficients[0] if coefficients else None,
         "rayleigh_stiffness_s": coefficients[1] if coefficients else None,
-        "before_shaking": {
-            "stands": dam.start.stands,
-            "slip_m": dam.start.slip,
-            "open_contacts": dam.start.open_contacts,
-        }
-        if case.flexible.contact == "coulomb"
-        else None,
+        "before_shaking": start_of(dam, dam.asked) if case.flexible.contact == "coulomb" else None,
         "contact": case.flexible.contact,
         "steps": int(raw["steps"]),
         "time_step_s": raw["end_time"] / raw["steps"],
@@ -103,8 +129,6 @@ def summary_of(shaken: ShakenDam, run: DamRun, evidence: Evidence | None) -> dic
         "evidence": None if evidence is None else evidence.to_json(),
         **({"anchors": anchors_of(case, run)} if case.anchors else {}),
         "uplift_during_shaking": case.uplift.during_shaking,
-        # Where single runs scatter, what is shown first is the mean of several.
-        **({} if evidence is None else {name: each.value for name, each in evidence.worth.items()}),
     }
 
 
@@ -123,9 +147,9 @@ def energy_of(run: DamRun) -> Energy:
     )
 
 
-def histories_of(shaking: Shaking, run: DamRun) -> dict[str, Floats]:
-    """Return the histories of the contract, frame by frame."""
-    column, time = run.frames, run.frames["time"]
+def histories_of(shaking: Shaking, run: DamRun, place: int) -> dict[str, Floats]:
+    """Return the histories of the contract for a crack, frame by frame."""
+    column, time = run.all_frames[place], run.frames["time"]
     result = {"time_s": time, "ground_acceleration_m_s2": np.interp(time, shaking.time, shaking.horizontal)}
     if shaking.up is not None:
         result["vertical_ground_acceleration_m_s2"] = np.interp(time, shaking.time, shaking.up)

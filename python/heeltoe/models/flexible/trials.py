@@ -58,7 +58,8 @@ class Trials:
         self.step = step
         self._frame_step = frame_step
         self._shaken = {0: shaken}
-        self._numbers: dict[tuple[Level, float], dict[str, float]] = {}
+        # Of each crack.
+        self._numbers: dict[tuple[Level, float], tuple[dict[str, float], ...]] = {}
         self._whole: dict[Level, DamRun] = {}
         self._ending = Ending()
         if first is not None:
@@ -113,7 +114,8 @@ class Trials:
 
     def _keep(self, level: Level, run: DamRun) -> None:
         self._whole[level] = run
-        self._numbers[level, 1.0] = {**run.summary, "outcome": float(DAM_OUTCOMES.index(run.outcome))}
+        outcome = float(DAM_OUTCOMES.index(run.outcome))
+        self._numbers[level, 1.0] = tuple({**each, "outcome": outcome} for each in run.summaries)
 
     def prepare(self, whole: Sequence[Level], wanted: Iterable[tuple[Level, Sequence[float]]]) -> None:
         """Make runs with frames, the first of which is told, and others side by side: the kernel lets go of the
@@ -139,19 +141,31 @@ class Trials:
                     error.add_note(note)
                 raise
 
-    def numbers(self, level: Level, scales: Sequence[float]) -> dict[str, Floats]:
-        """Return the headline numbers of runs with these factors on the shaking, (n,) by name."""
+    @property
+    def cracks(self) -> int:
+        """How many there are."""
+        return len(self._shaken[0].dam.lines)
+
+    @property
+    def asked(self) -> int:
+        """Which of them is asked of."""
+        return self._shaken[0].dam.asked
+
+    def numbers(self, level: Level, scales: Sequence[float], crack: int = 0) -> dict[str, Floats]:
+        """Return the headline numbers of a crack in runs with these factors on the shaking, (n,) by name."""
         missing = [scale for scale in scales if (level, scale) not in self._numbers]
         if missing:
-            table = self.dam_of(level.mesh).run_scaled(self.step_of(level), np.array(missing), self._ending)
+            tables = self.dam_of(level.mesh).run_scaled_cracks(self.step_of(level), np.array(missing), self._ending)
             for place, scale in enumerate(missing):
-                self._numbers[level, scale] = {name: float(column[place]) for name, column in table.items()}
-        rows = [self._numbers[level, scale] for scale in scales]
+                self._numbers[level, scale] = tuple(
+                    {name: float(column[place]) for name, column in table.items()} for table in tables
+                )
+        rows = [self._numbers[level, scale][crack] for scale in scales]
         return headlines({each.column: np.array([row[each.column] for row in rows]) for each in HEADLINES})
 
     def failed(self, level: Level, scales: Sequence[float]) -> int:
         """Return how many of these runs, all made before, end without a result."""
-        return sum(self._numbers[level, scale]["outcome"] != _OK for scale in scales)
+        return sum(self._numbers[level, scale][0]["outcome"] != _OK for scale in scales)
 
 
 def with_mesh(case: Case, mesh: int) -> Case:

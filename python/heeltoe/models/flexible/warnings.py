@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from heeltoe.case.model import Case
 from heeltoe.case.warnings import concrete_warnings
@@ -49,7 +49,7 @@ def outcome_of(dam: FlexibleDam, block: Block, run: DamRun) -> tuple[str, Senten
         why = instability(block)
         remedied = None if why is None else Sentence.of("{why}: {remedy}", why=why, remedy=_STAND)
         return "unstable", remedied or _stopped("unstable", raw)
-    largest = max(-raw["rotation_min"], raw["rotation_max"])
+    largest = max(max(-each["rotation_min"], each["rotation_max"]) for each in run.summaries)
     if run.outcome == "ok" and largest > LARGEST_ROTATION:
         text = (
             "it rotates by {rotation_rad:.3g rad}; beyond {largest_rad:g rad} a rotation is not small, and the "
@@ -73,8 +73,8 @@ def _stopped(outcome: str, raw: Mapping[str, float]) -> Sentence:
 def warnings_of(
     shaken: ShakenDam,
     run: DamRun,
-    history: CrackHistory,
-    evidence: Evidence | None,
+    histories: Sequence[CrackHistory],
+    evidences: Sequence[Evidence],
     growth: Growth | None,
     safety: float | None,
     outcome: str,
@@ -84,13 +84,13 @@ def warnings_of(
     case, dam = shaken.case, shaken.dam
     return [
         # What does not stand has no result that evidence could be of.
-        *(_about_the_evidence(evidence) if outcome != "unstable" else ()),
+        *(_about_the_evidences(evidences, dam) if outcome != "unstable" else ()),
         *_about_the_start(dam, safety),
         *_about_the_growth(growth, run.summary),
         *_about_the_mesh(dam),
         *_about_the_concrete(case, dam),
         *_about_the_anchors(case, run),
-        *_about_the_contact(case, run, history),
+        *_about_the_contact(case, run, histories),
     ]
 
 
@@ -107,10 +107,26 @@ def _about_the_start(dam: FlexibleDam, safety: float | None) -> Iterator[Notice]
         yield Notice("no-rest")
 
 
-def _about_the_evidence(evidence: Evidence | None) -> Iterator[Notice]:
-    if evidence is None:
+def _about_the_evidences(evidences: Sequence[Evidence], dam: FlexibleDam) -> Iterator[Notice]:
+    if not evidences:
         yield Notice("evidence-none")
         return
+    yield from _about_the_evidence(evidences[dam.asked])
+    for place, evidence in enumerate(evidences):
+        if place == dam.asked:
+            continue
+        section = dam.sections[place]
+        for _ in _about_the_evidence(evidence):
+            yield Notice(
+                "further-crack-uncertain",
+                elevation_m=section.heel[1] - section.base_elevation,
+                slip_m=evidence.slip.value,
+                uncertainty_m=evidence.slip.uncertainty,
+            )
+            break
+
+
+def _about_the_evidence(evidence: Evidence) -> Iterator[Notice]:
     slip = evidence.slip
     if evidence.failed:
         yield Notice("evidence-failures", failed=evidence.failed, runs=len(evidence.slips))
@@ -155,9 +171,10 @@ def _about_the_anchors(case: Case, run: DamRun) -> Iterator[Notice]:
             yield Notice("anchor-yields", number=number, tension_n=tension, capacity_n=capacity)
 
 
-def _about_the_contact(case: Case, run: DamRun, history: CrackHistory) -> Iterator[Notice]:
-    raw, depth = run.summary, history.deepest_penetration()
-    if depth > 1e-3 * history.dam.section.crack_width:
+def _about_the_contact(case: Case, run: DamRun, histories: Sequence[CrackHistory]) -> Iterator[Notice]:
+    raw, sections = run.summary, histories[0].dam.sections
+    depth = max(each.deepest_penetration() for each in histories)
+    if depth > 1e-3 * min(section.crack_width for section in sections):
         yield Notice("faces-penetrate", depth_m=depth, contactors=case.flexible.contactors)
     if raw["contact_residual"] > 1e-6:
         yield Notice("contact-loose", residual=raw["contact_residual"])

@@ -15,7 +15,7 @@ import numpy as np
 
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
-from heeltoe.kernel.dam import CrackedDam
+from heeltoe.kernel.dam import CrackedDam, only_crack
 from heeltoe.models.flexible.reduced import FlexibleDam, ReducedBody, build_flexible_dam
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.models.run import rigid
@@ -181,7 +181,8 @@ def _rigid_rocking(slenderness: float) -> tuple[float, list[float]]:
 def _elastic_rocking(dam: FlexibleDam, angle: float, slenderness: float) -> tuple[float, list[float], float]:
     """Return the same of an elastic block, and what contact has made over the turnover."""
     step, end = 5e-5, 2.5
-    leaning = CrackedDam(_leaning(dam, angle), None, (1.0, 1.0), 3)
+    part = _leaning(dam, angle)
+    leaning = CrackedDam(part, None, only_crack(part, None, (1.0, 1.0)), 3)
     found = leaning.run(np.zeros((round(end / step), 2)), step, 0.52, stride=1)
     time, turned = found.frames["time"], found.frames["rotation"]
     # It strikes where it passes the upright; a face that flutters there passes more than once.

@@ -215,7 +215,8 @@ impl Factors {
                 self.unknowns.push(contact);
             }
             if status.slips() {
-                self.slips.push((contact, -status.sign() * problem.mu_slip));
+                self.slips
+                    .push((contact, -status.sign() * problem.mu_slip[contact]));
             }
         }
         let closed = status.iter().enumerate().filter(|(_, status)| status.closed());

@@ -26,9 +26,9 @@ pub(super) struct Problem {
     pub b: Vec<f64>,
     /// One for each contact.
     pub h: Vec<f64>,
-    /// Coefficient of friction of each contact up to which it sticks, and with which it slips.
+    /// Coefficients of friction of each contact up to which it sticks, and with which it slips.
     pub mu_stick: Vec<f64>,
-    pub mu_slip: f64,
+    pub mu_slip: Vec<f64>,
     /// About what impulse changes the velocity of each component by 1: a scale to measure violations by.
     pub scale: Vec<f64>,
 }
@@ -235,7 +235,7 @@ impl Solver {
                 * if sticks {
                     problem.mu_stick[k]
                 } else {
-                    problem.mu_slip
+                    problem.mu_slip[k]
                 };
             worst = worst.max((p_t - (p_t - u_t[k] * scale_t).max(-limit).min(limit)).abs());
         }

@@ -40,7 +40,7 @@ impl Solver {
                     g: [[g(0, 0), g(0, 1)], [g(1, 0), g(1, 1)]],
                     free: [free_t, free_n],
                     mu_stick: problem.mu_stick[contact],
-                    mu_slip: problem.mu_slip,
+                    mu_slip: problem.mu_slip[contact],
                 };
                 let (status, new_t, new_n) = local.solve();
                 self.status[contact] = status;

@@ -1,4 +1,4 @@
-"""The dam as two bodies of eight-node quadrilaterals, above and below the crack.
+"""The dam as bodies of eight-node quadrilaterals, above and below its cracks.
 
 The program's own mesh follows the section row by row (:mod:`heeltoe.models.flexible.mesh.rows`); a mesh from a file may
 have any shape whose crack and area are those of the section."""
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -41,13 +42,16 @@ class BodyMesh:
     elements
         Four corners counter-clockwise, then the midside nodes between corners 1-2, 2-3, 3-4, 4-1, shape (m, 8).
     crack
-        Nodes of the crack face from the heel to the toe, midside nodes included, shape (k,), k odd.
+        Nodes of the crack face from the heel to the toe, midside nodes included, shape (k,), k odd; of a part between
+        two cracks those of the one above it, then those of the one below it.
     upstream, downstream
         Nodes along the two faces from bottom to top, midside nodes included.
     fixed
         Nodes held still: the base of the lower part, none of the upper.
     missed
         How far corners of the section are from it at most, where they are finer than its rows [m].
+    top
+        How many nodes of `crack`, the first ones, are those of the crack above a part that has one below, too.
     """
 
     nodes: Floats
@@ -57,27 +61,38 @@ class BodyMesh:
     downstream: Integers
     fixed: Integers
     missed: float = 0.0
+    top: int = 0
+
+    @property
+    def faces(self) -> tuple[Integers, ...]:
+        """Nodes of each crack's face from the heel to the toe, the upper crack first."""
+        return (self.crack[: self.top], self.crack[self.top :]) if self.top else (self.crack,)
 
 
 @dataclass(frozen=True, eq=False)
 class DamMesh:
-    """Both parts of the dam.
+    """The parts of the dam.
 
     Parameters
     ----------
-    upper
-        The part above the crack.
+    above
+        Those above a crack, from the crest down.
     lower
-        The part below it; None where the crack is at the base and the foundation is a rigid plane.
+        The part below all cracks; None where the lowest is at the base and the foundation is a rigid plane.
     """
 
-    upper: BodyMesh
+    above: tuple[BodyMesh, ...]
     lower: BodyMesh | None
+
+    @property
+    def upper(self) -> BodyMesh:
+        """The uppermost part."""
+        return self.above[0]
 
     @property
     def parts(self) -> tuple[BodyMesh, ...]:
         """Those that there are."""
-        return (self.upper,) if self.lower is None else (self.upper, self.lower)
+        return self.above if self.lower is None else (*self.above, self.lower)
 
 
 def dam_mesh(case: Case) -> DamMesh:
@@ -94,6 +109,13 @@ def dam_mesh(case: Case) -> DamMesh:
         Where rows of elements cannot follow the section or the crack, or a mesh from a file is unfit.
     """
     options, section, directory = case.flexible, case.cut, case.base_directory
+    if case.further_cracks:
+        above = _parts_above(case)
+        section = case.cracks[-1].cut
+        if case.outline.area - section.area <= _NOTHING * section.area:
+            return DamMesh(above, None)
+        across = options.elements_across_below or options.elements_across
+        return DamMesh(above, _own(*_faces_below(case.cracks[-1]), across, section, above=False))
     below = case.outline.area - section.area
     # At the base, or along a sloping one, there is nothing below.
     grounded = below <= _NOTHING * section.area
@@ -105,11 +127,52 @@ def dam_mesh(case: Case) -> DamMesh:
     if grounded:
         if options.mesh_below:
             raise InputError("mesh-none-below", "flexible.mesh_below", options.mesh_below)
-        return DamMesh(upper, None)
+        return DamMesh((upper,), None)
     if options.mesh_below:
-        return DamMesh(upper, _from_file(directory / options.mesh_below, section, below, above=False))
+        return DamMesh((upper,), _from_file(directory / options.mesh_below, section, below, above=False))
     across = options.elements_across_below or options.elements_across
-    return DamMesh(upper, _own(*_faces_below(case), across, section, above=False))
+    return DamMesh((upper,), _own(*_faces_below(case), across, section, above=False))
+
+
+def _parts_above(case: Case) -> tuple[BodyMesh, ...]:
+    """Return the parts above each of several cracks, from the crest down."""
+    across = case.flexible.elements_across
+    sections = [each.cut for each in case.cracks]
+    grounded = case.outline.area - sections[-1].area <= _NOTHING * sections[-1].area
+    for section in sections:
+        _check_ends(section, grounded=grounded and section is sections[-1])
+    first = sections[0]
+    found = [_own(first.upstream_face, first.downstream_face, across, first, above=True)]
+    for high, low in pairwise(sections):
+        upstream = _up_to(low.upstream_face, high.heel)
+        downstream = _up_to(low.downstream_face, high.toe)
+        faces = followed(upstream, downstream, across, above=False)
+        mesh = _between(*meshed_rows(faces.upstream, faces.downstream, across), high, low)
+        found.append(replace(mesh, missed=faces.missed))
+    return tuple(found)
+
+
+def _up_to(face: Floats, end: tuple[float, float]) -> Floats:
+    """Return a face from bottom to top as far as the end of a crack on it."""
+    slack = 1e-9 * np.ptp(face, axis=0).max()
+    return np.vstack([face[face[:, 1] < end[1] - slack], end])
+
+
+def _between(nodes: Floats, elements: Integers, high: CutSection, low: CutSection) -> BodyMesh:
+    """Find the faces on the boundary of a part between two cracks."""
+    ends = [_nearest(nodes, point) for point in (low.heel, low.toe, high.toe, high.heel)]
+    edges = boundary_edges(elements)
+    path = _walked(edges, int(np.flatnonzero(edges[:, 0] == ends[0])[0]))
+    # With the body on its left the boundary runs downstream along the lower crack.
+    toe, upper_toe, upper_heel = (int(np.flatnonzero(path == node)[0]) for node in ends[1:])
+    bottom, downstream = path[: toe + 1], path[toe : upper_toe + 1]
+    top, upstream = path[upper_toe : upper_heel + 1][::-1], path[upper_heel:][::-1]
+    none = np.empty(0, dtype=np.int64)
+    return BodyMesh(nodes, elements, np.concatenate([top, bottom]), upstream, downstream, none, top=top.size)
+
+
+def _nearest(nodes: Floats, point: tuple[float, float]) -> int:
+    return int(np.hypot(*(nodes - point).T).argmin())
 
 
 def _own(upstream: Floats, downstream: Floats, across: int, section: CutSection, *, above: bool) -> BodyMesh:

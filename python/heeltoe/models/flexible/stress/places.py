@@ -44,9 +44,26 @@ class StressPlaces:
     apart: float
 
 
+def in_bodies(places: tuple[StressPlaces, ...]) -> tuple[Floats, ...]:
+    """Return the rows of parts, from the crest down, as those of the kernel's two bodies: every other part in either."""
+    found = []
+    for side in range(min(2, len(places))):
+        rows = [each.rows for each in places[side::2]]
+        if len(rows) == 1:
+            found.append(rows[0])
+            continue
+        both = np.zeros((sum(len(each) for each in rows), sum(each.shape[1] for each in rows), 3))
+        place = mode = 0
+        for each in rows:
+            both[place : place + len(each), mode : mode + each.shape[1]] = each
+            place, mode = place + len(each), mode + each.shape[1]
+        found.append(both)
+    return tuple(found)
+
+
 @dataclass(frozen=True, eq=False)
 class StressRows:
-    """What the kernel takes: rows of both parts, and the steps from one state that is looked at to the next."""
+    """What the kernel takes: rows of its bodies, and the steps from one state that is looked at to the next."""
 
     bodies: tuple[Floats, ...]
     stride: int
@@ -60,7 +77,7 @@ def stress_places(body: Body, modes: Modes) -> StressPlaces:
     # Rounding of the shapes, times a slip of metres, is no stress.
     found[..., : modes.rigid] = 0.0
     rows = np.ascontiguousarray(found.swapaxes(1, 2))
-    return StressPlaces(nodes, rows, bounded(mesh, mesh.nodes[nodes]), APART * _crack_width(mesh))
+    return StressPlaces(nodes, rows, bounded(mesh, mesh.nodes[nodes]), APART * min(map(_crack_width, _cracks(mesh))))
 
 
 def bounded(mesh: BodyMesh, points: Floats) -> NDArray[np.bool_]:
@@ -70,21 +87,27 @@ def bounded(mesh: BodyMesh, points: Floats) -> NDArray[np.bool_]:
     where a face turns inwards. "Far enough" is :data:`APART` of the width of the dam at that height, of the crack from
     the crack.
     """
-    far: NDArray[np.bool_] = _from_crack(mesh, points) >= APART * _crack_width(mesh) * (1.0 - _ROUNDING)
+    far = np.ones(len(points), dtype=np.bool_)
+    for crack in _cracks(mesh):
+        far &= _from_crack(crack, points) >= APART * _crack_width(crack) * (1.0 - _ROUNDING)
     for corner in _corners(mesh):
         width = _width(mesh, float(corner[1]))
         far &= np.hypot(*(points - corner).T) >= APART * width * (1.0 - _ROUNDING)
     return far
 
 
-def _crack_width(mesh: BodyMesh) -> float:
-    heel, toe = mesh.nodes[mesh.crack[[0, -1]]]
-    return float(np.hypot(*(toe - heel)))
+def _cracks(mesh: BodyMesh) -> list[Floats]:
+    """Return heel and toe of the cracks of a part, (2, 2) each."""
+    return [mesh.nodes[face[[0, -1]]] for face in mesh.faces]
 
 
-def _from_crack(mesh: BodyMesh, points: Floats) -> Floats:
-    """Return how far points are from the straight crack [m]."""
-    heel, toe = mesh.nodes[mesh.crack[[0, -1]]]
+def _crack_width(ends: Floats) -> float:
+    return float(np.hypot(*(ends[1] - ends[0])))
+
+
+def _from_crack(ends: Floats, points: Floats) -> Floats:
+    """Return how far points are from a straight crack [m]."""
+    heel, toe = ends
     along = toe - heel
     share = np.clip((points - heel) @ along / (along @ along), 0.0, 1.0)
     apart: Floats = np.hypot(*(points - heel - share[:, None] * along).T)
