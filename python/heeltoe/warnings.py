@@ -162,6 +162,12 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "the residual slip has not converged: {slip_m:.4g mm}, give or take {uncertainty_m:.2g mm} where "
         "{allowed_m:.2g mm} are allowed; {most} moves it most, and {stopped}",
     ),
+    "further-crack-uncertain": (
+        "grave",
+        "flexible.evidence",
+        "the slip of the crack at {elevation_m:.4g m} has not converged, or its runs scatter: {slip_m:.4g mm}, give "
+        "or take {uncertainty_m:.2g mm}",
+    ),
     "anchors-hold": (
         "caution",
         "anchors",

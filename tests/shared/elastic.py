@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from heeltoe.models.flexible.elastic import dam
+from heeltoe.models.flexible.elastic import bonded_state, dam
 from heeltoe.models.flexible.mesh.checks import check_elements
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from shared.meshes import bodies
@@ -20,6 +20,12 @@ def built(corners, elevation=0.0, bend=None, concrete=CONCRETE, **more):
         body.nodes[:] = bend(body)
         check_elements(body.nodes, body.elements, "bent")
     return case, case.cut, dam(case, mesh)
+
+
+def bonded(one):
+    """Return the displacements of both parts of a dam with one crack bonded, and the forces on it."""
+    moved, (force,) = bonded_state(one)
+    return moved[0], moved[1] if len(moved) > 1 else np.empty(0), force
 
 
 def deep(depth):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from heeltoe.errors import InputError, shown
@@ -49,7 +50,7 @@ def places_of(case: Case) -> tuple[tuple[Case, ...], int]:
         update = {"crack": crack.beside(case.crack), "uplift": crack.wet(case.uplift)}
         found.append((alone.model_copy(update=update), f"further_cracks[{place}]"))
     found.sort(key=lambda each: -_cut(*each)[0])
-    for (upper, above), (lower, below) in zip(found, found[1:], strict=False):
+    for (upper, above), (lower, below) in pairwise(found):
         least = _NEAREST * (upper.cut.crest_elevation - upper.cut.base_elevation)
         if any(high - low < least for high, low in zip(_cut(upper, above), _cut(lower, below), strict=True)):
             later = max(above, below, key=lambda name: (name != "crack", name))

@@ -249,7 +249,7 @@ class CrackedDam:
         penalty: tuple[float, float, float] | None = None,
         ending: Ending | None = None,
     ) -> tuple[dict[str, Floats], ...]:
-        """Shake it once for each pair of factors, (n, 2), on `threads` cores (0 for all); the numbers, (n,) by name, for
+        """Shake it once for each pair of factors, (n, 2), on `threads` cores (0 for all); the numbers, (n,) by name, of
         each crack."""
         pairs = [(across, up) for across, up in scales.tolist()]
         rows = self._dam.run_many(ground, step, theta, pairs, threads, penalty, ending)

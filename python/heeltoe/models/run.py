@@ -7,6 +7,7 @@ from dataclasses import replace
 from time import perf_counter
 from typing import TYPE_CHECKING, Literal, TypeVar
 
+from heeltoe.case.cracks import one_crack
 from heeltoe.case.model import Case
 from heeltoe.case.shaking import resolve_all
 from heeltoe.case.use import unused_fields
@@ -36,6 +37,11 @@ BOTH = {"both": "rigid", "rigid,flexible": "rigid", "decoupled,flexible": "decou
 #: What fits the case.
 AUTO = "auto"
 _ASKED_FOR = "it was asked for"
+_KNOW_ONE = {
+    "rigid": "the rigid model",
+    "decoupled": "the decoupled chain",
+    **dict.fromkeys(BOTH, "the block beside the flexible model"),
+}
 _BESIDE = "it stands beside the flexible model, which is the better one"
 
 
@@ -102,6 +108,8 @@ def check_model(name: str, field: str) -> None:
 
 def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
     """Return the models that are run for a case where `model` is asked for, the better one last, and why it is that."""
+    if case.further_cracks:
+        return _of_several(case, model)
     if model in BOTH:
         return (BOTH[model], "flexible"), "it is the better one of the two that were asked for"
     if model != AUTO:
@@ -110,6 +118,14 @@ def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
         return ("rigid",), "the case gives no concrete.modulus, without which the dam can only be a rigid block"
     block = "decoupled" if case.crack.elevation > 0.0 else "rigid"
     return (block, "flexible"), "the case gives concrete.modulus, so that the dam can vibrate as it does"
+
+
+def _of_several(case: Case, model: str) -> tuple[tuple[str, ...], str]:
+    """Return the only model that knows several cracks."""
+    if model not in (AUTO, "flexible"):
+        one_crack(case, _KNOW_ONE.get(model, "the model"))
+    why = "the case has several cracks, which the flexible model alone knows"
+    return ("flexible",), _ASKED_FOR if model == "flexible" else why
 
 
 def cost_of(case: Case, model: str = AUTO, output_step: float | None = None, spread: int = 0) -> Cost | None:
@@ -170,6 +186,8 @@ def rigid(
     Parameters, result and errors are those of :func:`run`. Histories come at the record's samples where no spacing is
     given; `rotation` is that of the ground about the middle of the crack, counter-clockwise [rad/s2].
     """
+    expect(case, Case, "not-a-case", "case")
+    one_crack(case, _KNOW_ONE["rigid"])
     return _alone(_rigid(case, earthquake(case, motion, vertical, rotation), output_step), case)
 
 
@@ -185,6 +203,8 @@ def decoupled(
     Parameters, result and errors are those of :func:`run`. Histories come at an even part of the record's step, up to
     5 ms, where no spacing is given.
     """
+    expect(case, Case, "not-a-case", "case")
+    one_crack(case, _KNOW_ONE["decoupled"])
     return _alone(_decoupled(case, earthquake(case, motion, vertical), output_step), case)
 
 
@@ -215,6 +235,7 @@ def live(case: Case, model: str, shaking: Earthquake) -> Response:
     InputError
         As :func:`run`.
     """
+    one_crack(case, _KNOW_ONE[model])
     return _alone(_live(case, shaking) if model == "decoupled" else _rigid(case, shaking, None), case)
 
 

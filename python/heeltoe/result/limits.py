@@ -37,6 +37,8 @@ class LimitCheck:
         Whether the dam has overturned, or does not even stand without an earthquake: then it keeps no limit.
     uncertainty_m
         How far the result may be off by its evidence [m]; zero where there is none.
+    elevation_m
+        Of the crack whose result it is, where there are several: the largest of all.
     """
 
     name: str
@@ -44,6 +46,7 @@ class LimitCheck:
     allowed_m: float
     failed: bool
     uncertainty_m: float = 0.0
+    elevation_m: float | None = None
 
     @property
     def label(self) -> str:
@@ -62,7 +65,10 @@ class LimitCheck:
 
     def to_json(self) -> dict[str, Any]:
         """Return the contract."""
-        return {**asdict(self), "met": self.met, "certain": self.certain}
+        told = asdict(self)
+        if self.elevation_m is None:
+            del told["elevation_m"]
+        return {**told, "met": self.met, "certain": self.certain}
 
 
 def check_limits(limits: Limits, summary: Mapping[str, Any], outcome: str) -> tuple[LimitCheck, ...]:
@@ -73,6 +79,19 @@ def check_limits(limits: Limits, summary: Mapping[str, Any], outcome: str) -> tu
     """
     if outcome not in ("ok", *_FAILURES):
         return ()
+    # Of several cracks any may break a limit.
+    cracks = summary.get("cracks") or [summary]
+    failed = outcome in _FAILURES
+    checks = [
+        max((_check(name, limit, crack, failed=failed) for crack in cracks), key=lambda check: check.value_m)
+        for name in _LABELS
+        if (limit := getattr(limits, name)) is not None
+    ]
+    return tuple(checks)
+
+
+def _check(name: str, limit: float, summary: Mapping[str, Any], *, failed: bool) -> LimitCheck:
+    """Compare a number of one crack with what it may be."""
     peak = max(("peak_slip_downstream_m", "peak_slip_upstream_m"), key=lambda key: abs(summary[key]))
     keys = {
         "residual_slip": "residual_slip_m",
@@ -80,9 +99,6 @@ def check_limits(limits: Limits, summary: Mapping[str, Any], outcome: str) -> tu
         "opening_upstream": "opening_upstream_m",
         "opening_downstream": "opening_downstream_m",
     }
-    evidence, failed = summary.get("evidence") or {}, outcome in _FAILURES
-    return tuple(
-        LimitCheck(name, abs(summary[key]), limit, failed, evidence[key]["uncertainty"] if evidence else 0.0)
-        for name, key in keys.items()
-        if (limit := getattr(limits, name)) is not None
-    )
+    key, evidence = keys[name], summary.get("evidence") or {}
+    uncertainty = evidence[key]["uncertainty"] if evidence else 0.0
+    return LimitCheck(name, abs(summary[key]), limit, failed, uncertainty, summary.get("elevation_m"))

@@ -242,6 +242,11 @@ class Response(Shown):
         """Whether the run ended with a result to trust."""
         return self.outcome in ("ok", "overturned")
 
+    @property
+    def histories_of_cracks(self) -> tuple[Mapping[str, Floats], ...]:
+        """The histories of each crack, from the crest down."""
+        return (self.histories,)
+
     def lets_go(self) -> bool:
         """Whether there are moments in which the whole dam can slide; a block slides as a whole or not at all."""
         return True

@@ -54,7 +54,7 @@ def still_since(time: Floats, *moved: Floats) -> float:
 
 def last_of(response: Response) -> LastChange:
     """Return what of an elastic dam moves most in the last second of its run."""
-    return last_change(*_moved(response))
+    return max((last_change(*each) for each in _moved(response)), key=lambda last: last.change_m)
 
 
 def comes_to_rest(response: Response) -> bool:
@@ -71,7 +71,7 @@ def rests_from(response: Response) -> float:
     if not comes_to_rest(response):
         return math.inf
     if response.elastic:
-        return still_since(*_moved(response))
+        return max(still_since(*each) for each in _moved(response))
     return float(max(response.event_log["time_s"], default=0.0))
 
 
@@ -81,6 +81,5 @@ def motion_end(response: Response) -> float:
     return min(response.end_time_s - response.silence_s, max(each.duration for each in motions))
 
 
-def _moved(response: Response) -> tuple[Floats, Floats, Floats, Floats]:
-    h = response.histories
-    return h["time_s"], h["slip_m"], h["gap_heel_m"], h["gap_toe_m"]
+def _moved(response: Response) -> list[tuple[Floats, Floats, Floats, Floats]]:
+    return [(h["time_s"], h["slip_m"], h["gap_heel_m"], h["gap_toe_m"]) for h in response.histories_of_cracks]

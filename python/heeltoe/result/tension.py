@@ -8,9 +8,17 @@ from typing import Any
 from heeltoe.units.sentences import written
 
 
+# What parts are called where there are several cracks.
+_SAID = {
+    "uppermost": "the part above all cracks",
+    "between": "the part between two cracks",
+    "lowest": "the part below all cracks",
+}
+
+
 def place_said(found: Mapping[str, Any]) -> str:
     """Say where a largest stress is, its height apart."""
-    part = f"the part {found['part']} the crack"
+    part = _SAID.get(found["part"], f"the part {found['part']} the crack")
     place = found["place"]
     return f"inside {part}" if place == "inside" else f"at the {place}{'' if place == 'base' else ' face'} of {part}"
 

@@ -8,6 +8,7 @@ from heeltoe.result.contract import JOINT_METER_M, LEAST_M, LEAST_RAD
 from heeltoe.result.rest import comes_to_rest, last_of, motion_end, rests_from
 from heeltoe.result.sequence import sequence_said
 from heeltoe.result.tension import cracks_said
+from heeltoe.units.sentences import written
 from heeltoe.units.write import angle, length, speed
 
 # Not at run time: a response says its verdict in its JSON.
@@ -35,8 +36,13 @@ def verdict(response: Response, units: str = "si") -> str:
             f"{response.end_time_s:.2f} s, where the run and its histories end."
         ]
     elif response.elastic:
-        sentences = [_elastic_slip(response, units), _openings(response, units), _elastic_end(response, units)]
-        sentences.append(cracks_said(response.summary.get("tension"), units))
+        sentences = [
+            _elastic_slip(response, units),
+            _openings(response, units),
+            _elastic_end(response, units),
+            _other_cracks(response, units),
+            cracks_said(response.summary.get("tension"), units),
+        ]
     else:
         sentences = [_slip(response, units), _rocking(response, units), _end(response)]
     told = [*sentences, sequence_said(response.sequence, units), _limits(response, units)]
@@ -55,7 +61,7 @@ def _limits(response: Response, units: str) -> str:
     if response.outcome == "overturned":
         return "It keeps none of its limits: a dam that has overturned has failed."
     broken = [
-        f"{check.label} of {_judged(check, units)} is more than the {length(check.allowed_m, units)} allowed"
+        f"{_limited(check, units)} of {_judged(check, units)} is more than the {length(check.allowed_m, units)} allowed"
         for check in response.limits
         if not check.met
     ]
@@ -63,7 +69,8 @@ def _limits(response: Response, units: str) -> str:
         doubt = "" if all(check.certain for check in response.limits if not check.met) else ", though not for certain"
         return f"It does not keep within its limits{doubt}: its {' and its '.join(broken)}."
     doubted = [
-        f"{check.label} of {_judged(check, units)} may be more than the {length(check.allowed_m, units)} allowed"
+        f"{_limited(check, units)} of {_judged(check, units)} may be more than the "
+        f"{length(check.allowed_m, units)} allowed"
         for check in response.limits
         if not check.certain
     ]
@@ -74,6 +81,16 @@ def _limits(response: Response, units: str) -> str:
     if response.model == "decoupled":
         return "As a rigid block it keeps within its limits; as a dam whose top vibrates, too, it may not."
     return "It keeps within its limits."
+
+
+def _limited(check: LimitCheck, units: str) -> str:
+    """Say what is limited, and at which of several cracks."""
+    at = "" if check.elevation_m is None else f" at the crack at {_level(check.elevation_m, units)}"
+    return check.label + at
+
+
+def _level(elevation: float, units: str) -> str:
+    return written("{at_m:.4g m}", units, at_m=elevation)
 
 
 def _judged(check: LimitCheck, units: str) -> str:
@@ -179,6 +196,20 @@ def _elastic_end(response: Response, units: str) -> str:
         f"It has not come to rest {_when_it_ends(response)}: in the last {last.seconds:.2g} s its {last.what} changes "
         f"by {moved}."
     )
+
+
+def _other_cracks(response: Response, units: str) -> str:
+    """Say what the cracks but that of ``[crack]`` do, where there are several."""
+    cracks = response.summary.get("cracks")
+    if not cracks:
+        return ""
+    told = []
+    for crack in cracks:
+        slip, opening = crack["residual_slip_m"], max(crack["opening_upstream_m"], crack["opening_downstream_m"])
+        said = "does not slip" if abs(slip) < JOINT_METER_M else f"slips {length(abs(slip), units)} {_way(slip)}"
+        opens = f" and opens up to {length(opening, units)}" if opening >= JOINT_METER_M else ""
+        told.append(f"that at {_level(crack['elevation_m'], units)} {said}{opens}")
+    return f"That is said of the crack of [crack]. Of all {len(cracks)} cracks, from the crest down, {', '.join(told)}."
 
 
 def _rocking(response: Response, units: str) -> str:

@@ -18,6 +18,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from heeltoe.arrays import Floats
+from heeltoe.case.cracks import one_crack
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError, expect
 from heeltoe.kernel.shaking import Shaking
@@ -180,6 +181,7 @@ def overturning_map(
 
 def _standing(case: Case) -> tuple[Block, CriticalAccelerations]:
     """Return a block that stands without a pulse, and what moves it."""
+    one_crack(case, "a map of overturning")
     block = build_block(case)
     critical = block.critical_accelerations()
     if min(critical.rocking, critical.sliding) <= 0.0 or block.normal_force <= 0.0:

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from heeltoe.arrays import Floats, Integers
+from heeltoe.case.cracks import one_crack
 from heeltoe.case.model import Case
 from heeltoe.case.paths import value_of
 from heeltoe.case.read import read_case
@@ -278,6 +279,7 @@ def plan_of(study: Study) -> Plan:
         Naming the first thing that cannot be, with the others.
     """
     case = read_case(study.directory / study.case)
+    one_crack(case, "a study")
     if study.title == "" and case.title:
         study = study.model_copy(update={"title": case.title})
     axes, problems = list[Axis](), Problems()

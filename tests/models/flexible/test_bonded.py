@@ -71,4 +71,4 @@ def test_no_field_that_is_left_out_changes_the_modes(tmp_path):
 def _numbers(case):
     dam = bonded._build(case)
     bodies = [(body.load.tobytes(), body.load_per_vertical.tobytes()) for body in dam.bodies]
-    return bodies, [modes.shapes.tobytes() for modes in dam.modes], dam.bonded_force.tobytes()
+    return bodies, [modes.shapes.tobytes() for modes in dam.modes], dam.bonded_forces[0].tobytes()

@@ -215,8 +215,8 @@ def test_parts_that_do_not_fit_are_refused():
             "two crack nodes or more",
         ),
     ):
+        misfit = dataclasses.replace(part, **wrong)
         with pytest.raises(ValueError, match=text):
-            misfit = dataclasses.replace(part, **wrong)
             CrackedDam(misfit, None, only_crack(misfit, None, (0.5, 0.5)), 3)
 
 

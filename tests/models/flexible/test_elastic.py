@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 
 from heeltoe.errors import InputError
 from heeltoe.mechanics import loads
-from heeltoe.models.flexible.elastic import bonded_state, dam, dofs, principal, stresses
+from heeltoe.models.flexible.elastic import dam, dofs, principal, stresses
 from heeltoe.models.flexible.mesh.checks import boundary_edges
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from shared.dams import RECTANGLE, TRIANGLE, TYPICAL
-from shared.elastic import CONCRETE, G, built, deep, parts, resultant
+from shared.elastic import CONCRETE, G, bonded, built, deep, parts, resultant
 from shared.meshes import flat
 from shared.outlines import dams, make
 
@@ -40,14 +40,14 @@ def test_column_under_its_own_weight():
     load, height = 2500 * G, 12.0
     z = straight.upper.mesh.nodes[:, 1]
     exact = np.column_stack([0.0 * z, -load / 30e9 * (height * z - z * z / 2.0)])
-    upper, lower, force = bonded_state(straight)
+    upper, lower, force = bonded(straight)
     assert upper.reshape(-1, 2) == pytest.approx(exact, abs=1e-15)
     assert lower.size == 0
     assert force.reshape(-1, 2).sum(axis=0) == pytest.approx([0.0, load * 8.0 * 12.0], abs=1e-5)
     found = stresses(straight.upper, upper)
     assert found == pytest.approx(np.column_stack([0.0 * z, -load * (height - z), 0.0 * z]), abs=1e-4)
     # On curved elements a quadratic is no longer exact, but close.
-    bent, _, _ = bonded_state(one)
+    bent, _, _ = bonded(one)
     z = one.upper.mesh.nodes[:, 1]
     assert bent[1::2] == pytest.approx(-load / 30e9 * (height * z - z * z / 2.0), rel=0.02, abs=1e-7)
 
@@ -118,7 +118,7 @@ def test_plane_strain_and_plane_stress():
 
 def test_stresses_of_many_moments():
     _, _, one = built(TYPICAL, reservoir=deep(90.0))
-    upper, _, _ = bonded_state(one)
+    upper, _, _ = bonded(one)
     many = stresses(one.upper, np.column_stack([upper, 2.0 * upper]))
     single = stresses(one.upper, upper)
     assert many.shape == (len(one.upper.mesh.nodes), 3, 2)
@@ -143,7 +143,7 @@ def test_principal_stresses():
 
 def test_bonded_crack_carries_what_is_above_it():
     case, section, one = built(TYPICAL, 60.0, reservoir=deep(95.0), tailwater=deep(20.0))
-    upper, lower, force = bonded_state(one)
+    upper, lower, force = bonded(one)
     balance = sum(np.array([force.horizontal, force.vertical, force.moment]) for force in loads.static_forces(case))
     held = np.zeros(one.upper.load.size)
     held[dofs(one.upper.mesh.crack)] = force
@@ -163,7 +163,7 @@ def test_crack_that_is_bonded_is_no_crack():
         for elevation in (0.0, 30.0, 90.0):
             options = {"reservoir": deep(95.0), "uplift": {"pattern": "none"}, "flexible": {"elements_across": across}}
             _, _, one = built(TYPICAL, elevation, **options)
-            upper, _, _ = bonded_state(one)
+            upper, _, _ = bonded(one)
             crests.append(upper[2 * one.upper.mesh.upstream[-1]])
         spread.append(np.ptp(crests) / np.mean(crests))
     assert spread[0] < 5e-3
@@ -176,8 +176,8 @@ def test_faces_that_do_not_match_node_by_node():
     for above, below in ((8, 5), (5, 8), (8, 4)):
         options = {"elements_across": above, "elements_across_below": below}
         _, _, one = built(TYPICAL, 60.0, flexible=options, **common)
-        upper, lower, force = bonded_state(one)
-        expected, _, held = bonded_state(matching)
+        upper, lower, force = bonded(one)
+        expected, _, held = bonded(matching)
         crest = 2 * one.upper.mesh.upstream[-1], 2 * matching.upper.mesh.upstream[-1]
         assert upper[crest[0]] == pytest.approx(expected[crest[1]], rel=0.01)
         assert force.reshape(-1, 2).sum(axis=0) == pytest.approx(held.reshape(-1, 2).sum(axis=0), rel=1e-7)
@@ -221,7 +221,7 @@ def test_mirror_image(corners, tenths, up, down):
     one = built(corners, tenths / 10 * top, reservoir=water[0], tailwater=water[1], flexible=options)[2]
     mirrored = [(-x, z) for x, z in corners]
     two = built(mirrored, tenths / 10 * top, reservoir=water[1], tailwater=water[0], flexible=options)[2]
-    moved, image = bonded_state(one), bonded_state(two)
+    moved, image = bonded(one), bonded(two)
     assert image[2].reshape(-1, 2)[::-1] * [-1, 1] == pytest.approx(
         moved[2].reshape(-1, 2), abs=1e-7 * np.abs(moved[2]).max()
     )
@@ -251,8 +251,8 @@ def test_extreme_moduli_are_solved_alike(modulus):
     _, _, one = built(TYPICAL, 60.0, concrete=CONCRETE | {"modulus": modulus}, reservoir=deep(95.0))
     _, _, usual = built(TYPICAL, 60.0, reservoir=deep(95.0))
     factor = one.upper.elasticity[0, 0] / usual.upper.elasticity[0, 0]
-    upper, _, force = bonded_state(one)
-    expected, _, held = bonded_state(usual)
+    upper, _, force = bonded(one)
+    expected, _, held = bonded(usual)
     assert upper * factor == pytest.approx(expected, rel=1e-6, abs=1e-9 * np.abs(expected).max())
     assert force == pytest.approx(held, rel=1e-6, abs=1e-6 * np.abs(held).max())
 

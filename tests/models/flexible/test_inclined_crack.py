@@ -14,12 +14,12 @@ from heeltoe.case.model import Case
 from heeltoe.geometry.axes import along_and_across, places
 from heeltoe.mechanics import loads
 from heeltoe.mechanics.block import build_block
-from heeltoe.models.flexible.elastic import bonded_state, dam, dofs
+from heeltoe.models.flexible.elastic import dam, dofs
 from heeltoe.models.flexible.mesh.checks import check_elements, check_pieces
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from heeltoe.models.flexible.reduced import build_flexible_dam
 from shared.dams import BASE, TYPICAL, polygon
-from shared.elastic import CONCRETE, resultant
+from shared.elastic import CONCRETE, bonded, resultant
 from shared.meshes import area, bodies, flat, on_polyline
 from shared.outlines import dams
 
@@ -99,7 +99,7 @@ def test_a_base_that_slopes_is_a_rigid_plane():
     case, section, mesh, one = built(corners, 0.0, degrees, reservoir={"depth": "90 m"})
     assert mesh.lower is None
     assert area(mesh.upper) == pytest.approx(section.area)
-    _, _, force = bonded_state(one)
+    _, _, force = bonded(one)
     assert force[::2].sum() == pytest.approx(-sum(f.horizontal for f in loads.static_forces(case)))
 
 
@@ -127,7 +127,7 @@ def test_meshes_by_file_have_the_crack_that_the_case_has(degrees, tmp_path):
         assert body.nodes[body.crack] == pytest.approx(own.nodes[own.crack], abs=1e-4)
         assert np.abs(places(body.nodes[body.crack], section)[:, 1]).max() < 1e-9
         assert body.nodes[body.crack[[0, -1]]] == pytest.approx(np.array([section.heel, section.toe]), abs=0.0)
-    assert bonded_state(one)[2].size == 2 * mesh.upper.crack.size
+    assert bonded(one)[2].size == 2 * mesh.upper.crack.size
     with pytest.raises(InputError) as caught:
         built(TYPICAL, 40.0, degrees + 1.0, flexible=names)
     assert caught.value.code == "mesh-crack"
@@ -180,7 +180,7 @@ def test_silt_on_a_slope_by_hand():
 @pytest.mark.parametrize("degrees", [10.0, -10.0])
 def test_the_bonded_crack_carries_the_static_loads(degrees):
     case, section, mesh, one = built(TYPICAL, 40.0, degrees, **HEAVY)
-    _, _, force = bonded_state(one)
+    _, _, force = bonded(one)
     held = np.zeros(one.upper.load.size)
     held[dofs(mesh.upper.crack)] = force
     horizontal, vertical, moment = resultant(one.upper, held, section)
@@ -197,7 +197,7 @@ def test_mirror_image():
     image = [(-x, z) for x, z in corners]
     _, mirrored, _, two = built(image, section.toe[1], -9.0, **other)
     assert mirrored.crack_width == pytest.approx(section.crack_width)
-    found, expected = bonded_state(two)[2].reshape(-1, 2)[::-1] * [-1, 1], bonded_state(one)[2].reshape(-1, 2)
+    found, expected = bonded(two)[2].reshape(-1, 2)[::-1] * [-1, 1], bonded(one)[2].reshape(-1, 2)
     assert found == pytest.approx(expected, abs=1e-7 * np.abs(expected).max())
 
 

@@ -7,7 +7,7 @@ import pytest
 import scipy.linalg
 
 from heeltoe import flexible, read_case
-from heeltoe.models.flexible.elastic import bonded_state, dofs
+from heeltoe.models.flexible.elastic import dofs
 from heeltoe.models.flexible.modes import (
     ENOUGH,
     enough_modes,
@@ -20,7 +20,7 @@ from heeltoe.models.flexible.modes import (
 )
 from heeltoe.models.flexible.reduced import build_flexible_dam
 from shared.dams import BASE, TYPICAL
-from shared.elastic import built, deep, parts
+from shared.elastic import bonded, built, deep, parts
 
 KOYNA = [(0.0, 0.0), (70.2, 0.0), (20.36, 66.5), (14.8, 103.0), (0.0, 103.0)]
 TRIANGLE = [(0.0, 0.0), (97.536, 0.0), (0.0, 121.92)]
@@ -157,7 +157,7 @@ def test_basis(cracked, keep):
 
 @pytest.mark.parametrize("keep", [4, 40])
 def test_basis_with_modes_left_out(cracked, keep):
-    states = bonded_state(cracked)
+    states = bonded(cracked)
     for body, static in zip(parts(cracked), states[:2], strict=True):
         whole, part = reduce(body), reduce(body, keep)
         assert part.omega_squared[: part.kept] == pytest.approx(whole.omega_squared[: part.kept], rel=1e-9)

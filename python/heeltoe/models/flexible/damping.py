@@ -157,12 +157,19 @@ def _crack_motions(dam: Dam, modes: tuple[Modes, ...]) -> list[list[Floats]]:
             points = lower.mesh.nodes[met]
             rows[crack + 1] = -_fit(points, _plane(points) @ plane) @ modes[crack + 1].shapes[dofs(met)]
         found.append(rows)
+    # A part that slides itself, with all that is above it, is not to be damped for that: it counts as following what is
+    # below it, and so on down.
+    for crack in range(dam.free - 2, -1, -1):
+        count = modes[crack + 1].rigid
+        held = found[crack][crack + 1][:, :count].copy()
+        found[crack][crack + 1][:, :count] = 0.0
+        found[crack] = [own - held @ lag for own, lag in zip(found[crack], found[crack + 1], strict=True)]
     return found
 
 
 def _water_motion(dam: Dam, modes: tuple[Modes, ...], lags: list[list[Floats]]) -> tuple[Floats, ...]:
     """Return rows (w, m) for each part whose squares are the mass of the water times that of the motion that the mass
-    term damps: of a part above a crack relative to the rigid motion fitted to its face there, of one that is held all."""
+    term damps: of a part above a crack that relative to the rigid motion fitted to its face, else all."""
     found: list[list[Floats]] = [[] for _ in modes]
     for place, (body, basis) in enumerate(zip(dam.bodies, modes, strict=True)):
         wet, root = _root_of_water(body)
@@ -171,8 +178,7 @@ def _water_motion(dam: Dam, modes: tuple[Modes, ...], lags: list[list[Floats]]) 
         own[:, : basis.rigid] = 0.0
         for other, rows in enumerate(found):
             moved = np.zeros((len(root), modes[other].omega_squared.size)) if other != place else own
-            lag = lags[place][other] if place < dam.free and other in (place, place + 1) else None
-            rows.append(moved if lag is None else moved - rigid @ lag)
+            rows.append(moved - rigid @ lags[place][other] if place < dam.free else moved)
     return tuple(np.vstack(rows) for rows in found)
 
 

@@ -81,8 +81,8 @@ class Dam:
         The parts above a crack, free, from the crest down, and, if the foundation is no rigid plane, the part below all
         cracks. Crack k is between bodies k and k + 1, or below the last.
     tie
-        Displacements of one part after the other are ``tie @ free``, with the cracks bonded and the base held. Where the
-        nodes of the two faces of a crack do not match, those of the upper follow the lower face.
+        Displacements of one part after the other are ``tie @ free``, with the cracks bonded and the base held. Where
+        the nodes of the two faces of a crack do not match, those of the upper follow the lower face.
     """
 
     bodies: tuple[Body, ...]

@@ -56,18 +56,26 @@ class FlexibleResponse(Response):
     at_cracks: tuple[AtCrack, ...] = field(default=())
 
     def at_crack(self, place: int) -> Self:
-        """Return the response with the numbers and histories of one of several cracks, from the crest down, in the place of
+        """Return the response with numbers and histories of one of several cracks, from the crest down, in the place of
         those of ``[crack]``; limits and what stands beside it are left out."""
         found = self.at_cracks[place]
         return replace(
             self,
+            title=f"{self.title or 'Dam'}, crack at {found.elevation:g} m",
             summary={**self.summary, **found.summary},
             histories=found.histories,
             mode=found.mode,
             crack=found.crack,
+            at_cracks=(),
             limits=(),
             beside=None,
         )
+
+    @property
+    def others(self) -> dict[str, Self]:
+        """The response at each of several cracks but that of ``[crack]``, by name: counted from the crest down."""
+        places = [place for place in range(len(self.at_cracks)) if place != self.crack.place]
+        return {f"crack-{place + 1}": self.at_crack(place) for place in places}
 
     elastic: ClassVar[bool] = True
 
@@ -101,6 +109,11 @@ class FlexibleResponse(Response):
     evidence = Of[Mapping[str, Any] | None](
         "How far step, mesh and 1 % of the shaking move it; None where none was wanted."
     )
+
+    @property
+    def histories_of_cracks(self) -> tuple[Mapping[str, Floats], ...]:
+        """The histories of each crack, from the crest down."""
+        return tuple(each.histories for each in self.at_cracks) or (self.histories,)
 
     def lets_go(self) -> bool:
         """Whether there are moments in which the part above the crack slides or rocks as a whole.

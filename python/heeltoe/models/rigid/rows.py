@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.arrays import Floats, Integers
+from heeltoe.case.cracks import one_crack
 from heeltoe.case.model import Case
 from heeltoe.case.options import LONGEST_SILENCE
 from heeltoe.errors import InputError, expect
@@ -89,6 +90,7 @@ def check_limits(limits: Limits) -> None:
 
 def _built(each: Block | Case, row: int) -> Block:
     if isinstance(each, Case):
+        one_crack(each, "the rigid model")
         return build_block(each)
     if not isinstance(each, Block):
         raise InputError("blocks-shape", f"blocks[{row}]", type(each).__name__, columns=len(BLOCK))

@@ -112,7 +112,7 @@ class Joints:
 
 
 def statics_of_sections(case: Case, judge: Callable[[Case], Statics] = statics) -> Joints:
-    """Judge the stability of a dam at each of its ``statics.sections``, or at its crack where it lists none.
+    """Judge the stability of a dam at each of its ``statics.sections``, or at its cracks where it lists none.
 
     Parameters
     ----------
@@ -129,7 +129,8 @@ def statics_of_sections(case: Case, judge: Callable[[Case], Statics] = statics) 
     expect(case, Case, "not-a-case", "case")
     listed = case.statics.sections
     if not listed:
-        return Joints(case.title, (Joint(case.crack.elevation, case, judge(case)),))
+        cracks = [(each.crack.elevation, each) for each in case.cracks]
+        return Joints(case.title, tuple(Joint(elevation, each, judge(each)) for elevation, each in cracks))
     return Joints(case.title, tuple(_joint(case, place, judge) for place in range(len(listed))))
 
 
@@ -155,6 +156,7 @@ def at_section(case: Case, section: StaticsSection, field: str = "statics.sectio
         update={
             "crack": case.crack.model_copy(update=crack),
             "statics": case.statics.model_copy(update={**choice, "sections": ()}),
+            "further_cracks": (),
         }
     )
     for wrong, error in misfits(moved):

@@ -231,7 +231,7 @@ def _meshed(mesh: BodyMesh) -> tuple[Part, Integers]:
         grid=place[lines],
         upstream=place[mesh.upstream],
         downstream=place[mesh.downstream],
-        crack=place[mesh.crack],
+        crack=place[mesh.faces[-1]],
         shapes=np.zeros((0, shown.size, 2)),
         amplitudes=np.zeros((0, 0)),
     )

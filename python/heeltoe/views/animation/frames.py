@@ -108,6 +108,7 @@ class Scene:
     water: float | None
     tailwater: float | None
     views: tuple[tuple[float, float, float, float], ...]
+    above: int = 0
 
 
 def build_scene(case: Case, response: Response, times: Floats, exaggeration: float | None, units: str = "si") -> Scene:
@@ -129,6 +130,7 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
         forces, status = _nodes(section, response.crack, moved)
         scale = system.scale("pressure")
     forces = scale(forces)
+    above = response.crack.place if isinstance(response, FlexibleResponse) else 0
     largest = max(float(np.abs(part.displacements(part.outline)).max()) for part in parts)
     if exaggeration is None:
         overturned = response.outcome == "overturned"
@@ -155,7 +157,8 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
         base=section.base_elevation,
         water=_level(section, case.reservoir),
         tailwater=_level(section, case.tailwater),
-        views=_views(case, parts, exaggeration),
+        views=_views(case, parts[above:], exaggeration),
+        above=above,
     )
 
 
@@ -200,8 +203,8 @@ def _nodes(section: CutSection, history: CrackHistory, moments: Moments) -> tupl
     A node's force counts on the length over which an even stress gives it that force: of an element of length L the
     ends have L/6, the node in its middle 2 L/3 (Simpson's rule).
     """
-    mesh = history.dam.bodies[0].mesh
-    along = np.hypot(*(mesh.nodes[mesh.crack] - mesh.nodes[mesh.crack[0]]).T)
+    points = history.drawn[0]
+    along = np.hypot(*(points - points[0]).T)
     lengths = np.zeros(along.size)
     elements = along[2::2] - along[:-2:2]
     lengths[:-2:2] += elements / 6.0

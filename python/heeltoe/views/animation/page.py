@@ -60,6 +60,7 @@ def page_data(scene: Scene, speed: float) -> dict[str, Any]:
             }
             for part in scene.parts
         ],
+        "above": scene.above,
         "forces": packed(scene.forces, "float32"),
         "forceScale": scene.force_scale,
         "forceText": look.force_text(scene.force_scale, scene.force_unit, CUT),

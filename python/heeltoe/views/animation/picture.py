@@ -134,10 +134,12 @@ class _View:
                 surface = animated(axes.plot([], [], color=look.SURFACE, linewidth=1.4)[0])
                 self.waters.append((water, surface, level, upstream))
         # The part below the crack behind the part above.
-        colours = (look.UPPER, look.LOWER)
-        self.bodies = [self._body(part, colour) for part, colour in zip(scene.parts, colours, strict=False)][::-1]
+        self.bodies = [
+            self._body(part, look.LOWER if place > scene.above else look.UPPER)
+            for place, part in enumerate(scene.parts)
+        ][::-1]
         # Where the part above the crack was before the earthquake, against which its slip is seen.
-        upper = scene.parts[0]
+        upper = scene.parts[scene.above]
         before = upper.points[[*upper.outline, upper.outline[0]]].T
         line = animated(axes.plot(*before, color=look.BEFORE, linewidth=0.8, dashes=(5, 4))[0])
         self.overlays.append(lambda frame, drawn: [line])
@@ -184,7 +186,7 @@ class _View:
         """Add forces and dots of the crack, with what they mean below the picture."""
         self.detailed = True
         scene = self.scene
-        upper = scene.parts[0]
+        upper = scene.parts[scene.above]
         few = scene.forces.shape[1] == 2
         bottom, top = scene.views[-1][2:]
         longest, width = ARROW * (top - bottom), (0.008 if few else 0.005) * (top - bottom)

@@ -103,7 +103,7 @@
       const end = over ? far[0] : atLevel(faces, level);
       stroke([[edge, surface], [at([end, level])[0], surface]], "surface", 1.5, false);
     }
-    scene.parts.map((part, k) => [part, drawn[k], k ? "lower" : "upper"]).reverse().forEach(([part, points, name]) => {
+    scene.parts.map((part, k) => [part, drawn[k], k > scene.above ? "lower" : "upper"]).reverse().forEach(([part, points, name]) => {
       const outline = picked(points, part.outline).map(at);
       fill(outline, name);
       if (detailed && element("grid").checked) {
@@ -122,10 +122,10 @@
     });
     // Where the part above the crack was before the earthquake, against which its slip is seen.
     context.setLineDash([5, 4]);
-    stroke(picked(scene.parts[0].points, scene.parts[0].outline).map(at), "faint", 1, true);
+    stroke(picked(scene.parts[scene.above].points, scene.parts[scene.above].outline).map(at), "faint", 1, true);
     context.setLineDash([]);
     if (number === 0) drawGroundArrow(fill, colour, context, [left, width, ground, foot]);
-    if (detailed) drawCrack(context, colour, fill, at, moment, picked(drawn[0], scene.parts[0].crack), scale);
+    if (detailed) drawCrack(context, colour, fill, at, moment, picked(drawn[scene.above], scene.parts[scene.above].crack), scale);
     else {
       const [near0, near1, low, high] = scene.views[1];
       context.setLineDash([4, 3]);

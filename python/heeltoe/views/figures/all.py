@@ -50,6 +50,8 @@ NAMES = (
     "mesh",
     "modes",
 )
+#: Those that each of several cracks has.
+_OF_CRACKS = ("response", "slip-by-mode", "forces", "path", "crack", "pressure")
 #: Lift-offs below this [m] have no picture of their own.
 _NO_LIFT = 1e-5
 
@@ -91,7 +93,8 @@ def all_figures(case: Case | None, result: Response, units: str = "si") -> Figur
         Of the result; without it there is no figure of the section.
     result
         Of one model, or with another beside it: then there is ``comparison``, and the figures of the other are under
-        its name, ``rigid/...``. A run that never started has the section alone.
+        its name, ``rigid/...``; those of further cracks are under theirs, ``crack-1/...`` from the crest down. A run
+        that never started has the section alone.
     units
         ``"si"`` or ``"us"``.
 
@@ -118,6 +121,10 @@ def all_figures(case: Case | None, result: Response, units: str = "si") -> Figur
 
         drawings["comparison"] = lambda: comparison_figure(result, beside, units)
     drawings |= _drawings(result, units)
+    if isinstance(result, FlexibleResponse):
+        for name, other in result.others.items():
+            drawn = _drawings(other, units)
+            drawings |= {f"{name}/{each}": drawn[each] for each in _OF_CRACKS if each in drawn}
     if beside is not None:
         drawings |= {f"{beside.model}/{name}": draw for name, draw in _drawings(beside, units).items()}
     return Figures(drawings)

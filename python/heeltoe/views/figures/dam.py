@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import cycle
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -39,24 +40,29 @@ def mesh_figure(dam: FlexibleDam, units: str = "si") -> Figure:
         figsize=(WIDTH, float(np.clip((4.0 if small else 4.8) * tall / wide + 1.2, 3.0, 7.5))), layout="constrained"
     )
     elements, nodes = sum(len(mesh.elements) for mesh in bodies), sum(len(mesh.nodes) for mesh in bodies)
-    heading(figure, f"{elements} elements of eight nodes, {nodes} nodes, {len(bodies[0].crack)} of them on the crack")
+    on = (
+        len(bodies[0].crack) if dam.free == 1 else " and ".join(str(len(mesh.faces[-1])) for mesh in bodies[: dam.free])
+    )
+    cracks = "the crack" if dam.free == 1 else "the cracks"
+    heading(figure, f"{elements} elements of eight nodes, {nodes} nodes, {on} of them on {cracks}")
     axes: list[Axes] = list(
         figure.subplots(1, 2 if small else 1, width_ratios=[1.4, 1.0] if small else None, squeeze=False)[0]
     )
     for panel in axes:
-        for mesh, colour in zip(bodies, ("#333333", "#888888"), strict=False):
+        for mesh, colour in zip(bodies, cycle(("#333333", "#888888")), strict=False):
             panel.add_collection(LineCollection(list(edges(mesh, scale(mesh.nodes))), colors=colour, linewidths=0.5))
             points = scale(mesh.nodes[mesh.crack])
             panel.plot(*points.T, "o", color=COLOURS["crack"], markersize=2.5, zorder=3)
-        held = bodies[-1].fixed if len(bodies) > 1 else bodies[0].crack
-        _hold(panel, scale(bodies[-1].nodes[held]), rigid=len(bodies) == 1)
+        grounded = len(bodies) == dam.free
+        held = bodies[-1].faces[-1] if grounded else bodies[-1].fixed
+        _hold(panel, scale(bodies[-1].nodes[held]), rigid=grounded)
         dam_axes(panel, scale)
     _frame(axes[0], scale, low, high)
     if small:
         upper = bodies[0].nodes
         _frame(axes[1], scale, upper.min(axis=0), upper.max(axis=0))
         axes[1].set_title("above the crack", fontsize=9)
-    base = "rigid plane below the crack" if len(bodies) == 1 else "base, held"
+    base = "rigid plane below the crack" if grounded else "base, held"
     handles = [
         Line2D([], [], color=COLOURS["crack"], marker="o", markersize=3, linestyle="", label="nodes of the crack"),
         Patch(facecolor="white", edgecolor="#555555", hatch="////", linewidth=0.0, label=base)
@@ -119,7 +125,8 @@ def intact_shapes(dam: FlexibleDam, count: int) -> tuple[Floats, list[tuple[Floa
     for vector in vectors[:, order].T:
         moved = (tie @ vector).reshape(-1, 2)
         moved *= np.sign(moved[np.argmax(np.abs(moved[:, 0])), 0])
-        shapes.append(tuple(np.split(moved, [len(dam.bodies[0].mesh.nodes)])[: len(dam.bodies)]))
+        ends = np.cumsum([len(body.mesh.nodes) for body in dam.bodies])[:-1]
+        shapes.append(tuple(np.split(moved, ends)))
     return 2.0 * math.pi / np.sqrt(squares[order]), shapes
 
 

@@ -73,6 +73,7 @@ def section_figure(case: Case, units: str = "si") -> Figure:
     draw_crack(canvases[-1], section, small=False)
     if not one:
         draw_crack(canvases[0], section, small=True)
+    _draw_further(canvases[0], case)
     if anchored is not None:
         canvases[-1].label("anchors" if len(case.anchors) > 1 else "anchor", anchored, "#B22222", first=(1, 1))
     draw_forces(canvases[-1], case, system)
@@ -158,6 +159,16 @@ def draw_crack(canvas: Canvas, section: CutSection, *, small: bool) -> None:
     canvas.line([section.centroid], color="#000000", marker="o", markersize=7, markerfacecolor="white", zorder=6.5)
     canvas.line([section.centroid], color="#000000", marker="+", markersize=7, zorder=6.6)
     canvas.label("centroid", section.centroid, first=(-1, 1))
+
+
+def _draw_further(canvas: Canvas, case: Case) -> None:
+    """Draw the cracks beside that of ``[crack]``."""
+    for place, each in enumerate(case.cracks):
+        if place != case.asked:
+            ends = [each.cut.heel, each.cut.toe]
+            canvas.line(ends, keep_off=True, color="white", linewidth=3.6, zorder=4.5)
+            canvas.line(ends, color=COLOURS["crack"], linewidth=1.4, linestyle=(0, (4, 1.5)), zorder=4.6)
+            canvas.label("another crack", each.cut.toe, COLOURS["crack"], first=(1, 1))
 
 
 def _draw_anchors(canvas: Canvas, case: Case) -> Floats | None:

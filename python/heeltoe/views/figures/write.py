@@ -18,6 +18,7 @@ def save_all(figures: Mapping[str, Figure], directory: Path) -> list[Path]:
         with laid_out(figure):
             for suffix in (".png", ".svg"):
                 path = directory / f"{name}{suffix}"
+                path.parent.mkdir(exist_ok=True)
                 save(figure, path)
                 written.append(path)
     return written

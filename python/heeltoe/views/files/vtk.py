@@ -85,7 +85,7 @@ def write_frames(history: CrackHistory, fresh: Path, *, frames: Sequence[int] | 
 
 
 class _Dam:
-    """Grids of both parts."""
+    """Grids of all parts."""
 
     name = "dam"
 
@@ -119,9 +119,9 @@ class _Crack:
 
     def __init__(self, history: CrackHistory) -> None:
         self.faces = history.faces
-        drawn = [body.mesh.nodes[body.mesh.crack] for body in history.dam.bodies]
+        drawn = history.drawn
         self.points = _spatial(np.vstack(drawn))
-        self.section = history.dam.section
+        self.section = history.dam.sections[history.place]
         self.start = [places(nodes, self.section).T for nodes in drawn]
         counts = [len(nodes) for nodes in drawn]
         first = np.cumsum([0, *counts])

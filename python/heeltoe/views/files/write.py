@@ -56,7 +56,8 @@ def write_all(
     """Write a result with its histories and figures.
 
     Of a response ``result.json``, ``histories``, ``events`` (rigid) or ``crack`` (flexible) and the figures go right
-    into the directory; what stands beside it goes into a directory named after its model. Of a table of runs
+    into the directory; what stands beside it goes into a directory named after its model, histories and figures of
+    further cracks into one named after their place from the crest down, ``crack-1``. Of a table of runs
     ``result.json``, ``table`` and its figures. With the case there is a figure of the section, too. All is written
     aside first, so that a failure leaves nothing half-done; what an earlier run has left there is replaced or
     removed, and files that are not heeltoe's stay (:mod:`heeltoe.whole`).
@@ -198,6 +199,10 @@ def _(response: Response, directory: Path, suffix: str, vtk: bool) -> None:
     if not isinstance(response, FlexibleResponse):
         return
     write_table(crack_table(response.crack), directory / f"crack{suffix}")
+    for name, other in response.others.items():
+        (directory / name).mkdir()
+        write_table(other.to_table(), directory / name / f"histories{suffix}")
+        write_table(crack_table(other.crack), directory / name / f"crack{suffix}")
     if vtk:
         (directory / VTK).mkdir()
         write_frames(response.crack, directory / VTK)

@@ -123,9 +123,11 @@ def _convergence(subject: Subject, run: Run) -> list[Block]:
     tables = [Table(("", "value"), tuple(shown), "Evidence, time step and contact of the flexible model.", "lr")]
     shown = []
     mesh = run.response.summary["mesh"]
-    parts = ["above", "below"]
+    parts = ["above the crack", "below the crack"]
+    if "cracks" in run.response.summary:
+        parts = [f"of part {place + 1} from the crest down" for place in range(len(mesh["elements"]))]
     for place in range(len(mesh["elements"])):
-        where = parts[place] + " the crack"
+        where = parts[place]
         for label, name in (("Elements", "elements"), ("Nodes", "nodes"), ("Modes kept", "modes")):
             shown.append((f"{label} {where}", n(f"{run.prefix}mesh.{name}.{place}")))
     shown.append(("Nodes along the crack", n(f"{run.prefix}mesh.crack_nodes")))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from heeltoe.units.sentences import written
 from heeltoe.views.report.content import Block, Inline, Section, Table, paragraph
 from heeltoe.views.report.subject import Subject
 from heeltoe.views.words.numbers import Value
@@ -42,6 +43,17 @@ _STARTS = {
     ("rocking", "downstream"): "Rocking downstream, about the toe, starts at",
     ("rocking", "upstream"): "Rocking upstream, about the heel, starts at",
 }
+_OF_CRACKS: tuple[tuple[str, str, str | None], ...] = (
+    ("Residual slip, + downstream", "residual_slip_m", "displacement"),
+    ("Peak slip downstream", "peak_slip_downstream_m", "displacement"),
+    ("Largest rotation downstream", "rocking_downstream_rad", None),
+    ("Largest rotation upstream", "rocking_upstream_rad", None),
+    ("Opening, upstream face", "opening_upstream_m", "displacement"),
+    ("Opening, downstream face", "opening_downstream_m", "displacement"),
+    ("Strikes of nodes", "impacts", None),
+    ("Lost in friction", "crack_energy.friction_j", None),
+    ("Lost in impacts", "crack_energy.impact_j", None),
+)
 _CRACK_LEVEL: tuple[tuple[str, str, str | None], ...] = (
     ("Peak of the ground", "ground_peak_g", "g"),
     ("Peak at the crack, horizontal", "peak_horizontal_g", "g"),
@@ -100,10 +112,25 @@ def results(subject: Subject) -> Section:
                 subject.align(),
             )
         )
-        blocks += [*_tension(subject), *_at_the_crack(subject), *_anchors(subject), *_sequence(subject)]
+        blocks += [*_cracks(subject), *_tension(subject), *_at_the_crack(subject), *_anchors(subject), *_sequence(subject)]
     else:
         blocks.append(paragraph("The run never started, so that there are no results and no figures of it."))
     return Section("Results", (*blocks, *subject.figure(*_FIGURES)))
+
+
+def _cracks(subject: Subject) -> list[Block]:
+    """Return what each of several cracks did."""
+    found = subject.result.summary.get("cracks", ())
+    if not found:
+        return []
+    n = subject.numbers
+    head = ("", *(f"crack at {written('{at_m:g m}', subject.units, at_m=each['elevation_m'])}" for each in found))
+    rows: list[tuple[Inline, ...]] = [
+        (label, *(n(f"cracks.{place}.{key}", quantity) for place in range(len(found))))
+        for label, key, quantity in _OF_CRACKS
+    ]
+    caption = "Each crack by itself, from the crest down; what does not say otherwise is of that of [crack]."
+    return [Table(head, tuple(rows), caption, "l" + "r" * len(found))]
 
 
 def _tension(subject: Subject) -> list[Block]:

@@ -81,6 +81,8 @@ def drawings(figures: Mapping[str, Figure]) -> dict[str, FigureBlock]:
 def caption(name: str) -> str:
     """Return what a figure shows; unknown ones are called by their name."""
     model, slash, own = name.rpartition("/")
+    if model.startswith("crack-"):
+        model = f"crack {model.removeprefix('crack-')} from the crest down"
     text = CAPTIONS.get(own, f"{own.replace('-', ' ').replace('_', ' ').capitalize()}.")
     return (
         f"{NAMES.get(model, model).capitalize()}. {text}"

@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from heeltoe.case.model import Case
+from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.plain import plain
 from heeltoe.result.response import Response
 from heeltoe.views.report.content import FigureBlock, Inline
@@ -73,6 +74,11 @@ class Subject:
         return tuple(Run(each, "" if each is self.result else "beside.") for each in self.result.responses)
 
     @cached_property
+    def others(self) -> dict[str, FlexibleResponse]:
+        """Return the response at further cracks, by name."""
+        return self.result.others if isinstance(self.result, FlexibleResponse) else {}
+
+    @cached_property
     def references(self) -> tuple[str, ...]:
         """Return the sources for exactly what was used, in the order of their numbers."""
         cited = [text for run in self.runs for text in run.response.citation()]
@@ -108,7 +114,7 @@ class Subject:
 
     def figure(self, *names: str) -> tuple[FigureBlock, ...]:
         """Return those of the named figures that are there, of every run."""
-        prefixes = ["", *(f"{run.response.model}/" for run in self.runs[:-1])]
+        prefixes = ["", *(f"{name}/" for name in self.others), *(f"{run.response.model}/" for run in self.runs[:-1])]
         keys = [f"{prefix}{name}" for prefix in prefixes for name in names]
         return tuple(self.figures[key] for key in keys if key in self.figures)
 

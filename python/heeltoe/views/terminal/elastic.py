@@ -33,8 +33,11 @@ def elastic_lines(response: FlexibleResponse, units: str) -> list[tuple[str, str
     periods = " ".join(f"{period:.4f}" for period in s["periods_s"])
     lines = [("periods", f"{periods} s, of the intact dam with its water")]
     mesh = s["mesh"]
-    lines.append(("mesh", f"{mesh_line(mesh['elements'], mesh['nodes'])}; {mesh['crack_nodes']} nodes along the crack"))
+    size = mesh_line(mesh["elements"], mesh["nodes"], cracks=max(1, len(response.at_cracks)))
+    lines.append(("mesh", f"{size}; {mesh['crack_nodes']} nodes along the crack"))
     modes = " above and ".join(map(str, mesh["modes"])) + (" below" if len(mesh["modes"]) > 1 else "")
+    if response.at_cracks:
+        modes = f"{', '.join(map(str, mesh['modes']))} of the parts from the crest down"
     kept = f"{mesh['basis_error']:.1e} is what those left out take from the flexibility of the crack"
     lines.append(("modes", f"{modes}, {kept if mesh['basis_error'] else 'which is all there are'}"))
     rayleigh = s["rayleigh_mass_1_s"], s["rayleigh_stiffness_s"]
@@ -55,9 +58,11 @@ def elastic_lines(response: FlexibleResponse, units: str) -> list[tuple[str, str
     return lines
 
 
-def mesh_line(elements: Any, nodes: Any) -> str:
+def mesh_line(elements: Any, nodes: Any, cracks: int = 1) -> str:
     """Say how large the meshes of the parts are."""
     parts = [f"{e} elements, {n} nodes" for e, n in zip(elements, nodes, strict=True)]
+    if cracks > 1:
+        return f"{'; '.join(parts)}; of the parts from the crest down"
     return parts[0] if len(parts) == 1 else f"{parts[0]} above the crack; {parts[1]} below"
 
 

@@ -39,6 +39,9 @@ def print_summary(response: Response, console: Console, units: str = "si") -> No
     print_head(response, f"{response.model} model", console, units)
     if response.summary:
         console.print(_result_table(response, units))
+        if isinstance(response, FlexibleResponse) and response.at_cracks:
+            console.print()
+            console.print(_cracks_table(response, units))
         console.print()
         console.print(label_lines(_result_lines(response, units)))
         if response.spread is not None:
@@ -136,6 +139,26 @@ def _result_table(response: Response, units: str) -> Table:
     cells = [(label, Amount(one, kind), Amount(other, kind)) for label, kind, one, other in rows]
     for row in in_one_unit(cells, units):
         table.add_row(*row)
+    return table
+
+
+def _cracks_table(response: FlexibleResponse, units: str) -> Table:
+    """Return what each of several cracks did, from the crest down."""
+    table = quiet_table()
+    table.add_column("crack at")
+    for name in ("residual slip", "peak down", "peak up", "opening up", "opening down", "strikes"):
+        table.add_column(name, justify="right")
+    for place, crack in enumerate(response.cracks):
+        at = written("{at_m:g m}", units, at_m=crack["elevation_m"])
+        slips = (crack["residual_slip_m"], crack["peak_slip_downstream_m"], -crack["peak_slip_upstream_m"])
+        openings = (crack["opening_upstream_m"], crack["opening_downstream_m"])
+        told = ", see above" if place == response.crack.place else ""
+        table.add_row(
+            f"{at}{told}",
+            *(headline(value, "slip", units) for value in slips),
+            *(headline(value, "opening", units) for value in openings),
+            str(crack["impacts"]),
+        )
     return table
 
 

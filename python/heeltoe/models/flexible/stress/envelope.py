@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -65,10 +65,20 @@ class Peak:
     index: int
 
 
+def _of_parts(dam: FlexibleDam, run: DamRun) -> list[Mapping[str, Floats]]:
+    """Return the extremes that the kernel has of its bodies, part by part from the crest down."""
+    found: list[Mapping[str, Floats]] = [{}] * len(dam.bodies)
+    for side, table in enumerate(run.extremes):
+        ends = np.cumsum([each.nodes.size for each in dam.stress_places[side::2]])[:-1]
+        pieces = {name: np.split(values, ends) for name, values in table.items()}
+        found[side::2] = [{name: each[k] for name, each in pieces.items()} for k in range(ends.size + 1)]
+    return found
+
+
 def envelope_of(dam: FlexibleDam, run: DamRun) -> tuple[PartEnvelope, ...]:
     """Return the envelope of a run, part by part."""
     found = []
-    for body, places, static, raw in zip(dam.bodies, dam.stress_places, dam.static, run.extremes, strict=True):
+    for body, places, static, raw in zip(dam.bodies, dam.stress_places, dam.static, _of_parts(dam, run), strict=True):
         at_rest, _, _ = principal(stresses(body, static)[places.nodes])
         found.append(
             PartEnvelope(

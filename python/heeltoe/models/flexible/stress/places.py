@@ -45,7 +45,7 @@ class StressPlaces:
 
 
 def in_bodies(places: tuple[StressPlaces, ...]) -> tuple[Floats, ...]:
-    """Return the rows of parts, from the crest down, as those of the kernel's two bodies: every other part in either."""
+    """Return the rows of parts, from the crest down, as those of the kernel's two bodies: each has every other part."""
     found = []
     for side in range(min(2, len(places))):
         rows = [each.rows for each in places[side::2]]

@@ -121,11 +121,18 @@ def _where(dam: FlexibleDam, parts: Sequence[PartEnvelope], peak: Peak) -> dict[
     x, z = mesh.nodes[node]
     return {
         "time_s": peak.time,
-        "part": _PARTS[peak.part],
+        "part": _part(dam, peak.part),
         "place": _place(mesh, node),
         "x_m": float(x),
         "z_m": float(z),
     }
+
+
+def _part(dam: FlexibleDam, place: int) -> str:
+    """Return what a part is called."""
+    if len(dam.lines) == 1:
+        return _PARTS[place]
+    return "uppermost" if place == 0 else "between" if place < dam.free else "lowest"
 
 
 def _place(mesh: BodyMesh, node: int) -> str:

@@ -50,7 +50,8 @@ def tension_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     for body in dam.bodies:
         outline = boundary_edges(body.mesh.elements)
         axes.add_collection(LineCollection(list(length(body.mesh.nodes)[outline]), colors="#000000", linewidths=1.0))
-    axes.plot(*length(dam.upper.mesh.nodes[dam.upper.mesh.crack]).T, color=COLOURS["crack"], linewidth=1.6)
+    for body in dam.bodies[: dam.free]:
+        axes.plot(*length(body.mesh.nodes[body.mesh.faces[-1]]).T, color=COLOURS["crack"], linewidth=1.6)
     place = length(np.array([found["x_m"], found["z_m"]]))
     axes.plot(*place, "o", markersize=9, markerfacecolor="none", markeredgecolor="#000000", markeredgewidth=1.6)
     across = found["direction_rad"] + np.pi / 2.0

@@ -1,0 +1,288 @@
+"""Several cracks: each alone where the others are bonded, ledger, mirror and scale, and two blocks that hardly deform."""
+
+from __future__ import annotations
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+from heeltoe import read_case
+from heeltoe.case.model import Case
+from heeltoe.models.flexible import bonded as bonded_module
+from heeltoe.models.flexible.mesh.dam import DamMesh, _body, dam_mesh
+from heeltoe.models.flexible.reduced import build_flexible_dam
+from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.models.run import earthquake, flexible
+
+PULSES = [
+    ["0 s", "0 g"],
+    ["0.15 s", "-0.6 g"],
+    ["0.4 s", "0.5 g"],
+    ["0.65 s", "-0.5 g"],
+    ["0.9 s", "0.3 g"],
+    ["1 s", "0 g"],
+]
+#: A dam cracked at its base and at its neck, with all modes, so that what is bonded is what was never cut.
+DAM = {
+    "section": {
+        "height": "100 m",
+        "crest_width": "8 m",
+        "neck_height": "90 m",
+        "neck_width": "8 m",
+        "base_width": "80 m",
+    },
+    "concrete": {"density": "2650 kg/m^3", "modulus": "20 GPa", "poisson": 0.143},
+    "crack": {"elevation": "0 m", "friction": 0.9},
+    "further_cracks": [{"elevation": "90 m", "friction": 0.8}],
+    "reservoir": {"depth": "100 m"},
+    "motion": {"points": PULSES, "duration": "1.5 s"},
+    "analysis": {"silence": "0 s"},
+    "flexible": {"elements_across": 4, "modes": 5000, "damping": "stiffness", "evidence": "none"},
+}
+STEP = 2e-4
+#: Factor on the pressure that presses the faces of a bonded crack together instead of apart.
+GLUE = -300.0
+
+
+def shaken(case: Case):
+    """Return what each crack of a case does, from the crest down."""
+    found = ShakenDam(case, build_flexible_dam(case), earthquake(case).shaking)
+    return found.run(STEP, 0.01)
+
+
+def bonded(case: Case, elevation: float) -> Case:
+    """Return the case with one of its cracks bonded: its faces are pressed together by forces that its contact gives
+    back, and nothing slips."""
+    glue = {"uplift": "uniform", "uplift_intensity": GLUE}
+    strong = {"friction": 1e3, "static_friction": None, "kinetic_friction": None}
+    if case.crack.elevation == elevation:
+        own = case.uplift.model_copy(update={"pattern": "uniform", "intensity": GLUE})
+        others = [
+            each.model_copy(
+                update={
+                    "uplift": each.uplift or case.uplift.pattern,
+                    "uplift_intensity": 1.0 if each.uplift_intensity is None else each.uplift_intensity,
+                    "friction": each.friction or case.crack.friction,
+                }
+            )
+            for each in case.further_cracks
+        ]
+        crack = case.crack.model_copy(update=strong)
+        return case.model_copy(update={"crack": crack, "uplift": own, "further_cracks": tuple(others)})
+    found = [
+        each.model_copy(update=glue | strong) if each.elevation == elevation else each for each in case.further_cracks
+    ]
+    return case.model_copy(update={"further_cracks": tuple(found)})
+
+
+def joined(case: Case) -> DamMesh:
+    """Return the mesh of a dam with two cracks as that of one with the lower crack alone."""
+    upper, lower = dam_mesh(case).parts
+    faces = dict(zip(upper.faces[-1].tolist(), lower.faces[0].tolist(), strict=True))
+    count = len(lower.nodes)
+    renumbered = np.array([faces.get(node, count + node) for node in range(len(upper.nodes))])
+    elements = np.vstack([lower.elements, renumbered[upper.elements]])
+    nodes = np.vstack([lower.nodes, upper.nodes])
+    used, places = np.unique(elements, return_inverse=True)
+    return DamMesh((_body(nodes[used], places.reshape(elements.shape), case.cut, "joined", above=True),), None)
+
+
+def same(one, other, width: float) -> None:
+    """Compare what a crack does, to a millionth of how far it moves."""
+    largest = np.abs(other["slip"]).max()
+    for name, arm in (("slip", 1.0), ("rotation", width), ("opening_heel", 1.0), ("opening_toe", 1.0)):
+        assert arm * one[name] == pytest.approx(arm * other[name], abs=1e-6 * largest), name
+
+
+def test_the_neck_alone_where_the_base_is_bonded():
+    case = read_case(DAM)
+    two = shaken(bonded(case, 0.0))
+    alone = shaken(case.cracks[0])
+    assert abs(alone.summary["slip"]) > 1e-3
+    same(two.all_frames[0], alone.frames, 8.0)
+    assert np.abs(two.all_frames[1]["slip"]).max() < 1e-8
+
+
+def test_the_base_alone_where_the_neck_is_bonded(monkeypatch):
+    case = read_case(DAM)
+    two = shaken(bonded(case, 90.0))
+    monkeypatch.setattr(bonded_module, "dam_mesh", lambda _: joined(case))
+    # Another damping, by rounding, so that no dam of another mesh is found.
+    alone = shaken(
+        case.cracks[1].model_copy(update={"concrete": case.concrete.model_copy(update={"damping": 0.05 + 1e-15})})
+    )
+    assert abs(alone.summary["slip"]) > 1e-3
+    same(two.all_frames[1], alone.frames, 80.0)
+    assert np.abs(two.all_frames[0]["slip"]).max() < 1e-8
+
+
+def test_three_cracks_are_two_where_the_middle_one_is_bonded():
+    """Then the first and the third part stand side by side in one body of the kernel."""
+    fields = DAM | {"crack": {"elevation": "12 m", "friction": 0.7}}
+    fields["further_cracks"] = [{"elevation": "90 m", "friction": 0.8}, {"elevation": "40 m", "friction": 1.0}]
+    case = read_case(fields)
+    three = shaken(bonded(case, 12.0))
+    two = shaken(bonded(bonded(case, 12.0), 40.0))
+    assert [len(each.all_frames) for each in (three, two)] == [3, 3]
+    assert np.abs(three.all_frames[2]["slip"]).max() < 1e-8
+    alone = shaken(case.cracks[0])
+    largest = np.abs(alone.frames["slip"]).max()
+    # Rows of elements lie elsewhere, and the damping is that of other modes.
+    assert two.all_frames[0]["slip"] == pytest.approx(alone.frames["slip"], abs=0.1 * largest)
+
+
+@pytest.fixture(scope="module")
+def free() -> Case:
+    return read_case(DAM | {"flexible": {"elements_across": 4, "evidence": "none"}})
+
+
+def test_the_ledger_closes_and_says_what_each_crack_has_lost(free):
+    run = shaken(free)
+    assert all(abs(each["slip"]) > 1e-3 for each in run.summaries)
+    for each in run.summaries:
+        assert each["energy_residual"] < 1e-12
+        assert each["energy_gained"] < 1e-9 * each["energy_turnover"]
+        assert each["contact_residual"] < 1e-9
+    for whole, own in (("energy_friction", "crack_friction"), ("energy_impact", "crack_impact")):
+        parts = [each[own] for each in run.summaries]
+        assert sum(parts) == pytest.approx(run.summary[whole], rel=1e-9)
+        assert min(parts) > 0.0
+
+
+def test_without_an_earthquake_nothing_moves(free):
+    still = free.with_({"motion": {"points": [["0 s", "0 g"], ["1 s", "0 g"]], "allow_zero": True, "duration": None}})
+    run = shaken(still)
+    assert [each["slip_max"] - each["slip_min"] for each in run.summaries] == [0.0, 0.0]
+
+
+def test_twice_the_density_and_stiffness_change_nothing(free):
+    heavy = free.with_(
+        {"concrete.density": "5300 kg/m^3", "concrete.modulus": "40 GPa", "reservoir.density": "2000 kg/m^3"}
+    )
+    for one, other in zip(shaken(free).all_frames, shaken(heavy).all_frames, strict=True):
+        assert one["slip"] == pytest.approx(other["slip"], abs=1e-9)
+
+
+def test_a_mirrored_dam_slides_the_other_way(free):
+    corners = np.array(free.section.vertices())
+    mirrored = [[f"{-x} m", f"{z} m"] for x, z in corners[::-1]]
+    image = free.with_(
+        {
+            "section": {**dict.fromkeys(free.section.model_fields_set), "polygon": mirrored},
+            "reservoir": None,
+            "tailwater": {"depth": "100 m"},
+            "motion.reverse": True,
+        }
+    )
+    for one, other in zip(shaken(free).all_frames, shaken(image).all_frames, strict=True):
+        assert one["slip"] == pytest.approx(-other["slip"], abs=1e-6)
+        assert one["opening_heel"] == pytest.approx(other["opening_toe"], abs=1e-6)
+
+
+def test_a_run_has_the_same_bits_with_any_number_of_threads(free):
+    found = ShakenDam(free, build_flexible_dam(free), earthquake(free).shaking)
+    one, two = (found.run_scaled_cracks(STEP, np.array([0.9, 1.0, 1.1]), threads=threads) for threads in (1, 2))
+    whole = found.run(STEP)
+    for each, other, run in zip(one, two, whole.summaries, strict=True):
+        assert each["slip"].tobytes() == other["slip"].tobytes()
+        assert each["slip"][1] == run["slip"]
+
+
+def two_blocks(time, ground, masses, friction, gravity=9.80665):
+    """Slide two rigid blocks, one on the other on the ground, by small steps: an independent program.
+
+    Each contact sticks where its friction can hold what is on it, else it slips; slips are those of the upper block on
+    the lower one, and of the lower one on the ground.
+    """
+    step = time[1] - time[0]
+    upper, lower = masses
+    limits = friction[0] * upper * gravity, friction[1] * (upper + lower) * gravity
+    velocity, slip, history = np.zeros(2), np.zeros(2), []
+    for a in ground:
+        # Impulses of friction on the upper block by the lower, and on the lower by the ground, by sweeps.
+        impulse = np.zeros(2)
+        free = velocity - step * a
+        for _ in range(60):
+            before = impulse.copy()
+            for k in (0, 1):
+                moved = free + np.array([impulse[0] / upper, (impulse[1] - impulse[0]) / lower])
+                relative, answer = (
+                    (moved[0] - moved[1], 1.0 / upper + 1.0 / lower) if k == 0 else (moved[1], 1.0 / lower)
+                )
+                impulse[k] = np.clip(impulse[k] - relative / answer, -step * limits[k], step * limits[k])
+            if np.abs(impulse - before).max() < 1e-12:
+                break
+        velocity = free + np.array([impulse[0] / upper, (impulse[1] - impulse[0]) / lower])
+        slip = slip + step * np.array([velocity[0] - velocity[1], velocity[1]])
+        history.append(slip)
+    return np.array(history)
+
+
+def test_two_stiff_blocks_slide_as_rigid_ones():
+    points = [
+        ["0 s", "0 g"],
+        *([f"{t:.3f} s", f"{0.5 * np.sin(2.0 * np.pi * 2.0 * t):.6f} g"] for t in np.arange(1, 101) / 100),
+    ]
+    case = read_case(
+        {
+            "section": {"polygon": [["0 m", "0 m"], ["16 m", "0 m"], ["16 m", "3 m"], ["0 m", "3 m"]]},
+            "concrete": {"density": "2500 kg/m^3", "modulus": "20000 GPa", "poisson": 0.2},
+            "crack": {"elevation": "0 m", "friction": 0.3},
+            "further_cracks": [{"elevation": "2 m", "friction": 0.2}],
+            "uplift": {"pattern": "none"},
+            "motion": {"points": points, "duration": "1 s"},
+            "analysis": {"silence": "0 s"},
+            "flexible": {"elements_across": 4, "evidence": "none", "time_step": "0.02 ms"},
+        }
+    )
+    response = flexible(case)
+    step = 1e-5
+    time = np.arange(100_000) * step
+    shaking = earthquake(case).shaking
+    ground = np.interp(time + step / 2.0, shaking.time, shaking.horizontal)
+    slips = two_blocks(time, ground, (2500.0 * 16.0, 2500.0 * 32.0), (0.2, 0.3))
+    for place in (0, 1):
+        found = response.at_cracks[place].histories["slip_m"]
+        expected = np.interp(response.histories["time_s"], time + step, slips[:, place])
+        largest = np.abs(expected).max()
+        assert largest > 5e-3
+        assert found == pytest.approx(expected, abs=0.02 * largest)
+
+
+def test_a_response_has_every_crack(free):
+    case = free.with_({"limits.residual_slip": "0.1 mm"})
+    response = flexible(case)
+    told = response.to_json()
+    assert [each["elevation_m"] for each in told["cracks"]] == [90.0, 0.0]
+    assert told["residual_slip_m"] == told["cracks"][1]["residual_slip_m"]
+    slips = [abs(each["residual_slip_m"]) for each in told["cracks"]]
+    assert told["governing_crack"] == slips.index(max(slips))
+    assert response.limits[0].value_m == max(slips)
+    assert response.limits[0].elevation_m == [90.0, 0.0][told["governing_crack"]]
+    neck = response.others["crack-1"]
+    assert neck.residual_slip_m == told["cracks"][0]["residual_slip_m"]
+    assert neck.crack.force.shape[2] == neck.crack.upper_position.shape[2] == 9
+    assert neck.crack.status.shape[1] == 11
+    assert response.crack.lower_position is None
+    forces = neck.crack.forces()[:, 1].sum(axis=1)
+    assert forces[1:] == pytest.approx(neck.histories["normal_force_n"][1:], rel=1e-9, abs=1.0)
+    # The weight of what is above each crack, less the uplift, before the earthquake.
+    for place, crack in enumerate(response.at_cracks):
+        alone = case.cracks[place]
+        weight = 2650.0 * 9.80665 * alone.cut.area
+        head = 100.0 - alone.crack.elevation
+        lift = 1000.0 * 9.80665 * head * alone.cut.crack_width / 2.0
+        assert crack.crack.forces()[0, 1].sum() == pytest.approx(weight - lift, rel=1e-6)
+
+
+def test_evidence_is_that_of_every_crack(free):
+    case = free.with_({"flexible.evidence": "full"})
+    response = flexible(case)
+    found = [each["evidence"] for each in response.cracks]
+    assert all(each["asked"] == "full" and each["residual_slip_m"]["mesh"] is not None for each in found)
+    said = [each.code for each in response.warnings]
+    worse = [each for each in found[:1] if not each["converged"] or each["value_is"] == "mean"]
+    assert said.count("further-crack-uncertain") == len(worse)
+    weak = dataclasses.replace(response, title="")
+    assert weak.at_crack(0).summary["evidence"] == found[0]
