@@ -122,6 +122,9 @@ def faults(model: str, records: dict[str, tuple[Fields, Any]], skip: Skip, *, br
         if skip(path, told(model, after)):
             continue
         old, _, _ = outcome(model, json.dumps(before))
+        if isinstance(old, str) and old.startswith("further_cracks: "):
+            assert model in ("rigid", "decoupled")
+            continue
         new, said, unread = outcome(model, json.dumps(after))
         if isinstance(old, str) and path != "motion.allow_zero":
             found.append(f"{path}: {old}")

@@ -138,6 +138,25 @@ HELPED: dict[str, tuple[Fields, Any]] = {
 }
 JOINT = {"elevation": "10 m", "friction": 0.65, "bonded": 0.4, "cohesion": "0.4 MPa", "tensile_strength": "0.01 MPa"}
 # A joint that the usual loads would open.
+# A second crack above that of the base, with what knows one crack alone left out.
+SECOND = {"elevation": "18 m", "static_friction": 0.7, "kinetic_friction": 0.6}
+SECOND |= {"uplift": "triangular", "uplift_intensity": 0.5}
+SEVERAL: Fields = {
+    "further_cracks": [SECOND],
+    "anchors": GONE,
+    "aftershocks": GONE,
+    "uplift.during_shaking": GONE,
+    "uplift.opening": GONE,
+}
+HELPED |= {f"further_cracks[0].{name}": (SEVERAL, None) for name in SECOND}
+HELPED |= {
+    "further_cracks[0].inclination": (SEVERAL, "5 deg"),
+    "further_cracks[0].uplift": (SEVERAL, "uniform"),
+    "further_cracks[0].friction": (
+        SEVERAL | {"further_cracks": [{"elevation": "18 m", "friction": 0.6, "uplift": "triangular"}]},
+        0.5,
+    ),
+}
 HELPED |= {f"statics.sections[0].{name}": ({"statics.sections": [JOINT]}, None) for name in JOINT}
 _NUMBER = re.compile(r"-?\d+(?:\.\d*)?(?:e[+-]?\d+)?")
 

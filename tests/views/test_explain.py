@@ -53,6 +53,7 @@ def results(tmp_path_factory, study):
         "rigid": run(anchored, "rigid").to_json(),
         "flexible": run(full, "both").to_json(),
         "anchored": run(anchored.with_("concrete.modulus=20GPa"), "flexible").to_json(),
+        "cracks": run(example("two-cracks", *FAST, "limits.residual_slip=1mm"), "flexible").to_json(),
         "aftershocks": run(example("aftershocks", *FAST), "rigid").to_json(),
         "decoupled": run(koyna, "decoupled").to_json(),
         "spread": with_spread(block, read_case(HEIGHT, FAST), 2).to_json(),

@@ -21,8 +21,9 @@ def many_cracks(case: Case) -> Iterator[InputError]:
         return
     other = "further_cracks"
     options = case.flexible
-    if case.anchors:
-        yield InputError("one-crack-only", "anchors", other=other)
+    for name in ("anchors", "aftershocks"):
+        if getattr(case, name):
+            yield InputError("one-crack-only", name, other=other)
     if case.uplift.during_shaking != "constant":
         yield InputError("one-crack-value", "uplift.during_shaking", shown(case.uplift.during_shaking), other=other)
     for name, unfit in (("contact", "idce"), ("damping", "thesis"), ("virtual_mass", "thesis")):

@@ -221,7 +221,7 @@ def _idle_choices(case: Case, models: Sequence[str]) -> Iterator[Rule]:
     yield (
         set(models) == {"statics"} and (not slid or choice.residual_friction is not None),
         "statics.residual_friction is given" if slid else "nothing slides in these checks",
-        ("crack.kinetic_friction",),
+        ("crack.kinetic_friction", "further_cracks.kinetic_friction"),
     )
 
 

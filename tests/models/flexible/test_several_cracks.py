@@ -1,4 +1,4 @@
-"""Several cracks: each alone where the others are bonded, ledger, mirror and scale, and two blocks that hardly deform."""
+"""Several cracks: each alone where the others are bonded, ledger, mirror and scale, and two stiff blocks."""
 
 from __future__ import annotations
 

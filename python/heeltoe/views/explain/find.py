@@ -16,7 +16,7 @@ from heeltoe.views.explain.meaning import Meaning
 # No name is so long; what is longer is not compared with all of them.
 _LONGEST = 200
 # Keys of a result stand below these again, where models stand side by side or runs in a table.
-_AGAIN = ("beside", "runs", "sections", "statics", "rigid", "flexible", "decoupled")
+_AGAIN = ("beside", "cracks", "runs", "sections", "statics", "rigid", "flexible", "decoupled")
 _HEADLINES = frozenset(each.key for each in HEADLINES)
 
 

@@ -51,7 +51,7 @@ _PROPERTIES: dict[type, tuple[str, ...]] = {
 # Attributes that the JSON does not have, or says by keys of their own.
 _NOT_THERE = {
     "histories", "mode", "event_log", "gravity", "vertical", "summary", "seconds", "sources", "ends_m", "moment_nm",
-    "crack", "envelope", "parts",
+    "crack", "envelope", "parts", "at_cracks",
 }  # fmt: skip
 # The longest ending first.
 _UNITS = {

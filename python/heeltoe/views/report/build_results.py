@@ -112,7 +112,13 @@ def results(subject: Subject) -> Section:
                 subject.align(),
             )
         )
-        blocks += [*_cracks(subject), *_tension(subject), *_at_the_crack(subject), *_anchors(subject), *_sequence(subject)]
+        blocks += [
+            *_cracks(subject),
+            *_tension(subject),
+            *_at_the_crack(subject),
+            *_anchors(subject),
+            *_sequence(subject),
+        ]
     else:
         blocks.append(paragraph("The run never started, so that there are no results and no figures of it."))
     return Section("Results", (*blocks, *subject.figure(*_FIGURES)))

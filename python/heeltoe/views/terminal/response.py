@@ -26,7 +26,7 @@ from heeltoe.views.terminal.decoupled import crack_lines
 from heeltoe.views.terminal.elastic import elastic_lines
 from heeltoe.views.terminal.sequence import print_sequence
 from heeltoe.views.words.motion import sampling
-from heeltoe.views.words.numbers import Amount, in_one_unit
+from heeltoe.views.words.numbers import Amount, Cell, in_one_unit
 from heeltoe.views.words.sequence import part_lines
 from heeltoe.views.words.spread import COLUMNS, spread_rows, spread_said
 from heeltoe.views.words.starts import of_what, starts
@@ -148,17 +148,16 @@ def _cracks_table(response: FlexibleResponse, units: str) -> Table:
     table.add_column("crack at")
     for name in ("residual slip", "peak down", "peak up", "opening up", "opening down", "strikes"):
         table.add_column(name, justify="right")
+    cells: list[list[Cell]] = []
     for place, crack in enumerate(response.cracks):
         at = written("{at_m:g m}", units, at_m=crack["elevation_m"])
+        told = ", see above" if place == response.crack.place else ""
         slips = (crack["residual_slip_m"], crack["peak_slip_downstream_m"], -crack["peak_slip_upstream_m"])
         openings = (crack["opening_upstream_m"], crack["opening_downstream_m"])
-        told = ", see above" if place == response.crack.place else ""
-        table.add_row(
-            f"{at}{told}",
-            *(headline(value, "slip", units) for value in slips),
-            *(headline(value, "opening", units) for value in openings),
-            str(crack["impacts"]),
-        )
+        amounts = [*(Amount(slip, "slip") for slip in slips), *(Amount(each, "opening") for each in openings)]
+        cells.append([f"{at}{told}", *amounts])
+    for crack, row in zip(response.cracks, in_one_unit(cells, units), strict=True):
+        table.add_row(*row, str(crack["impacts"]))
     return table
 
 
