@@ -11,9 +11,16 @@ import numpy as np
 import shapely
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
-from heeltoe.case.at_crack import AnchorAtCrack, anchor_at_crack, flat, too_flat, uplift_at_crack
+from heeltoe.case.at_crack import (
+    AnchorAtCrack,
+    anchor_at_crack,
+    flat,
+    many_cracks,
+    places_of,
+    too_flat,
+    uplift_at_crack,
+)
 from heeltoe.case.changes import apply
-from heeltoe.case.cracks import many_cracks, places_of
 from heeltoe.case.dam import Anchor, Concrete, Crack, FurtherCrack, Ice, Reservoir, Silt, Uplift, Water
 from heeltoe.case.fields import Fields
 from heeltoe.case.motion import Aftershock, Motion

@@ -7,7 +7,7 @@ from dataclasses import replace
 from time import perf_counter
 from typing import TYPE_CHECKING, Literal, TypeVar
 
-from heeltoe.case.cracks import one_crack
+from heeltoe.case.at_crack import one_crack
 from heeltoe.case.model import Case
 from heeltoe.case.shaking import resolve_all
 from heeltoe.case.use import unused_fields

@@ -7,7 +7,6 @@ from typing import Any
 
 from heeltoe.units.sentences import written
 
-
 # What parts are called where there are several cracks.
 _SAID = {
     "uppermost": "the part above all cracks",

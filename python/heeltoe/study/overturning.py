@@ -18,7 +18,7 @@ import pyarrow as pa
 from numpy.typing import NDArray
 
 from heeltoe.arrays import Floats
-from heeltoe.case.cracks import one_crack
+from heeltoe.case.at_crack import one_crack
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError, expect
 from heeltoe.kernel.shaking import Shaking

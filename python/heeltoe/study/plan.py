@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from heeltoe.arrays import Floats, Integers
-from heeltoe.case.cracks import one_crack
+from heeltoe.case.at_crack import one_crack
 from heeltoe.case.model import Case
 from heeltoe.case.paths import value_of
 from heeltoe.case.read import read_case

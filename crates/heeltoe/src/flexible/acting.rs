@@ -12,10 +12,9 @@
 //! stiffness of the concrete, and loses energy at the same small rate. The static pressure and the prestress are among
 //! the static loads of the bodies; here are the differences from them.
 
-use super::line::Face;
 use super::moving::TimeStep;
 use super::observe::height;
-use super::sides::Faces;
+use super::sides::{Face, Faces};
 use crate::inside::{Anchor, Law};
 
 /// Water in the crack; forces of each node across the crack, of the upper and of the lower face.

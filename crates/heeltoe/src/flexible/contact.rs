@@ -12,8 +12,7 @@
 
 use std::ops::Range;
 
-use super::line::{Face, Meeting, Place};
-use super::sides::Faces;
+use super::sides::{Face, Faces, Meeting, Place};
 
 /// Weights of the nodes of both bodies in the motion of the upper face of a crack against the lower one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -15,8 +15,7 @@ use super::body::Group;
 use super::contact::{Contacts, Pair};
 use super::coulomb::{Problem, Report, Solver};
 use super::dam::Dam;
-use super::line::Place;
-use super::sides::{Faces, Sides};
+use super::sides::{Faces, Place, Sides};
 use super::status::Status;
 
 /// The contact problem of a step, in terms of both bodies.

@@ -4,12 +4,11 @@ use super::acting::{FaceAnchor, Inside};
 use super::body::ReducedBody;
 use super::envelope::Stressed;
 use super::idce::Penalty;
-use super::line::Line;
-use super::sides::Sides;
+use super::sides::{Line, Sides};
 use super::start::{self, Still};
 use crate::stop::Stop;
 
-/// Two bodies, and the cracks between them: of several, see the module `line`.
+/// Two bodies, and the cracks between them: of several, see the module `sides`.
 pub struct Dam {
     /// Above and below the crack; of several, every other part.
     pub bodies: Sides<ReducedBody>,

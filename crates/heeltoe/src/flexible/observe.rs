@@ -6,7 +6,7 @@
 //!
 //! with t along the crack and n across it; both are zero at the start.
 
-use super::line::{Face, Meeting};
+use super::sides::{Face, Meeting};
 use crate::table::named;
 
 /// The motion of the upper face against the lower one.

@@ -14,8 +14,8 @@
 //! leaves the other face by less than `give.gap` still stands on its nearest node.
 
 use super::contact::Contactor;
-use super::line::{Face, Meeting};
 use super::observe::State;
+use super::sides::{Face, Meeting};
 use super::status::Status;
 
 /// A part that stands on less of the crack than this, about one end, may be rocking: with a pressure that falls off

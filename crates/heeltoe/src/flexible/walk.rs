@@ -12,10 +12,9 @@ use super::dam::{Dam, Wanted};
 use super::envelope::Envelope;
 use super::frames::{Frames, Since, Snapshot};
 use super::ledger::Ledger;
-use super::line::Place;
 use super::observe::{mean_along, Motion};
 use super::result::{Outcome, Run, Summary};
-use super::sides::{Faces, Sides};
+use super::sides::{Faces, Place, Sides};
 use super::stance::{Give, Stance};
 use super::wide::Wide;
 

@@ -14,11 +14,19 @@ from heeltoe.models.flexible.expected import analysing, frame_step_of
 from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
 from heeltoe.models.flexible.refinement import Answer, answer
 from heeltoe.models.flexible.response import FlexibleResponse
-from heeltoe.models.flexible.several import at_cracks, modes_of, penetration_of, several_of
 from heeltoe.models.flexible.shaken import ShakenDam
 from heeltoe.models.flexible.stress.envelope import envelope_of
 from heeltoe.models.flexible.stress.tension import tension_of, tension_warnings
-from heeltoe.models.flexible.tables import energy_of, histories_of, histories_of_cracks, summary_of
+from heeltoe.models.flexible.tables import (
+    at_cracks,
+    energy_of,
+    histories_of,
+    histories_of_cracks,
+    modes_of,
+    penetration_of,
+    several_of,
+    summary_of,
+)
 from heeltoe.models.flexible.warnings import outcome_of, stands, warnings_of
 from heeltoe.models.silence import until_rest
 from heeltoe.motion.earthquake import Earthquake

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.arrays import Floats, Integers
-from heeltoe.case.cracks import one_crack
+from heeltoe.case.at_crack import one_crack
 from heeltoe.case.model import Case
 from heeltoe.case.options import LONGEST_SILENCE
 from heeltoe.errors import InputError, expect

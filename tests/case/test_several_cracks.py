@@ -1,0 +1,95 @@
+"""Cases with several cracks: their order, what they take from each other, and what is refused by name."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from heeltoe import overturning_map, read_case, run, run_study
+from heeltoe.errors import InputError
+from heeltoe.models.rigid.many import rigid_many
+from heeltoe.models.statics.joints import statics_of_sections
+from shared.dams import example
+
+CASE = example("two-cracks")
+
+
+def test_cracks_stand_from_the_crest_down_and_inherit_friction_and_uplift():
+    case = CASE.with_(
+        {
+            "crack.elevation": "40 m",
+            "further_cracks": [
+                {"elevation": "0 m", "uplift": "uniform"},
+                {"elevation": "90 m", "friction": 0.8, "uplift_intensity": 0.5},
+            ],
+        }
+    )
+    assert [each.crack.elevation for each in case.cracks] == [90.0, 40.0, 0.0]
+    assert case.asked == 1
+    assert [each.crack.mu_kinetic for each in case.cracks] == [0.8, 1.2, 1.2]
+    assert [each.uplift.pattern for each in case.cracks] == ["triangular", "triangular", "uniform"]
+    assert [each.uplift.intensity for each in case.cracks] == [0.5, 1.0, 1.0]
+    assert all(not each.further_cracks for each in case.cracks)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"further_cracks": [{"elevation": "0 m"}]}, "further_cracks[0].elevation: the crack at 0 m meets or crosses"),
+        ({"further_cracks": [{"elevation": "120 m"}]}, "further_cracks[0].elevation: at 120 m"),
+        ({"further_cracks": [{"elevation": "90 m", "static_friction": 1.0}]}, "kinetic_friction: is required"),
+        ({"anchors": [{"distance": "5 m", "prestress": "1 MN/m"}]}, "anchors: does not go with further_cracks"),
+        ({"aftershocks": [{"file": "elcentro-1940-180-nga"}]}, "aftershocks: does not go with further_cracks"),
+        ({"uplift.during_shaking": "zero while open"}, 'uplift.during_shaking: "zero while open" does not go with'),
+        ({"flexible.damping": "thesis"}, 'flexible.damping: "thesis" does not go with further_cracks'),
+        ({"flexible.virtual_mass": "thesis"}, 'flexible.virtual_mass: "thesis" does not go with further_cracks'),
+        ({"flexible.contact": "idce", "flexible.damping": "stiffness"}, 'flexible.contact: "idce" does not go with'),
+        ({"flexible.mesh_above": "a.msh"}, "flexible.mesh_above: does not go with further_cracks"),
+    ],
+)
+def test_what_does_not_go_together_is_refused_by_name(changes, said):
+    with pytest.raises(InputError, match=re.escape(said)):
+        CASE.with_(changes)
+
+
+def test_inclined_cracks_that_cross_are_refused():
+    with pytest.raises(InputError, match="meets or crosses"):
+        CASE.with_({"further_cracks": [{"elevation": "10 m", "inclination": "-30 deg"}]})
+
+
+@pytest.mark.parametrize(
+    ("model", "who"),
+    [
+        ("rigid", "the rigid model"),
+        ("decoupled", "the decoupled chain"),
+        ("both", "the block beside the flexible model"),
+    ],
+)
+def test_models_that_know_one_crack_refuse_several(model, who):
+    with pytest.raises(InputError, match=f"further_cracks: {who} knows one crack alone.*run the flexible model"):
+        run(CASE, model)
+
+
+def test_studies_and_maps_refuse_several(tmp_path):
+    with pytest.raises(InputError, match="a map of overturning knows one crack"):
+        overturning_map(CASE, count=2)
+    with pytest.raises(InputError, match="the rigid model knows one crack"):
+        rigid_many([CASE], [])
+    study = tmp_path / "study.toml"
+    case = CASE.base_directory / "two-cracks.toml"
+    study.write_text(f'case = "{case}"\nmodel = "flexible"\n[vary]\n"crack.friction" = [1.0, 1.2]\n')
+    with pytest.raises(InputError, match="a study knows one crack"):
+        run_study(study, tmp_path / "out")
+
+
+def test_static_checks_judge_every_crack_as_a_section():
+    found = statics_of_sections(CASE)
+    assert [each.elevation_m for each in found.joints] == [90.0, 0.0]
+    for joint, case in zip(found.joints, CASE.cracks, strict=True):
+        assert joint.statics.to_json()["cases"] == statics_of_sections(case).joints[0].statics.to_json()["cases"]
+
+
+def test_a_case_says_its_cracks():
+    assert "another at 90 m" in repr(CASE)
+    assert repr(read_case({**CASE.model_dump(mode="json", exclude_unset=True)})) == repr(CASE)
