@@ -10,6 +10,8 @@ VERSION: Final[str]
 PROFILE: Final[str]
 BLOCK_FIELDS: Final[list[str]]
 VARYING_FIELDS: Final[list[str]]
+LAW_FIELDS: Final[list[str]]
+LAWS: Final[list[str]]
 SUMMARY_FIELDS: Final[list[str]]
 HISTORY_FIELDS: Final[list[str]]
 EVENT_FIELDS: Final[list[str]]
@@ -28,6 +30,22 @@ class Ending:
     def __init__(self) -> None: ...
     def ask(self) -> None:
         """Let all runs that have been given this one raise KeyboardInterrupt, with a note on how far they have come."""
+
+class FrictionLaw:
+    """How much shear a closed crack bears."""
+
+    def __init__(self, shape: str, numbers: Floats, points: Floats) -> None:
+        """Of one of ``LAWS``, with its numbers in the order of ``LAW_FIELDS``, and of a lift joint (k, 2) normal stress
+        [Pa] and what roughness adds to the coefficient."""
+
+    def shear_stress(self, stress: Floats, speed: Floats, path: Floats, bonded: Floats) -> Floats:
+        """Return the (n, 2) shear stresses borne at rest and sliding [Pa].
+
+        Parameters
+        ----------
+        stress, speed, path, bonded
+            (n,) normal stress [Pa], speed of the slip [m/s], path slipped so far [m], and 1 while the bond is whole.
+        """
 
 def run_rigid(
     block: Floats,
@@ -75,6 +93,7 @@ def run_rigid_varying(
     law: str,
     pressure: Floats,
     anchors: Floats,
+    friction: FrictionLaw | None,
     time: Floats,
     horizontal: Floats,
     vertical: Floats | None,
@@ -84,7 +103,7 @@ def run_rigid_varying(
     settle: float,
     event_limit: int,
     jam: bool,
-) -> tuple[Floats, Floats, NDArray[np.uint8], Floats, Floats]:
+) -> tuple[Floats, Floats, NDArray[np.uint8], Floats, Floats, tuple[Floats, float, bool, float] | None]:
     """Run one block whose loads or geometry change as it moves, by integration between events.
 
     Parameters

@@ -1,11 +1,13 @@
 //! Kernels of heeltoe, bound to Python as `heeltoe._kernel`.
 
 mod flexible;
+mod law;
 mod rigid;
 mod tables;
 mod watch;
 
 use heeltoe::flexible::{self as elastic, Frames, State, Status};
+use heeltoe::friction::{LawNumbers, Shape};
 use heeltoe::rigid::varying::VaryingNumbers;
 use heeltoe::rigid::{BlockNumbers, Event, EventKind, Mode, Moment, Outcome, Shaking, Summary};
 use numpy::PyArray2;
@@ -21,6 +23,8 @@ mod _kernel {
 
     #[pymodule_export]
     use crate::flexible::CrackedDam;
+    #[pymodule_export]
+    use crate::law::FrictionLaw;
     #[pymodule_export]
     use crate::rigid::{run_rigid, run_rigid_many, run_rigid_varying};
     #[pymodule_export]
@@ -58,6 +62,8 @@ mod _kernel {
         m.add("InternalError", m.py().get_type::<InternalError>())?;
         m.add("BLOCK_FIELDS", BlockNumbers::FIELDS.to_vec())?;
         m.add("VARYING_FIELDS", VaryingNumbers::FIELDS.to_vec())?;
+        m.add("LAW_FIELDS", LawNumbers::FIELDS.to_vec())?;
+        m.add("LAWS", Shape::NAMES.to_vec())?;
         m.add("SUMMARY_FIELDS", Summary::FIELDS.to_vec())?;
         m.add("HISTORY_FIELDS", Moment::FIELDS.to_vec())?;
         m.add("EVENT_FIELDS", Event::FIELDS.to_vec())?;

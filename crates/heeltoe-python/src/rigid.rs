@@ -8,6 +8,7 @@ use heeltoe::rigid::{
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
+use crate::law::FrictionLaw;
 use crate::tables::{named, pool, row, rows, slice, table, wrong, Numbers};
 use crate::watch::{prompt, watched};
 
@@ -24,7 +25,11 @@ type VaryingResult<'py> = (
     Bound<'py, PyArray1<u8>>,
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray1<f64>>,
+    Option<Worn<'py>>,
 );
+
+/// Path and bond at the moments asked for, and at the end, and the error of the integration.
+type Worn<'py> = (Bound<'py, PyArray2<f64>>, f64, bool, f64);
 
 /// Runs of no more events, samples and moments that are wanted take a few milliseconds: nobody interrupts them.
 const EVENTS_AT_ONCE: u64 = 2000;
@@ -109,7 +114,7 @@ pub fn run_rigid<'py>(
 
 /// Run one block under loads and at rotations that change; see `_kernel.pyi`.
 #[pyfunction]
-#[pyo3(signature = (block, varying, rotation, law, pressure, anchors, time, horizontal, vertical, turning,
+#[pyo3(signature = (block, varying, rotation, law, pressure, anchors, friction, time, horizontal, vertical, turning,
     output_times, start, settle, event_limit, jam))]
 #[allow(clippy::too_many_arguments)]
 pub fn run_rigid_varying<'py>(
@@ -120,6 +125,7 @@ pub fn run_rigid_varying<'py>(
     law: &str,
     pressure: PyReadonlyArray2<'py, f64>,
     anchors: PyReadonlyArray2<'py, f64>,
+    friction: Option<PyRef<'py, FrictionLaw>>,
     time: Numbers<'py>,
     horizontal: Numbers<'py>,
     vertical: Option<Numbers<'py>>,
@@ -146,11 +152,23 @@ pub fn run_rigid_varying<'py>(
         event_limit,
         jam,
     };
+    let law = friction.map(|friction| friction.0.clone());
     let run = walked(py, &output_times, |wanted| {
-        varying::simulate(&block, &body, &shaking, start, options, wanted)
+        varying::simulate(&block, &body, law.as_ref(), &shaking, start, options, wanted)
     })?;
     let (summary, histories, modes, events) = arrays(py, &run);
-    Ok((summary, histories, modes, events, run.tensions.into_pyarray(py)))
+    let worn = run.worn.map(|worn| {
+        let kept = table(py, worn.kept.into_iter());
+        (kept, worn.end.path, worn.end.bonded, worn.error)
+    });
+    Ok((
+        summary,
+        histories,
+        modes,
+        events,
+        run.tensions.into_pyarray(py),
+        worn,
+    ))
 }
 
 fn anchor(&[place, along, across, prestress, axial_stiffness, shear_stiffness]: &[f64; 6]) -> Anchor<f64> {

@@ -5,6 +5,7 @@
 #![deny(missing_docs)]
 
 pub mod flexible;
+pub mod friction;
 pub mod inside;
 mod parallel;
 pub mod rigid;

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from heeltoe import _kernel
 from heeltoe.arrays import Floats, Integers
 from heeltoe.kernel.columns import columns
+from heeltoe.kernel.friction import FrictionLaw
 from heeltoe.kernel.shaking import Shaking
 
 #: Names of the numbers of a block, in the order of the kernels.
@@ -43,6 +44,8 @@ class Varying:
         (k, 2) distance from the heel [m], pressure in the closed crack [Pa].
     anchors
         (n, 6) distance, axis along and across the crack, prestress, axial and shear stiffness.
+    friction
+        Law of the crack, in place of the coefficients of the block.
     """
 
     numbers: Floats
@@ -50,6 +53,7 @@ class Varying:
     law: str
     pressure: Floats
     anchors: Floats
+    friction: FrictionLaw | None = None
 
 
 @dataclass(frozen=True)
@@ -79,6 +83,27 @@ USUAL = Limits()
 
 
 @dataclass(frozen=True, eq=False)
+class Worn:
+    """What a crack whose friction goes by a law has been through.
+
+    Attributes
+    ----------
+    path, bonded
+        At the moments that were asked for: how far it has slipped, to and fro [m], and 1 while its bond is whole.
+    end, bonded_at_end
+        The same when the run ended.
+    error
+        Sum of the errors estimated of all steps of the integration [m].
+    """
+
+    path: Floats
+    bonded: Floats
+    end: float
+    bonded_at_end: bool
+    error: float
+
+
+@dataclass(frozen=True, eq=False)
 class BlockRun:
     """What a block did.
 
@@ -94,6 +119,8 @@ class BlockRun:
         Columns by name; kinds and modes count :data:`EVENT_KINDS` and :data:`MODES`.
     tension
         (n,) largest tension of each anchor of what varies [N/m]; None where the walk was exact and nothing does.
+    worn
+        What the crack has been through, where its friction goes by a law.
     """
 
     summary: Mapping[str, float]
@@ -101,10 +128,17 @@ class BlockRun:
     mode: NDArray[np.uint8]
     events: Mapping[str, Floats]
     tension: Floats | None
+    worn: Worn | None = None
 
     @classmethod
     def of(
-        cls, row: Floats, histories: Floats, mode: NDArray[np.uint8], events: Floats, tension: Floats | None = None
+        cls,
+        row: Floats,
+        histories: Floats,
+        mode: NDArray[np.uint8],
+        events: Floats,
+        tension: Floats | None = None,
+        worn: tuple[Floats, float, bool, float] | None = None,
     ) -> BlockRun:
         """Put the names on what a kernel returns."""
         return cls(
@@ -113,6 +147,7 @@ class BlockRun:
             mode=mode,
             events=columns(_kernel.EVENT_FIELDS, events),
             tension=tension,
+            worn=None if worn is None else Worn(worn[0][:, 0], worn[0][:, 1], *worn[1:]),
         )
 
     @property
@@ -189,6 +224,7 @@ def run_block(
         varying.law,
         varying.pressure,
         varying.anchors,
+        varying.friction,
         time,
         horizontal,
         up,

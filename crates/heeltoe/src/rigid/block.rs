@@ -8,6 +8,7 @@
 //!
 //! The load f is affine in the ground accelerations: `f = f_0 + f_h a_h + f_v a_v`.
 
+use crate::friction::Strength;
 use crate::table::numbers;
 
 /// Index of the slip, the heel gap and the toe gap in every vector of contact coordinates, and of the friction and
@@ -149,6 +150,8 @@ pub struct Block {
     pub(super) generalised_force: [Affine; 3],
     pub(super) friction_static: f64,
     pub(super) friction_kinetic: f64,
+    /// What friction bears without a normal force, at rest and sliding.
+    pub(super) cohesion: [f64; 2],
     pub(super) restitution: f64,
     /// A force of the size of the loads: ties are told from rounding relative to it.
     pub(super) force_scale: f64,
@@ -197,6 +200,7 @@ impl Block {
             generalised_force: Affine::of(generalised),
             friction_static: p.friction_static,
             friction_kinetic: p.friction_kinetic,
+            cohesion: [0.0; 2],
             restitution: p.restitution,
             force_scale: p.static_horizontal.abs() + p.static_vertical.abs() + p.static_moment.abs() / width,
         }
@@ -218,6 +222,25 @@ impl Block {
             free_acceleration,
             free_terms: [0, 1, 2].map(|i| compliance[i][i] * self.force_scale),
             ..self.clone()
+        }
+    }
+
+    /// The same block with the friction of a moment.
+    pub(super) fn rubbing(&self, strength: &Strength) -> Self {
+        let [friction_static, friction_kinetic] = strength.coefficient;
+        Block {
+            friction_static,
+            friction_kinetic,
+            cohesion: strength.constant,
+            ..self.clone()
+        }
+    }
+
+    /// What friction bears.
+    pub(super) fn strength(&self) -> Strength {
+        Strength {
+            coefficient: [self.friction_static, self.friction_kinetic],
+            constant: self.cohesion,
         }
     }
 

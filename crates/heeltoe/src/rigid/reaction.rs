@@ -114,7 +114,15 @@ fn all_held(a: &[Vector; 3], b: &Vector) -> Vector {
 
 impl Reaction {
     fn new(block: &Block, mode: Mode) -> Self {
-        let free = &block.free_acceleration;
+        // What friction bears without a normal force pulls as a load does.
+        let pull = -mode.slip().map_or(0.0, Slip::sign) * block.cohesion[1];
+        let mut pulled = block.free_acceleration;
+        if pull != 0.0 {
+            for (load, row) in pulled.iter_mut().zip(&block.compliance) {
+                load.constant += row[SLIP] * pull;
+            }
+        }
+        let free = &pulled;
         let (forces, accelerations) = (block.force_scale, block.acceleration_scale());
         let size = |i: usize| {
             let Affine {
@@ -149,9 +157,11 @@ impl Reaction {
                 from(coupling, &mut acceleration[i], &mut acceleration_size[i]);
             }
         }
+        force[SLIP].constant += pull;
+        force_size[SLIP] += pull.abs();
         let [friction, heel, toe] = force_size.map(|terms| terms.max(forces));
         let [along, left, right] = acceleration_size.map(|terms| terms.max(accelerations));
-        let cone_size = block.friction_static * (heel + toe) + friction;
+        let cone_size = block.friction_static * (heel + toe) + friction + block.cohesion[0].abs();
         let held = [mode.sticks(), mode.contacts()[0], mode.contacts()[1]];
         for (acceleration, held) in acceleration.iter_mut().zip(held) {
             if held {
@@ -218,6 +228,15 @@ impl Reactions {
         Reactions(table)
     }
 
+    /// Of a block whose friction is another one in each mode.
+    pub(super) fn each(block: impl Fn(Mode) -> Block) -> Self {
+        let mut table = [Reaction::new(&block(Mode::Drift), Mode::Drift); Mode::COUNT];
+        for mode in Mode::ALL {
+            table[mode.index()] = Reaction::new(&block(mode), mode);
+        }
+        Reactions(table)
+    }
+
     #[inline]
     pub(super) fn of(&self, mode: Mode) -> &Reaction {
         &self.0[mode.index()]
@@ -230,7 +249,7 @@ fn cone(block: &Block, force: &[Affine; 3], direction: f64) -> Affine {
         block.friction_static * (f(&force[HEEL]) + f(&force[TOE])) - direction * f(&force[SLIP])
     };
     Affine {
-        constant: left(|q| q.constant),
+        constant: left(|q| q.constant) + block.cohesion[0],
         horizontal: left(|q| q.horizontal),
         vertical: left(|q| q.vertical),
     }

@@ -3,6 +3,7 @@
 use super::block::{Block, Vector, HEEL, SLIP, TOE};
 use super::ledger::Ledger;
 use super::mode::Mode;
+use crate::friction::Worn;
 use crate::table::{columns, named};
 
 named! {
@@ -131,6 +132,19 @@ pub struct Run {
     pub events: Vec<Event>,
     /// Largest tension of each anchor that stretches (N/m); the exact walk knows none.
     pub tensions: Vec<f64>,
+    /// What the crack has been through, where its friction goes by a law.
+    pub worn: Option<Wear>,
+}
+
+/// What a crack whose friction goes by a law has been through.
+#[derive(Clone, Debug)]
+pub struct Wear {
+    /// At the moments asked for: path (m), and 1 while the bond is whole.
+    pub kept: Vec<[f64; 2]>,
+    /// At the end.
+    pub end: Worn,
+    /// Sum of the errors estimated of all steps of the integration (m).
+    pub error: f64,
 }
 
 /// End, peaks and sums of a run; SI, per metre of dam.

@@ -103,6 +103,7 @@ impl<'a> Walk<'a> {
             moments: self.moments,
             events: self.events,
             tensions,
+            worn: None,
         }
     }
 

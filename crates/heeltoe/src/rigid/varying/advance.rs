@@ -15,7 +15,7 @@ use super::walk::Varying;
 
 /// A step that is short enough for its polynomials to say that a motion ends as it begins, and one that is not made any
 /// shorter; parts of the time in which the block moves by its own size.
-const SHORT: f64 = 1e-7;
+pub(super) const SHORT: f64 = 1e-7;
 const SHORTEST: f64 = 1e-9;
 
 /// A step that has been tried: the state and its rate of change at both ends.
@@ -25,6 +25,8 @@ pub(super) struct Trial<'a> {
     pub rate: State,
     rate_at_end: State,
     pub length: f64,
+    /// Of the step, in parts of what is allowed.
+    pub error: f64,
     pub piece: &'a Piece,
 }
 
@@ -37,6 +39,7 @@ impl<'a> Trial<'a> {
             rate,
             rate_at_end: rate,
             length,
+            error: 0.0,
             piece,
         }
     }
@@ -136,7 +139,7 @@ impl Varying<'_> {
             return false;
         }
         self.suggested = trial.length * better(taken.error.max(1e-12)).clamp(0.2, 5.0);
-        (trial.end, trial.rate_at_end) = (taken.end, taken.rate);
+        (trial.end, trial.rate_at_end, trial.error) = (taken.end, taken.rate, taken.error);
         true
     }
 
@@ -146,9 +149,9 @@ impl Varying<'_> {
             start, end, length, ..
         } = trial;
         let instant = self.turning.at(self.corner, start, &trial.piece.ground);
-        let reactions = self.reactions(&instant);
+        let (reactions, strength) = self.reactions(start, &instant);
         let mut first = Earliest::default();
-        self.see_limits(trial, &reactions, &mut first);
+        self.see_limits(trial, self.limits_under(&reactions, &strength), &mut first);
         let real = instant.contact_acceleration(&reactions);
         self.see_contacts(trial, &fresh.unwrap_or(real), &real, &mut first);
         let over = std::f64::consts::FRAC_PI_2;
@@ -187,7 +190,7 @@ impl Varying<'_> {
     }
 
     /// See which normal force or side of the friction cone falls through zero.
-    fn see_limits(&self, trial: &Trial, reactions: &Vector, first: &mut Earliest) {
+    fn see_limits(&self, trial: &Trial, at_start: [(f64, f64); 4], first: &mut Earliest) {
         let watched = self.watched();
         if watched.iter().all(Option::is_none) {
             return;
@@ -203,7 +206,7 @@ impl Varying<'_> {
             )
         };
         let values = [
-            self.limits_under(reactions),
+            at_start,
             self.limits(&between, &trial.piece.after(0.5 * length)),
             self.limits(&trial.end, &trial.piece.after(length)),
         ];

@@ -7,7 +7,7 @@ use super::super::result::Moment;
 use super::advance::Trial;
 use super::shaking::Piece;
 use super::step::State;
-use super::walk::Varying;
+use super::walk::{Varying, TOLERANCE};
 
 impl Varying<'_> {
     /// Take over the state `end` after so much of a step that began at `time`.
@@ -19,6 +19,8 @@ impl Varying<'_> {
             return;
         }
         self.turning_points(trial, end, taken);
+        self.error += trial.error.min(1.0) * TOLERANCE * self.walk.block.width;
+        self.wear(end);
         self.state = *end;
         let (work, rubbed) = (end[6], end[7]);
         self.state[6] = 0.0;
@@ -90,7 +92,7 @@ impl Varying<'_> {
         }
         let (corner, seen) = self.slipping(start);
         let instant = self.turning.at(corner, &seen, &piece.ground);
-        let [slip, heel, toe] = instant.contact_acceleration(&self.reactions(&instant));
+        let [slip, heel, toe] = instant.contact_acceleration(&self.reactions(&seen, &instant).0);
         for (i, a0) in [slip, heel, toe, rate[5]].into_iter().enumerate() {
             let (v0, v1) = (speeds[i], last[i]);
             if v0 * v1 >= 0.0 {
@@ -120,7 +122,7 @@ impl Varying<'_> {
             let state = self.moved(start, &rate, piece, t);
             let (corner, seen) = self.slipping(&state);
             let instant = self.turning.at(corner, &seen, &piece.after(t));
-            let reaction = self.reactions(&instant);
+            let (reaction, _) = self.reactions(&seen, &instant);
             let mut acceleration = instant.contact_acceleration(&reaction);
             let contacts = self.walk.mode.contacts();
             let held = [self.walk.mode.sticks(), contacts[0], contacts[1]];
@@ -129,6 +131,7 @@ impl Varying<'_> {
                     *acceleration = 0.0;
                 }
             }
+            self.keep_worn(&state);
             let [position, velocity] = self.contact(&state);
             self.walk.keep(Moment {
                 mode: self.walk.mode,

@@ -14,6 +14,7 @@ mod keep;
 mod located;
 mod rates;
 mod rest;
+mod rubbing;
 mod shaking;
 mod step;
 mod walk;

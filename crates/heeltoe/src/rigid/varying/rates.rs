@@ -2,38 +2,31 @@
 
 use super::super::block::{Vector, HEEL, SLIP};
 use super::super::mode::Mode;
-use super::super::reaction::reaction_to;
 use super::super::walk::Cause;
 use super::instant::Instant;
 use super::shaking::{Ground, Piece};
 use super::step::{step, State};
 use super::walk::Varying;
+use crate::friction::Strength;
 
 impl Varying<'_> {
     /// Reactions in the present mode; where friction makes them infinite, none, and the choice of the next mode says so.
-    pub(super) fn reactions(&self, instant: &Instant) -> Vector {
-        let friction = self.walk.block.friction_kinetic;
-        reaction_to(
-            &instant.compliance,
-            friction,
-            self.walk.mode,
-            &instant.free_acceleration,
-        )
-        .unwrap_or([0.0; 3])
+    pub(super) fn reactions(&self, state: &State, instant: &Instant) -> (Vector, Strength) {
+        self.rubbed(self.walk.mode, state, instant)
+            .unwrap_or_else(|| ([0.0; 3], self.walk.block.strength()))
     }
 
     /// Whether friction makes the reactions of a slip infinite at a state.
     pub(super) fn jams(&self, state: &State, ground: &Ground) -> bool {
         self.walk.mode.slip().is_some() && {
             let instant = self.turning.at(self.corner, state, ground);
-            let (friction, mode) = (self.walk.block.friction_kinetic, self.walk.mode);
-            reaction_to(&instant.compliance, friction, mode, &instant.free_acceleration).is_none()
+            self.rubbed(self.walk.mode, state, &instant).is_none()
         }
     }
 
     pub(super) fn rates(&self, state: &State, ground: &Ground) -> State {
         let instant = self.turning.at(self.corner, state, ground);
-        let reactions = self.reactions(&instant);
+        let (reactions, _) = self.reactions(state, &instant);
         let mut acceleration = instant.acceleration(&reactions);
         let contacts = self.walk.mode.contacts();
         if self.walk.mode.sticks() {
@@ -77,20 +70,21 @@ impl Varying<'_> {
     /// Normal forces and what is left of the friction cone, both ways, at a state; sizes to judge them by.
     pub(super) fn limits(&self, state: &State, ground: &Ground) -> [(f64, f64); 4] {
         let instant = self.turning.at(self.corner, state, ground);
-        self.limits_under(&self.reactions(&instant))
+        let (reactions, strength) = self.reactions(state, &instant);
+        self.limits_under(&reactions, &strength)
     }
 
-    pub(super) fn limits_under(&self, reactions: &Vector) -> [(f64, f64); 4] {
+    pub(super) fn limits_under(&self, reactions: &Vector, strength: &Strength) -> [(f64, f64); 4] {
         let [friction, heel, toe] = *reactions;
         let scale = self.walk.block.force_scale;
-        let mu = self.walk.block.friction_static;
+        let ([mu, _], [held, _]) = (strength.coefficient, strength.constant);
         let size = |force: f64| scale.max(force.abs());
-        let cone = mu * (size(heel) + size(toe)) + size(friction);
+        let cone = mu * (size(heel) + size(toe)) + size(friction) + held.abs();
         [
             (heel, size(heel)),
             (toe, size(toe)),
-            (mu * (heel + toe) - friction, cone),
-            (mu * (heel + toe) + friction, cone),
+            (mu * (heel + toe) - friction + held, cone),
+            (mu * (heel + toe) + friction + held, cone),
         ]
     }
 

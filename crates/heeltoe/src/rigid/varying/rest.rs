@@ -11,18 +11,38 @@ const CLEAR: f64 = 1e-9;
 impl Varying<'_> {
     /// Pass over a piece in which a block at rest stays clear of every limit; false where it may not.
     pub(super) fn rests_through(&mut self, piece: &Piece, time: f64) -> bool {
+        let clear = CLEAR * self.walk.block.force_scale;
+        if let Some(rubbing) = self.rubbing.as_ref().filter(|rubbing| rubbing.bends()) {
+            return rubbing.sags_nowhere() && self.bends_through(piece, time, clear);
+        }
         let [still, across, up, turning] = self.reserve.unwrap_or_else(|| self.reserve_at_rest());
         self.reserve = Some([still, across, up, turning]);
-        let clear = CLEAR * self.walk.block.force_scale;
         let rests = [piece.ground, piece.after(piece.left)]
             .iter()
             .all(|[a, b, c]| (0..4).all(|i| still[i] + a * across[i] + b * up[i] + c * turning[i] > clear));
         if rests {
-            let state = self.state;
-            let trial = Trial::still(state, [0.0; 8], piece.left, piece);
-            self.move_on(&trial, &state, piece.left, time);
+            self.rest_on(piece, time);
         }
         rests
+    }
+
+    /// The same where what friction bears bends with the normal force: downward, so that it is least at an end.
+    fn bends_through(&mut self, piece: &Piece, time: f64, clear: f64) -> bool {
+        let ends = [piece.ground, piece.after(piece.left)];
+        let rests = ends.iter().all(|ground| {
+            let limits = self.limits(&self.state, ground);
+            limits.iter().all(|(value, _)| *value > clear)
+        });
+        if rests {
+            self.rest_on(piece, time);
+        }
+        rests
+    }
+
+    fn rest_on(&mut self, piece: &Piece, time: f64) {
+        let state = self.state;
+        let trial = Trial::still(state, [0.0; 8], piece.left, piece);
+        self.move_on(&trial, &state, piece.left, time);
     }
 
     /// The limits of [`Varying::limits`] in a still ground, and what each unit of the ground's acceleration adds to them.

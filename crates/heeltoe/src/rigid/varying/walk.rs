@@ -6,16 +6,18 @@ use super::super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
 use super::super::choice::{accelerations, select, Moving};
 use super::super::mode::{Corner, Mode, Slip};
 use super::super::reaction::{Felt, Reactions};
-use super::super::result::{Outcome, Run};
+use super::super::result::{Outcome, Run, Wear};
 use super::super::shaking::Piece as Level;
 use super::super::walk::{Carried, Cause, Options, Walk, Wanted};
 use super::block::{Rotation, TurningBlock};
 use super::instant::Instant;
+use super::rubbing::Rubbing;
 use super::shaking::{Ground, Piece, TurningShaking};
 use super::step::State;
+use crate::friction::Law;
 
 /// Relative error allowed in a step, of lengths of the crack's width and of velocities of sqrt(g B).
-const TOLERANCE: f64 = 1e-12;
+pub(super) const TOLERANCE: f64 = 1e-12;
 /// The choice of the next mode takes accelerations as linear in time; their rate enters through a ground that passes so
 /// many seconds in one, so that it has no part in the sizes by which rounding is judged.
 const UNIT: f64 = 1e-9;
@@ -43,19 +45,26 @@ pub(super) struct Varying<'a> {
     pub(super) tensions: Vec<f64>,
     /// Of a block at rest, see [`super::rest`]; none until it is asked for.
     pub(super) reserve: Option<[[f64; 4]; 4]>,
+    /// Friction that goes by a law, where it does.
+    pub(super) rubbing: Option<Rubbing<'a>>,
+    /// Sum of the errors estimated of all steps (m).
+    pub(super) error: f64,
 }
 
 /// Run one block through one motion; `start`, `options` and `wanted` are those of [`super::super::exact::simulate`].
 pub fn simulate(
     block: &Block,
     turning: &TurningBlock,
+    law: Option<&Law>,
     shaking: &TurningShaking,
     start: Option<[Vector; 2]>,
     options: Options,
     wanted: Wanted,
 ) -> Run {
     let [position, velocity] = start.unwrap_or([[0.0; 3]; 2]);
-    let block = &block.under(turning.force_scale(shaking.peaks()));
+    let rubbing = law.map(|law| Rubbing::new(law, block));
+    let bond = rubbing.as_ref().map_or(0.0, Rubbing::bond);
+    let block = &block.under(turning.force_scale(shaking.peaks()).max(bond));
     let speed = (block.acceleration_scale() * block.width).sqrt();
     let allowed = |size: f64| TOLERANCE * size;
     let (length, turn) = (allowed(block.width), allowed(1.0));
@@ -82,6 +91,8 @@ pub fn simulate(
         starting: None,
         tensions: vec![0.0; turning.anchors.len()],
         reserve: None,
+        rubbing,
+        error: 0.0,
     };
     varying.place(&position, &velocity);
     let theta = varying.state[2];
@@ -91,7 +102,15 @@ pub fn simulate(
     varying.run(shaking, start.is_none());
     varying.see();
     let energy = varying.kinetic_energy();
-    varying.walk.end(energy, varying.tensions)
+    let worn = varying.rubbing.map(|rubbing| Wear {
+        kept: rubbing.kept,
+        end: rubbing.worn,
+        error: varying.error,
+    });
+    Run {
+        worn,
+        ..varying.walk.end(energy, varying.tensions)
+    }
 }
 
 impl Varying<'_> {
@@ -215,8 +234,7 @@ impl Varying<'_> {
     }
 
     /// The block as it is now, and how its free accelerations change as it and the ground go on.
-    fn ahead(&self, piece: &Piece) -> Block {
-        let now = self.instant(&piece.ground);
+    fn ahead(&self, piece: &Piece, now: &Instant) -> Block {
         let still = self.state[3..6] == [0.0; 3];
         let far = if still {
             piece.left
@@ -230,11 +248,13 @@ impl Varying<'_> {
         }
         let then = self.turning.at(self.corner, &later, &piece.after(ahead));
         // Where modes are at a tie they share their reactions, by which the compliance changes the accelerations, too.
-        let reactions = self.reactions(&now);
+        let (reactions, _) = self.reactions(&self.state, now);
+        let pull = self.changed_pull(&reactions, &later);
         let affine = [SLIP, HEEL, TOE].map(|i| {
             let stiffer: f64 = (0..3)
                 .map(|k| (then.compliance[i][k] - now.compliance[i][k]) * reactions[k])
                 .sum();
+            let stiffer = stiffer + now.compliance[i][SLIP] * pull;
             Affine {
                 constant: now.free_acceleration[i],
                 horizontal: (then.free_acceleration[i] - now.free_acceleration[i] + stiffer) / ahead * UNIT,
@@ -242,6 +262,45 @@ impl Varying<'_> {
             }
         });
         self.walk.block.at(now.compliance, affine)
+    }
+
+    /// The mode in which the block can go on with its bond as it is.
+    fn chosen(&mut self, piece: &Piece) -> Option<Mode> {
+        let now = self.instant(&piece.ground);
+        let ahead = self.ahead(piece, &now);
+        let reactions = match self.rubbing {
+            None => Reactions::new(&ahead),
+            Some(_) => Reactions::each(|mode| {
+                let rubbed = self.rubbed(mode, &self.state, &now);
+                rubbed.map_or_else(|| ahead.clone(), |(_, strength)| ahead.rubbing(&strength))
+            }),
+        };
+        let level = Level {
+            ground: [0.0; 2],
+            rate: [1.0 / UNIT, 0.0],
+            left: piece.left,
+        };
+        let closed = self.closed();
+        let slip = self.velocity()[SLIP];
+        let moving = Moving {
+            closed,
+            velocity: slip,
+            piece: &level,
+        };
+        let mut felt = Felt::default();
+        let mode = select(&reactions, self.walk.mode, &moving, &mut felt)?;
+        let starts = [
+            if slip == 0.0 {
+                mode.slip().map_or(0.0, Slip::sign)
+            } else {
+                0.0
+            },
+            f64::from(closed[0]),
+            f64::from(closed[1]),
+        ];
+        let first = accelerations(reactions.of(mode), &felt, starts, level.left).map(|[value, _]| value);
+        self.starting = Some(first);
+        Some(mode)
     }
 
     /// Go over to the other corner, which is in contact: its gap is exactly zero.
@@ -278,40 +337,22 @@ impl<'a> Carried<'a> for Varying<'a> {
     fn block(&self) -> Cow<'_, Block> {
         let block = self.walk.block;
         let compliance = self.instant(&[0.0; 3]).compliance;
-        Cow::Owned(block.at(compliance, block.free_acceleration))
+        let block = block.at(compliance, block.free_acceleration);
+        Cow::Owned(block.rubbing(&self.struck()))
     }
 
-    /// The accelerations with which the block goes on are kept.
+    /// The accelerations with which the block goes on are kept. A corner that would lift takes the bond with it: where no
+    /// mode is admissible with a bond, it breaks.
     fn pick(&mut self, piece: &Piece) -> Option<Mode> {
-        let reactions = Reactions::new(&self.ahead(piece));
-        let level = Level {
-            ground: [0.0; 2],
-            rate: [1.0 / UNIT, 0.0],
-            left: piece.left,
-        };
-        let closed = self.closed();
-        let slip = self.velocity()[SLIP];
-        let moving = Moving {
-            closed,
-            velocity: slip,
-            piece: &level,
-        };
-        let mut felt = Felt::default();
-        let mode = select(&reactions, self.walk.mode, &moving, &mut felt)?;
-        let starts = [
-            if slip == 0.0 {
-                mode.slip().map_or(0.0, Slip::sign)
+        self.chosen(piece).or_else(|| {
+            let breaks = self.break_bond();
+            if breaks {
+                self.chosen(piece)
             } else {
-                0.0
-            },
-            f64::from(closed[0]),
-            f64::from(closed[1]),
-        ];
-        let first = accelerations(reactions.of(mode), &felt, starts, level.left).map(|[value, _]| value);
-        self.starting = Some(first);
-        Some(mode)
+                None
+            }
+        })
     }
-
     fn land(&mut self, gap: usize) -> [bool; 2] {
         let corner = if gap == HEEL { Corner::Heel } else { Corner::Toe };
         if corner != self.corner {
@@ -344,6 +385,7 @@ impl<'a> Carried<'a> for Varying<'a> {
     /// The motion counts from a corner that stays in contact.
     fn begin(&mut self) {
         self.reserve = None;
+        self.lift();
         if let Mode::Rock(corner) | Mode::SlideRock(corner, _) = self.walk.mode {
             if corner != self.corner {
                 self.turn_to(corner);
