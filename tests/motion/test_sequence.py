@@ -44,3 +44,5 @@ def test_a_vertical_motion_shakes_with_its_own_horizontal_one():
     across, up = joined([(B, UP, 0.5), (A, None, 0.3)], [1.0])
     assert np.interp([0.2, 0.6, 1.6], up.time, up.acceleration) == pytest.approx([0.5, 0.0, 0.0])
     assert up.duration == across.duration == pytest.approx(1.8)
+    assert [each.name for each in up.parts] == ["up"]
+    assert (up.pgv, up.pgd) == pytest.approx((UP.cut(0.5).pgv, UP.cut(0.5).pgd))

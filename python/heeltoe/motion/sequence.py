@@ -34,23 +34,19 @@ def joined(pairs: Sequence[Pair], pauses: Sequence[float]) -> tuple[GroundMotion
     Returns
     -------
     horizontal, vertical
-        From the beginning of the first to the end of the last, with their `parts`; the second is None where none of
+        From the beginning of the first to the end of the last, each with its own `parts`; the second is None where none of
         them has any, and at rest through those that have none.
     """
     begins = [0.0]
     for (_, _, lasts), pause in zip(pairs, pauses, strict=False):
         begins.append(begins[-1] + lasts + pause)
-    parts = tuple(
-        Part(motion.name, begin, begin + lasts, motion.pga, motion.processing)
-        for (motion, _, lasts), begin in zip(pairs, begins, strict=True)
-    )
-    end = parts[-1].ends
+    end = begins[-1] + pairs[-1][2]
     across = [_Placed(motion, begin, lasts) for (motion, _, lasts), begin in zip(pairs, begins, strict=True)]
     up = [_Placed(motion, begin, lasts) for (_, motion, lasts), begin in zip(pairs, begins, strict=True) if motion]
-    return _whole(across, end, parts), _whole(up, end, parts) if up else None
+    return _whole(across, end), _whole(up, end) if up else None
 
 
-def _whole(placed: Sequence[_Placed], end: float, parts: tuple[Part, ...]) -> GroundMotion:
+def _whole(placed: Sequence[_Placed], end: float) -> GroundMotion:
     time, values = [np.zeros(1)], [np.zeros(1)]
     for each in placed:
         moments, acceleration = _between_rests(each.motion.cut(each.lasts))
@@ -72,7 +68,10 @@ def _whole(placed: Sequence[_Placed], end: float, parts: tuple[Part, ...]) -> Gr
         format="sequence",
         source="; ".join(each.motion.source for each in placed),
         warnings=warnings,
-        parts=parts,
+        parts=tuple(
+            Part(each.motion.name, each.begins, each.begins + each.lasts, each.motion.pga, each.motion.processing)
+            for each in placed
+        ),
     )
 
 
