@@ -10,8 +10,8 @@ import { showSliders } from "./sliders.js";
 
 const LIVE = ["rigid", "decoupled"];
 const SPOKEN_AFTER_MS = 700;
-/** How long no answer has come when the plot is drawn with axes of its own. */
-const RESTS_AFTER_MS = 300;
+/** How long no answer has come when the plot is drawn with axes of its own: a hand that stops for a moment drags on. */
+const RESTS_AFTER_MS = 700;
 
 /** @param {import("./talk.js").Talk} talk */
 export function answerPage(talk) {
