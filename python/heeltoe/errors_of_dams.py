@@ -64,6 +64,16 @@ OF_DAMS: dict[str, tuple[str, str]] = {
     "one-crack-only": ("does not go with {other}: it is known of one crack alone", "remove it, or the further cracks"),
     "friction-missing": ("is required and not there", "give friction, or both static_friction and kinetic_friction"),
     "friction-order": ("{value} is below kinetic_friction, {kinetic}", "give a static_friction of at least {kinetic}"),
+    "law-option-foreign": ('does not belong to the law "{law}"', "remove it; that law knows {known}"),
+    "law-option-missing": ('is required by the law "{law}"', "give it, or choose another law"),
+    "law-order": ("{value} is below residual_friction, {residual}", "give a peak_friction of at least {residual}"),
+    "law-points": ("the normal stresses {value} do not ascend", "give the points in order, each stress once"),
+    "law-falls": (
+        "the strength falls with the normal stress before {value}",
+        "give points between which the coefficient times the stress grows",
+    ),
+    "law-model": ("{value} is not known to the flexible model", "use the rigid model or the decoupled chain"),
+    "law-twice": ("cannot stand beside the cohesion of crack.law", "keep one of them"),
     "uplift-option-foreign": (
         'does not belong to the pattern "{pattern}"',
         'remove it or choose the pattern "{owner}"',

@@ -30,6 +30,23 @@ REFERENCES = {
         "E. Hairer, S. P. Nørsett and G. Wanner, Solving Ordinary Differential Equations I, 2nd edition, Springer, "
         "1993 (DOP853)"
     ),
+    "law: slip weakening": (
+        'A. C. Palmer and J. R. Rice, "The growth of slip surfaces in the progressive failure of over-consolidated '
+        'clay", Proceedings of the Royal Society A 332 (1973), 527-548'
+    ),
+    "law: speed weakening": (
+        'L. C. Bo and D. Pavelescu, "The friction-speed relation and its influence on the critical velocity of '
+        'stick-slip motion", Wear 82 (1982), 277-289'
+    ),
+    "law: cohesion": 'USACE, "Gravity Dam Design", EM 1110-2-2200, 1995, chapter 4 (Mohr and Coulomb)',
+    "law: barton-bandis": (
+        'N. Barton and V. Choubey, "The shear strength of rock joints in theory and practice", Rock Mechanics 10 '
+        "(1977), 1-54"
+    ),
+    "law: lift joint": (
+        'L. Fronteddu, P. Léger and R. Tinawi, "Static and dynamic behavior of concrete lift joint interfaces", '
+        "Journal of Structural Engineering, ASCE 124 (1998), 1418-1430 (its form; the coefficients are the case's)"
+    ),
     "piecewise exact": (
         'N. C. Nigam and P. C. Jennings, "Calculation of response spectra from strong-motion earthquake records", '
         "Bulletin of the Seismological Society of America 59 (1969), 909-922"

@@ -19,6 +19,16 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "crack",
         "{field}: a coefficient of friction of {friction:g} is higher than concrete has shown",
     ),
+    "law-range": (
+        "caution",
+        "crack.law",
+        "{field}: the static loads press the crack with {stress_pa:.3g MPa} on average, {why}",
+    ),
+    "law-by-mean": (
+        "note",
+        "crack.law",
+        "{field}: a block feels the law {law} by the mean normal stress of its whole crack, even on a corner",
+    ),
     "uplift-intensity": (
         "caution",
         "uplift.intensity",

@@ -19,6 +19,8 @@ Changes = str | Mapping[str, Any] | Sequence[str | Mapping[str, Any]]
 _SIZES, _DIMENSIONS = ("height", "crest_width"), ("neck_height", "neck_width", "base_width")
 _FACES, _FILE = ("upstream", "downstream"), ("file", "layer", "unit")
 
+_COEFFICIENTS = ("crack.friction", "crack.static_friction", "crack.kinetic_friction")
+
 # An override says how it shall be now: what the file says in the other form of the same thing goes.
 _REPLACES = {
     # Channel, unit and time step belong to the file that goes; taken for another one's they would spoil it silently.
@@ -38,9 +40,11 @@ _REPLACES = {
     "uplift.drain_x": ("uplift.drain_position",),
     "statics.criteria": ("statics.criteria_file",),
     "statics.criteria_file": ("statics.criteria",),
-    "crack.friction": ("crack.static_friction", "crack.kinetic_friction"),
-    "crack.static_friction": ("crack.friction",),
-    "crack.kinetic_friction": ("crack.friction",),
+    "crack.friction": ("crack.static_friction", "crack.kinetic_friction", "crack.law"),
+    "crack.static_friction": ("crack.friction", "crack.law"),
+    "crack.kinetic_friction": ("crack.friction", "crack.law"),
+    "crack.law": _COEFFICIENTS,
+    "crack.law.name": _COEFFICIENTS,
 }
 
 

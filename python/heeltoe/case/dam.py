@@ -12,6 +12,7 @@ from typing import Annotated, Literal
 from pydantic import BeforeValidator, Field, model_validator
 
 from heeltoe.case.fields import STEEPEST, Fields, Fraction, FrictionCoefficient, Head, Truth
+from heeltoe.case.friction import Law
 from heeltoe.case.quantities import Angle, Density, DimensionlessNumber, Length, LineForce, Pressure, Stiffness
 from heeltoe.case.sentences import gathered
 from heeltoe.errors import InputError, shown
@@ -40,7 +41,7 @@ class Concrete(Fields):
 
 
 class Crack(Fields):
-    """The crack: a straight line through the section, with Coulomb friction."""
+    """The crack: a straight line through the section, with Coulomb friction or by a law."""
 
     elevation: Annotated[Length, Field(ge=0.0)] = Field(default="0 m", validate_default=True)
     """Height of the crack at the upstream face above the lowest point of the section."""
@@ -52,6 +53,8 @@ class Crack(Fields):
     """Coefficient of friction at rest, where it differs from that of sliding."""
     kinetic_friction: FrictionCoefficient | None = None
     """Coefficient of friction while sliding."""
+    law: Law | None = None
+    """A friction law, in place of the coefficients."""
     restitution: Fraction = 0.5
     """Newton's coefficient of restitution of a corner that strikes: 0 stays down, 1 loses nothing.
     The default is that of Zhu (2004)."""
@@ -59,17 +62,26 @@ class Crack(Fields):
     @model_validator(mode="after")
     @gathered
     def _one_friction(self) -> Iterator[InputError]:
-        return _frictions_agree(self)
+        if self.law is None:
+            yield from _frictions_agree(self)
+            return
+        for name in ("friction", "static_friction", "kinetic_friction"):
+            if getattr(self, name) is not None:
+                yield InputError("fields-conflict", name, other="law")
 
     @property
     def mu_static(self) -> float:
-        """Coefficient of friction at rest."""
+        """Coefficient of friction at rest; zero where a law says it."""
         return self._coefficient(self.static_friction)
 
     @property
     def mu_kinetic(self) -> float:
-        """Coefficient of friction while sliding."""
+        """Coefficient of friction while sliding; zero where a law says it."""
         return self._coefficient(self.kinetic_friction)
+
+    def told(self) -> str:
+        """Return its friction in words."""
+        return f"friction {self.mu_kinetic:g}" if self.law is None else f"friction by {self.law.name}"
 
     def _coefficient(self, own: float | None) -> float:
         """Return the one of its own, or the one for both; zero where the case says neither."""

@@ -93,7 +93,7 @@ class Case(Shown, Fields):
         levels = [z for _, z in self.section.vertices()]
         parts = [
             f"dam of {max(levels) - min(levels):.4g} m",
-            f"crack at {self.crack.elevation:.4g} m, friction {self.crack.mu_kinetic:g}",
+            f"crack at {self.crack.elevation:.4g} m, {self.crack.told()}",
             *(f"another at {crack.elevation:.4g} m" for crack in self.further_cracks),
             f"water of {self.reservoir.depth:.4g} m" if self.reservoir else "no water",
             plain(self.motion.told()) if self.motion else "no motion",
@@ -120,6 +120,8 @@ class Case(Shown, Fields):
         if self.aftershocks and self.motion is None:
             yield InputError("needs-other", "aftershocks", other="a motion")
         yield from many_cracks(self)
+        if self.crack.law is not None and self.crack.law.cohesion is not None and self.statics.cohesion:
+            yield InputError("law-twice", "statics.cohesion")
         if self.statics.drain_diameter is not None and self.uplift.pattern != "drained":
             yield InputError("needs-other", "statics.drain_diameter", other='uplift.pattern = "drained"')
 

@@ -16,9 +16,7 @@ LAWS = tuple(_kernel.LAWS)
 LAW = tuple(_kernel.LAW_FIELDS)
 
 
-def friction_law(
-    shape: str, numbers: Mapping[str, float], points: Sequence[tuple[float, float]] = ()
-) -> FrictionLaw:
+def friction_law(shape: str, numbers: Mapping[str, float], points: Sequence[tuple[float, float]] = ()) -> FrictionLaw:
     """Return a law of a shape of :data:`LAWS`, with its numbers by the names of :data:`LAW`, those not given zero.
 
     Raises

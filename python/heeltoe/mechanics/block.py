@@ -19,6 +19,7 @@ from heeltoe.case.model import Case
 from heeltoe.errors import expect
 from heeltoe.geometry.section import CutSection
 from heeltoe.kernel.block import BLOCK
+from heeltoe.mechanics.friction import friction_of
 from heeltoe.mechanics.loads import Resultant, concrete_mass, face_at, static_forces, total
 from heeltoe.mechanics.virtual_water import VirtualMass, virtual_mass
 from heeltoe.units.sentences import Sentence
@@ -83,7 +84,7 @@ class Block:
     water
         Virtual water.
     friction_static, friction_kinetic, restitution
-        Of the crack.
+        Of the crack; by a friction law, what it bears under the static loads before any slip, and after all of it.
     gravity
         One g of the case [m/s2].
     section
@@ -248,6 +249,7 @@ def build_block(case: Case) -> Block:
         horizontal = (-(concrete + moved) * e, -(concrete + moved) * n, -moved * arm)
         up = section.in_crack_frame(0.0, 1.0)
         vertical = (-concrete * up[0], -concrete * up[1], 0.0)
+    at_rest, sliding = friction_of(case.crack, -static.vertical, section.crack_width)
     g = case.gravity
     pressure = (pressed.horizontal / g, pressed.vertical / g, pressed.moment_about(offset[0], height) / g)
     return Block(
@@ -265,8 +267,8 @@ def build_block(case: Case) -> Block:
         forces=forces,
         following=following,
         water=water,
-        friction_static=case.crack.mu_static,
-        friction_kinetic=case.crack.mu_kinetic,
+        friction_static=at_rest,
+        friction_kinetic=sliding,
         restitution=case.crack.restitution,
         gravity=case.gravity,
         section=section,

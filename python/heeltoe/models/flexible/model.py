@@ -36,6 +36,18 @@ from heeltoe.result.rest import LAST_S, last_change, still_since
 _SHORTEST_FRAME_STEP = 1e-3
 
 
+def check_law(case: Case) -> None:
+    """Refuse a friction law of the crack, which this model does not know.
+
+    Raises
+    ------
+    InputError
+        Then.
+    """
+    if case.crack.law is not None:
+        raise InputError("law-model", "crack.law", f'"{case.crack.law.name}"')
+
+
 def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None = None) -> FlexibleResponse:
     """Run the flexible model on a case, on through silence until the dam is at rest.
 
@@ -53,6 +65,7 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
     InputError
         Where the case has no modulus or a mesh or a step that cannot be used.
     """
+    check_law(case)
     end = earthquake.end
     if output_step is not None and not _SHORTEST_FRAME_STEP <= output_step <= end:
         raise InputError(

@@ -50,7 +50,7 @@ def omitted(case: Case, response: Response) -> tuple[Notice, ...]:
         height=max(corners) - min(corners),
         water=0.0 if case.reservoir is None else case.reservoir.depth,
         damping=case.concrete.damping,
-        friction=case.crack.mu_static,
+        friction=friction_at_rest(case, response),
         unlike=_unlike(case, response),
         remedy="give concrete.modulus" if modulus is None else AS_ELASTIC,
     )
@@ -62,6 +62,12 @@ def omitted(case: Case, response: Response) -> tuple[Notice, ...]:
     if like.code == "rigid-unlike" and strongest <= _NOTICED * swing.peak:
         return ()
     return _swings(dam, swing, moduli), like
+
+
+def friction_at_rest(case: Case, response: Response) -> float:
+    """Return the friction of the crack before any slip; by a law, under its static loads."""
+    law = response.summary.get("friction_law")
+    return case.crack.mu_static if law is None else float(law["apparent_friction_before"])
 
 
 def _swings(dam: _Dam, swing: Swing, moduli: tuple[float, ...]) -> Notice:

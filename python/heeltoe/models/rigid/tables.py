@@ -12,6 +12,7 @@ from heeltoe.case.model import Case
 from heeltoe.kernel.block import EVENT_KINDS, MODES, SUMMARY, BlockRun
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block
+from heeltoe.models.rigid.worn import law_found, law_histories
 from heeltoe.references import cited
 from heeltoe.result.contract import HEADLINES, headlines
 from heeltoe.result.response import Energy
@@ -52,6 +53,8 @@ def references_of(case: Case, block: Block, run: BlockRun) -> tuple[str, ...]:
         keys.append(case.uplift.during_shaking)
     if not run.exact:
         keys.append("integration")
+    if case.crack.law is not None:
+        keys.append(f"law: {case.crack.law.name}")
     return cited(*keys)
 
 
@@ -88,6 +91,7 @@ def summary_of(case: Case, block: Block, run: BlockRun) -> dict[str, Any]:
         "crack_width_m": block.width,
         "rotation": case.analysis.rotation,
         "uplift_during_shaking": case.uplift.during_shaking,
+        "friction_law": law_found(case, block, run),
         "overturned_about": about if run.outcome == "overturned" else None,
         "anchors": [
             {"distance_m": anchor.distance, "peak_tension_n": float(peak), "capacity_n": anchor.capacity}
@@ -134,6 +138,8 @@ def histories_of(case: Case, block: Block, shaking: Shaking, moments: Floats, ru
         "normal_force_heel_n": column["normal_force_heel"],
         "normal_force_toe_n": column["normal_force_toe"],
     }
+    if case.crack.law is not None and run.worn is not None:
+        result |= law_histories(case, block, run)
     return result
 
 

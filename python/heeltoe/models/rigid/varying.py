@@ -1,5 +1,5 @@
-"""Which blocks the exact kernel cannot take, since loads or geometry change as they move, and what the other one needs
-to know of them."""
+"""Which blocks the exact kernel cannot take, since loads, friction or geometry change as they move, and what the other
+one needs to know of them."""
 
 from __future__ import annotations
 
@@ -8,14 +8,16 @@ import numpy as np
 from heeltoe.case.model import Case
 from heeltoe.kernel.block import VARYING, Varying
 from heeltoe.mechanics.block import Block, across_crack
+from heeltoe.mechanics.friction import law_of
 from heeltoe.mechanics.loads import face_at, total, uplift_profile, water_above_crack
 
 
 def varies(case: Case) -> bool:
-    """Whether loads or geometry change as the block moves, so that there are no closed forms between events."""
+    """Whether loads, friction or geometry change as the block moves: then there are no closed forms between events."""
     return (
         case.analysis.rotation != "small"
         or case.uplift.during_shaking != "constant"
+        or case.crack.law is not None
         or any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors)
     )
 
@@ -77,4 +79,5 @@ def varying(case: Case, block: Block) -> Varying:
         law=uplift.during_shaking,
         pressure=np.ascontiguousarray(profile),
         anchors=np.array(anchors, dtype=np.float64).reshape(-1, 6),
+        friction=None if case.crack.law is None else law_of(case.crack.law),
     )

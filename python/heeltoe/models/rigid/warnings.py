@@ -7,6 +7,7 @@ import math
 from heeltoe.case.model import Case
 from heeltoe.kernel.block import BlockRun
 from heeltoe.mechanics.block import Block, instability
+from heeltoe.mechanics.friction import range_of
 from heeltoe.models.rigid.tables import tensions
 from heeltoe.result.contract import LARGEST_ROTATION, TOO_FAR
 from heeltoe.units.sentences import Sentence
@@ -38,6 +39,19 @@ def outcome_of(case: Case, run: BlockRun) -> str:
     """Return how a run ended: rotations that are taken for small and are not leave no result."""
     large = max(run.summary["rotation_max"], -run.summary["rotation_min"]) > LARGEST_ROTATION
     return TOO_FAR if run.outcome == "ok" and large and case.analysis.rotation != "finite" else run.outcome
+
+
+def law_warnings(case: Case, block: Block) -> list[Notice]:
+    """Say where a friction law is used beyond what it was made for."""
+    law = case.crack.law
+    if law is None:
+        return []
+    stress = block.normal_force / block.width
+    why = range_of(law, stress)
+    said = [] if why is None else [Notice("law-range", stress_pa=stress, why=why)]
+    if law.name in ("barton-bandis", "lift joint"):
+        said.append(Notice("law-by-mean", law=law.name))
+    return said
 
 
 def advice_of(block: Block, run: BlockRun, outcome: str) -> Sentence | None:
@@ -73,6 +87,7 @@ def warnings_of(case: Case, block: Block, run: BlockRun) -> list[Notice]:
         said.append(Notice("restitution-lowered", impacts=int(raw["energy_limited_impacts"])))
     if raw["jams"]:
         said.append(Notice("paradox-jammed", jams=int(raw["jams"])))
+    said += law_warnings(case, block)
     said += _about_rare_choices(case, run)
     said += _about_the_slip(case, block, run)
     # Integration is exact to a part of the crack's width, of which tiny motions are a tiny part.

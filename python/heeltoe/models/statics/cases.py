@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from heeltoe.case.dam import Reservoir, Water
 from heeltoe.case.model import Case
+from heeltoe.mechanics.friction import peak_of, residual_of
 from heeltoe.mechanics.loads import Resultant, concrete_mass, scaled, static_forces
 from heeltoe.mechanics.virtual_water import moving_force
 from heeltoe.models.statics.contact import Contact
@@ -86,6 +87,7 @@ def pseudo_static(case: Case, before: Solved) -> tuple[Solved, ...]:
                 case.statics.cohesion,
                 (Sentence(f"uplift: {source}"),),
                 sources_of(case) | sources_of_inertia(case, *ground),
+                peak_of(case.crack),
             )
             tried.append(solve_case(given, case.cut, (*_dry(case), *_inertia(case, *ground)), contact, water))
         found += governing(tried) if vertical else tried
@@ -112,9 +114,11 @@ def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
         "downstream" if slip >= 0.0 else "upstream",
         "kinetic" if choice.residual_friction is None else "residual",
     )
+    law = residual_of(case.crack) if choice.residual_friction is None else None
+    told = f"friction {friction:g}, {kind}" if law is None else "friction that all slip leaves, by crack.law"
     said = [
         Sentence.of("slip {slip_m:.4f m} {way}: {source}", slip_m=size, way=way, source=source),
-        Sentence(f"friction {friction:g}, {kind}; the crack has slid: no cohesion, no tensile strength"),
+        Sentence(f"{told}; the crack has slid: no cohesion, no tensile strength"),
     ]
     if size:
         text = (
@@ -136,7 +140,7 @@ def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
     start, end = (0.0, width - size) if slip >= 0.0 else (size, width)
     contact = Contact(start, end, bonded_from=end)
     water = still_water(case, start, end)
-    given = Given("post-seismic", "post-earthquake", friction, 0.0, tuple(said), sources_of(case))
+    given = Given("post-seismic", "post-earthquake", friction, 0.0, tuple(said), sources_of(case), law)
     return solve_case(given, case.cut, _dry(case), contact, water)
 
 
@@ -171,5 +175,6 @@ def _still(name: str, loads: Loads, case: Case, said: tuple[Sentence, ...]) -> S
     """Return a case of still water on the crack as it is before the earthquake."""
     contact = _contact(case)
     water = still_water(case, contact.start, contact.end)
-    given = Given(name, loads, case.crack.mu_static, case.statics.cohesion, said, sources_of(case))
+    friction, cohesion = case.crack.mu_static, case.statics.cohesion
+    given = Given(name, loads, friction, cohesion, said, sources_of(case), peak_of(case.crack))
     return solve_case(given, case.cut, _dry(case), contact, water)

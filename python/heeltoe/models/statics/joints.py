@@ -146,7 +146,7 @@ def at_section(case: Case, section: StaticsSection, field: str = "statics.sectio
     if section.elevation != case.crack.elevation:
         crack["inclination"] = 0.0
     if section.friction is not None:
-        crack |= {"friction": section.friction, "static_friction": None, "kinetic_friction": None}
+        crack |= {"friction": section.friction, "static_friction": None, "kinetic_friction": None, "law": None}
     choice = {
         name: value
         for name in ("bonded", "cohesion", "tensile_strength")

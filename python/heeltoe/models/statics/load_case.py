@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -157,9 +157,14 @@ class Solved:
     settled: Settled
 
 
+#: Coefficient of friction and cohesion [Pa] under a normal stress [Pa].
+Borne = Callable[[float], tuple[float, float]]
+
+
 @dataclass(frozen=True)
 class Given:
-    """What is known of a load case before it is solved: coefficient of friction, cohesion of the bonded part [Pa]."""
+    """What is known of a load case before it is solved: coefficient of friction, cohesion of the bonded part [Pa]; or
+    the law that says both by the mean normal stress [Pa] on what is in compression."""
 
     name: str
     loads: Loads
@@ -167,6 +172,7 @@ class Given:
     cohesion: float
     assumptions: tuple[Sentence, ...]
     sources: Mapping[str, Sentence] = field(default_factory=dict)
+    law: Borne | None = None
 
 
 def solve_case(
@@ -194,7 +200,11 @@ def solve_case(
     closed = (contact.start + settled.heel_crack, contact.end - settled.toe_crack)
     pressed = _in_compression(closed, settled)
     bonded = max(pressed[0], contact.bonded_from), min(pressed[1], contact.bonded_to)
-    cohesive = given.cohesion * max(0.0, bonded[1] - bonded[0])
+    friction, cohesion = given.friction, given.cohesion
+    if given.law is not None:
+        length = max(0.0, pressed[1] - pressed[0])
+        friction, cohesion = given.law(max(0.0, settled.normal) / length if length else 0.0)
+    cohesive = cohesion * max(0.0, bonded[1] - bonded[0])
     about = "heel" if shear < 0.0 else "toe"
     down = -math.fsum(min(0.0, force.vertical) for force in across)
     up = math.fsum(max(0.0, force.vertical) for force in across)
@@ -205,9 +215,9 @@ def solve_case(
         outcome=settled.outcome,
         normal_force_n=settled.normal,
         shear_force_n=shear,
-        friction=given.friction,
+        friction=friction,
         cohesive_force_n=cohesive,
-        sliding_factor=(cohesive + given.friction * max(0.0, settled.normal)) / abs(shear) if shear else None,
+        sliding_factor=(cohesive + friction * max(0.0, settled.normal)) / abs(shear) if shear else None,
         overturning_factor=_overturning(across, contact.start if about == "heel" else contact.end, about),
         overturning_about=about,
         flotation_factor=down / up if up else None,

@@ -200,6 +200,11 @@ def statics(
     )
 
 
+def _peak(case: Case, usual: LoadCase) -> float:
+    """Return the friction of the crack before any slip; by a law, under the usual loads."""
+    return case.crack.mu_static if case.crack.law is None else usual.friction
+
+
 def _said_of(case: Case, usual: LoadCase) -> list[Notice]:
     """Return what is to be said of the choices beside the usual loads."""
     choice, said = case.statics, []
@@ -208,7 +213,7 @@ def _said_of(case: Case, usual: LoadCase) -> list[Notice]:
     usual_depth = case.reservoir.depth if case.reservoir else 0.0
     if choice.flood_depth is not None and choice.flood_depth < usual_depth:
         said.append(Notice("flood-low", usual_depth_m=usual_depth))
-    if choice.residual_friction is not None and choice.residual_friction > case.crack.mu_static:
+    if choice.residual_friction is not None and choice.residual_friction > _peak(case, usual):
         said.append(Notice("residual-friction-high"))
     if any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors):
         said.append(Notice("anchors-as-prestress"))

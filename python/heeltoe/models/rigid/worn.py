@@ -1,0 +1,49 @@
+"""What a crack whose friction goes by a law has been through, by the names of the contract."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from heeltoe.arrays import Floats
+from heeltoe.case.model import Case
+from heeltoe.kernel.block import BlockRun
+from heeltoe.kernel.friction import shear_stress
+from heeltoe.mechanics.block import Block
+from heeltoe.mechanics.friction import coefficients, law_of
+
+
+def law_found(case: Case, block: Block, run: BlockRun) -> dict[str, Any] | None:
+    """Return what the law has come to: how far the crack has slipped, and its friction under the static loads before
+    and after that; None of constant coefficients."""
+    if case.crack.law is None or run.worn is None:
+        return None
+    law, stress = law_of(case.crack.law), block.normal_force / block.width
+    whole = float(run.worn.bonded_at_end)
+    before, _ = coefficients(law, stress, bond=1.0)
+    after, _ = coefficients(law, stress, run.worn.end, bond=whole)
+    cohesive = case.crack.law.cohesion
+    return {
+        "name": case.crack.law.name,
+        "slip_path_m": run.worn.end,
+        "normal_stress_pa": stress,
+        "apparent_friction_before": before,
+        "apparent_friction_after": after,
+        "bond_broken": None if cohesive is None else not run.worn.bonded_at_end,
+        "integration_error_m": run.worn.error,
+    }
+
+
+def law_histories(case: Case, block: Block, run: BlockRun) -> dict[str, Floats]:
+    """Return the way that the crack has slipped, to and fro, and the friction that it could bear [N/m]."""
+    assert case.crack.law is not None
+    assert run.worn is not None
+    column, worn = run.histories, run.worn
+    stress = (column["normal_force_heel"] + column["normal_force_toe"]) / block.width
+    closed = (column["gap_heel"] == 0.0) & (column["gap_toe"] == 0.0)
+    speed = abs(column["slip_velocity"])
+    at_rest, sliding = shear_stress(law_of(case.crack.law), stress, worn.path, speed, worn.bonded * closed)
+    return {"slip_path_m": worn.path, "friction_strength_n": block.width * _either(speed > 0.0, sliding, at_rest)}
+
+
+def _either(which: Any, one: Floats, other: Floats) -> Floats:
+    return one * which + other * ~which
