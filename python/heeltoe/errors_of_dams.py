@@ -73,6 +73,7 @@ OF_DAMS: dict[str, tuple[str, str]] = {
         "give points between which the coefficient times the stress grows",
     ),
     "law-model": ("{value} is not known to the flexible model", "use the rigid model or the decoupled chain"),
+    "law-unknown": ("{value} is no friction law", "give one of {names}, or a case, CASE.toml{near}"),
     "law-twice": ("cannot stand beside the cohesion of crack.law", "keep one of them"),
     "uplift-option-foreign": (
         'does not belong to the pattern "{pattern}"',

@@ -77,7 +77,8 @@ def records(tmp_path_factory) -> dict[str, tuple[Fields, Any]]:
 
 
 # What everything is shown in changes no number; tests/views/test_units.py looks at what is shown.
-ALL = {path: field for path, field in leaves() if path != "units"}
+# Each friction law has fields of its own: tests/models/rigid/test_friction_laws.py changes its name.
+ALL = {path: field for path, field in leaves() if path not in ("units", "crack.law.name")}
 
 
 @functools.cache
@@ -126,6 +127,8 @@ def faults(model: str, records: dict[str, tuple[Fields, Any]], skip: Skip, *, br
             assert model in ("rigid", "decoupled")
             continue
         new, said, unread = outcome(model, json.dumps(after))
+        if isinstance(old, str) and old.startswith("crack.law: ") and new == old:
+            continue  # the flexible model knows no law, and says so
         if isinstance(old, str) and path != "motion.allow_zero":
             found.append(f"{path}: {old}")
         if new == old and not any(written in text for text in said):

@@ -97,6 +97,16 @@ ENDS: Fields = {
     "prestress": "300 kN/m",
     "axial_stiffness": "20 MN/m/m",
 }
+PEAK: Fields = {"peak_friction": 0.75, "residual_friction": 0.6}
+WEAKENING: Fields = {"name": "slip weakening", **PEAK, "slip": "20 mm"}
+BARTON: Fields = {"name": "barton-bandis", "jrc": 8, "jcs": "10 MPa", "residual_angle": "28 deg"}
+LIFT: Fields = {
+    "name": "lift joint",
+    "surface": "untreated",
+    "basic_friction": 0.6,
+    "roughness_friction": [["0.1 MPa", 0.2], ["2 MPa", 0.1]],
+}
+NO_COEFFICIENTS: Fields = {"crack.static_friction": GONE, "crack.kinetic_friction": GONE, "statics.cohesion": GONE}
 #: For fields that stand only in another case than the base, or have no value there: what changes first, then the value.
 HELPED: dict[str, tuple[Fields, Any]] = {
     "title": ({}, "another"),
@@ -112,6 +122,23 @@ HELPED: dict[str, tuple[Fields, Any]] = {
         [["-2 m", "0 m"], ["26 m", "0 m"], ["5 m", "30 m"], ["0 m", "30 m"]],
     ),
     "crack.friction": ({"crack.static_friction": GONE, "crack.kinetic_friction": GONE, "crack.friction": 0.6}, 0.5),
+    **{
+        f"crack.law.{name}": ({**NO_COEFFICIENTS, "crack.law": law}, value)
+        for law, name, value in (
+            (WEAKENING, "form", "exponential"),
+            (WEAKENING, "peak_friction", 0.8),
+            (WEAKENING, "residual_friction", 0.55),
+            (WEAKENING, "slip", "30 mm"),
+            ({"name": "speed weakening", **PEAK, "speed": "0.1 m/s"}, "speed", "0.2 m/s"),
+            ({"name": "cohesion", "residual_friction": 0.6, "cohesion": "50 kPa"}, "cohesion", "60 kPa"),
+            (BARTON, "jrc", 9),
+            (BARTON, "jcs", "11 MPa"),
+            (BARTON, "residual_angle", "29 deg"),
+            (LIFT, "surface", "monolithic"),
+            (LIFT, "basic_friction", 0.55),
+            (LIFT, "roughness_friction", [["0.1 MPa", 0.25], ["2 MPa", 0.1]]),
+        )
+    },
     "crack.inclination": ({}, "5 deg"),
     "reservoir.nappe": ({"reservoir.depth": "31 m", "ice": GONE}, "weight"),
     "uplift.pattern": ({"uplift": {"pattern": "uniform"}, "statics.drain_diameter": GONE}, None),

@@ -7,13 +7,22 @@ is checked by :func:`heeltoe.case.read.read_case`."""
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
 from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
 from heeltoe.case.fields import STEEPEST, Fields, Fraction, FrictionCoefficient, Head, Truth
-from heeltoe.case.friction import Law
-from heeltoe.case.quantities import Angle, Density, DimensionlessNumber, Length, LineForce, Pressure, Stiffness
+from heeltoe.case.quantities import (
+    Angle,
+    Density,
+    DimensionlessNumber,
+    Length,
+    LineForce,
+    Pressure,
+    Stiffness,
+    Velocity,
+)
 from heeltoe.case.sentences import gathered
 from heeltoe.errors import InputError, shown
 
@@ -38,6 +47,91 @@ class Concrete(Fields):
     """Tensile strength, static; the largest tension of the flexible model is judged by it where it is given."""
     dynamic_tension: Annotated[DimensionlessNumber, Field(ge=1.0, le=3.0)] = 1.5
     """Tensile strength in an earthquake over the static one (Raphael, ACI Journal 81-17, 1984)."""
+
+
+LawName = Literal["slip weakening", "speed weakening", "cohesion", "barton-bandis", "lift joint"]
+
+#: What each law needs, and what it may have beside that.
+LAW_FIELDS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
+    "slip weakening": (("peak_friction", "residual_friction", "slip"), ("form",)),
+    "speed weakening": (("peak_friction", "residual_friction", "speed"), ()),
+    "cohesion": (("cohesion", "residual_friction"), ("slip",)),
+    "barton-bandis": (("jrc", "jcs", "residual_angle"), ()),
+    "lift joint": (("basic_friction", "surface"), ("roughness_friction",)),
+}
+#: Of a lift joint whose faces are plane nothing is rough.
+PLANE = "plane"
+# Of a residual angle of friction [rad]: 60 degrees.
+_STEEPEST_FRICTION = 1.0471976
+
+
+class Law(Fields):
+    """A friction law of the crack, in place of its constant coefficients."""
+
+    name: LawName
+    """Which law: `slip weakening` and `speed weakening` from a peak to a residual coefficient; `cohesion` that is lost;
+    `barton-bandis` and `lift joint`, whose coefficient falls with the normal stress."""
+    form: Literal["linear", "exponential"] = "linear"
+    """Of slip weakening: in proportion to the slip, or exponentially."""
+    peak_friction: FrictionCoefficient | None = None
+    """Coefficient of friction before any slip, or at rest."""
+    residual_friction: FrictionCoefficient | None = None
+    """Coefficient of friction that is left."""
+    slip: Annotated[Length, Field(gt=0.0, le=100.0)] | None = None
+    """Way, to and fro, over which friction or cohesion is lost, or of which exponential weakening leaves 1/e; cohesion
+    without it is brittle and goes with the first slip."""
+    speed: Annotated[Velocity, Field(gt=0.0, le=100.0)] | None = None
+    """Speed of the slip that leaves 1/e of what friction loses with it."""
+    cohesion: Annotated[Pressure, Field(ge=0.0, le=1e8)] | None = None
+    """Shear stress that the whole bond bears without a normal one; a corner that lifts breaks the bond."""
+    jrc: Annotated[DimensionlessNumber, Field(ge=0.0, le=20.0)] | None = None
+    """Joint roughness coefficient, 0 (smooth) to 20, for the length of the crack."""
+    jcs: Annotated[Pressure, Field(gt=0.0, le=1e9)] | None = None
+    """Compressive strength of the walls of the joint, for the length of the crack."""
+    residual_angle: Annotated[Angle, Field(ge=0.0, le=_STEEPEST_FRICTION)] | None = None
+    """Residual angle of friction."""
+    surface: Literal["monolithic", "water-blasted", "untreated", "plane"] | None = None
+    """How the surface of the lift was prepared; on a `plane` one nothing is rough."""
+    basic_friction: FrictionCoefficient | None = None
+    """Coefficient of friction of the plane surface."""
+    roughness_friction: tuple[tuple[Annotated[Pressure, Field(ge=0.0, le=1e9)], FrictionCoefficient], ...] | None = None
+    """What the roughness of the surface adds: [normal stress, coefficient], straight in between, level beyond."""
+
+    @model_validator(mode="after")
+    @gathered
+    def _options_of_the_law(self) -> Iterator[InputError]:
+        needed, allowed = LAW_FIELDS[self.name]
+        for field in type(self).model_fields:
+            if field == "name":
+                continue
+            given = field in self.model_fields_set and getattr(self, field) is not None
+            if given and field not in (*needed, *allowed):
+                known = ", ".join((*needed, *allowed))
+                yield InputError("law-option-foreign", field, shown(getattr(self, field)), law=self.name, known=known)
+            if not given and field in needed:
+                yield InputError("law-option-missing", field, law=self.name)
+        peak, residual = self.peak_friction, self.residual_friction
+        if peak is not None and residual is not None and peak < residual:
+            yield InputError("law-order", "peak_friction", f"{peak:g}", residual=f"{residual:g}")
+        yield from self._rough()
+
+    def _rough(self) -> Iterator[InputError]:
+        if self.name != "lift joint":
+            return
+        if self.roughness_friction is None:
+            if self.surface is not None and self.surface != PLANE:
+                yield InputError("law-option-missing", "roughness_friction", law=f"{self.name}, {self.surface}")
+            return
+        if self.surface == PLANE:
+            yield InputError("contradiction", "surface", shown(PLANE), other="roughness_friction")
+        stresses = [stress for stress, _ in self.roughness_friction]
+        if not stresses or any(a >= b for a, b in pairwise(stresses)):
+            yield InputError("law-points", "roughness_friction", shown(stresses))
+        basic = self.basic_friction or 0.0
+        for (s0, r0), (s1, r1) in pairwise(self.roughness_friction):
+            # The strength (mu + r(s)) s must not fall where the crack is pressed harder; its slope is least at the end.
+            if s1 > s0 and basic + r1 + s1 * (r1 - r0) / (s1 - s0) < 0.0:
+                yield InputError("law-falls", "roughness_friction", f"{s1:g} Pa")
 
 
 class Crack(Fields):

@@ -65,6 +65,22 @@ friction = 1.0
 # kinetic_friction = 1.0           # is higher than in motion
 restitution = 0.5                  # of a rocking block's impacts: 0 stays down, 1 loses nothing
 
+# A friction law, in place of the coefficients (heeltoe law NAME draws one); each knows some of these fields:
+# [crack.law]
+# name = "slip weakening"          # or "speed weakening", "cohesion", "barton-bandis", "lift joint"
+# form = "linear"                  # of slip weakening; or "exponential"
+# peak_friction = 1.2
+# residual_friction = 0.8
+# slip = "20 mm"                   # over which friction or cohesion is lost
+# speed = "0.1 m/s"                # of speed weakening
+# cohesion = "0.3 MPa"
+# jrc = 10                         # of barton-bandis, as are the next two
+# jcs = "20 MPa"
+# residual_angle = "32 deg"
+# surface = "untreated"            # of a lift joint; or "monolithic", "water-blasted", "plane"
+# basic_friction = 0.7
+# roughness_friction = [["0.1 MPa", 0.4], ["2 MPa", 0.1]]   # [normal stress, what roughness adds]
+
 [reservoir]                        # leave out for a dry dam
 depth = "95 m"                     # above the lowest point of the section
 # density = "1000 kg/m^3"

@@ -37,6 +37,8 @@ READ_BY: dict[str, frozenset[str]] = {
     "concrete.dynamic_tension": frozenset({"flexible"}),
     "crack.restitution": _BLOCKS,
     "further_cracks": frozenset({"flexible", "statics"}),
+    "crack.law": _BLOCKS | {"statics"},
+    **dict.fromkeys((f"crack.law.{name}" for name in ("form", "slip", "speed", "surface")), _BLOCKS),
     "reservoir.virtual_mass_rotates": _BLOCKS,
     "tailwater.virtual_mass_rotates": _BLOCKS,
     "reservoir.hydrodynamic": _BLOCKS | {"statics"},
@@ -222,6 +224,20 @@ def _idle_choices(case: Case, models: Sequence[str]) -> Iterator[Rule]:
         set(models) == {"statics"} and (not slid or choice.residual_friction is not None),
         "statics.residual_friction is given" if slid else "nothing slides in these checks",
         ("crack.kinetic_friction", "further_cracks.kinetic_friction"),
+    )
+    law = case.crack.law
+    yield (
+        set(models) == {"statics"} and law is not None and law.name == "speed weakening",
+        "a crack at rest does not slip",
+        ("crack.law.residual_friction",),
+    )
+    yield (
+        set(models) == {"statics"}
+        and law is not None
+        and law.name == "slip weakening"
+        and (not slid or choice.residual_friction is not None),
+        "statics.residual_friction is given" if slid else "nothing slides in these checks",
+        ("crack.law.residual_friction",),
     )
 
 

@@ -13,6 +13,7 @@ import typer
 from heeltoe.cli import app as app_command
 from heeltoe.cli import dam as dam_commands
 from heeltoe.cli import explain as explain_command
+from heeltoe.cli import law as law_command
 from heeltoe.cli import motion as motion_command
 from heeltoe.cli import run as run_command
 from heeltoe.cli import statics as statics_command
@@ -133,6 +134,7 @@ app.command(cls=run_command.Run)(run_command.run)
 for command in (
     dam_commands.periods,
     dam_commands.overturning,
+    law_command.law,
     statics_command.statics,
     dam_commands.animate,
     motion_command.motion,

@@ -9,7 +9,7 @@ point is the centroid of the concrete.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -19,7 +19,7 @@ from heeltoe.case.model import Case
 from heeltoe.errors import expect
 from heeltoe.geometry.section import CutSection
 from heeltoe.kernel.block import BLOCK
-from heeltoe.mechanics.friction import friction_of
+from heeltoe.mechanics.friction import coefficients, friction_of, law_of
 from heeltoe.mechanics.loads import Resultant, concrete_mass, face_at, static_forces, total
 from heeltoe.mechanics.virtual_water import VirtualMass, virtual_mass
 from heeltoe.units.sentences import Sentence
@@ -274,6 +274,15 @@ def build_block(case: Case) -> Block:
         section=section,
         case=case,
     )
+
+
+def without_bond(block: Block) -> Block:
+    """Return a block with no cohesion of a friction law in its friction at rest."""
+    law = block.case.crack.law
+    if law is None or law.cohesion is None:
+        return block
+    at_rest, _ = coefficients(law_of(law), block.normal_force / block.width)
+    return replace(block, friction_static=at_rest)
 
 
 def instability(block: Block) -> Sentence | None:

@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from heeltoe.case.dam import Crack
-from heeltoe.case.friction import Law
+from heeltoe.case.dam import Crack, Law
 from heeltoe.kernel.friction import FrictionLaw, friction_law, shear_stress
 from heeltoe.references import cited
 

@@ -114,15 +114,7 @@ fn all_held(a: &[Vector; 3], b: &Vector) -> Vector {
 
 impl Reaction {
     fn new(block: &Block, mode: Mode) -> Self {
-        // What friction bears without a normal force pulls as a load does.
-        let pull = -mode.slip().map_or(0.0, Slip::sign) * block.cohesion[1];
-        let mut pulled = block.free_acceleration;
-        if pull != 0.0 {
-            for (load, row) in pulled.iter_mut().zip(&block.compliance) {
-                load.constant += row[SLIP] * pull;
-            }
-        }
-        let free = &pulled;
+        let (pull, free) = &pulled(block, mode);
         let (forces, accelerations) = (block.force_scale, block.acceleration_scale());
         let size = |i: usize| {
             let Affine {
@@ -134,8 +126,9 @@ impl Reaction {
             terms.max(block.free_terms[i])
         };
         let mut force = [Affine::default(); 3];
+        force[SLIP].constant = *pull;
         let mut acceleration = *free;
-        let mut force_size = [0.0; 3];
+        let mut force_size = [pull.abs(), 0.0, 0.0];
         let mut acceleration_size = [SLIP, HEEL, TOE].map(size);
         let mut regular = true;
         for (column, load) in free.iter().enumerate() {
@@ -157,8 +150,6 @@ impl Reaction {
                 from(coupling, &mut acceleration[i], &mut acceleration_size[i]);
             }
         }
-        force[SLIP].constant += pull;
-        force_size[SLIP] += pull.abs();
         let [friction, heel, toe] = force_size.map(|terms| terms.max(forces));
         let [along, left, right] = acceleration_size.map(|terms| terms.max(accelerations));
         let cone_size = block.friction_static * (heel + toe) + friction + block.cohesion[0].abs();
@@ -241,6 +232,18 @@ impl Reactions {
     pub(super) fn of(&self, mode: Mode) -> &Reaction {
         &self.0[mode.index()]
     }
+}
+
+/// What friction bears in a mode without a normal force, and the free acceleration with that for a load.
+fn pulled(block: &Block, mode: Mode) -> (f64, [Affine; 3]) {
+    let pull = -mode.slip().map_or(0.0, Slip::sign) * block.cohesion[1];
+    let mut free = block.free_acceleration;
+    if pull != 0.0 {
+        for (load, row) in free.iter_mut().zip(&block.compliance) {
+            load.constant += row[SLIP] * pull;
+        }
+    }
+    (pull, free)
 }
 
 /// `mu_s (N_h + N_t) - direction * T`: what is left of the friction cone.

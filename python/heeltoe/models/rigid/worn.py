@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.kernel.block import BlockRun
@@ -18,17 +20,18 @@ def law_found(case: Case, block: Block, run: BlockRun) -> dict[str, Any] | None:
     if case.crack.law is None or run.worn is None:
         return None
     law, stress = law_of(case.crack.law), block.normal_force / block.width
-    whole = float(run.worn.bonded_at_end)
     before, _ = coefficients(law, stress, bond=1.0)
-    after, _ = coefficients(law, stress, run.worn.end, bond=whole)
-    cohesive = case.crack.law.cohesion
+    pressed = max(stress, 1.0)
+    with_bond, _ = coefficients(law, stress, run.worn.end, bond=float(run.worn.bonded_at_end))
+    without, _ = coefficients(law, stress, run.worn.end)
     return {
         "name": case.crack.law.name,
         "slip_path_m": run.worn.end,
         "normal_stress_pa": stress,
         "apparent_friction_before": before,
-        "apparent_friction_after": after,
-        "bond_broken": None if cohesive is None else not run.worn.bonded_at_end,
+        "apparent_friction_after": with_bond,
+        "cohesion_left_pa": None if case.crack.law.cohesion is None else (with_bond - without) * pressed,
+        "surface": case.crack.law.surface,
         "integration_error_m": run.worn.error,
     }
 
@@ -42,8 +45,5 @@ def law_histories(case: Case, block: Block, run: BlockRun) -> dict[str, Floats]:
     closed = (column["gap_heel"] == 0.0) & (column["gap_toe"] == 0.0)
     speed = abs(column["slip_velocity"])
     at_rest, sliding = shear_stress(law_of(case.crack.law), stress, worn.path, speed, worn.bonded * closed)
-    return {"slip_path_m": worn.path, "friction_strength_n": block.width * _either(speed > 0.0, sliding, at_rest)}
-
-
-def _either(which: Any, one: Floats, other: Floats) -> Floats:
-    return one * which + other * ~which
+    strength: Floats = np.where(speed > 0.0, sliding, at_rest)
+    return {"slip_path_m": worn.path, "friction_strength_n": block.width * strength}

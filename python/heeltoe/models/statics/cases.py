@@ -146,7 +146,11 @@ def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
 
 def _contact(case: Case) -> Contact:
     width = case.cut.crack_width
-    return Contact(0.0, width, (1.0 - case.statics.bonded) * width, case.statics.tensile_strength)
+    law, choice = case.crack.law, case.statics
+    # The cohesion of a law is that of the whole crack, unless the case says how much of it is bonded.
+    whole = law is not None and law.cohesion is not None and "bonded" not in choice.model_fields_set
+    bonded = 1.0 if whole else choice.bonded
+    return Contact(0.0, width, (1.0 - bonded) * width, choice.tensile_strength)
 
 
 def _dry(case: Case) -> tuple[Resultant, ...]:

@@ -11,7 +11,7 @@ from heeltoe.case.use import unused_fields
 from heeltoe.case.warnings import case_warnings
 from heeltoe.dataframe import dataframe
 from heeltoe.errors import expect
-from heeltoe.mechanics.block import build_block, static_state
+from heeltoe.mechanics.block import build_block, static_state, without_bond
 from heeltoe.mechanics.loads import water_above_crack
 from heeltoe.models.statics.cases import flood, post_seismic, pseudo_static, usual
 from heeltoe.models.statics.checks import Check, check_case, fallen
@@ -190,7 +190,7 @@ def statics(
         site_information=choice.site_information,
         cases=tuple(cases),
         checks=tuple(checks),
-        critical_acceleration_g=static_state(build_block(case))["critical_acceleration_g"],
+        critical_acceleration_g=static_state(without_bond(build_block(case)))["critical_acceleration_g"],
         critical_water_level_m=critical_water_levels(case),
         highest_water_level_m=highest_level(case),
         slip_m=slip,

@@ -231,6 +231,8 @@ OF_HISTORIES: dict[str, str] = {
     "gap_toe_m": "Opening of the crack at the downstream face.",
     "rotation_rad": "Rotation, positive counter-clockwise: upstream, about the heel.",
     "rotation_velocity_rad_s": "Its velocity.",
+    "friction_strength_n": "Friction that a crack with a law could bear at the moment, per metre of dam.",
+    "slip_path_m": "How far a crack with a friction law has slipped, to and fro.",
     "friction_force_n": "Friction on the part above, positive downstream, per metre of dam.",
     "normal_force_heel_n": "Force across the crack at the heel.",
     "normal_force_toe_n": "Force across the crack at the toe.",

@@ -33,6 +33,7 @@ if TYPE_CHECKING:
 #: Every name that a figure of a result can have, in the order in which they are shown.
 NAMES = (
     "section",
+    "law",
     "comparison",
     "response",
     "slip-by-mode",
@@ -115,6 +116,11 @@ def all_figures(case: Case | None, result: Response, units: str = "si") -> Figur
         from heeltoe.views.figures.section import section_figure
 
         drawings["section"] = lambda: section_figure(case, units)
+        if case.crack.law is not None:
+            from heeltoe.mechanics.law_curve import curve_of
+            from heeltoe.views.figures.law import law_figure
+
+            drawings["law"] = lambda: law_figure(curve_of(case), units)
     beside = result.beside
     if beside is not None and has_pictures(result) and has_pictures(beside):
         from heeltoe.views.figures.beside import comparison_figure

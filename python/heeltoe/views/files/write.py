@@ -9,6 +9,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from heeltoe.case.model import Case
+from heeltoe.mechanics.law_curve import LawCurve
 from heeltoe.models.flexible.history import crack_table
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.result.response import Response
@@ -17,6 +18,7 @@ from heeltoe.study.opened import Opened
 from heeltoe.study.overturning import OverturningMap
 from heeltoe.study.small import SmallStudy
 from heeltoe.views.figures.all import NAMES, all_figures
+from heeltoe.views.figures.law import law_figure
 from heeltoe.views.figures.overturning import overturning_figure
 from heeltoe.views.figures.runs import small_figures
 from heeltoe.views.figures.studies.all import study_figures
@@ -29,6 +31,8 @@ from heeltoe.whole import write_whole
 VTK = "vtk"
 #: Files of a map of overturning.
 OVERTURNING = ("overturning.csv", "overturning.png", "overturning.svg")
+#: Files of a friction law.
+LAW = ("law.png", "law.svg")
 _TABLES = ("histories", "events", "crack", "table")
 STUDY_REPORT = _REPORT = ("report.pdf", "report.html")
 
@@ -128,6 +132,15 @@ def write_overturning(found: OverturningMap, directory: Path) -> list[Path]:
     def write(fresh: Path) -> None:
         write_table(found.to_table(), fresh / "overturning.csv")
         save_all({"overturning": overturning_figure(found)}, fresh)
+
+    return write_whole(write, directory, ())
+
+
+def write_law(found: LawCurve, directory: Path) -> list[Path]:
+    """Write the curve of a friction law as ``law.png`` and ``.svg``, both or none, and return their paths."""
+
+    def write(fresh: Path) -> None:
+        save_all({"law": law_figure(found)}, fresh)
 
     return write_whole(write, directory, ())
 

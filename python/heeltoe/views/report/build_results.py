@@ -5,6 +5,7 @@ from __future__ import annotations
 from heeltoe.units.sentences import written
 from heeltoe.views.report.content import Block, Inline, Section, Table, paragraph
 from heeltoe.views.report.subject import Subject
+from heeltoe.views.words.law import law_line
 from heeltoe.views.words.numbers import Value
 from heeltoe.views.words.sequence import COLUMNS, sequence_rows
 from heeltoe.views.words.starts import starts
@@ -66,6 +67,14 @@ _CRACK_LEVEL: tuple[tuple[str, str, str | None], ...] = (
     ("Spacing of the motion of the crack", "convergence.step_s", "time"),
     ("Residual slip with twice that", "convergence.coarser_residual_slip_m", "displacement"),
 )
+_LAW: tuple[tuple[str, str, str | None], ...] = (
+    ("Slip path, to and fro", "slip_path_m", "displacement"),
+    ("Normal stress under the static loads", "normal_stress_pa", None),
+    ("Apparent friction before the earthquake", "apparent_friction_before", None),
+    ("Apparent friction after it", "apparent_friction_after", None),
+    ("Cohesion left", "cohesion_left_pa", None),
+    ("Estimated error of the integration", "integration_error_m", None),
+)
 _FIGURES = (
     "comparison",
     "response",
@@ -117,6 +126,7 @@ def results(subject: Subject) -> Section:
             *_tension(subject),
             *_at_the_crack(subject),
             *_anchors(subject),
+            *_law(subject),
             *_sequence(subject),
         ]
     else:
@@ -185,6 +195,25 @@ def _anchors(subject: Subject) -> list[Block]:
     )
     caption = f"Tension of the anchors, {subject.per_width}."
     return [Table(head, rows, caption, "l" + "r" * (2 + len(runs)))] if rows else []
+
+
+def _law(subject: Subject) -> list[Block]:
+    """Return what a friction law is, looks like, and has come to."""
+    law = subject.case.crack.law
+    if law is None:
+        return []
+    blocks: list[Block] = [paragraph(f"The friction of the crack goes by the law {law.name}, which draws as follows.")]
+    blocks += subject.figure("law")
+    for run in subject.runs:
+        found = run.response.summary.get("friction_law")
+        if found is not None:
+            whose = "" if len(subject.runs) == 1 else f", {run.name}"
+            blocks.append(paragraph(f"What it has come to{whose}: {law_line(found, subject.units)}."))
+            rows = tuple(
+                (label, subject.numbers(f"{run.prefix}friction_law.{key}", quantity)) for label, key, quantity in _LAW
+            )
+            blocks.append(Table(("", "value"), rows, f"The friction law{whose}.", "lr"))
+    return blocks
 
 
 def _sequence(subject: Subject) -> list[Block]:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 CAPTIONS = {
     "summary": "The dam, its crack and its water; what shakes it, and how far the part above the crack slips.",
     "section": "Section of the dam with its crack, water levels and the pressure in the crack.",
+    "law": "The friction law of the crack: its strength over its normal stress.",
     "comparison": "Both models side by side, shaken by the same ground motion.",
     "response": "Ground acceleration, slip (positive downstream), rotation and openings if there are any, the mode.",
     "slip-by-mode": "Slip gathered in each mode of motion.",
@@ -34,7 +35,15 @@ CAPTIONS = {
     "modes": "Lowest vibration modes of the intact dam.",
 }
 # Simple figures need not be as wide as the page.
-_SHARES = {"section": 0.7, "tension": 0.8, "spectrum": 0.7, "slip-by-mode": 0.8, "energy": 0.8, "mesh": 0.55}
+_SHARES = {
+    "section": 0.7,
+    "law": 0.7,
+    "tension": 0.8,
+    "spectrum": 0.7,
+    "slip-by-mode": 0.8,
+    "energy": 0.8,
+    "mesh": 0.55,
+}
 _SHARES |= {"bands": 0.8, "slips": 0.8, "fragility": 0.8}
 # Histories are drawn lower than on a page of their own, so that two of them share one, or one and a table; letters stay
 # as large as they are.
@@ -73,7 +82,7 @@ def drawings(figures: Mapping[str, Figure]) -> dict[str, FigureBlock]:
     """
     if "comparison" not in figures:
         return {name: drawing(name, figures[name], caption(name)) for name in figures}
-    shared = ("summary", "section", "motion", "comparison")
+    shared = ("summary", "section", "law", "motion", "comparison")
     said = {name: caption(name if "/" in name or name in shared else f"flexible/{name}") for name in _OF_BOTH}
     return {name: drawing(name, figures[name], said[name]) for name in figures if name in _OF_BOTH}
 

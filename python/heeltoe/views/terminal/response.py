@@ -25,6 +25,7 @@ from heeltoe.views.terminal.common import (
 from heeltoe.views.terminal.decoupled import crack_lines
 from heeltoe.views.terminal.elastic import elastic_lines
 from heeltoe.views.terminal.sequence import print_sequence
+from heeltoe.views.words.law import law_line
 from heeltoe.views.words.motion import sampling
 from heeltoe.views.words.numbers import Amount, Cell, in_one_unit
 from heeltoe.views.words.sequence import part_lines
@@ -186,6 +187,8 @@ def _chosen_lines(response: Response, units: str) -> list[tuple[str, str]]:
         lines.append(("rotation", "of any size" if s["rotation"] == "finite" else "small, with P-Delta"))
     if s.get("uplift_during_shaking", "constant") != "constant":
         lines.append(("uplift", f"{s['uplift_during_shaking']} in the earthquake"))
+    if s.get("friction_law") is not None:
+        lines.append(("friction law", law_line(s["friction_law"], units)))
     for number, anchor in enumerate(s.get("anchors", ()), 1):
         text = "largest tension {peak_tension_n:.3g MN/m}"
         if anchor["capacity_n"] is not None:

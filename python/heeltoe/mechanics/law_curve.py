@@ -1,0 +1,136 @@
+"""The curve of a friction law: how much shear a crack bears over its normal stress, by slip, speed or pressure."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from heeltoe.arrays import Floats
+from heeltoe.case.dam import Crack, Law
+from heeltoe.case.model import Case
+from heeltoe.errors import InputError
+from heeltoe.kernel.friction import shear_stress
+from heeltoe.mechanics.block import build_block
+from heeltoe.mechanics.friction import crack_law, references_of_law
+from heeltoe.near import near
+
+#: Numbers that show what a law looks like; they are those of no dam.
+SAMPLES: dict[str, dict[str, Any]] = {
+    "constant": {"static_friction": 1.2, "kinetic_friction": 1.0},
+    "slip weakening": {"peak_friction": 1.2, "residual_friction": 0.8, "slip": "20 mm"},
+    "speed weakening": {"peak_friction": 1.2, "residual_friction": 0.9, "speed": "0.1 m/s"},
+    "cohesion": {"cohesion": "0.3 MPa", "residual_friction": 0.8, "slip": "5 mm"},
+    "barton-bandis": {"jrc": 10, "jcs": "20 MPa", "residual_angle": "32 deg"},
+    "lift joint": {
+        "surface": "untreated",
+        "basic_friction": 0.7,
+        "roughness_friction": [["0.1 MPa", 0.4], ["0.5 MPa", 0.2], ["2 MPa", 0.1]],
+    },
+}
+#: Normal stress of a law that belongs to no dam [Pa].
+SAMPLE_STRESS = 1e6
+_POINTS = 241
+# The curve goes on to so many times the way or the speed over which friction is lost.
+_BEYOND = 3.0
+
+
+@dataclass(frozen=True, eq=False)
+class LawCurve:
+    """The apparent friction of a law, strength over normal stress.
+
+    Attributes
+    ----------
+    name
+        Of the law.
+    title
+        What it belongs to: a case, or numbers that only show its shape.
+    over
+        What it goes by: "slip path", "slip speed" or "normal stress".
+    at
+        (n,) of that [m, m/s or Pa].
+    friction
+        (n,) apparent friction of a crack that slips.
+    at_rest
+        Apparent friction before any slip under `normal_stress_pa`.
+    normal_stress_pa
+        Normal stress: that of the curve, or the one of the dam's static loads.
+    references
+        Where the law is from.
+    """
+
+    name: str
+    title: str
+    over: str
+    at: Floats
+    friction: Floats
+    at_rest: float
+    normal_stress_pa: float
+    references: tuple[str, ...]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain numbers, strings and lists."""
+        return {
+            "law": self.name,
+            "title": self.title,
+            "over": self.over,
+            "at": self.at.tolist(),
+            "friction": self.friction.tolist(),
+            "at_rest": self.at_rest,
+            "normal_stress_pa": self.normal_stress_pa,
+            "references": list(self.references),
+        }
+
+
+def sample_curve(name: str) -> LawCurve:
+    """Return the curve of a law by its name, with numbers that show its shape.
+
+    Raises
+    ------
+    InputError
+        Where there is no such law.
+    """
+    if name not in SAMPLES:
+        raise InputError("law-unknown", "law", name, names=", ".join(SAMPLES), near=near(name, SAMPLES))
+    fields = SAMPLES[name]
+    crack = Crack(**fields) if name == "constant" else Crack(law=Law(name=name, **fields))  # type: ignore[arg-type]
+    return _curve(crack, SAMPLE_STRESS, "sample numbers, those of no dam")
+
+
+def curve_of(case: Case) -> LawCurve:
+    """Return the curve of the crack of a case, under its static loads.
+
+    Raises
+    ------
+    InputError
+        Where the crack does not cut the section in two.
+    """
+    block = build_block(case)
+    return _curve(case.crack, max(block.normal_force, 1.0) / block.width, case.title or "untitled case")
+
+
+def _curve(crack: Crack, stress: float, title: str) -> LawCurve:
+    law, kernel = crack.law, crack_law(crack)
+    name = "constant" if law is None else law.name
+    over, end = _goes_by(law, stress)
+    at = np.linspace(0.0, end, _POINTS)
+    if over == "normal stress":
+        at = at[1:]
+        friction = shear_stress(kernel, at)[1] / at
+    else:
+        path, speed = (at, 0.0) if over == "slip path" else (0.0, at)
+        friction = shear_stress(kernel, stress, path, speed)[1] / stress
+    at_rest = float(shear_stress(kernel, stress)[0]) / stress
+    sources = () if law is None else references_of_law(law)
+    return LawCurve(name, title, over, at, friction, at_rest, stress, sources)
+
+
+def _goes_by(law: Law | None, stress: float) -> tuple[str, float]:
+    """Return what the curve goes by, and how far it is drawn."""
+    if law is not None and law.speed is not None:
+        return "slip speed", _BEYOND * law.speed
+    if law is not None and law.name in ("barton-bandis", "lift joint"):
+        return "normal stress", _BEYOND * stress
+    way = None if law is None else law.slip
+    return "slip path", _BEYOND * (0.01 if way is None else way)

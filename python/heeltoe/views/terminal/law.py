@@ -1,0 +1,53 @@
+"""What the terminal shows of a friction law: a sketch of its curve."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from rich.console import Console
+
+from heeltoe.units.sentences import written
+from heeltoe.views.terminal.common import label_grid, print_title
+
+if TYPE_CHECKING:
+    from heeltoe.mechanics.law_curve import LawCurve
+
+_WIDE, _HIGH = 60, 12
+#: How the places on the curve are written, by what it goes by.
+_WRITTEN = {"slip path": "{at:.3g mm}", "slip speed": "{at:.3g m/s}", "normal stress": "{at:.3g MPa}"}
+_NAMES = {"slip path": "at_m", "slip speed": "at_m_s", "normal stress": "at_pa"}
+
+
+def print_law(found: LawCurve, console: Console, units: str = "si") -> None:
+    """Print a sketch of a friction law, and what it comes to."""
+    print_title(found.title, f"law: {found.name}", console)
+    console.print()
+    for line in sketch(found, units):
+        console.print(line, markup=False, highlight=False)
+    console.print()
+    grid = label_grid()
+    stress = written("{stress_pa:.3g MPa}", units, stress_pa=found.normal_stress_pa)
+    grid.add_row("before any slip", f"{found.at_rest:.4g} under a normal stress of {stress}")
+    grid.add_row("sliding", f"{found.friction[0]:.4g} at the left of the curve, {found.friction[-1]:.4g} at its right")
+    for source in found.references:
+        grid.add_row("source", source)
+    console.print(grid)
+
+
+def sketch(found: LawCurve, units: str = "si") -> list[str]:
+    """Return the lines of a sketch: apparent friction over what it goes by."""
+    most = 1.05 * max(float(found.friction.max()), found.at_rest, 1e-9)
+    rows = [[" "] * _WIDE for _ in range(_HIGH)]
+    columns = np.linspace(found.at[0], found.at[-1], _WIDE)
+    for column, value in enumerate(np.interp(columns, found.at, found.friction)):
+        rows[min(int(value / most * _HIGH), _HIGH - 1)][column] = "*"
+    lines = [f"{(k + 1) * most / _HIGH:6.2f} |{''.join(rows[k]).rstrip()}" for k in reversed(range(_HIGH))]
+    left, right = (_at(found, place, units) for place in (found.at[0], found.at[-1]))
+    axis = left + found.over.center(_WIDE - len(left) - len(right)) + right
+    return ["apparent friction", *lines, "  0.00 +" + "-" * _WIDE, " " * 8 + axis]
+
+
+def _at(found: LawCurve, place: float, units: str) -> str:
+    name = _NAMES[found.over]
+    return written(_WRITTEN[found.over].replace("{at:", f"{{{name}:"), units, **{name: float(place)})
