@@ -163,14 +163,14 @@ def hand_written(name, stress, path, speed):
         "barton-bandis": math.tan(math.radians(5.0 + 4.0 * math.log10(20.0 / stress))),
         "lift joint": 0.1 + 0.05 * stress / 10.0 if stress < 10.0 else 0.15,
     }[name]
-    bond = 0.3 * max(0.0, 1.0 - path / 0.01) if name == "constant" else 0.0
+    bond = 0.03 * max(0.0, 1.0 - path / 0.01) if name == "constant" else 0.0
     return mu * stress + bond, mu * stress + bond
 
 
 NUMBERS = {
     **{name: {"peak": 0.22, "residual": 0.12, "scale": 0.02} for name in LAWS[1:3]},
     "speed weakening": {"peak": 0.22, "residual": 0.12, "scale": 0.1},
-    "constant": {"peak": 0.15, "residual": 0.15, "cohesion": 0.3, "loss": 0.01},
+    "constant": {"peak": 0.15, "residual": 0.15, "cohesion": 0.03, "loss": 0.01},
     "barton-bandis": {"roughness": 4.0, "wall_strength": 20.0, "residual_angle": math.radians(5.0)},
     "lift joint": {"residual": 0.1},
 }
@@ -197,7 +197,7 @@ def test_a_program_of_small_steps_agrees_on_a_real_record(name, records):
     coarse, fine = (small_steps(time, ground, G, law, 20.0, count) for count in (10, 20))
     assert abs(found) > 1e-3
     assert found == pytest.approx(fine, abs=2.0 * abs(fine - coarse) + 1e-7)
-    assert abs(fine - coarse) < 0.02 * abs(found)
+    assert abs(fine - coarse) < 0.1 * abs(found)
 
 
 def test_a_mirrored_motion_mirrors_the_slip():
