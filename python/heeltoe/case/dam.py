@@ -59,10 +59,7 @@ LAW_FIELDS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
     "barton-bandis": (("jrc", "jcs", "residual_angle"), ()),
     "lift joint": (("basic_friction", "surface"), ("roughness_friction",)),
 }
-#: Of a lift joint whose faces are plane nothing is rough.
-PLANE = "plane"
-# Of a residual angle of friction [rad]: 60 degrees.
-_STEEPEST_FRICTION = 1.0471976
+_STEEPEST_FRICTION = 1.0471976  # 60 degrees
 
 
 class Law(Fields):
@@ -101,14 +98,12 @@ class Law(Fields):
     @gathered
     def _options_of_the_law(self) -> Iterator[InputError]:
         needed, allowed = LAW_FIELDS[self.name]
+        given = {field for field in self.model_fields_set - {"name"} if getattr(self, field) is not None}
         for field in type(self).model_fields:
-            if field == "name":
-                continue
-            given = field in self.model_fields_set and getattr(self, field) is not None
-            if given and field not in (*needed, *allowed):
+            if field in given - {*needed, *allowed}:
                 known = ", ".join((*needed, *allowed))
                 yield InputError("law-option-foreign", field, shown(getattr(self, field)), law=self.name, known=known)
-            if not given and field in needed:
+            if field in {*needed} - given:
                 yield InputError("law-option-missing", field, law=self.name)
         peak, residual = self.peak_friction, self.residual_friction
         if peak is not None and residual is not None and peak < residual:
@@ -116,14 +111,12 @@ class Law(Fields):
         yield from self._rough()
 
     def _rough(self) -> Iterator[InputError]:
-        if self.name != "lift joint":
-            return
         if self.roughness_friction is None:
-            if self.surface is not None and self.surface != PLANE:
+            if self.name == "lift joint" and self.surface not in (None, "plane"):
                 yield InputError("law-option-missing", "roughness_friction", law=f"{self.name}, {self.surface}")
             return
-        if self.surface == PLANE:
-            yield InputError("contradiction", "surface", shown(PLANE), other="roughness_friction")
+        if self.surface == "plane":
+            yield InputError("contradiction", "surface", shown("plane"), other="roughness_friction")
         stresses = [stress for stress, _ in self.roughness_friction]
         if not stresses or any(a >= b for a, b in pairwise(stresses)):
             yield InputError("law-points", "roughness_friction", shown(stresses))
@@ -159,9 +152,10 @@ class Crack(Fields):
         if self.law is None:
             yield from _frictions_agree(self)
             return
-        for name in ("friction", "static_friction", "kinetic_friction"):
-            if getattr(self, name) is not None:
-                yield InputError("fields-conflict", name, other="law")
+        names = ("friction", "static_friction", "kinetic_friction")
+        yield from (
+            InputError("fields-conflict", name, other="law") for name in names if getattr(self, name) is not None
+        )
 
     @property
     def mu_static(self) -> float:
