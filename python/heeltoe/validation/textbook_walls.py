@@ -1,7 +1,7 @@
 """Static checks of the small dams of a book on the strength of materials.
 
-The numbers of B. K. Sarkar, *Strength of Materials*, chapter 14, are those that a public program of its worked examples
-prints (FOSSEE, Scilab textbook companion 3772); the book itself was not at hand. Of its problems those are taken that
+The numbers of B. K. Sarkar, *Strength of Materials*, chapter 14, are those of a public program of its worked examples
+(FOSSEE, Scilab textbook companion 3772); the book itself was not at hand. Of its problems those are taken that
 hold water and of which the program does not say that the book errs; none has uplift.
 """
 
