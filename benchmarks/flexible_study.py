@@ -21,7 +21,7 @@ from measure import Skipped, heading, require, seconds, table
 
 from heeltoe import flexible, read_case, read_study, run_study
 from heeltoe.kernel.build import PROFILE
-from heeltoe.kernel.dam import CrackedDam, only_crack
+from heeltoe.kernel.dam import CrackedDam
 from heeltoe.models.flexible import bonded, reduced
 from heeltoe.study.opened import Opened
 from heeltoe.study.parts import run_part

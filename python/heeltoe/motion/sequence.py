@@ -34,8 +34,8 @@ def joined(pairs: Sequence[Pair], pauses: Sequence[float]) -> tuple[GroundMotion
     Returns
     -------
     horizontal, vertical
-        From the beginning of the first to the end of the last, each with its own `parts`; the second is None where none of
-        them has any, and at rest through those that have none.
+        From the beginning of the first to the end of the last, each with its own `parts`; the second is None where none
+        of them has any, and at rest through those that have none.
     """
     begins = [0.0]
     for (_, _, lasts), pause in zip(pairs, pauses, strict=False):
