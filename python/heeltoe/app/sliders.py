@@ -48,12 +48,21 @@ def sliders(case: Case, units: str) -> list[Slider]:
     efficiency = case.uplift.drain_efficiency
     no_water = "" if case.reservoir else "The case has no reservoir."
     return [
-        _with(Slider("crack.friction", "Friction coefficient", 0.3, 2.0, 0.01, crack.mu_static)),
+        _friction(case),
         _with(_water(case, units)),
         _with(Slider("crack.restitution", "Restitution", 0.0, 1.0, 0.01, crack.restitution)),
         _with(Slider("motion.pga", "Peak acceleration", 0.02, 1.0, 0.01, pga or 0.4, "g")),
         Slider("uplift.drain_efficiency", "Drain efficiency", 0.0, 1.0, 0.01, efficiency or 0.0, off=no_water),
     ]
+
+
+def _friction(case: Case) -> Slider:
+    """Return the slider of the coefficient, which a friction law has no place for."""
+    crack = case.crack
+    if crack.law is not None:
+        said = f"The friction of the crack goes by the law {crack.law.name}."
+        return Slider("crack.friction", "Friction coefficient", 0.3, 2.0, 0.01, 1.0, off=said)
+    return _with(Slider("crack.friction", "Friction coefficient", 0.3, 2.0, 0.01, crack.mu_static))
 
 
 def _water(case: Case, units: str) -> Slider:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from heeltoe import InputError, build_block, flexible, read_case, rigid, rigid_many, run, statics
+from heeltoe.app.sliders import sliders
 from heeltoe.kernel.block import Limits, run_block
 from heeltoe.kernel.friction import LAWS, friction_law, shear_stress
 from heeltoe.kernel.shaking import Shaking
@@ -382,3 +383,8 @@ def test_a_law_beyond_its_range_is_warned_about():
         notice.code for notice in rigid(typical({**LIFT, "roughness_friction": points}), SHAKEN).warnings
     ]
     assert "law-range" not in [notice.code for notice in rigid(typical(BARTON), SHAKEN).warnings]
+
+
+def test_the_app_has_no_slider_for_a_law():
+    assert sliders(typical(WEAKENING), "si")[0].off.endswith("slip weakening.")
+    assert not sliders(typical(WEAKENING).with_("crack.friction=0.9"), "si")[0].off

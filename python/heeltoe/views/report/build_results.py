@@ -202,7 +202,9 @@ def _law(subject: Subject) -> list[Block]:
     law = subject.case.crack.law
     if law is None:
         return []
-    blocks: list[Block] = [paragraph(f"The friction of the crack goes by the law {law.name}, which draws as follows.")]
+    blocks: list[Block] = [
+        paragraph(f"The friction of the crack goes by the law {law.name}; its figure shows what is borne.")
+    ]
     blocks += subject.figure("law")
     for run in subject.runs:
         found = run.response.summary.get("friction_law")
