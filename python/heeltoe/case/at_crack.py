@@ -131,6 +131,8 @@ def many_cracks(case: Case) -> Iterator[InputError]:
     for name in ("anchors", "aftershocks"):
         if getattr(case, name):
             yield InputError("one-crack-only", name, other=other)
+    if case.crack.law is not None:
+        yield InputError("one-crack-only", "crack.law", other=other)
     if case.uplift.during_shaking != "constant":
         yield InputError("one-crack-value", "uplift.during_shaking", shown(case.uplift.during_shaking), other=other)
     for name, unfit in (("contact", "idce"), ("damping", "thesis"), ("virtual_mass", "thesis")):
