@@ -32,6 +32,7 @@ USUAL: dict[str, list[str | Path]] = {
     "examples": [],
     "app": ["--no-browser", "--public"],
     "explain": ["crack.friction"],
+    "law": ["barton-bandis"],
 }
 RECORD = "# units: time [s], acceleration [g]\n" + "".join(f"{0.01 * k:.2f} {(-1) ** k * 0.2}\n" for k in range(50))
 # A run of one dam.

@@ -94,6 +94,10 @@ def drawn(height, count, seed=1, **others):
 @pytest.mark.parametrize("path", ALL_EXAMPLES, ids=lambda path: path.relative_to(EXAMPLES).as_posix())
 def test_examples(path):
     case = read_case(path)
+    if case.further_cracks:
+        with pytest.raises(InputError, match="a table of blocks knows one crack alone"):
+            block_columns(case, {"crack.friction": [0.5]})
+        return
     height = case.cut.crest_elevation - case.cut.base_elevation
     columns = drawn(height, 12)
     if case.uplift.during_shaking != "constant":

@@ -72,7 +72,8 @@ def test_small_rotations_that_are_large_are_no_result():
 @pytest.mark.parametrize(("rotation", "outcome"), [(0.09, "ok"), (0.11, "large rotation")])
 def test_rotations_beyond_the_elastic_model(typical_elastic, rotation, outcome):
     block = build_block(example("typical-base", *FAST))
-    run = SimpleNamespace(summary={"rotation_max": 0.0, "rotation_min": -rotation}, outcome="ok")
+    raw = {"rotation_max": 0.0, "rotation_min": -rotation}
+    run = SimpleNamespace(summary=raw, summaries=(raw,), outcome="ok")
     found, advice = outcome_of(typical_elastic.crack.dam, block, run)
     assert found == outcome
     assert (advice is None) == (outcome == "ok")

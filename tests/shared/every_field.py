@@ -125,6 +125,7 @@ HELPED: dict[str, tuple[Fields, Any]] = {
     **{
         f"crack.law.{name}": ({**NO_COEFFICIENTS, "crack.law": law}, value)
         for law, name, value in (
+            (WEAKENING, "name", "speed weakening"),
             (WEAKENING, "form", "exponential"),
             (WEAKENING, "peak_friction", 0.8),
             (WEAKENING, "residual_friction", 0.55),

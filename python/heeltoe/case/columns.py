@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.arrays import Integers
+from heeltoe.case.at_crack import one_crack
 from heeltoe.case.dam import UPLIFT_OPTIONS, pattern_of
 from heeltoe.case.model import Case, misfits
 from heeltoe.case.paths import bounds_of, quantity_of
@@ -74,10 +75,11 @@ def by_columns(case: Case, columns: Columns, *, every: bool = False) -> Rows:
     Raises
     ------
     InputError
-        Where a field can be no column, or columns differ in length; without `every` as of a single case, for the first
-        row that is none.
+        Where the case has several cracks, a field can be no column, or columns differ in length; without `every` as of
+        a single case, for the first row that is none.
     """
     expect(case, Case, "not-a-case", "case")
+    one_crack(case, "a table of blocks")
     given, count = _checked(columns)
     sound, parts = np.ones(count, dtype=np.bool_), []
     for rows in _alike(given, count):

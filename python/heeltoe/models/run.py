@@ -285,13 +285,13 @@ def _completed(response: R, case: Case, models: Sequence[str], chosen: Chosen, *
     """Add what every result has, and to one that stands `alone` what it leaves out; a field that one of the `models`
     side by side reads is not said to change nothing. A run that never started says why by itself."""
     slid_off = _slid_off(case, response) if response.summary else ()
+    response, between = _sequence(case, response)
     unused = unused_fields(case, models)
     vertical = () if response.vertical is None else response.vertical.warnings
     end = about_the_end(response, asked="silence" in case.analysis.model_fields_set)
     warnings = (*case_warnings(case), *response.motion.warnings, *vertical, *response.warnings, *end, *unused)
     if not response.summary:
         return replace(response, chosen=chosen, warnings=warnings)
-    response, between = _sequence(case, response)
     warnings = (*warnings, *slid_off, *standing_warnings(case, response.static), *between)
     if alone and not response.elastic:
         left_out = omitted(case, response) if response.model == "rigid" else (Notice("rigid-top"),)
@@ -306,7 +306,7 @@ def _completed(response: R, case: Case, models: Sequence[str], chosen: Chosen, *
 
 def _sequence(case: Case, response: R) -> tuple[R, tuple[Notice, ...]]:
     """Add what each motion of a sequence does, and return what is to be said of it."""
-    if not response.motion.parts:
+    if not response.motion.parts or not response.summary:
         return response, ()
     from heeltoe.models.statics.between import about_the_sequence, judged_stages
 
