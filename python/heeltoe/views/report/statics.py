@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from matplotlib.figure import Figure
 
@@ -83,7 +83,9 @@ def statics_document(
         What was typed to get it.
     """
     cases = {forces_name(found, joint, each): each.name for joint in found.joints for each in joint.statics.cases}
-    shown = {name: drawing(name, figures[name], _caption(name, cases)) for name in figures}
+    # The section stands on page one below what is said of it, not above the title.
+    drawn = {name: drawing(name, figures[name], _caption(name, cases)) for name in figures}
+    shown = {name: replace(each, held=name == "section") for name, each in drawn.items()}
     subject = _Subject(case, found, shown, units, command)
     several = len(found.joints) > 1
     sections = (
@@ -164,7 +166,7 @@ def _table_of_sections(subject: _Subject) -> Table:
 def _input(subject: _Subject) -> Section:
     rows = case_rows(subject.case, subject.units, given=True)
     system = "US" if subject.units == "us" else "SI"
-    text = f"All that the case says, in {system} units, per {'foot' if system == 'US' else 'metre'} of dam."
+    text = f"All that the case says, in {system} units, per {'foot' if system == 'US' else 'metre'} of dam:"
     table = Table(("field", "value", "meaning"), rows, "Given by the case.", "lll", (3.8, 2.7, 5.7))
     return Section("Input", (paragraph(text), table))
 
