@@ -86,12 +86,13 @@ def outcome(model: str, written: str) -> tuple[Any, list[str], list[str]]:
     """Return the numbers of a run of a case in JSON, all that it warns of, and which fields it says have no effect."""
     try:
         case = read_case(json.loads(written))
-        found = statics_of_sections(case).joints[0].statics if model == "statics" else run(case, model)
+        found = statics_of_sections(case) if model == "statics" else run(case, model)
     except InputError as error:
         return str(error), [str(error)], []
     numbers = json.loads(json.dumps(found.to_json()))
-    for name in ("warnings", "build", "seconds"):
-        numbers.pop(name, None)
+    for each in (numbers, *(section["statics"] for section in numbers.get("sections", ()))):
+        for name in ("warnings", "build", "seconds"):
+            each.pop(name, None)
     return numbers, [str(each) for each in found.warnings], idle(found.warnings)
 
 

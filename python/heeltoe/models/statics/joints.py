@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from typing import Any
 
 from heeltoe.case.model import Case, misfits
 from heeltoe.case.options import StaticsSection
+from heeltoe.case.use import unused_fields
 from heeltoe.errors import InputError, expect
 from heeltoe.models.statics.checks import Check
 from heeltoe.models.statics.model import Statics, statics
@@ -129,8 +130,9 @@ def statics_of_sections(case: Case, judge: Callable[[Case], Statics] = statics) 
     expect(case, Case, "not-a-case", "case")
     listed = case.statics.sections
     if not listed:
-        cracks = [(each.crack.elevation, each) for each in case.cracks]
-        return Joints(case.title, tuple(Joint(elevation, each, judge(each)) for elevation, each in cracks))
+        own = {why: notice for notice in unused_fields(case, ("statics",)) if (why := _unused(notice))}
+        cracks = [(each.crack.elevation, each, _named(judge(each), own)) for each in case.cracks]
+        return Joints(case.title, tuple(Joint(*each) for each in cracks))
     return Joints(case.title, tuple(_joint(case, place, judge) for place in range(len(listed))))
 
 
@@ -169,6 +171,18 @@ def _joint(case: Case, place: int, judge: Callable[[Case], Statics]) -> Joint:
     section = case.statics.sections[place]
     moved = at_section(case, section, f"statics.sections[{place}]")
     return Joint(section.elevation, moved, judge(moved))
+
+
+def _named(found: Statics, own: Mapping[str, Notice]) -> Statics:
+    """Return the checks of one of several cracks, with the fields that have no effect named as the whole case does."""
+    named = (own.get(why, notice) if (why := _unused(notice)) else notice for notice in found.warnings)
+    return replace(found, warnings=tuple(dict.fromkeys(named)))
+
+
+def _unused(notice: Notice) -> str | None:
+    """Return why fields have no effect, of a notice that says so of some; None of any other."""
+    told = dict(notice.quantities)
+    return str(told.get("why") or told["readers"]) if notice.code in ("fields-idle", "fields-unused") else None
 
 
 def _margin(check: Check | None) -> float:
