@@ -1,4 +1,4 @@
-"""What the user says about a dam, its crack, its water and what holds it: blocks of the case file.
+"""What the user says about a dam, its water and what holds it: blocks of the case file.
 
 All lengths, densities and so on are plain SI numbers here; the units are in the types of
 :mod:`heeltoe.case.quantities`. What needs the geometry (is the crack in the section, is the water below the crest)
@@ -7,12 +7,11 @@ is checked by :func:`heeltoe.case.read.read_case`."""
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import pairwise
 from typing import Annotated, Literal
 
 from pydantic import BeforeValidator, Field, model_validator
 
-from heeltoe.case.fields import STEEPEST, Fields, Fraction, FrictionCoefficient, Head, Truth
+from heeltoe.case.fields import Fields, Fraction, Head, Truth
 from heeltoe.case.quantities import (
     Angle,
     Density,
@@ -21,7 +20,6 @@ from heeltoe.case.quantities import (
     LineForce,
     Pressure,
     Stiffness,
-    Velocity,
 )
 from heeltoe.case.sentences import gathered
 from heeltoe.errors import InputError, shown
@@ -47,189 +45,6 @@ class Concrete(Fields):
     """Tensile strength, static; the largest tension of the flexible model is judged by it where it is given."""
     dynamic_tension: Annotated[DimensionlessNumber, Field(ge=1.0, le=3.0)] = 1.5
     """Tensile strength in an earthquake over the static one (Raphael, ACI Journal 81-17, 1984)."""
-
-
-LawName = Literal["slip weakening", "speed weakening", "cohesion", "barton-bandis", "lift joint"]
-
-#: What each law needs, and what it may have beside that.
-LAW_FIELDS: dict[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
-    "slip weakening": (("peak_friction", "residual_friction", "slip"), ("form",)),
-    "speed weakening": (("peak_friction", "residual_friction", "speed"), ()),
-    "cohesion": (("cohesion", "residual_friction"), ("slip",)),
-    "barton-bandis": (("jrc", "jcs", "residual_angle"), ()),
-    "lift joint": (("basic_friction", "surface"), ("roughness_friction",)),
-}
-_STEEPEST_FRICTION = 1.0471976  # 60 degrees
-
-
-class Law(Fields):
-    """A friction law of the crack, in place of its constant coefficients."""
-
-    name: LawName
-    """Which law: `slip weakening` and `speed weakening` from a peak to a residual coefficient; `cohesion` that is lost;
-    `barton-bandis` and `lift joint`, whose coefficient falls with the normal stress."""
-    form: Literal["linear", "exponential"] = "linear"
-    """Of slip weakening: in proportion to the slip, or exponentially."""
-    peak_friction: FrictionCoefficient | None = None
-    """Coefficient of friction before any slip, or at rest."""
-    residual_friction: FrictionCoefficient | None = None
-    """Coefficient of friction that is left."""
-    slip: Annotated[Length, Field(gt=0.0, le=100.0)] | None = None
-    """Way, to and fro, over which friction or cohesion is lost, or of which exponential weakening leaves 1/e; cohesion
-    without it is brittle and goes with the first slip."""
-    speed: Annotated[Velocity, Field(gt=0.0, le=100.0)] | None = None
-    """Speed of the slip that leaves 1/e of what friction loses with it."""
-    cohesion: Annotated[Pressure, Field(ge=0.0, le=1e8)] | None = None
-    """Shear stress that the whole bond bears without a normal one; a corner that lifts breaks the bond."""
-    jrc: Annotated[DimensionlessNumber, Field(ge=0.0, le=20.0)] | None = None
-    """Joint roughness coefficient, 0 (smooth) to 20, for the length of the crack."""
-    jcs: Annotated[Pressure, Field(gt=0.0, le=1e9)] | None = None
-    """Compressive strength of the walls of the joint, for the length of the crack."""
-    residual_angle: Annotated[Angle, Field(ge=0.0, le=_STEEPEST_FRICTION)] | None = None
-    """Residual angle of friction."""
-    surface: Literal["monolithic", "water-blasted", "untreated", "plane"] | None = None
-    """How the surface of the lift was prepared; on a `plane` one nothing is rough."""
-    basic_friction: FrictionCoefficient | None = None
-    """Coefficient of friction of the plane surface."""
-    roughness_friction: tuple[tuple[Annotated[Pressure, Field(ge=0.0, le=1e9)], FrictionCoefficient], ...] | None = None
-    """What the roughness of the surface adds: [normal stress, coefficient], straight in between, level beyond."""
-
-    @model_validator(mode="after")
-    @gathered
-    def _options_of_the_law(self) -> Iterator[InputError]:
-        needed, allowed = LAW_FIELDS[self.name]
-        given = {field for field in self.model_fields_set - {"name"} if getattr(self, field) is not None}
-        for field in type(self).model_fields:
-            if field in given - {*needed, *allowed}:
-                known = ", ".join((*needed, *allowed))
-                yield InputError("law-option-foreign", field, shown(getattr(self, field)), law=self.name, known=known)
-            if field in {*needed} - given:
-                yield InputError("law-option-missing", field, law=self.name)
-        peak, residual = self.peak_friction, self.residual_friction
-        if peak is not None and residual is not None and peak < residual:
-            yield InputError("law-order", "peak_friction", f"{peak:g}", residual=f"{residual:g}")
-        yield from self._rough()
-
-    def _rough(self) -> Iterator[InputError]:
-        if self.roughness_friction is None:
-            if self.name == "lift joint" and self.surface not in (None, "plane"):
-                yield InputError("law-option-missing", "roughness_friction", law=f"{self.name}, {self.surface}")
-            return
-        if self.surface == "plane":
-            yield InputError("contradiction", "surface", shown("plane"), other="roughness_friction")
-        stresses = [stress for stress, _ in self.roughness_friction]
-        if not stresses or any(a >= b for a, b in pairwise(stresses)):
-            yield InputError("law-points", "roughness_friction", shown(stresses))
-        basic = self.basic_friction or 0.0
-        for (s0, r0), (s1, r1) in pairwise(self.roughness_friction):
-            # The strength (mu + r(s)) s must not fall where the crack is pressed harder; its slope is least at the end.
-            if s1 > s0 and basic + r1 + s1 * (r1 - r0) / (s1 - s0) < 0.0:
-                yield InputError("law-falls", "roughness_friction", f"{s1:g} Pa")
-
-
-class Crack(Fields):
-    """The crack: a straight line through the section, with Coulomb friction or by a law."""
-
-    elevation: Annotated[Length, Field(ge=0.0)] = Field(default="0 m", validate_default=True)
-    """Height of the crack at the upstream face above the lowest point of the section."""
-    inclination: Annotated[Angle, Field(ge=-STEEPEST, le=STEEPEST)] = Field(default="0 deg", validate_default=True)
-    """Angle of the crack to the horizontal; positive where it rises downstream."""
-    friction: FrictionCoefficient | None = None
-    """Coefficient of friction, at rest and sliding."""
-    static_friction: FrictionCoefficient | None = None
-    """Coefficient of friction at rest, where it differs from that of sliding."""
-    kinetic_friction: FrictionCoefficient | None = None
-    """Coefficient of friction while sliding."""
-    law: Law | None = None
-    """A friction law, in place of the coefficients."""
-    restitution: Fraction = 0.5
-    """Newton's coefficient of restitution of a corner that strikes: 0 stays down, 1 loses nothing.
-    The default is that of Zhu (2004)."""
-
-    @model_validator(mode="after")
-    @gathered
-    def _one_friction(self) -> Iterator[InputError]:
-        if self.law is None:
-            yield from _frictions_agree(self)
-            return
-        names = ("friction", "static_friction", "kinetic_friction")
-        yield from (
-            InputError("fields-conflict", name, other="law") for name in names if getattr(self, name) is not None
-        )
-
-    @property
-    def mu_static(self) -> float:
-        """Coefficient of friction at rest; zero where a law says it."""
-        return self._coefficient(self.static_friction)
-
-    @property
-    def mu_kinetic(self) -> float:
-        """Coefficient of friction while sliding; zero where a law says it."""
-        return self._coefficient(self.kinetic_friction)
-
-    def told(self) -> str:
-        """Return its friction in words."""
-        return f"friction {self.mu_kinetic:g}" if self.law is None else f"friction by {self.law.name}"
-
-    def _coefficient(self, own: float | None) -> float:
-        """Return the one of its own, or the one for both; zero where the case says neither."""
-        given = self.friction if own is None else own
-        return 0.0 if given is None else given
-
-
-def _frictions_agree(crack: Crack | FurtherCrack) -> Iterator[InputError]:
-    """Walk what is wrong with the coefficients that a crack gives: one for both, or one of each."""
-    pair = {"static_friction": crack.static_friction, "kinetic_friction": crack.kinetic_friction}
-    given = {name: value for name, value in pair.items() if value is not None}
-    if crack.friction is not None and given:
-        yield InputError("fields-conflict", "friction", other=next(iter(given)))
-    if crack.friction is None and len(given) < 2:
-        yield InputError("friction-missing", next((name for name in pair if given and name not in given), "friction"))
-    elif given and crack.friction is None and given["static_friction"] < given["kinetic_friction"]:
-        static, kinetic = given["static_friction"], given["kinetic_friction"]
-        yield InputError("friction-order", "static_friction", f"{static:g}", kinetic=f"{kinetic:g}")
-
-
-class FurtherCrack(Fields):
-    """One more crack, above or below that of `[crack]`; what it does not say of friction and uplift is as there. The
-    flexible model alone knows several cracks; the static checks judge each as a section."""
-
-    elevation: Annotated[Length, Field(ge=0.0)]
-    """Height of the crack at the upstream face above the lowest point of the section."""
-    inclination: Annotated[Angle, Field(ge=-STEEPEST, le=STEEPEST)] = Field(default="0 deg", validate_default=True)
-    """Angle of the crack to the horizontal; positive where it rises downstream."""
-    friction: FrictionCoefficient | None = None
-    """Coefficient of friction, at rest and sliding."""
-    static_friction: FrictionCoefficient | None = None
-    """Coefficient of friction at rest, where it differs from that of sliding."""
-    kinetic_friction: FrictionCoefficient | None = None
-    """Coefficient of friction while sliding."""
-    uplift: Literal["none", "uniform", "triangular"] | None = None
-    """Pattern of the uplift in it, as `uplift.pattern` has it, where it is another one."""
-    uplift_intensity: Annotated[DimensionlessNumber, Field(ge=0.0, le=10.0)] | None = None
-    """Factor on the pressure in it, where it is another one."""
-
-    @model_validator(mode="after")
-    @gathered
-    def _frictions(self) -> Iterator[InputError]:
-        if self.friction is not None or self.static_friction is not None or self.kinetic_friction is not None:
-            yield from _frictions_agree(self)
-
-    def beside(self, crack: Crack) -> Crack:
-        """Return it as a crack of its own."""
-        names = ("friction", "static_friction", "kinetic_friction")
-        given = {name: getattr(self, name) for name in names}
-        own = given if any(value is not None for value in given.values()) else {}
-        return crack.model_copy(update={"elevation": self.elevation, "inclination": self.inclination, **own})
-
-    def wet(self, uplift: Uplift) -> Uplift:
-        """Return the uplift in it."""
-        changes: dict[str, object] = {}
-        if self.uplift is not None and self.uplift != uplift.pattern:
-            changes = dict.fromkeys((*UPLIFT_OPTIONS, "drain_x")) | {"pattern": self.uplift}
-        if self.uplift_intensity is not None:
-            changes["intensity"] = self.uplift_intensity
-        return uplift.model_copy(update=changes)
 
 
 class Water(Fields):

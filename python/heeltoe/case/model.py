@@ -21,7 +21,8 @@ from heeltoe.case.at_crack import (
     uplift_at_crack,
 )
 from heeltoe.case.changes import apply
-from heeltoe.case.dam import Anchor, Concrete, Crack, FurtherCrack, Ice, Reservoir, Silt, Uplift, Water
+from heeltoe.case.crack.crack import Crack, FurtherCrack
+from heeltoe.case.dam import Anchor, Concrete, Ice, Reservoir, Silt, Uplift, Water
 from heeltoe.case.fields import Fields
 from heeltoe.case.motion import Aftershock, Motion
 from heeltoe.case.options import Analysis, Decoupled, Flexible, Limits, StaticsChoice

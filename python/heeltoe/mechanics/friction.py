@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from heeltoe.case.dam import Crack, Law
+from heeltoe.case.crack.crack import Crack
+from heeltoe.case.crack.law import Law
 from heeltoe.kernel.friction import FrictionLaw, friction_law, shear_stress
 from heeltoe.references import cited
 

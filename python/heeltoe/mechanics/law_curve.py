@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from heeltoe.arrays import Floats
-from heeltoe.case.dam import Crack, Law
+from heeltoe.case.crack.crack import Crack
+from heeltoe.case.crack.law import Law
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.kernel.friction import shear_stress
