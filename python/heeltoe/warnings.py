@@ -12,6 +12,8 @@ from typing import Any
 
 from heeltoe.suspicions import OF_INPUT, Severity
 from heeltoe.units.sentences import Sentence
+from heeltoe.warnings_of_cracks import OF_CRACKS
+from heeltoe.warnings_of_statics import OF_STATICS
 
 #: What a reader of a block's result does for that of the dam.
 AS_ELASTIC = "run it with --model auto"
@@ -19,6 +21,8 @@ AS_ELASTIC = "run it with --model auto"
 # how they are written stands in the braces, see heeltoe.units.sentences. {field} is the field, {time_s} the moment.
 CATALOGUE: dict[str, tuple[Severity, str, str]] = {
     **OF_INPUT,
+    **OF_CRACKS,
+    **OF_STATICS,
     # any run
     "energy-open": (
         "grave",
@@ -43,22 +47,6 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "",
         "the part above the crack slides {slip_m:.3g m}, farther than its crack of {width_m:.3g m} is wide: it has "
         "left what it stood on, and the slip means failure, not a length",
-    ),
-    "sequence-moves": (
-        "caution",
-        "aftershocks",
-        "{name} leaves the dam moving when the next begins at {time_s:.4g s}: a longer {field} lets it come to rest",
-    ),
-    "sequence-statics": (
-        "grave",
-        "aftershocks",
-        "the dam that {name} leaves does not meet the static checks before the next motion: {missed}",
-    ),
-    "sequence-drains": (
-        "grave",
-        "aftershocks",
-        "the slip that {name} leaves keeps {share:.2g %} of the drainage, and the motions after it are computed with "
-        "all of it: a run with uplift.drain_efficiency = {efficiency:.3g} bounds what they do",
     ),
     # rigid model
     "slid-far": (
@@ -161,12 +149,6 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "flexible.evidence",
         "the residual slip has not converged: {slip_m:.4g mm}, give or take {uncertainty_m:.2g mm} where "
         "{allowed_m:.2g mm} are allowed; {most} moves it most, and {stopped}",
-    ),
-    "further-crack-uncertain": (
-        "grave",
-        "flexible.evidence",
-        "the slip of the crack at {elevation_m:.4g m} has not converged, or its runs scatter: {slip_m:.4g mm}, give "
-        "or take {uncertainty_m:.2g mm}",
     ),
     "anchors-hold": (
         "caution",
@@ -290,44 +272,6 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "caution",
         "",
         "the residual slip hangs on details: it is {slips_m:.4g mm|to} when the shaking is scaled by {scales:g|to}",
-    ),
-    # static checks
-    "slip-unknown": (
-        "caution",
-        "statics.residual_slip",
-        "post-seismic: no slip is given, taken as zero; {field}, or a run of the motion, says how much",
-    ),
-    "slip-untold": (
-        "grave",
-        "statics.residual_slip",
-        'post-seismic: the {model} model ends "{outcome}", with no slip to trust: zero is taken, so that what is said '
-        "of the dam after the earthquake holds only if it has not moved",
-    ),
-    "crack-opens-statically": (
-        "note",
-        "uplift",
-        "the usual loads open the crack by {length_m:.2f m}, and water follows; the critical accelerations keep the "
-        "case's uplift, as the time histories do at the start",
-    ),
-    "flood-low": (
-        "caution",
-        "statics.flood_depth",
-        "{field}: the flood is lower than the {usual_depth_m:g m} of the usual loads",
-    ),
-    "residual-friction-high": (
-        "caution",
-        "statics.residual_friction",
-        "{field}: more than the friction of the crack before it has slid",
-    ),
-    "anchors-as-prestress": (
-        "note",
-        "anchors",
-        "{field}: the static checks count their prestress, not what opening and slip would add",
-    ),
-    "sections-apart": (
-        "note",
-        "statics.sections",
-        "{field}: these checks are of the crack alone; heeltoe.statics_of_sections judges the {count:d} listed",
     ),
 }
 

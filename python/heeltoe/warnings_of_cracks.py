@@ -1,0 +1,31 @@
+"""What cracks and motions that follow each other make a reader know; see :mod:`heeltoe.warnings`."""
+
+from __future__ import annotations
+
+from heeltoe.suspicions import Severity
+
+#: Code -> (how grave, field of the case, sentence).
+OF_CRACKS: dict[str, tuple[Severity, str, str]] = {
+    "sequence-moves": (
+        "caution",
+        "aftershocks",
+        "{name} leaves the dam moving when the next begins at {time_s:.4g s}: a longer {field} lets it come to rest",
+    ),
+    "sequence-statics": (
+        "grave",
+        "aftershocks",
+        "the dam that {name} leaves does not meet the static checks before the next motion: {missed}",
+    ),
+    "sequence-drains": (
+        "grave",
+        "aftershocks",
+        "the slip that {name} leaves keeps {share:.2g %} of the drainage, and the motions after it are computed with "
+        "all of it: a run with uplift.drain_efficiency = {efficiency:.3g} bounds what they do",
+    ),
+    "further-crack-uncertain": (
+        "grave",
+        "flexible.evidence",
+        "the slip of the crack at {elevation_m:.4g m} has not converged, or its runs scatter: {slip_m:.4g mm}, give "
+        "or take {uncertainty_m:.2g mm}",
+    ),
+}

@@ -1,0 +1,46 @@
+"""What a reader of static checks must know; see :mod:`heeltoe.warnings`."""
+
+from __future__ import annotations
+
+from heeltoe.suspicions import Severity
+
+#: Code -> (how grave, field of the case, sentence).
+OF_STATICS: dict[str, tuple[Severity, str, str]] = {
+    "slip-unknown": (
+        "caution",
+        "statics.residual_slip",
+        "post-seismic: no slip is given, taken as zero; {field}, or a run of the motion, says how much",
+    ),
+    "slip-untold": (
+        "grave",
+        "statics.residual_slip",
+        'post-seismic: the {model} model ends "{outcome}", with no slip to trust: zero is taken, so that what is said '
+        "of the dam after the earthquake holds only if it has not moved",
+    ),
+    "crack-opens-statically": (
+        "note",
+        "uplift",
+        "the usual loads open the crack by {length_m:.2f m}, and water follows; the critical accelerations keep the "
+        "case's uplift, as the time histories do at the start",
+    ),
+    "flood-low": (
+        "caution",
+        "statics.flood_depth",
+        "{field}: the flood is lower than the {usual_depth_m:g m} of the usual loads",
+    ),
+    "residual-friction-high": (
+        "caution",
+        "statics.residual_friction",
+        "{field}: more than the friction of the crack before it has slid",
+    ),
+    "anchors-as-prestress": (
+        "note",
+        "anchors",
+        "{field}: the static checks count their prestress, not what opening and slip would add",
+    ),
+    "sections-apart": (
+        "note",
+        "statics.sections",
+        "{field}: these checks are of the crack alone; heeltoe.statics_of_sections judges the {count:d} listed",
+    ),
+}
