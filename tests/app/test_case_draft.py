@@ -89,6 +89,17 @@ def test_what_stands_in_place_of_a_block_goes(session):
 
 @pytest.mark.parametrize("name", ["/etc/passwd", "../../etc/passwd", "record.at2", "upload-0"])
 def test_only_files_that_were_sent_are_looked_for(session, name):
+    motion = {"file": "elcentro-1940-180-nga"}
+    for field, changes in (
+        ("aftershocks[1].file", {"aftershocks": [motion, {"file": name}]}),
+        ("aftershocks[0].vertical.file", {"aftershocks": [{**motion, "vertical": {"file": name}}]}),
+    ):
+        before = session.case
+        edit(session, changes)
+        assert wrong(session) == [field]
+        assert "has not been sent" in fields_of(session)[1][0].problem
+        assert session.case is before
+        back(session)
     for path in ("motion.file", "motion.vertical.file", "flexible.mesh_above"):
         before = session.case
         edit(session, {path: name})
@@ -100,9 +111,10 @@ def test_only_files_that_were_sent_are_looked_for(session, name):
 
 def test_a_file_that_was_sent_has_the_name_of_its_sender(session):
     session.sent = {"mine.at2": "upload-1"}
-    edit(session, {"motion.file": "mine.at2"})
+    edit(session, {"motion.file": "mine.at2", "aftershocks": [{"file": "mine.at2"}]})
     assert not wrong(session)
-    assert session.case.motion.file == "upload-1"
+    assert session.case.motion.file == session.case.aftershocks[0].file == "upload-1"
+    assert fields_in_force(session)["aftershocks"] == [{"file": "mine.at2"}]
     assert 'file = "mine.at2"' in case_text(fields_in_force(session))
 
 

@@ -16,17 +16,6 @@ from heeltoe.plain import plain
 # Letters of a case file that the page takes, and of a name of a file.
 _LARGEST_FILE, _LONGEST_NAME = 200_000, 120
 _MOST_CHANGES = 50
-# Blocks that are put in as a whole begin with these, or with a part of the height of the dam.
-_BEGIN: dict[str, dict[str, Any]] = {
-    "ice": {"force": "150 kN/m"},
-    "motion": {"file": "elcentro-1940-180-nga", "pga": "0.4 g"},
-    "motion.vertical": {"file": "elcentro-1940-up-nga"},
-}
-_PARTS = {"reservoir": 0.9, "tailwater": 0.1, "silt": 0.1}
-_PATTERNS: dict[str, dict[str, Any]] = {
-    "cut-off": {"uplift.extent": 0.5},
-    "drained": {"uplift.drain_position": 0.1, "uplift.drain_efficiency": 0.667},
-}
 
 
 async def show(desk: Desk, asked: Asked) -> dict[str, Any]:
@@ -51,14 +40,34 @@ async def edit(desk: Desk, asked: Asked) -> dict[str, Any]:
 
 async def put(desk: Desk, asked: Asked) -> dict[str, Any]:
     """Put in a block that the case does not have, or take one away."""
+    from heeltoe.app.case.begin import block
     from heeltoe.app.case.draft import edit as change
     from heeltoe.app.case.fields import blocks
 
-    path, session = text(asked, "path"), desk.session
+    path, session, there = text(asked, "path"), desk.session, asked.get("there") is True
     if path not in {each.path for each in blocks() if each.path}:
         raise BadRequestError(f"{path} is no block of a case")
-    begin = _first(session, path) if asked.get("there") is True else None
-    return await _done(desk, lambda: change(session, {path: begin}))
+    return await _done(desk, lambda: change(session, block(session.case, session.units, path, there=there)))
+
+
+async def add(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Put one more item into a list of blocks."""
+    from heeltoe.app.case.begin import item
+    from heeltoe.app.case.draft import edit as change
+    from heeltoe.app.case.draft import fields_of, valued
+    from heeltoe.app.case.fields import field_of
+
+    path, session = text(asked, "path"), desk.session
+    field = field_of(path)
+    if field is None or field.path != path or field.kind != "blocks" or field.blocks:
+        raise BadRequestError(f"{path} is no list of a case")
+
+    def added() -> None:
+        there = valued(fields_of(session)[0], path)
+        begin = item(session.case, session.units, path)
+        change(session, {path: [*(there if isinstance(there, list) else []), begin]})
+
+    return await _done(desk, added)
 
 
 async def drag(desk: Desk, asked: Asked) -> dict[str, Any]:
@@ -164,6 +173,7 @@ def _told(session: Session) -> dict[str, Any]:
     from heeltoe.app.case.draft import case_of, draft_of, fields_of, valued
     from heeltoe.app.case.drawing import drawing
     from heeltoe.app.case.handles import handles, told
+    from heeltoe.app.case.law import law
 
     given, errors = fields_of(session)
     draft, case = draft_of(session), case_of(session)
@@ -181,10 +191,13 @@ def _told(session: Session) -> dict[str, Any]:
     if case is not None:
         seen = drawing(case, session.units)
         found["drawing"] = {**seen, "handles": [told(each) for each in handles(case, session.units)]}
+    found["law"] = None if case is None else law(case, session.units)
     return found
 
 
 def _typed(session: Session, changes: Mapping[str, Any]) -> dict[str, Any]:
+    from heeltoe.app.case.begin import following
+    from heeltoe.app.case.draft import fields_of
     from heeltoe.app.case.fields import field_of
     from heeltoe.app.case.typed import typed
 
@@ -193,18 +206,7 @@ def _typed(session: Session, changes: Mapping[str, Any]) -> dict[str, Any]:
         field = field_of(path)
         # What is no field can be taken away.
         found[path] = typed(value, field, session.units) if field else None
-    pattern = found.get("uplift.pattern")
-    return found | _PATTERNS.get(pattern, {}) if isinstance(pattern, str) else found
-
-
-def _first(session: Session, path: str) -> Any:
-    """Return what a block begins with."""
-    case = session.case
-    if path in _PARTS and case is not None:
-        from heeltoe.app.case.handles import length_text
-
-        return {"depth": length_text(case, session.units, _PARTS[path])}
-    return dict(_BEGIN.get(path, {}))
+    return following(found, fields_of(session)[0])
 
 
 def _changes(asked: Asked) -> dict[str, Any]:
@@ -242,6 +244,7 @@ ACTIONS = {
     "case fields": Entry(fields),
     "edit case": Entry(edit),
     "put block": Entry(put),
+    "add item": Entry(add),
     "drag": Entry(drag),
     "step case": Entry(step),
     "corners": Entry(corners),

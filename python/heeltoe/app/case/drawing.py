@@ -50,9 +50,10 @@ def _shapes(case: Case, size: float) -> Iterator[tuple[str, list[Any]]]:
     yield "ground", _rings(shapely.box(left - far, base - size, right + far, base))
     yield "below", _rings(case.outline)
     yield "above", [case.cut.polygon.tolist()]
-    uplift = _uplift(case, size)
-    if uplift:
-        yield "uplift", [uplift]
+    for crack in case.cracks:
+        uplift = _uplift(crack, size)
+        if uplift:
+            yield "uplift", [uplift]
 
 
 def _rings(shape: shapely.Geometry) -> list[Any]:
@@ -76,7 +77,9 @@ def _uplift(case: Case, size: float) -> list[list[float]]:
 
 def _lines(case: Case, size: float) -> Iterator[tuple[str, list[list[float]]]]:
     section = case.cut
-    yield "crack", [list(section.heel), list(section.toe)]
+    for crack in case.cracks:
+        kind = "crack" if crack is case.cracks[case.asked] else "further-crack"
+        yield kind, [list(crack.cut.heel), list(crack.cut.toe)]
     position = case.uplift_at_crack.drain_position
     if position is not None:
         x, z = section.from_crack_frame(position * section.crack_width, 0.0)

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import asdict, dataclass, replace
 from functools import cache
 from typing import Any
 
+from heeltoe.case.crack.law import LAW_FIELDS
 from heeltoe.case.read import case_schema
 from heeltoe.units.parse import DIMENSIONS, parse
 
@@ -29,6 +30,9 @@ _LABELS = {
     "statics": "Static checks",
     "flexible": "Flexible model",
     "decoupled": "Decoupled chain",
+    "law": "Friction law",
+    "jrc": "JRC",
+    "jcs": "JCS",
 }
 _CELLS = {
     "section.polygon": ("x", "z"),
@@ -36,7 +40,10 @@ _CELLS = {
     "section.downstream": ("Elevation", "Slope"),
     "uplift.points": ("Distance", "Head"),
     "motion.points": ("Time", "Acceleration"),
+    "crack.law.roughness_friction": ("Normal stress", "Coefficient"),
 }
+# Motions, of which all have the same fields.
+_MOTIONS = re.compile(r"^(motion\.vertical|aftershocks\[\](\.vertical)?)")
 _OF_LISTS = re.compile(r"\[\d+\]")
 
 Schema = Mapping[str, Any]
@@ -53,8 +60,8 @@ class Field:
     label, meaning
         What people call it, and what it says.
     kind
-        ``"quantity"``, ``"text"``, ``"whole"``, ``"truth"``, ``"choice"``, ``"pairs"`` (rows of two cells) or
-        ``"blocks"`` (a list of blocks).
+        ``"quantity"``, ``"text"``, ``"whole"``, ``"truth"``, ``"choice"``, ``"pairs"`` (rows of two cells),
+        ``"blocks"`` (a list of blocks) or ``"block"`` (one in a list of others).
     quantity
         A key of :data:`heeltoe.units.parse.DIMENSIONS`; empty where it holds none.
     choices
@@ -67,6 +74,8 @@ class Field:
         The two cells of a pair, or the fields of a block.
     blocks
         Of a list of blocks of several kinds: the fields by the kind, which stands in the first of them.
+    only
+        The names of its block for which it means something; empty where it does for all.
     """
 
     path: str
@@ -80,6 +89,7 @@ class Field:
     needed: bool = False
     inner: tuple[Field, ...] = ()
     blocks: tuple[tuple[str, tuple[Field, ...]], ...] = ()
+    only: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -142,7 +152,7 @@ def _by_path() -> dict[str, Field]:
 
 def _all(field: Field) -> Iterator[Field]:
     yield field
-    if field.kind == "blocks":
+    if field.kind in ("blocks", "block"):
         for each in (*field.inner, *(inner for _, fields in field.blocks for inner in fields)):
             yield from _all(each)
 
@@ -155,28 +165,29 @@ def blocks() -> tuple[Block, ...]:
 
 
 def _walk(here: Schema, schema: Schema, path: str, *, optional: bool, meaning: str) -> Iterator[Block]:
-    own, others = [], []
+    own: list[Field] = []
+    others: list[Iterable[Block]] = []
     for name, given in here["properties"].items():
         at = f"{path}.{name}" if path else name
         inner = _block_in(given, schema)
         if inner is None:
-            own.append(_field(given, schema, at, needed=name in here.get("required", ())))
+            field = _field(given, schema, at, needed=name in here.get("required", ()))
+            if field.kind == "blocks" and not path:
+                others.append([Block(field.path, field.label, field.meaning, False, (field,))])
+            else:
+                own.append(field)
         else:
             may_miss = any(each.get("type") == "null" for each in given.get("anyOf", ()))
             others.append(_walk(inner, schema, at, optional=may_miss, meaning=_said(given)))
-    alone = [field for field in own if field.kind == "blocks" and not path]
-    kept = tuple(field for field in own if field not in alone)
-    yield Block(path, _label(path), meaning, optional, kept)
+    yield Block(path, _label(path), meaning, optional, tuple(own))
     for each in others:
         yield from each
-    for field in alone:
-        yield Block(field.path, field.label, field.meaning, False, (field,))
 
 
 def _block_in(given: Schema, schema: Schema) -> Schema | None:
     """Return the block that a field holds; None of one that holds a value."""
     for each in (given, *given.get("anyOf", ())):
-        found: Schema = schema["$defs"][each["$ref"].rpartition("/")[2]] if "$ref" in each else {}
+        found = _named(each["$ref"], schema) if "$ref" in each else {}
         if "properties" in found:
             return found
     return None
@@ -184,34 +195,53 @@ def _block_in(given: Schema, schema: Schema) -> Schema | None:
 
 def _field(given: Schema, schema: Schema, path: str, *, needed: bool) -> Field:
     meant = next((each for each in given.get("anyOf", ()) if each.get("type") != "null"), given)
-    kind, quantity = _kind(meant), str(meant.get("quantity", ""))
+    # Only what stands in a list comes here with a block: others are blocks of the form.
+    held = _block_in(given, schema)
+    kind, quantity = "block" if held else _kind(meant), str(meant.get("quantity", ""))
     inner: tuple[Field, ...] = ()
     kinds: tuple[tuple[str, tuple[Field, ...]], ...] = ()
     if kind == "pairs":
-        labels = _CELLS.get(path.replace("motion.vertical", "motion"), ("First", "Second"))
+        labels = _CELLS.get(_MOTIONS.sub("motion", path), ("First", "Second"))
         inner = tuple(
             replace(_field(each, schema, f"{path}[][{place}]", needed=True), label=label)
             for place, (label, each) in enumerate(zip(labels, meant["items"]["prefixItems"], strict=True))
         )
+    elif held is not None:
+        inner = _fields_of(held, schema, path)
     elif kind == "blocks" and "$ref" in meant["items"]:
-        inner = _fields_of(meant["items"]["$ref"], schema, path)
+        inner = _fields_of(_named(meant["items"]["$ref"], schema), schema, f"{path}[]")
     elif kind == "blocks":
         mapping = meant["items"]["discriminator"]["mapping"]
-        kinds = tuple((name, _fields_of(reference, schema, path)) for name, reference in sorted(mapping.items()))
+        kinds = tuple(
+            (name, _fields_of(_named(reference, schema), schema, f"{path}[]"))
+            for name, reference in sorted(mapping.items())
+        )
     choices = tuple(map(str, meant.get("enum", (meant["const"],) if "const" in meant else ())))
     default = given.get("default")
     return Field(
         path, _label(path), _said(given), kind, quantity, choices, _default(default, quantity),
-        str(next(iter(meant.get("examples", ())), "")), needed, inner, kinds,
+        str(next(iter(meant.get("examples", ())), "")), needed, inner, kinds, _only(path),
     )  # fmt: skip
 
 
-def _fields_of(reference: str, schema: Schema, path: str) -> tuple[Field, ...]:
-    block = schema["$defs"][reference.rpartition("/")[2]]
+def _fields_of(block: Schema, schema: Schema, path: str) -> tuple[Field, ...]:
     return tuple(
-        _field(given, schema, f"{path}[].{name}", needed=name in block.get("required", ()))
+        _field(given, schema, f"{path}.{name}", needed=name in block.get("required", ()))
         for name, given in block["properties"].items()
     )
+
+
+def _named(reference: str, schema: Schema) -> Schema:
+    found: Schema = schema["$defs"][reference.rpartition("/")[2]]
+    return found
+
+
+def _only(path: str) -> tuple[str, ...]:
+    """Return the names of the block of a field for which it means something; none where it does for all."""
+    block, _, name = path.rpartition(".")
+    if block.rpartition(".")[2] != "law" or name == "name":
+        return ()
+    return tuple(law for law, (needed, allowed) in LAW_FIELDS.items() if name in (*needed, *allowed))
 
 
 def _kind(meant: Schema) -> str:

@@ -5,6 +5,7 @@ In the case a file has the name that its sender gave it; in the folder of the ta
 from __future__ import annotations
 
 import copy
+import re
 from collections.abc import Iterator
 from functools import cache
 from typing import TYPE_CHECKING, Any
@@ -16,16 +17,17 @@ from heeltoe.motion.scenario import PREFIX
 if TYPE_CHECKING:
     from heeltoe.app.sessions import Session
 
-_RECORDS = ("motion.file", "motion.vertical.file")
+_RECORDS = ("motion.file", "motion.vertical.file", "aftershocks[].file", "aftershocks[].vertical.file")
 _MESHES = ("flexible.mesh_above", "flexible.mesh_below", "section.file")
 _CRITERIA = ("statics.criteria_file",)
+_PLACES = re.compile(r"\[\d+\]")
 
 
 def unsent(session: Session, fields: dict[str, Any]) -> list[InputError]:
     """Return an error at each field that names a file which this tab has not sent."""
     found = []
     for path, block, name in named(fields):
-        known = path in _RECORDS and (block[name].startswith(PREFIX) or is_catalogued(block[name]))
+        known = _PLACES.sub("[]", path) in _RECORDS and (block[name].startswith(PREFIX) or is_catalogued(block[name]))
         sent = block[name] in session.sent or block[name] in session.sent.values()
         if block[name] and not known and not sent:
             found.append(InputError("file-not-sent", path, block[name]))
@@ -55,11 +57,26 @@ def named(fields: dict[str, Any]) -> Iterator[tuple[str, dict[str, Any], str]]:
     """Walk the fields that name files: path, block and name in it."""
     for path in (*_RECORDS, *_MESHES, *_CRITERIA):
         *blocks, name = path.split(".")
-        here: Any = fields
-        for each in blocks:
-            here = here.get(each) if isinstance(here, dict) else None
-        if isinstance(here, dict) and isinstance(here.get(name), str):
-            yield path, here, name
+        for at, block in _blocks(fields, blocks):
+            if isinstance(block.get(name), str):
+                yield f"{at}.{name}", block, name
+
+
+def _blocks(here: Any, names: list[str], at: str = "") -> Iterator[tuple[str, dict[str, Any]]]:
+    """Walk the blocks at a path, of which a name that ends in ``[]`` is a list, with the path of each."""
+    if not isinstance(here, dict):
+        return
+    if not names:
+        yield at, here
+        return
+    first, *rest = names
+    name = first.removesuffix("[]")
+    path, found = f"{at}.{name}".removeprefix("."), here.get(name)
+    if name == first:
+        yield from _blocks(found, rest, path)
+    elif isinstance(found, list):
+        for place, each in enumerate(found):
+            yield from _blocks(each, rest, f"{path}[{place}]")
 
 
 def is_catalogued(name: str) -> bool:

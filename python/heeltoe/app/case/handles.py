@@ -265,6 +265,7 @@ def _along_crack(case: Case, units: str) -> Iterator[Handle]:
         x = case.uplift.drain_x
         part = min(max((x - left) / (right - left), 0.0), 1.0)
         yield Handle("drains", "Drains", at(part), (lengths.way("x", "uplift.drain_x", x, (left, right)),))
+    yield from _further_cracks(case, lengths)
     for place, anchor in enumerate(case.anchors):
         # What is given by its ends moves by their numbers.
         if anchor.distance is None:
@@ -276,3 +277,14 @@ def _along_crack(case: Case, units: str) -> Iterator[Handle]:
             lengths.metres * (right - left) / section.crack_width, lengths.unit,
         )  # fmt: skip
         yield Handle(f"anchor {place + 1}", f"Anchor {place + 1}", at(part), (way,))
+
+
+def _further_cracks(case: Case, lengths: _Lengths) -> Iterator[Handle]:
+    for place, crack in enumerate(case.further_cracks):
+        section = case.model_copy(update={"crack": crack.beside(case.crack)}).cut
+        (left, low), (right, high) = section.heel, section.toe
+        at = (left + _CRACK_AT * (right - left), low + _CRACK_AT * (high - low))
+        highest = lengths.height - lengths.step * lengths.metres
+        start = lengths.base + at[1] - low
+        way = lengths.way("z", f"further_cracks[{place}].elevation", crack.elevation, (0.0, highest), start)
+        yield Handle(f"further crack {place + 1}", f"Further crack {place + 1}", at, (way,))

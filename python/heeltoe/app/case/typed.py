@@ -20,6 +20,8 @@ def typed(given: object, field: Field, units: str) -> Any:
     package to say why."""
     if isinstance(given, list):
         return _list(given, field, units)
+    if isinstance(given, Mapping) and field.kind == "block":
+        return _block(given, field, units)
     if not isinstance(given, str):
         return given
     text = given.strip()

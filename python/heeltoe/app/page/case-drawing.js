@@ -1,23 +1,13 @@
 /** The drawing of the section, with handles that are dragged by mouse and touch, or moved by keys. */
-import { element } from "./dom.js";
+import { asideOf, boxOf, lineFor } from "./case/apart.js";
+import { element, svg } from "./dom.js";
 
 /** @typedef {{name: string, label: string, at: [number, number], axes: string[], text: string, value: number, least: number, most: number}} Handle */
 
-const SPACE = "http://www.w3.org/2000/svg";
 const TALLEST = 640;
 const FAR = 10;
-
-/**
- * @param {string} tag
- * @param {Record<string, unknown>} attributes
- * @param {...(Node | string)} content
- */
-function svg(tag, attributes, ...content) {
-  const made = /** @type {SVGElement} */ (document.createElementNS(SPACE, tag));
-  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
-  made.append(...content);
-  return made;
-}
+const FONT = "13px system-ui, sans-serif";
+const pen = document.createElement("canvas").getContext("2d");
 
 export class CaseDrawing {
   /**
@@ -36,6 +26,8 @@ export class CaseDrawing {
     this.root = element("div", { class: "drawing" }, this.picture, this.said, this.hint);
     /** @type {Map<string, {handle: Handle, root: SVGElement}>} */
     this.handles = new Map();
+    /** How far each stands from where it belongs; nothing changes while one is dragged. @type {Map<string, {x: number, y: number}>} */
+    this.aside = new Map();
     /** @type {any} */
     this.drawn = null;
     this.dragged = "";
@@ -71,28 +63,43 @@ export class CaseDrawing {
     const ring = (/** @type {number[][]} */ points) => `M${points.map((each) => this.at(each).map((value) => value.toFixed(1)).join(",")).join("L")}`;
     const shapes = this.drawn.shapes.map((/** @type {any} */ { kind, rings }) => svg("path", { class: `of-${kind}`, d: rings.map((/** @type {number[][]} */ each) => `${ring(each)}Z`).join("") }));
     const lines = this.drawn.lines.map((/** @type {any} */ { kind, points }) => svg("path", { class: `line of-${kind}`, d: ring(points) }));
-    this.back.replaceChildren(...shapes, ...lines, ...this.notes(wide));
-    this.placeHandles();
+    const knobs = this.placeHandles(wide);
+    this.back.replaceChildren(...shapes, ...lines, ...this.notes(wide, knobs));
   }
 
-  /** @param {number} wide */
-  notes(wide) {
+  /** @param {number} wide @param {{x: number, y: number}[]} knobs What is written goes round them. */
+  notes(wide, knobs) {
     const anchors = /** @type {Record<string, [string, number, number]>} */ ({ left: ["end", -FAR, 0], right: ["start", FAR, 0], middle: ["middle", 0, 24], heel: ["end", -FAR, 18], toe: ["start", FAR, 18] });
-    return this.drawn.notes.filter((/** @type {any} */ note) => note.side !== "middle" || wide > 420).map((/** @type {any} */ { at, text, side }) => {
+    const taken = knobs.map(boxOf);
+    const shown = this.drawn.notes.filter((/** @type {any} */ note) => note.side !== "middle" || wide > 420);
+    return shown.flatMap((/** @type {any} */ { at, text, side }) => {
       const [anchor, dx, dy] = anchors[side];
-      const [x, y] = this.at(at);
-      return svg("text", { x: x + dx, y: y + dy, "text-anchor": anchor, class: "note" }, text);
+      const place = this.at(at);
+      const [x, y] = [place[0] + dx, place[1] + dy];
+      if (pen) pen.font = FONT;
+      const long = pen ? pen.measureText(text).width : 7 * text.length;
+      const left = x - long * { start: 0, middle: 0.5, end: 1 }[/** @type {"start" | "middle" | "end"} */ (anchor)];
+      const found = lineFor({ left, right: left + long, top: y - 12, bottom: y + 4 }, taken);
+      if (!found) return [];
+      taken.push(found.box);
+      return [svg("text", { x, y: y + found.by, "text-anchor": anchor, class: "note" }, text)];
     });
   }
 
-  placeHandles() {
+  /** Return where the handles stand. @param {number} wide */
+  placeHandles(wide) {
+    const belong = this.drawn.handles.map((/** @type {Handle} */ { at, axes }) => ({ x: this.at(at)[0], y: this.at(at)[1], axes }));
+    if (!this.dragged) {
+      const found = asideOf(belong, wide);
+      this.aside = new Map(this.drawn.handles.map((/** @type {Handle} */ { name }, /** @type {number} */ place) => [name, found[place]]));
+    }
     const names = new Set(this.drawn.handles.map((/** @type {Handle} */ each) => each.name));
     for (const [name, { root }] of this.handles) {
       if (names.has(name)) continue;
       root.remove();
       this.handles.delete(name);
     }
-    for (const handle of /** @type {Handle[]} */ (this.drawn.handles)) {
+    return /** @type {Handle[]} */ (this.drawn.handles).map((handle, place) => {
       let known = this.handles.get(handle.name);
       if (!known) {
         known = { handle, root: this.make(handle.name) };
@@ -100,8 +107,10 @@ export class CaseDrawing {
         this.front.append(known.root);
       }
       known.handle = handle;
-      const [x, y] = this.at(handle.at);
+      const off = this.aside.get(handle.name) || { x: 0, y: 0 };
+      const [x, y] = [belong[place].x + off.x, belong[place].y + off.y];
       const { root } = known;
+      root.querySelector(".leader")?.setAttribute("d", `M0 0L${(-off.x).toFixed(1)} ${(-off.y).toFixed(1)}`);
       root.setAttribute("transform", `translate(${x.toFixed(1)} ${y.toFixed(1)})`);
       const both = handle.axes.length > 1;
       root.setAttribute("class", `handle ${both ? "both" : handle.axes[0]}`);
@@ -112,7 +121,8 @@ export class CaseDrawing {
       root.setAttribute("aria-valuenow", String(handle.value));
       root.setAttribute("aria-valuetext", handle.text);
       if (this.dragged === handle.name || document.activeElement === /** @type {unknown} */ (root)) this.say(handle);
-    }
+      return { x, y };
+    });
   }
 
   /** @param {Handle} handle */
@@ -123,7 +133,7 @@ export class CaseDrawing {
   /** @param {string} name */
   make(name) {
     const marks = [svg("path", { class: "arrow z", d: "M0 -17l5 6h-10zM0 17l5 -6h-10z" }), svg("path", { class: "arrow x", d: "M-17 0l6 5v-10zM17 0l-6 5v-10z" })];
-    const root = svg("g", { role: "slider", tabindex: 0, "data-handle": name }, svg("circle", { class: "reach", r: 22 }), ...marks, svg("circle", { class: "knob", r: 7 }));
+    const root = svg("g", { role: "slider", tabindex: 0, "data-handle": name }, svg("path", { class: "leader", d: "M0 0" }), svg("circle", { class: "reach", r: 22 }), ...marks, svg("circle", { class: "knob", r: 7 }));
     root.addEventListener("pointerdown", (event) => this.grab(root, name, /** @type {PointerEvent} */ (event)));
     root.addEventListener("keydown", (event) => this.press(name, /** @type {KeyboardEvent} */ (event)));
     root.addEventListener("focus", () => {

@@ -1,6 +1,7 @@
 /** The form of a case, made from what the schema says: blocks of fields, each field with its meaning and its error. */
-import { fieldOf, idOf, wrongLine } from "./case-field.js";
-import { blocksOf, tableOf } from "./case-lists.js";
+import { controlFor, isForeign } from "./case/blocks.js";
+import { LawCurve } from "./case/law.js";
+import { idOf, wrongLine } from "./case-field.js";
 import { element } from "./dom.js";
 
 /** @typedef {{path: string, label: string, meaning: string, optional: boolean, fields: import("./case-field.js").FieldOf[]}} BlockOf */
@@ -20,11 +21,14 @@ export class CaseForm {
   constructor(edits) {
     this.edits = edits;
     this.root = element("div", { class: "form" });
-    /** @type {[string, import("./case-field.js").Control][]} */
+    /** @type {[import("./case-field.js").FieldOf, import("./case-field.js").Control][]} */
     this.controls = [];
     /** @type {{block: BlockOf, root: HTMLElement, body: HTMLElement, state: HTMLElement, toggle: HTMLElement}[]} */
     this.blocks = [];
-    /** The table of the section's corners. @type {ReturnType<typeof tableOf> | null} */
+    this.law = new LawCurve();
+    /** What waits until all that was typed has been heard. @type {BlockOf[] | null} */
+    this.next = null;
+    /** The table of the section's corners. @type {ReturnType<typeof import("./case-lists.js").tableOf> | null} */
     this.corners = null;
     /** @type {any} */
     this.told = null;
@@ -32,19 +36,45 @@ export class CaseForm {
     this.root.addEventListener("settle", () => this.told && edits.idle && this.values());
   }
 
-  /** @param {BlockOf[]} blocks */
+  /** Make the form anew, as soon as nothing that is typed is on its way. @param {BlockOf[]} blocks */
   build(blocks) {
+    this.next = blocks;
+    if (this.edits.idle) this.make();
+  }
+
+  make() {
+    if (!this.next) return;
+    const blocks = this.next;
+    this.next = null;
+    const goOn = this.typing();
     const open = this.blocks.length ? this.blocks.filter(({ root }) => root.hasAttribute("open")).map(({ block }) => block.path) : OPEN;
     this.controls = [];
     this.blocks = blocks.map((block) => this.block(block, open.includes(block.path)));
     this.root.replaceChildren(...this.blocks.map(({ root }) => root));
     if (this.told) this.show(this.told, true);
+    goOn();
+  }
+
+  /** Return what puts somebody who types back to where they are, in a form that was made anew. */
+  typing() {
+    const here = document.activeElement;
+    if (!(here instanceof HTMLElement) || !here.id || !this.root.contains(here)) return () => {};
+    const text = here instanceof HTMLInputElement ? { value: here.value, start: here.selectionStart, end: here.selectionEnd } : null;
+    return () => {
+      const there = document.getElementById(here.id);
+      if (there && text && there instanceof HTMLInputElement) {
+        there.value = text.value;
+        there.setSelectionRange(text.start, text.end);
+      }
+      there?.focus({ preventScroll: true });
+    };
   }
 
   /** @param {BlockOf} block @param {boolean} open */
   block(block, open) {
     const body = element("fieldset", {}, element("legend", { class: "unseen" }, block.label));
     for (const field of block.fields) body.append(this.field(field));
+    if (block.path === "crack.law") body.append(this.law.root);
     const list = block.fields[0]?.path === block.path;
     const state = element("span", { class: "state" });
     const toggle = element("button", { type: "button", onclick: () => this.toggle(block) });
@@ -59,9 +89,13 @@ export class CaseForm {
   /** @param {import("./case-field.js").FieldOf} field */
   field(field) {
     const edit = (/** @type {unknown} */ value) => this.edits.edit({ [field.path]: value });
-    const control = field.kind === "pairs" ? tableOf(field, edit) : field.kind === "blocks" ? blocksOf(field, edit) : fieldOf(field, field.path, edit);
-    if (field.path === "section.polygon") this.corners = /** @type {ReturnType<typeof tableOf>} */ (control);
-    this.controls.push([field.path, control]);
+    const add = (/** @type {string} */ path) => {
+      this.edits.begin();
+      this.edits.add("add item", { path });
+    };
+    const control = controlFor(field, field.path, edit, add);
+    if (field.path === "section.polygon") this.corners = /** @type {NonNullable<typeof this.corners>} */ (control);
+    this.controls.push([field, control]);
     return control.root;
   }
 
@@ -75,12 +109,21 @@ export class CaseForm {
   /** @param {any} told @param {boolean} idle Whether nothing typed waits for an answer. */
   show(told, idle) {
     this.told = told;
+    if (idle && this.next) {
+      this.make();
+      return;
+    }
     if (idle) this.values();
+    this.law.show(told.law);
     this.errors();
   }
 
   values() {
-    for (const [path, control] of this.controls) control.update(valueAt(this.told.fields, path));
+    for (const [field, control] of this.controls) {
+      const value = valueAt(this.told.fields, field.path);
+      control.update(value);
+      control.root.hidden = isForeign(field, valueAt(this.told.fields, field.path.slice(0, Math.max(field.path.lastIndexOf("."), 0))), value);
+    }
     for (const { block, body, toggle } of this.blocks) {
       const there = valueAt(this.told.fields, block.path) !== undefined;
       body.hidden = block.optional && !there;

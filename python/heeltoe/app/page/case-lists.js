@@ -1,5 +1,5 @@
-/** Fields that hold lists: rows of two numbers, as the corners of a section, and blocks, as anchors. */
-import { controlOf, fieldOf, idOf, shown, wrongLine } from "./case-field.js";
+/** Fields that hold rows of two numbers, as the corners of a section. */
+import { controlOf, idOf, shown, wrongLine } from "./case-field.js";
 import { element } from "./dom.js";
 
 /** @typedef {import("./case-field.js").FieldOf} FieldOf */
@@ -25,10 +25,11 @@ const rowsOf = (value) => (Array.isArray(value) ? value.map((row) => (Array.isAr
 /**
  * A table of rows of two cells.
  * @param {FieldOf} field
+ * @param {string} path With places in lists.
  * @param {(rows: string[][]) => void} edit
  * @returns {Control & {insert: (after: number) => void, remove: (place: number) => void}}
  */
-export function tableOf(field, edit) {
+export function tableOf(field, path, edit) {
   /** @type {string[][]} */
   let rows = [];
   /** @type {{root: HTMLElement, cells: {control: HTMLElement, update: (value: any) => void}[]}[]} */
@@ -38,8 +39,8 @@ export function tableOf(field, edit) {
   const table = element("table", { class: "rows", "aria-label": field.label }, element("thead", {}, element("tr", {}, element("th", { scope: "col" }, "No."), ...heads, element("td", {}))), body);
   const more = element("button", { type: "button", onclick: () => insert(rows.length - 1) }, `Add a row to ${field.label.toLowerCase()}`);
   const root = element(
-    "div", { class: "field wide", id: idOf(field.path), "data-path": field.path, tabindex: "-1" },
-    element("h3", {}, field.label), element("p", { class: "meaning" }, field.meaning), table, more, wrongLine(field.path),
+    "div", { class: "field wide", id: idOf(path), "data-path": path, tabindex: "-1" },
+    element("h3", {}, field.label), element("p", { class: "meaning" }, field.meaning), table, more, wrongLine(path),
   );
 
   function changed() {
@@ -75,8 +76,7 @@ export function tableOf(field, edit) {
   /** @param {number} place */
   function make(place) {
     const cells = field.inner.map((inner, column) => {
-      const path = `${field.path}[${place}][${column}]`;
-      return controlOf(inner, path, (text) => {
+      return controlOf(inner, `${path}[${place}][${column}]`, (text) => {
         rows[place][column] = text;
         edit(rows.map((row) => [...row]));
       }, { "aria-label": `${inner.label}, row ${place + 1}` });
@@ -87,7 +87,7 @@ export function tableOf(field, edit) {
       small("↓", `Move row ${place + 1} down`, () => move(place, 1)),
       small("×", `Remove row ${place + 1}`, () => remove(place)),
     ];
-    const tr = element("tr", {}, element("th", { scope: "row" }, String(place + 1)), ...cells.map((each, column) => element("td", {}, each.control, wrongLine(`${field.path}[${place}][${column}]`))), element("td", { class: "buttons" }, ...buttons));
+    const tr = element("tr", {}, element("th", { scope: "row" }, String(place + 1)), ...cells.map((each, column) => element("td", {}, each.control, wrongLine(`${path}[${place}][${column}]`))), element("td", { class: "buttons" }, ...buttons));
     // A cell has no meaning of its own.
     for (const { control } of cells) control.setAttribute("aria-describedby", `${control.id}-wrong`);
     return { root: tr, cells };
@@ -108,80 +108,6 @@ export function tableOf(field, edit) {
     root, insert, remove,
     update(value) {
       rows = rowsOf(value);
-      show();
-    },
-  };
-}
-
-/**
- * A list of blocks of fields, of one kind or of several.
- * @param {FieldOf} field
- * @param {(list: any[]) => void} edit
- * @returns {Control}
- */
-export function blocksOf(field, edit) {
-  /** @type {any[]} */
-  let list = [];
-  /** @type {{kind: string, root: HTMLElement, parts: [string, Control][]}[]} */
-  let made = [];
-  const kinds = Object.keys(field.blocks);
-  const one = field.label.replace(/s$/, "").toLowerCase();
-  const places = element("div", { class: "items" });
-  const root = element("div", { class: "field wide", id: idOf(field.path), "data-path": field.path, tabindex: "-1" }, element("p", { class: "meaning" }, field.meaning), places, wrongLine(field.path));
-  const add = (kinds.length ? kinds : [""]).map((kind) => element("button", { type: "button", onclick: () => insert(kind) }, kind ? `Add ${kind}` : `Add an ${one}`));
-  root.append(element("div", { class: "row" }, ...add));
-
-  /** @param {string} kind */
-  const fieldsOf = (kind) => (kinds.length ? field.blocks[kind] || [] : field.inner);
-
-  /** @param {string} kind */
-  function insert(kind) {
-    const needed = fieldsOf(kind).filter((each) => each.needed && each.kind === "quantity");
-    const first = Object.fromEntries(needed.map((each) => [nameOf(each), each.example]));
-    list.push(kind ? { step: kind, ...first } : { distance: `1 ${field.inner[0]?.unit || ""}`, prestress: "1 MN/m" });
-    changed();
-    made[list.length - 1]?.root.querySelector("input, select")?.dispatchEvent(new Event("focus"));
-  }
-
-  function changed() {
-    show();
-    edit(structuredClone(list));
-  }
-
-  /** @param {FieldOf} each */
-  const nameOf = (each) => each.path.slice(each.path.lastIndexOf(".") + 1);
-
-  /** @param {number} place @param {string} kind */
-  function make(place, kind) {
-    /** @type {[string, Control][]} */
-    const parts = fieldsOf(kind).filter((each) => nameOf(each) !== "step").map((inner) => {
-      const name = nameOf(inner);
-      return [name, fieldOf(inner, `${field.path}[${place}].${name}`, (text) => {
-        if (text === "") delete list[place][name];
-        else list[place][name] = text;
-        edit(structuredClone(list));
-      })];
-    });
-    const remove = element("button", { type: "button", onclick: () => { list.splice(place, 1); made = []; changed(); } }, `Remove ${kind || one} ${place + 1}`);
-    const item = element("fieldset", { class: "item" }, element("legend", {}, `${kind || one} ${place + 1}`), ...parts.map(([, control]) => control.root), wrongLine(`${field.path}[${place}]`), remove);
-    return { kind, root: item, parts };
-  }
-
-  function show() {
-    const wanted = list.map((each) => (each && each.step) || "");
-    if (wanted.length !== made.length || wanted.some((kind, place) => kind !== made[place].kind)) {
-      made = wanted.map((kind, place) => make(place, String(kind)));
-      places.replaceChildren(...made.map((each) => each.root));
-    }
-    list.forEach((each, place) => {
-      for (const [name, control] of made[place].parts) control.update(each && each[name]);
-    });
-  }
-
-  return {
-    root,
-    update(value) {
-      list = Array.isArray(value) ? structuredClone(value).map((each) => (each && typeof each === "object" && !Array.isArray(each) ? each : {})) : [];
       show();
     },
   };

@@ -18,6 +18,19 @@ export function element(tag, properties = {}, ...content) {
 }
 
 /**
+ * An element of a drawing.
+ * @param {string} tag
+ * @param {Record<string, unknown>} attributes
+ * @param {...(Node | string)} content
+ */
+export function svg(tag, attributes, ...content) {
+  const made = /** @type {SVGElement} */ (document.createElementNS("http://www.w3.org/2000/svg", tag));
+  for (const [name, value] of Object.entries(attributes)) made.setAttribute(name, String(value));
+  made.append(...content);
+  return made;
+}
+
+/**
  * @param {string} id
  * @returns {HTMLElement}
  */

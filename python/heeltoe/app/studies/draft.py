@@ -131,7 +131,7 @@ def _vary(rows: list[Any], units: str) -> dict[str, Any]:
     for row in map(_mapping, rows):
         path = _text(row, "path")
         field = field_of(path)
-        if field is None or path.startswith("motion"):
+        if field is None or path not in {each.path for _, each in _fields()}:
             raise BadRequestError("path is a field that can vary")
         if path in found:
             raise InputError("study-twice", f"vary.{path}", path)

@@ -1,0 +1,128 @@
+"""Cracks, laws and aftershocks of a case as it is typed: what is put in begins sound, and its drawing shows it."""
+
+from __future__ import annotations
+
+import pytest
+
+from heeltoe.app.case.begin import block, following, item
+from heeltoe.app.case.draft import back, draft_of, edit, fields_of
+from heeltoe.app.case.drawing import drawing
+from heeltoe.app.case.fields import blocks, field_of
+from heeltoe.app.case.handles import handles, moved
+from heeltoe.app.case.law import law
+from heeltoe.app.case.typed import typed
+from heeltoe.app.open_case import begin
+from heeltoe.app.sessions import Session
+from heeltoe.case.crack.law import LAW_FIELDS
+from heeltoe.mechanics.law_curve import curve_of
+from shared.dams import example
+
+
+@pytest.fixture
+def session(tmp_path):
+    found = Session("", tmp_path)
+    begin(found)
+    return found
+
+
+def choose(session, name):
+    edit(session, following({"crack.law.name": name}, fields_of(session)[0]))
+    assert not draft_of(session).errors
+    return session.case
+
+
+def put(session, path, *, there):
+    edit(session, block(session.case, session.units, path, there=there))
+    assert not draft_of(session).errors
+
+
+@pytest.mark.parametrize("name", LAW_FIELDS)
+def test_each_law_begins_sound_and_goes_back_to_the_friction_that_it_had(session, name):
+    edit(session, {"crack.friction": None, "crack.static_friction": 1.1, "crack.kinetic_friction": 0.7})
+    put(session, "crack.law", there=True)
+    assert (session.case.crack.law.peak_friction, session.case.crack.law.residual_friction) == (1.1, 0.8)
+    case = choose(session, name)
+    assert case.crack.law.name == name
+    drawn = law(case, "si")
+    curve = curve_of(case)
+    assert drawn["at"][0] == pytest.approx(curve.at[0] * drawn["at"][-1] / curve.at[-1], rel=1e-4)
+    assert (drawn["friction"][0], drawn["friction"][-1]) == pytest.approx((curve.friction[0], curve.friction[-1]), 1e-4)
+    assert drawn["dot"][1] == curve.at_rest
+    assert f"{curve.at_rest:.3g}" in drawn["said"]
+    assert "those of no dam" in drawn["said"]
+    put(session, "crack.law", there=False)
+    assert session.case.crack.friction == pytest.approx(curve.at_rest, rel=6e-3)
+    assert law(session.case, "si") is None
+
+
+def test_what_two_laws_share_stays(session):
+    put(session, "crack.law", there=True)
+    edit(session, {"crack.law.slip": "33 mm", "crack.law.residual_friction": 0.7})
+    case = choose(session, "cohesion")
+    assert (case.crack.law.slip, case.crack.law.residual_friction, case.crack.law.peak_friction) == (0.033, 0.7, None)
+    assert "no dam: cohesion." in law(case, "si")["said"]
+    edit(session, {"crack.law.cohesion": "0.2 MPa"})
+    assert "no dam" not in law(session.case, "si")["said"]
+
+
+def test_a_field_of_a_law_says_which_laws_know_it():
+    assert field_of("crack.law.name").only == ()
+    assert field_of("crack.law.slip").only == ("slip weakening", "cohesion")
+    of_law = next(each for each in blocks() if each.path == "crack.law").fields
+    for name, (needed, allowed) in LAW_FIELDS.items():
+        shown = {each.path.rpartition(".")[2] for each in of_law if each.only and name in each.only}
+        assert shown == {*needed, *allowed}
+
+
+def test_further_cracks_go_where_there_is_room(session):
+    for _ in range(3):
+        there = fields_of(session)[0].get("further_cracks", [])
+        edit(session, {"further_cracks": [*there, item(session.case, "si", "further_cracks")]})
+        assert not draft_of(session).errors
+    assert [each.elevation for each in session.case.further_cracks] == [90.0, 45.0, 22.5]
+
+
+def test_every_crack_is_drawn_and_moved(session):
+    case = example("two-cracks")
+    drawn = drawing(case, "si")
+    lines = {each["kind"]: each["points"] for each in drawn["lines"]}
+    assert lines["crack"] == [[0.0, 0.0], [80.0, 0.0]]
+    assert lines["further-crack"] == [[0.0, 90.0], [8.0, 90.0]]
+    assert sum(each["kind"] == "uplift" for each in drawn["shapes"]) == 2
+    (handle,) = [each for each in handles(case, "si") if each.name == "further crack 1"]
+    assert handle.at == pytest.approx((2.8, 90.0))
+    changed = moved(case, "si", "further crack 1", {"z": 60.2})
+    assert changed["further_cracks"][0]["elevation"] == "60 m"
+    assert case.with_(changed).further_cracks[0].elevation == 60.0
+    # Elevations count from the lowest point of the section.
+    edit(session, {"section": {"polygon": [["0 m", "5 m"], ["80 m", "5 m"], ["0 m", "105 m"]]}})
+    edit(session, {"further_cracks": [{"elevation": "50 m"}]})
+    (handle,) = [each for each in handles(session.case, "si") if each.name == "further crack 1"]
+    assert handle.at == pytest.approx((14.0, 55.0))
+    assert moved(session.case, "si", handle.name, {"z": 65.0})["further_cracks"][0]["elevation"] == "60 m"
+
+
+def test_an_aftershock_has_all_that_a_motion_has(session):
+    edit(session, {"aftershocks": [item(session.case, "si", "aftershocks")]})
+    assert not draft_of(session).errors
+    given = {
+        "points": [["0", "0.1"], ["1", "0"]],
+        "vertical": {"points": [["0", "0.1"], ["1", "0"]], "pga": "0.2"},
+        "processing": [{"step": "cut", "low": "1"}],
+        "pause": "12",
+    }
+    (found,) = typed([given], field_of("aftershocks"), "si")
+    assert found["points"] == [["0 s", "0.1 g"], ["1 s", "0 g"]]
+    assert found["vertical"] == {"points": [["0 s", "0.1 g"], ["1 s", "0 g"]], "pga": "0.2 g"}
+    assert found["pause"] == "12 s"
+    cells = field_of("aftershocks").inner[2].inner
+    assert [each.label for each in cells] == ["Time", "Acceleration"]
+    back(session)
+    assert not session.case.aftershocks
+
+
+def test_every_list_begins_with_something_sound(session):
+    for path in ("anchors", "statics.sections", "further_cracks", "aftershocks"):
+        edit(session, {path: [item(session.case, "si", path)]})
+        assert not draft_of(session).errors, path
+        back(session)
