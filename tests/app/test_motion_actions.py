@@ -28,7 +28,7 @@ def tab(tmp_path):
     ):
         session = socket.receive_json()["session"]
 
-        def ask(what, **fields):
+        def ask(what, /, **fields):
             """Return the answer; nobody is told what its files are called here."""
             ask.serial += 1
             socket.send_json({"do": what, "serial": ask.serial, **fields})
@@ -81,3 +81,30 @@ def test_a_motion_that_cannot_be_read_changes_nothing(tab):
     way = {**FORM["horizontal"], "unit": "parsec"}
     assert tab("use motion", form={**FORM, "horizontal": way})["error"]["field"] == "motion.unit"
     assert tab("case")["fields"] == before
+
+
+def test_aftershocks_are_added_moved_and_removed(tab):
+    first = tab("motion")["motions"][0]["title"]
+    assert tab("use motion", form=FORM, to=1)["place"] == 1
+    told = tab("motion", place=1)
+    assert [each["title"] for each in told["motions"]] == [first, CALLED]
+    assert told["form"]["horizontal"]["title"] == CALLED
+    assert tab("change motions", what="pause", place=1, pause="12").get("error") is None
+    assert tab("case")["fields"]["aftershocks"] == [{"file": CALLED, "unit": "g", "pause": "12 s"}]
+    tab("change motions", what="up", place=1)
+    assert tab("case")["fields"]["motion"] == {"file": CALLED, "unit": "g"}
+    # Its own source is the one that is looked at, wherever it goes.
+    tab("use motion", form={"horizontal": {"source": "case", "pga": "0.2", "unit": "g"}, "vertical": {}}, place=0, to=2)
+    assert tab("case")["fields"]["aftershocks"][1] == {"file": CALLED, "unit": "g", "pga": "0.2 g"}
+    assert tab("change motions", what="pause", place=1, pause="long")["error"]["field"] == "aftershocks[0].pause"
+    assert "long" in tab("motion")["motions"][1]["wrong"]
+    tab("change motions", what="pause", place=1, pause="")
+    for what, place in (("remove", 2), ("remove", 1)):
+        tab("change motions", what=what, place=place)
+    assert "aftershocks" not in tab("case")["fields"]
+    for asked in (
+        {"what": "remove", "place": 0}, {"what": "up", "place": 0}, {"what": "down", "place": 0},
+        {"what": "pause", "place": 0, "pause": "1"}, {"what": "x", "place": 0}, {"what": "up", "place": "1"},
+    ):  # fmt: skip
+        assert tab("change motions", **asked)["of"] == "bad request"
+    assert tab("use motion", form=FORM, to=2)["of"] == "bad request"

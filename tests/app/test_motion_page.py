@@ -177,6 +177,31 @@ def test_keys_alone(motion):
     says(motion, "#motion-used", "shaken")
 
 
+def test_a_sequence_is_made_ordered_and_taken_apart(motion, picture):
+    motion.fill("#horizontal-pga", "0.2 g")
+    says(motion, FACTS, "0.2 g")
+    motion.click("text=Add as an aftershock")
+    motion.wait_for_selector("text=Use as motion 2")
+    assert motion.locator(".motions li").count() == 2
+    motion.fill("[aria-label='Pause before motion 2']", "soon")
+    motion.keyboard.press("Tab")
+    says(motion, ".motions li:nth-child(2) .wrong", "soon")
+    motion.fill("[aria-label='Pause before motion 2']", "20")
+    motion.keyboard.press("Tab")
+    motion.wait_for_function("() => document.querySelector('[data-does=\"pause 1\"]').value === '20 s'")
+    picture(motion, "motion-sequence")
+    # By keys: the focus goes with the motion.
+    motion.focus("[aria-label='Move motion 2 up']")
+    motion.keyboard.press("Enter")
+    motion.wait_for_selector("text=Use as motion 1")
+    says(motion, ".motions .chosen", "0.2 g")
+    motion.focus("[aria-label='Remove motion 2']")
+    motion.keyboard.press("Enter")
+    motion.wait_for_selector(".motions", state="hidden")
+    motion.wait_for_selector("text=Use in this case")
+    assert motion.input_value("#horizontal-pga") == "0.2 g"
+
+
 def test_looks(motion, places, heard_well):
     for page in places("motion"):
         page.wait_for_selector(f"{FACTS} >> text=PGA")

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import PurePath
 from typing import Any
 
 from heeltoe.app.actions import Asked, BadRequestError, Desk, Entry, text
+from heeltoe.app.motion.sequence import MOST
 from heeltoe.app.sessions import Session
 from heeltoe.app.uploads import forget, upload_path
 from heeltoe.app.workers import WorkerLostError
@@ -19,13 +21,27 @@ common format."
 
 async def begin(desk: Desk, asked: Asked) -> dict[str, Any]:
     """Return what the page begins with: what can be chosen, and what the case has."""
-    return {"of": "motion", **await desk.workers.quick(_begin, desk.session)}
+    return {"of": "motion", **await desk.workers.quick(_begin, desk.session, _place(asked))}
 
 
-def _begin(session: Session) -> dict[str, Any]:
+def _begin(session: Session, place: int) -> dict[str, Any]:
+    from heeltoe.app.case.draft import fields_of
     from heeltoe.app.motion.draft import form_of
+    from heeltoe.app.motion.sequence import listed
 
-    return {"form": form_of(session), "records": _records(session), "catalogue": _catalogue()}
+    fields, errors = fields_of(session)
+    motions = listed(fields, {each.field: f"{plain(each.problem)}; {plain(each.remedy)}" for each in errors})
+    place = min(place, max(len(motions) - 1, 0))
+    told = {"motions": motions, "most": MOST, "place": place, "form": form_of(session, place)}
+    return told | {"records": _records(session), "catalogue": _catalogue()}
+
+
+def _place(asked: Asked, name: str = "place") -> int:
+    """Return which motion of the case a page means."""
+    place = asked.get(name, 0)
+    if isinstance(place, bool) or not isinstance(place, int) or not 0 <= place < MOST:
+        raise BadRequestError(f"{name} is that of a motion of the case")
+    return place
 
 
 def _records(session: Session) -> list[dict[str, Any]]:
@@ -81,30 +97,81 @@ async def look(desk: Desk, asked: Asked) -> dict[str, Any]:
 
 
 async def use(desk: Desk, asked: Asked) -> dict[str, Any]:
-    """Shake the case of the tab by what stands on the page."""
+    """Shake the case of the tab by what stands on the page: at the place of one of its motions, or after all."""
     from heeltoe.app.motion.look import refusal
+    from heeltoe.app.motion.sequence import listed, with_one
+
+    session, place, to = desk.session, _place(asked), _place(asked, "to")
+    found = await _read(desk, asked, refusal)
+    if found:
+        return {"of": "motion used", **found}
+
+    def changes(fields: dict[str, Any]) -> dict[str, Any]:
+        if to > min(len(listed(fields)), MOST - 1):
+            raise BadRequestError("to is the place of a motion, or that after all")
+        return with_one(fields, to, _motion(session, asked["form"], place))
+
+    return {**await _changed(desk, changes), "place": to}
+
+
+async def change(desk: Desk, asked: Asked) -> dict[str, Any]:
+    """Change the list of the case's motions: move one, remove one, or say the pause before it."""
+    from heeltoe.app.case.fields import field_of
+    from heeltoe.app.case.typed import typed
+    from heeltoe.app.motion.sequence import listed, moved, paused, without
+
+    session, place, what = desk.session, _place(asked), asked.get("what")
+
+    def changes(fields: dict[str, Any]) -> dict[str, Any]:
+        count = len(listed(fields))
+        by = {"up": -1, "down": 1}.get(str(what), 0)
+        if not 0 <= place + by < count or not place < count or (what == "pause" and place == 0):
+            raise BadRequestError("there is no such motion")
+        if by:
+            return moved(fields, place, by)
+        if what == "remove" and count > 1:
+            return without(fields, place)
+        field = field_of("aftershocks[].pause")
+        if what == "pause" and field is not None:
+            return paused(fields, place, typed(text(asked, "pause"), field, session.units))
+        raise BadRequestError("what is up, down, remove or pause")
+
+    return await _changed(desk, changes)
+
+
+async def _changed(desk: Desk, changes: Callable[[dict[str, Any]], dict[str, Any]]) -> dict[str, Any]:
+    """Change the motions of the case, and return what keeps that from being in force."""
+    from heeltoe.app.case.draft import draft_of, edit, fields_of
+    from heeltoe.app.live import refused
     from heeltoe.app.open_case import state
 
     session = desk.session
-    found = await _read(desk, asked, refusal)
-    if not found:
-        found = await desk.workers.quick(_put, session, asked["form"])
-        await desk.tell(await desk.workers.quick(state, session))
+
+    def changed() -> dict[str, Any]:
+        edit(session, changes(fields_of(session)[0]))
+        return next(map(refused, draft_of(session).errors), {})
+
+    found: dict[str, Any] = await desk.workers.quick(changed)
+    await desk.tell(await desk.workers.quick(state, session))
     return {"of": "motion used", **found}
 
 
-def _put(session: Session, given: object) -> dict[str, Any]:
-    """Put the motion of a form into the case, and return what keeps that from being in force."""
-    from heeltoe.app.case.draft import draft_of, edit
+def _motion(session: Session, given: object, place: int) -> dict[str, Any]:
+    """Return the motion of a form as a file has it."""
     from heeltoe.app.case.files import as_sent
-    from heeltoe.app.live import refused
     from heeltoe.app.motion.draft import motion_fields, read_form
 
-    form, case = read_form(given), session.case
+    form = read_form(given)
     assert form is not None
-    assert case is not None
-    edit(session, as_sent(session, {"motion": motion_fields(form, case, session.sent)}))
-    return next(map(refused, draft_of(session).errors), {})
+    found: dict[str, Any] = as_sent(session, {"motion": motion_fields(form, _had(session, place), session.sent)})
+    return dict(found["motion"])
+
+
+def _had(session: Session, place: int) -> Any:
+    from heeltoe.app.motion.draft import motions_of
+
+    motions = motions_of(session.case)
+    return motions[place] if place < len(motions) else None
 
 
 async def _read(desk: Desk, asked: Asked, compute: Any, *arguments: Any) -> dict[str, Any]:
@@ -116,7 +183,7 @@ async def _read(desk: Desk, asked: Asked, compute: Any, *arguments: Any) -> dict
     if form is None or session.case is None:
         raise BadRequestError("a motion is chosen by the fields of its page")
     try:
-        fields = motion_fields(form, session.case, session.sent)
+        fields = motion_fields(form, _had(session, _place(asked)), session.sent)
     except InputError as error:
         return {"usable": False, "motions": [], **refused(error)}
     read, most = desk.workers.read, desk.settings.longest_reading_s
@@ -133,4 +200,5 @@ ACTIONS = {
     "record": Entry(record),
     "motion look": Entry(look, newest=True),
     "use motion": Entry(use),
+    "change motions": Entry(change),
 }

@@ -16,6 +16,7 @@ from heeltoe.units.parse import parse
 if TYPE_CHECKING:
     from heeltoe.app.sessions import Session
     from heeltoe.case.model import Case
+    from heeltoe.case.motion import Motion
 
 #: What a form is asked for; all are texts but the last.
 _TEXTS = ("source", "channel", "unit", "time_step", "pga", "magnitude", "distance", "seed", "period")
@@ -47,15 +48,21 @@ def _way(given: object) -> dict[str, Any] | None:
     return {**{name: each.strip() for name, each in texts.items()}, "reverse": given.get("reverse") is True}
 
 
-def form_of(session: Session) -> dict[str, Any]:
-    """Return what the page begins with: the motion that the case has, where its sliders are."""
+def motions_of(case: Case | None) -> tuple[Motion, ...]:
+    """Return the motions of a case in their order."""
+    return () if case is None or case.motion is None else (case.motion, *case.aftershocks)
+
+
+def form_of(session: Session, place: int = 0) -> dict[str, Any]:
+    """Return what the page begins with: a motion that the case has, where its sliders are."""
     case = session.case
     if case is not None and session.changes:
         with suppress(InputError):
             case = case.with_(session.changes)
-    motion = None if case is None else case.motion
-    if motion is None:
+    motions = motions_of(case)
+    if place >= len(motions):
         return {"horizontal": {"source": ""}, "vertical": {"source": ""}, "start": "", "end": ""}
+    motion = motions[place]
     fields = motion.model_dump(mode="json", exclude_none=True)
     called = {stored: name for name, stored in session.sent.items()}
     ways = {}
@@ -75,15 +82,16 @@ def _window(fields: Form) -> dict[str, Any]:
     return found
 
 
-def motion_fields(form: Form, case: Case, sent: Mapping[str, str]) -> dict[str, Any]:
-    """Return the motion of a case as its file would have it, with the names that files have here.
+def motion_fields(form: Form, had: Motion | None, sent: Mapping[str, str]) -> dict[str, Any]:
+    """Return a motion of a case as its file would have it, with the names that files have here; `had` is the one in
+    whose place it comes.
 
     Raises
     ------
     InputError
         Where a number is none, or a record was not sent.
     """
-    own = {} if case.motion is None else case.motion.model_dump(mode="json", exclude_unset=True)
+    own = {} if had is None else had.model_dump(mode="json", exclude_unset=True, exclude={"pause"})
     own_vertical = own.pop("vertical", None)
     start, end = _with_unit(form["start"], "s"), _with_unit(form["end"], "s")
     fields = _source(form["horizontal"], own, sent, "motion")
@@ -111,8 +119,10 @@ def _source(way: Form, own: Form, sent: Mapping[str, str], field: str) -> dict[s
     """Return one direction: its source, or that which the case has, with the scale and the sign of the page."""
     source, _, name = way["source"].partition(":")
     if source == _OWN:
-        found = dict(own)
-        found["processing"] = [each for each in found.get("processing", ()) if each["step"] != _WINDOW]
+        steps = [each for each in own.get("processing", ()) if each["step"] != _WINDOW]
+        found = {**own, "processing": steps}
+        if not steps:
+            del found["processing"]
         for key in ("pga", "reverse", *(() if "points" in own else ("unit", "time_step"))):
             found.pop(key, None)
     elif source == "record":

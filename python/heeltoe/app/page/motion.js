@@ -1,5 +1,6 @@
 /** The page "Motion": records that are sent, what is in them, and the motion that shakes the dam. */
 import { element } from "./dom.js";
+import { MotionList, placeAfter } from "./motion/list.js";
 import { drawMotions, shownMotion } from "./motion-plot.js";
 import { Way } from "./motion-way.js";
 
@@ -26,7 +27,19 @@ export function motionPage(talk) {
     element("p", { class: "wrong", "data-of": "", role: "status" }),
   ];
   const cut = element("fieldset", {}, element("legend", {}, "Part of it"), element("div", { class: "in-line" }, element("label", { for: "motion-start" }, "from"), start, element("label", { for: "motion-end" }, "to"), end), element("p", { class: "faint" }, "Seconds; empty for the whole record."), wrong[0], wrong[1]);
-  const use = element("button", { type: "button", class: "main", onclick: () => talk.ask("use motion", { form: form() }) }, "Use in this case");
+  const list = new MotionList(
+    (place) => {
+      list.place = place;
+      talk.ask("motion", { place });
+    },
+    (what, place, pause = "") => {
+      list.place = placeAfter(what, place, list.place, list.count);
+      talk.ask("change motions", { what, place, pause });
+    },
+  );
+  const take = (/** @type {number} */ to) => talk.ask("use motion", { form: form(), place: list.place, to });
+  const use = element("button", { type: "button", class: "main", onclick: () => take(list.place) }, "Use in this case");
+  const more = element("button", { type: "button", onclick: () => take(list.count) }, "Add as an aftershock");
   const used = element("p", { class: "faint", role: "status", id: "motion-used" });
   const shown = element("div", { class: "cards" });
   const curves = element("div", { class: "plot", role: "figure", "aria-label": "Acceleration, velocity, displacement and Husid plot of the motion over time" });
@@ -54,7 +67,7 @@ export function motionPage(talk) {
   }
 
   function look() {
-    if (ways[0].chosen()) talk.ask("motion look", { form: form() });
+    if (ways[0].chosen()) talk.ask("motion look", { form: form(), place: list.place });
     else show({ motions: [], usable: false });
   }
 
@@ -62,6 +75,7 @@ export function motionPage(talk) {
   function show(answer) {
     seen = answer;
     use.toggleAttribute("disabled", !answer.usable);
+    more.toggleAttribute("disabled", !answer.usable || list.count === 0 || list.count >= list.most);
     tell(answer.error);
     shown.replaceChildren(...answer.motions.map(shownMotion));
     redraw();
@@ -95,7 +109,7 @@ export function motionPage(talk) {
         if (!file.size) throw new Error("it is empty");
         const { name } = await talk.upload(file);
         const answer = await new Promise((done) => heard.set(talk.ask("record", { file: name, called: file.name }), done));
-        take(answer, line);
+        taken(answer, line);
       } catch (error) {
         line.className = "bad";
         line.textContent = `${file.name}: ${/** @type {Error} */ (error).message}`;
@@ -109,7 +123,7 @@ export function motionPage(talk) {
   const heard = new Map();
 
   /** @param {any} answer @param {HTMLElement} line */
-  function take(answer, line) {
+  function taken(answer, line) {
     if (answer.error) {
       line.className = "bad";
       line.textContent = answer.error.text;
@@ -135,20 +149,26 @@ export function motionPage(talk) {
     heard.delete(answer.serial);
     if (done) done(answer);
   });
-  talk.on("state", () => talk.ask("motion"));
-  talk.on("motion", ({ form: given, records, catalogue }) => {
+  talk.on("state", () => talk.ask("motion", { place: list.place }));
+  talk.on("motion", ({ form: given, motions, place, most, records, catalogue }) => {
+    list.show(motions, place, most);
+    use.textContent = list.count > 1 ? `Use as motion ${place + 1}` : "Use in this case";
     for (const way of ways) way.offer({ records, catalogue });
-    if (JSON.stringify(given) !== filled) {
-      filled = JSON.stringify(given);
+    if (JSON.stringify([given, place]) !== filled) {
+      filled = JSON.stringify([given, place]);
       for (const way of ways) way.fill(given[way.name]);
       [start.value, end.value] = [given.start, given.end];
     }
     look();
   });
   talk.on("motion look", show);
-  talk.on("motion used", ({ error }) => {
+  talk.on("motion used", ({ error, place }) => {
     tell(error);
-    used.textContent = error ? "" : "The dam of this case is shaken by it now.";
+    if (place !== undefined && place !== list.place && !error) {
+      list.place = place;
+      talk.ask("motion", { place });
+    }
+    used.textContent = error || place === undefined ? "" : "The dam of this case is shaken by it now.";
   });
 
   return {
@@ -167,7 +187,7 @@ export function motionPage(talk) {
         drop.classList.remove("over");
         send([...(event.dataTransfer ? event.dataTransfer.files : [])]);
       });
-      const controls = element("div", { class: "motion-form" }, drop, ...ways.map((way) => way.root), cut, wrong[2], use, used);
+      const controls = element("div", { class: "motion-form" }, drop, list.root, ...ways.map((way) => way.root), cut, wrong[2], use, more, used);
       root.append(element("div", { class: "answer" }, controls, element("div", {}, shown, curves, spectrum)));
       return redraw;
     },
