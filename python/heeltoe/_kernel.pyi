@@ -157,6 +157,7 @@ def spectrum(time: Floats, ground: Floats, periods: Floats, damping: float) -> F
 CRACK_SUMMARY_FIELDS: Final[list[str]]
 FRAME_FIELDS: Final[list[str]]
 EXTREME_FIELDS: Final[list[str]]
+WORKED_FIELDS: Final[list[str]]
 CRACK_OUTCOMES: Final[list[str]]
 CRACK_STATES: Final[list[str]]
 CONTACT_STATUSES: Final[list[str]]
@@ -222,6 +223,8 @@ class CrackLine(Protocol):
     def lower(self) -> tuple[int, int]: ...
     @property
     def friction(self) -> tuple[float, float]: ...
+    @property
+    def law(self) -> FrictionLaw | None: ...
     @property
     def give(self) -> tuple[float, float]: ...
 
@@ -304,12 +307,13 @@ class CrackedDam:
 
         Returns
         -------
-        summary, frames, upper, lower, force, status, modes of the upper and the lower part, extremes of both
+        summary, frames, upper, lower, force, status, modes of the upper and the lower part, extremes of both, worked
             For each crack ``CRACK_SUMMARY_FIELDS`` and the largest tension [N] of each anchor; for each crack of each
             frame ``FRAME_FIELDS``. Then tables with one row for each frame: positions of the crack nodes of either
             part (all along their cracks, then all across them) [m], mean forces on those of the upper part, and with
             several cracks of the lower one, since the frame before [N], statuses of the watched nodes, amplitudes.
-            Extremes are tables of ``EXTREME_FIELDS`` with one row for each place.
+            Extremes are tables of ``EXTREME_FIELDS`` with one row for each place. `worked` has ``WORKED_FIELDS`` of
+            each watched node of a crack with a law.
         """
 
     def run_many(

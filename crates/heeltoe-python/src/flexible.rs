@@ -2,12 +2,13 @@
 
 use heeltoe::flexible::{
     many, simulate, Dam, Extreme, FaceAnchor, Give, Inside, Line, Modes, Penalty, Point, Scheme, Shaking,
-    Sides, Span, Stressed, Stresses, Summary, Wanted,
+    Sides, Span, Stressed, Stresses, Summary, Wanted, Worked,
 };
 use heeltoe::inside::Law;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods};
 use pyo3::prelude::*;
 
+use crate::law::FrictionLaw;
 use crate::tables::{named, pool, rows, shaped, wrong, Numbers};
 use crate::watch::{watched, Ending};
 
@@ -101,19 +102,21 @@ impl CrackAnchor {
 
 /// A crack as Python gives it.
 #[derive(FromPyObject)]
-pub struct CrackLine {
+pub struct CrackLine<'py> {
     upper: (usize, usize),
     lower: (usize, usize),
     friction: [f64; 2],
+    law: Option<Bound<'py, FrictionLaw>>,
     give: (f64, f64),
 }
 
-impl CrackLine {
+impl CrackLine<'_> {
     fn line(&self) -> Line {
         let span = |(first, count): (usize, usize)| Span { first, count };
         Line {
             nodes: [span(self.upper), span(self.lower)],
             friction: self.friction,
+            law: self.law.as_ref().map(|law| law.get().0.clone()),
             give: Give {
                 rotation: self.give.0,
                 gap: self.give.1,
@@ -139,6 +142,7 @@ type Run<'py> = (
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<u8>>,
+    Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<f64>>,
@@ -189,6 +193,9 @@ impl CrackedDam {
         if self.dam.cracks.len() > 1 {
             return Err(wrong("the penalty method knows one crack"));
         }
+        if self.dam.cracks.iter().any(|line| line.law.is_some()) {
+            return Err(wrong("the penalty method knows constant friction"));
+        }
         if self.dam.bodies.upper.dampers() > 0 {
             return Err(wrong("the penalty method has no dashpots between the modes"));
         }
@@ -209,7 +216,7 @@ impl CrackedDam {
         py: Python<'_>,
         upper: ReducedBody,
         lower: Option<ReducedBody>,
-        cracks: Vec<CrackLine>,
+        cracks: Vec<CrackLine<'_>>,
         contactors: u8,
         water: Option<FollowingWater>,
         anchors: Vec<CrackAnchor>,
@@ -295,6 +302,7 @@ impl CrackedDam {
             shaped(py, frames.modes_lower, count)?,
             table(extremes.upper)?,
             table(extremes.lower.unwrap_or_default())?,
+            crate::tables::table(py, run.worked.iter().map(Worked::row)),
         ))
     }
 

@@ -72,6 +72,7 @@ mod _kernel {
         m.add("OUTCOMES", Outcome::NAMES.to_vec())?;
         m.add("CRACK_SUMMARY_FIELDS", elastic::Summary::FIELDS.to_vec())?;
         m.add("FRAME_FIELDS", Frames::FIELDS.to_vec())?;
+        m.add("WORKED_FIELDS", elastic::Worked::FIELDS.to_vec())?;
         m.add("EXTREME_FIELDS", elastic::Extreme::FIELDS.to_vec())?;
         m.add("CRACK_OUTCOMES", elastic::Outcome::NAMES.to_vec())?;
         m.add("CRACK_STATES", State::NAMES.to_vec())?;

@@ -155,7 +155,7 @@ impl Law {
     }
 
     /// Cohesion at rest and sliding (Pa).
-    fn bond(&self, worn: Worn) -> [f64; 2] {
+    pub(crate) fn bond(&self, worn: Worn) -> [f64; 2] {
         let LawNumbers { cohesion, loss, .. } = self.numbers;
         if !worn.bonded || cohesion == 0.0 {
             return [0.0; 2];

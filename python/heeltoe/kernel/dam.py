@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from heeltoe import _kernel
 from heeltoe.arrays import Floats
 from heeltoe.kernel.columns import columns
+from heeltoe.kernel.friction import FrictionLaw
 
 if TYPE_CHECKING:
     from heeltoe._kernel import CrackAnchor, FollowingWater, ReducedBody, StressRows
@@ -36,12 +37,15 @@ class CrackLine:
         Coefficients at rest and sliding.
     give
         Rotation [rad] and gap [m] of the faces that elastic deformation alone accounts for.
+    law
+        A friction law in place of the coefficients.
     """
 
     upper: tuple[int, int]
     lower: tuple[int, int]
     friction: tuple[float, float]
     give: tuple[float, float] = (0.0, 0.0)
+    law: FrictionLaw | None = None
 
 
 def only_crack(
@@ -49,10 +53,11 @@ def only_crack(
     lower: ReducedBody | None,
     friction: tuple[float, float],
     give: tuple[float, float] = (0.0, 0.0),
+    law: FrictionLaw | None = None,
 ) -> tuple[CrackLine, ...]:
     """Return the crack between two parts that have no other."""
     above, below = (0 if part is None else part.position.size // 2 for part in (upper, lower))
-    return (CrackLine((0, above), (0, below), friction, give),)
+    return (CrackLine((0, above), (0, below), friction, give, law),)
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,6 +86,10 @@ class DamRun:
     extremes
         Of the stresses of each part, columns (p,) by name: largest principal stress, when, and the stress then; least
         principal stress, and when. Empty where none are wanted.
+    worked
+        What the watched nodes of cracks with a law have been through, columns (n,) by name: number of the crack, its
+        length that is theirs [m], path slipped [m] and whether the bond is whole, both before the earthquake, and the
+        normal force then [N]. Without a law they are empty.
     """
 
     summary: Mapping[str, float]
@@ -94,6 +103,7 @@ class DamRun:
     status: NDArray[np.uint8]
     modes: tuple[Floats, Floats]
     extremes: tuple[Mapping[str, Floats], ...]
+    worked: Mapping[str, Floats]
 
     @property
     def outcome(self) -> str:
@@ -202,7 +212,7 @@ class CrackedDam:
         ending
             What may end the run from another thread.
         """
-        table, frames, upper, lower, force, status, above, below, *extremes = self._dam.run(
+        table, frames, upper, lower, force, status, above, below, *extremes, worked = self._dam.run(
             ground, step, theta, stride, stride > 0, stresses, penalty, ending
         )
         names, rows = _kernel.CRACK_SUMMARY_FIELDS, table.tolist()
@@ -221,6 +231,7 @@ class CrackedDam:
             status=status,
             modes=(above, below),
             extremes=tuple(columns(_kernel.EXTREME_FIELDS, each) for each in extremes if each.size),
+            worked=columns(_kernel.WORKED_FIELDS, worked),
         )
 
     def run_many(

@@ -33,7 +33,7 @@ pub(super) struct Contactor {
     pub of_upper: bool,
     /// Whether it counts at the very end of the other face. Where the ends of both faces are watched and meet, one of
     /// them must not, or the same constraint would be there twice.
-    closed: bool,
+    pub closed: bool,
     segment: usize,
 }
 

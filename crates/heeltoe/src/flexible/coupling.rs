@@ -15,6 +15,7 @@ use super::body::Group;
 use super::contact::{Contacts, Pair};
 use super::coulomb::{Problem, Report, Solver};
 use super::dam::Dam;
+use super::law::Laws;
 use super::sides::{Faces, Place, Sides};
 use super::status::Status;
 
@@ -27,6 +28,8 @@ pub(super) struct Crack {
     /// Velocities before the step, and whether the contact was closed.
     pub before: Vec<f64>,
     pub closed: Vec<bool>,
+    /// What contacts of cracks with a law have been through.
+    pub laws: Option<Laws>,
     /// Coefficients of friction of each contact that sticks, and that slips.
     friction: Vec<[f64; 2]>,
     /// State of damping that the answers belong to.
@@ -51,11 +54,13 @@ impl Crack {
                 mu_stick: friction.iter().map(|mu| mu[0]).collect(),
                 mu_slip: friction.iter().map(|mu| mu[1]).collect(),
                 scale: vec![0.0; 2 * m],
+                added: Vec::new(),
             },
             solver: Solver::new(m),
             blocks: Blocks::new(m, dampers),
             before: vec![0.0; 2 * m],
             closed: vec![true; m],
+            laws: Laws::new(dam, &contacts),
             contacts,
             damping: None,
             friction,
@@ -100,6 +105,14 @@ impl Crack {
                 _ => {}
             }
             *mu = friction[usize::from(status.slips())];
+        }
+    }
+
+    /// Let contacts with a law bear in a step of this length what they do as it begins.
+    #[inline(always)]
+    pub(super) fn bear(&mut self, dt: f64) {
+        if let Some(laws) = &mut self.laws {
+            laws.set_up(&mut self.problem, &mut self.solver, &self.before, dt);
         }
     }
 

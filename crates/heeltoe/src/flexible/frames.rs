@@ -64,8 +64,8 @@ impl Frames {
 pub(super) struct Since {
     /// On the nodes of the upper body and, with several cracks, of the lower one.
     nodes: Vec<f64>,
-    /// Of each crack, along and across it.
-    sums: Vec<[f64; 2]>,
+    /// Of each crack, along and across it, and what it could bear by its law.
+    sums: Vec<[f64; 3]>,
     time: f64,
 }
 
@@ -75,25 +75,25 @@ impl Since {
         let bodies = if dam.cracks.len() == 1 { 1 } else { 2 };
         Since {
             nodes: vec![0.0; dam.bodies.iter().take(bodies).map(ReducedBody::columns).sum()],
-            sums: vec![[0.0; 2]; dam.cracks.len()],
+            sums: vec![[0.0; 3]; dam.cracks.len()],
             time: 0.0,
         }
     }
 
     /// Add the impulses on the nodes of both bodies, and the sums of each crack.
     #[inline(always)]
-    pub(super) fn add(&mut self, nodes: Faces, sums: impl Iterator<Item = [f64; 2]>, dt: f64) {
+    pub(super) fn add(&mut self, nodes: Faces, sums: impl Iterator<Item = [f64; 3]>, dt: f64) {
         for (total, p) in self.nodes.iter_mut().zip(nodes.upper.iter().chain(nodes.lower)) {
             *total += p;
         }
         for (total, sum) in self.sums.iter_mut().zip(sums) {
-            *total = [total[0] + sum[0], total[1] + sum[1]];
+            *total = [0, 1, 2].map(|k| total[k] + sum[k]);
         }
         self.time += dt;
     }
 
-    /// Mean force along and across a crack.
-    pub(super) fn force(&self, crack: usize) -> [f64; 2] {
+    /// Mean force along and across a crack, and mean of what it could bear by its law.
+    pub(super) fn force(&self, crack: usize) -> [f64; 3] {
         self.sums[crack].map(|sum| sum * self.rate())
     }
 
@@ -108,7 +108,7 @@ impl Since {
 
     pub(super) fn clear(&mut self) {
         self.nodes.fill(0.0);
-        self.sums.fill([0.0; 2]);
+        self.sums.fill([0.0; 3]);
         self.time = 0.0;
     }
 }
@@ -117,8 +117,8 @@ impl Since {
 pub(super) struct Snapshot<'a> {
     pub status: &'a [Status],
     pub motion: &'a Motion,
-    /// Mean force along and across it since the frame before.
-    pub force: [f64; 2],
+    /// Mean force along and across it since the frame before, and mean of what it could bear by its law.
+    pub force: [f64; 3],
     pub summary: &'a Summary,
     pub ledger: &'a Ledger,
 }
@@ -140,6 +140,8 @@ columns!(Snapshot<'_>, now => {
     "energy_impact": now.ledger.impact,
     "energy_friction": now.ledger.friction,
     "energy_numerical": now.ledger.numerical,
+    "slip_path": now.summary.slip_path,
+    "friction_strength": now.force[2],
 });
 
 impl Snapshot<'_> {

@@ -3,6 +3,7 @@
 use super::coulomb::Report;
 use super::envelope::Extreme;
 use super::frames::Frames;
+use super::law::Worked;
 use super::ledger::Ledger;
 use super::observe::State;
 use super::sides::Sides;
@@ -29,6 +30,8 @@ pub struct Run {
     pub cracks: Vec<Summary>,
     /// States at equal distances in time, if they were asked for.
     pub frames: Frames,
+    /// What the contacts of cracks with a law have been through.
+    pub worked: Vec<Worked>,
     /// Extremes of the stresses at each place of both bodies, if they were asked for.
     pub extremes: Option<Sides<Vec<Extreme>>>,
 }
@@ -48,6 +51,10 @@ pub struct Summary {
     pub slip_min: f64,
     /// In the last step (m/s).
     pub slip_velocity: f64,
+    /// Mean of the paths (m) that its contacts have slipped, to and fro; of a crack with a law.
+    pub slip_path: f64,
+    /// Work (J) that broke its bond.
+    pub bond_energy: f64,
     /// Largest rotation of the chord of the upper face against that of the lower one, positive counter-clockwise.
     pub rotation_max: f64,
     /// Least rotation.
@@ -130,6 +137,8 @@ columns!(Summary, s => {
     "final_state": f64::from(s.final_state as u8),
     "crack_friction": s.lost[0],
     "crack_impact": s.lost[1],
+    "slip_path": s.slip_path,
+    "bond_energy": s.bond_energy,
 });
 
 impl Run {

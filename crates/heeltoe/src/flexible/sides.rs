@@ -14,6 +14,7 @@
 
 use super::dam::Dam;
 use super::stance::Give;
+use crate::friction::Law;
 
 /// Of the part above the crack, and of the part below it.
 #[derive(Clone, Copy, Debug, Default)]
@@ -80,12 +81,14 @@ pub struct Span {
 }
 
 /// A crack.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Line {
     /// Nodes of its upper and of its lower face, among those of the bodies they belong to; no lower ones on a rigid plane.
     pub nodes: [Span; 2],
     /// Coefficients of friction of a node that sticks and of one that slips.
     pub friction: [f64; 2],
+    /// A friction law in their place.
+    pub law: Option<Law>,
     /// What tells rocking and drifting from elastic deformation.
     pub give: Give,
 }
@@ -96,6 +99,7 @@ impl Line {
         Line {
             nodes: nodes.map(|count| Span { first: 0, count }),
             friction,
+            law: None,
             give,
         }
     }

@@ -12,9 +12,11 @@
 use std::ops::Range;
 
 use super::body::{Group, ReducedBody};
-use super::coulomb::Known;
+use super::coulomb::{Known, Report};
 use super::coupling::{Answer, Crack};
 use super::dam::Dam;
+use super::law::Worked;
+use super::moving::TimeStep;
 use super::observe::mean_along;
 use super::sides::{Place, Sides};
 use super::status::Status;
@@ -24,6 +26,8 @@ use crate::stop::Stop;
 /// What holds a free part, as a share of the smallest squared frequency.
 const HOLD: f64 = 1e-2;
 const STEPS: usize = 3000;
+/// Motions stand for velocities, forces for impulses.
+const ONE: TimeStep = TimeStep { dt: 1.0, theta: 1.0 };
 /// Six steps in turn that move the crack by less than this share of its static deformation have done all they can: each
 /// leaves a hundredth of the one before at most, and rounding leaves some 1e-11.
 const NOTHING: f64 = 1e-8;
@@ -40,6 +44,8 @@ pub struct Still {
     /// Force and state of each contact.
     pub(super) contact: Vec<f64>,
     pub(super) status: Vec<Status>,
+    /// What contacts of cracks with a law have been through.
+    pub(super) worked: Vec<Worked>,
     /// By how much each crack has slipped since it was bonded, from the crest down.
     pub slip: Vec<f64>,
     /// Number of contacts of each that are open.
@@ -193,7 +199,19 @@ fn step(dam: &Dam, crack: &mut Crack, sides: &mut Sides<Side>) {
     crack.contacts.relative(free, &mut crack.problem.b);
     crack.problem.h.copy_from_slice(&crack.contacts.gaps);
     crack.set_up();
-    crack.solver.solve::<Plain>(&mut crack.problem, &mut Known);
+    crack.bear(ONE.dt);
+    let mut report = Report::default();
+    loop {
+        report.go_on(crack.solver.solve::<Plain>(&mut crack.problem, &mut Known));
+        let (problem, solver) = (&mut crack.problem, &mut crack.solver);
+        let met = crack
+            .laws
+            .as_mut()
+            .is_none_or(|laws| laws.met(problem, solver, &crack.before, ONE, &mut report));
+        if met {
+            break;
+        }
+    }
     let (upper, lower) = sides.both_mut(|side| &mut side.force);
     crack.impulses(upper, lower);
 }
@@ -256,5 +274,6 @@ fn still(places: &[Place], sides: &Sides<Side>, crack: Crack, bonded: &[f64]) ->
         force: both(&|side| side.force.clone()),
         status,
         contact: crack.solver.p,
+        worked: crack.laws.map_or_else(Vec::new, |laws| laws.contacts),
     }
 }

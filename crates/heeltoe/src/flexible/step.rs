@@ -21,6 +21,7 @@
 use super::acting::Acting;
 use super::answering::FacesAnswer;
 use super::body::dot;
+use super::coulomb::Report;
 use super::dam::{Dam, Shaking, Wanted};
 use super::dampers::Dampers;
 use super::ledger::Ledger;
@@ -133,6 +134,9 @@ impl<'a> Moreau<'a> {
         let mut walk = Walk::new(dam, dt, wanted, faces);
         if let Some(still) = still {
             walk.crack.solver.status.copy_from_slice(&still.status);
+            if let Some(laws) = &mut walk.crack.laws {
+                laws.begin_at(&still.worked, &still.contact);
+            }
         }
         Moreau {
             walk,
@@ -198,6 +202,7 @@ impl<'a> Moreau<'a> {
             *h = (gap.max(0.0) / dt).max(back * approach);
         }
         crack.set_up();
+        crack.bear(dt);
     }
 
     /// Let what is in the crack beside contact push the nodes of both faces.
@@ -272,7 +277,18 @@ impl<'a> Moreau<'a> {
                     damping: self.drive.damping,
                     softness,
                 };
-                crack.solver.solve::<W>(&mut crack.problem, &mut faces)
+                let mut report = Report::default();
+                loop {
+                    report.go_on(crack.solver.solve::<W>(&mut crack.problem, &mut faces));
+                    let (problem, solver) = (&mut crack.problem, &mut crack.solver);
+                    let met = crack
+                        .laws
+                        .as_mut()
+                        .is_none_or(|laws| laws.met(problem, solver, &crack.before, self.step, &mut report));
+                    if met {
+                        break report;
+                    }
+                }
             }
         };
         self.walk.steps.note(report);

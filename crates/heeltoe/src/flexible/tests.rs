@@ -43,6 +43,7 @@ fn random(dice: &mut Dice, contacts: usize, coupling: f64, mu: f64) -> Problem {
         h: (0..contacts).map(|_| dice.roll().max(0.0)).collect(),
         mu_stick: vec![mu; contacts],
         mu_slip: vec![mu; contacts],
+        added: Vec::new(),
     }
 }
 
@@ -111,6 +112,7 @@ fn single(b: [f64; 2], mu: f64) -> (Status, Vec<f64>, Report) {
         h: vec![0.0],
         mu_stick: vec![mu],
         mu_slip: vec![mu],
+        added: Vec::new(),
     };
     let mut solver = Solver::new(1);
     let report = solver.solve::<Plain>(&mut problem, &mut Known);
@@ -154,6 +156,7 @@ fn pivoting_keeps_the_order_of_the_unknowns() {
         h: vec![0.0; 2],
         mu_stick: vec![10.0; 2],
         mu_slip: vec![10.0; 2],
+        added: Vec::new(),
     };
     let mut solver = Solver::new(2);
     let report = solver.solve::<Plain>(&mut problem, &mut Known);

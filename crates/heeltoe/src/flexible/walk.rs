@@ -166,6 +166,11 @@ impl<'a> Walk<'a> {
             let [_, normal] = self.crack.sums(watch.contacts.clone());
             watch.book(end, self.dt, position, &self.crack, normal / time);
         }
+        if let Some(laws) = &self.crack.laws {
+            for (k, watch) in self.cracks.iter_mut().enumerate() {
+                (watch.summary.slip_path, watch.summary.bond_energy) = (laws.path(k), laws.sums[k][0]);
+            }
+        }
     }
 
     /// Add the impulses of a step, on the nodes of both bodies, to those since the last frame; what the contact problem
@@ -173,8 +178,13 @@ impl<'a> Walk<'a> {
     #[inline(always)]
     pub(super) fn gather(&mut self, nodes: Faces, factor: f64) {
         let crack = &self.crack;
-        let sum = |watch: &Watch| crack.sums(watch.contacts.clone()).map(|sum| sum * factor);
-        self.since.add(nodes, self.cracks.iter().map(sum), self.dt);
+        let sum = |(k, watch): (usize, &Watch)| {
+            let [along, across] = crack.sums(watch.contacts.clone()).map(|sum| sum * factor);
+            let borne = crack.laws.as_ref().map_or(0.0, |laws| laws.sums[k][1] * self.dt);
+            [along, across, borne]
+        };
+        self.since
+            .add(nodes, self.cracks.iter().enumerate().map(sum), self.dt);
     }
 
     /// Keep a frame.
@@ -243,6 +253,7 @@ impl<'a> Walk<'a> {
         Run {
             cracks: self.cracks.into_iter().map(told).collect(),
             frames: self.frames,
+            worked: self.crack.laws.map_or_else(Vec::new, |laws| laws.contacts),
             extremes: self.envelope.map(Envelope::end),
         }
     }

@@ -15,6 +15,7 @@ from heeltoe.geometry.axes import along_and_across, places
 from heeltoe.geometry.section import CutSection
 from heeltoe.kept import Kept
 from heeltoe.kernel.dam import CrackedDam, CrackLine
+from heeltoe.mechanics.friction import law_of
 from heeltoe.models.flexible.bonded import NOT_OF_DAM, BondedDam, bonded_dam, told
 from heeltoe.models.flexible.damping import Damping, damping_of
 from heeltoe.models.flexible.elastic import Body
@@ -217,8 +218,9 @@ def _lines(case: Case, bonded: BondedDam) -> tuple[CrackLine, ...]:
         above, below = bonded.bodies[place].mesh, bonded.below(place)
         upper = firsts[place] + above.top, above.crack.size - above.top
         lower = (0, 0) if below is None else (firsts[place + 1], below.mesh.faces[0].size)
-        friction = alone.crack.mu_static, alone.crack.mu_kinetic
-        found.append(CrackLine(upper, lower, friction, elastic_give(alone, alone.cut, force)))
+        friction, law = (alone.crack.mu_static, alone.crack.mu_kinetic), alone.crack.law
+        give = elastic_give(alone, alone.cut, force)
+        found.append(CrackLine(upper, lower, friction, give, None if law is None else law_of(law)))
     return tuple(found)
 
 

@@ -4,7 +4,7 @@
 //! it; in the rows of the unknowns
 //!
 //! ```text
-//! G p = -b,      b_n + h for b across the crack,      p_t = -sign(u_t) mu p_n where it slips.
+//! G p = -b,      b_n + h for b across the crack,      p_t = -sign(u_t) (mu p_n + c) where it slips.
 //! ```
 //!
 //! The matrix is factored, `P G = L U`, column by column, with row pivoting.
@@ -118,6 +118,7 @@ impl Factors {
             let room = if k < m { 0.0 } else { problem.h[k - m] };
             self.x.push(-problem.b[k] - room);
         }
+        self.add(problem);
         self.used += 1;
         if self.used == INVERT_AFTER {
             self.invert::<W>();
@@ -136,6 +137,25 @@ impl Factors {
         }
         for &(contact, factor) in &self.slips {
             p[contact] = factor * p[m + contact];
+            if !problem.added.is_empty() {
+                p[contact] -= self.of[contact].sign() * problem.added(contact, true);
+            }
+        }
+    }
+
+    /// Let the unknowns feel what the contacts that slip bear beside friction.
+    #[inline(always)]
+    fn add(&mut self, problem: &Problem) {
+        if problem.added.is_empty() {
+            return;
+        }
+        let size = problem.b.len();
+        for &(contact, _) in &self.slips {
+            let added = self.of[contact].sign() * problem.added(contact, true);
+            let felt = &problem.g[contact * size..][..size];
+            for (x, &k) in self.x.iter_mut().zip(&self.unknowns) {
+                *x += felt[k] * added;
+            }
         }
     }
 

@@ -6,6 +6,8 @@
 //! u_t = 0 and |p_t| <= mu p_n,  or  p_t = -mu p_n sign(u_t)          (Coulomb)
 //! ```
 //!
+//! with `mu p_n + c` for `mu p_n` where a law adds a constant.
+//!
 //! at all contacts at once. In two dimensions each contact is open, sticking, or slipping one way; the right set of
 //! these states turns the problem into a linear one. The set of the last step is tried first, contacts that break
 //! their conditions change state, and the factors of the last few sets are kept as long as what `G` has for them. So `G`
@@ -29,8 +31,21 @@ pub(super) struct Problem {
     /// Coefficients of friction of each contact up to which it sticks, and with which it slips.
     pub mu_stick: Vec<f64>,
     pub mu_slip: Vec<f64>,
+    /// What each contact bears beside that up to which it sticks, and with which it slips; empty without a law.
+    pub added: Vec<[f64; 2]>,
     /// About what impulse changes the velocity of each component by 1: a scale to measure violations by.
     pub scale: Vec<f64>,
+}
+
+impl Problem {
+    /// What a contact under this normal impulse bears beside friction in proportion to it; nothing without a law.
+    #[inline(always)]
+    fn added(&self, contact: usize, slips: bool) -> f64 {
+        match self.added.get(contact) {
+            None => 0.0,
+            Some(added) => added[usize::from(slips)],
+        }
+    }
 }
 
 /// What the solver asks of the crack.
@@ -66,6 +81,16 @@ pub(super) struct Report {
     /// Largest violation of the conditions, as an impulse, over the impulse that would stop the fastest node, or the
     /// largest impulse if that is more.
     pub residual: f64,
+}
+
+impl Report {
+    /// Count another solution of the same step.
+    #[inline(always)]
+    pub(super) fn go_on(&mut self, found: Report) {
+        self.iterations += found.iterations;
+        self.swept |= found.swept;
+        self.residual = found.residual;
+    }
 }
 
 /// Sets tried with all wrong contacts changed at once, and then with the worst alone, before sweeping.
@@ -173,7 +198,7 @@ impl Solver {
             let (p_t, p_n) = (self.p[contact], self.p[m + contact]);
             let status = self.status[contact];
             let scale = problem.scale[m + contact];
-            let limit = problem.mu_stick[contact] * p_n;
+            let limit = problem.mu_stick[contact] * p_n + problem.added(contact, false);
             let (violation, next) = match status {
                 Status::Open if u_n < -slack_u => (-u_n, Status::Stick),
                 Status::Stick | Status::SlipDownstream | Status::SlipUpstream if p_n < -slack_p => {
@@ -215,29 +240,38 @@ impl Solver {
         least < 0.0
     }
 
+    /// By what impulse a contact breaks its conditions.
+    #[inline(always)]
+    pub(super) fn violation(&self, problem: &Problem, contact: usize) -> f64 {
+        let m = self.status.len();
+        let (p_t, p_n) = (self.p[contact], self.p[m + contact]);
+        let (scale_t, scale_n) = (problem.scale[contact], problem.scale[m + contact]);
+        // The natural map: zero exactly where the conditions hold.
+        let across = p_n
+            .min((self.u[m + contact] + problem.h[contact]) * scale_n)
+            .abs();
+        let sticks = self.status[contact] == Status::Stick;
+        let mu = if sticks {
+            problem.mu_stick[contact]
+        } else {
+            problem.mu_slip[contact]
+        };
+        let limit = p_n * mu + problem.added(contact, !sticks);
+        let along = p_t - (p_t - self.u[contact] * scale_t).max(-limit).min(limit);
+        across.max(along.abs())
+    }
+
     /// Residual of the solution. Nothing is known or felt of an absent contact, so that it adds nothing.
     #[inline(always)]
     fn residual(&self, problem: &Problem) -> f64 {
         let m = self.status.len();
-        let (p_t, p_n) = self.p.split_at(m);
-        let (u_t, u_n) = self.u.split_at(m);
         let (b_t, b_n) = problem.b.split_at(m);
         let (scale_t, scale_n) = problem.scale.split_at(m);
         let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
-        for (k, status) in self.status.iter().enumerate() {
-            let (p_t, p_n, scale_t, scale_n) = (p_t[k], p_n[k], scale_t[k], scale_n[k]);
-            let stops = (b_t[k].abs() * scale_t).max(b_n[k].abs() * scale_n);
-            largest = largest.max(p_n).max(stops);
-            // The natural map: zero exactly where the conditions hold.
-            worst = worst.max(p_n.min((u_n[k] + problem.h[k]) * scale_n).abs());
-            let sticks = *status == Status::Stick;
-            let limit = p_n
-                * if sticks {
-                    problem.mu_stick[k]
-                } else {
-                    problem.mu_slip[k]
-                };
-            worst = worst.max((p_t - (p_t - u_t[k] * scale_t).max(-limit).min(limit)).abs());
+        for (k, p_n) in self.p[m..].iter().enumerate() {
+            let stops = (b_t[k].abs() * scale_t[k]).max(b_n[k].abs() * scale_n[k]);
+            largest = largest.max(*p_n).max(stops);
+            worst = worst.max(self.violation(problem, k));
         }
         if largest > 0.0 {
             worst / largest

@@ -16,7 +16,7 @@ impl Solver {
         let (m, size) = (self.status.len(), problem.b.len());
         for contact in 0..m {
             let p_n = self.p[m + contact].max(0.0);
-            let limit = problem.mu_stick[contact] * p_n;
+            let limit = (problem.mu_stick[contact] * p_n + problem.added(contact, false)).max(0.0);
             self.p[m + contact] = if self.status[contact].closed() { p_n } else { 0.0 };
             self.p[contact] = if self.status[contact].closed() {
                 self.p[contact].clamp(-limit, limit)
@@ -41,6 +41,7 @@ impl Solver {
                     free: [free_t, free_n],
                     mu_stick: problem.mu_stick[contact],
                     mu_slip: problem.mu_slip[contact],
+                    added: [false, true].map(|slips| problem.added(contact, slips)),
                 };
                 let (status, new_t, new_n) = local.solve();
                 self.status[contact] = status;
@@ -66,6 +67,7 @@ struct Local {
     free: [f64; 2],
     mu_stick: f64,
     mu_slip: f64,
+    added: [f64; 2],
 }
 
 impl Local {
@@ -79,15 +81,16 @@ impl Local {
         let det = tt * nn - tn * nt;
         let stick_t = (-free_t * nn + free_n * tn) / det;
         let stick_n = (-free_n * tt + free_t * nt) / det;
-        if stick_n >= 0.0 && stick_t.abs() <= self.mu_stick * stick_n {
+        if stick_n >= 0.0 && stick_t.abs() <= self.mu_stick * stick_n + self.added[0] {
             return (Status::Stick, stick_t, stick_n);
         }
         for (status, sign) in [(Status::SlipDownstream, 1.0), (Status::SlipUpstream, -1.0)] {
             let mu = -sign * self.mu_slip;
-            let p_n = -free_n / (nn + mu * nt);
-            let u_t = free_t + (tn + mu * tt) * p_n;
+            let added = -sign * self.added[1];
+            let p_n = -(free_n + nt * added) / (nn + mu * nt);
+            let u_t = free_t + (tn + mu * tt) * p_n + tt * added;
             if p_n >= 0.0 && sign * u_t >= 0.0 {
-                return (status, mu * p_n, p_n);
+                return (status, mu * p_n + added, p_n);
             }
         }
         // Friction so strong that no state fits alone: let the normal impulse decide, the others will move on.
