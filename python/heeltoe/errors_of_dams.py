@@ -72,7 +72,10 @@ OF_DAMS: dict[str, tuple[str, str]] = {
         "the strength falls with the normal stress before {value}",
         "give points between which the coefficient times the stress grows",
     ),
-    "law-model": ("{value} is not known to the flexible model", "use the rigid model or the decoupled chain"),
+    "law-penalty": (
+        "{value} is not known to the penalty method",
+        'use flexible.contact = "coulomb", or the rigid model or the decoupled chain',
+    ),
     "law-unknown": ("{value} is no friction law", "give one of {names}, or a case, CASE.toml{near}"),
     "law-twice": ("cannot stand beside the cohesion of crack.law", "keep one of them"),
     "uplift-option-foreign": (

@@ -24,6 +24,11 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
         "crack.law",
         "{field}: the static loads press the crack with {stress_pa:.3g MPa} on average, {why}",
     ),
+    "law-range-part": (
+        "caution",
+        "crack.law",
+        "{field}: the static loads press {share:.2g %} of the length of the crack with {why}",
+    ),
     "law-by-mean": (
         "note",
         "crack.law",

@@ -87,9 +87,9 @@ class DamRun:
         Of the stresses of each part, columns (p,) by name: largest principal stress, when, and the stress then; least
         principal stress, and when. Empty where none are wanted.
     worked
-        What the watched nodes of cracks with a law have been through, columns (n,) by name: number of the crack, its
-        length that is theirs [m], path slipped [m] and whether the bond is whole, both before the earthquake, and the
-        normal force then [N]. Without a law they are empty.
+        What the watched nodes of cracks with a law have been through, columns (n,) by name: number of the crack, the
+        length of it that is theirs [m], whether they come in the place of the other face's end, path slipped [m] and
+        whether the bond is whole, both before the earthquake, and the normal force then [N]. Empty without a law.
     """
 
     summary: Mapping[str, float]

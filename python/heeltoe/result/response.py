@@ -204,7 +204,7 @@ class Response(Shown):
     anchors = Of[list[dict[str, float | None]]]("Of each anchor: place, largest tension and capacity.")
     events = Of[int]("Changes of mode and impacts of a block.")
     rotation = Of[str]("Geometry of a block: small, p-delta or finite.")
-    friction_law = Of[dict[str, Any] | None]("What the friction law of a block has come to; null of coefficients.")
+    friction_law = Of[dict[str, Any] | None]("What the friction law of a crack has come to; null of coefficients.")
     overturned_about = Of[str | None]("Corner about which a block has overturned.")
 
     #: Whether the parts of the dam are elastic, so that both ends of a crack shift with nothing happening to the dam.

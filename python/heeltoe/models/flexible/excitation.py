@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from heeltoe.kernel.dam import DamRun
 from heeltoe.models.flexible.growth import Growth, growth_of
+from heeltoe.models.flexible.law.worn import sliding_friction
 from heeltoe.models.flexible.reduced import damped
 from heeltoe.models.flexible.shaken import ShakenDam
 
@@ -26,7 +27,7 @@ def self_excitation(shaken: ShakenDam, run: DamRun) -> Growth | None:
     sliding = raw["time_sliding"] + raw["time_slide_rocking"]
     if sliding <= 0.0 or len(shaken.dam.lines) > 1:
         return None
-    rate, period = growth_of(shaken.dam, shaken.case.crack.mu_kinetic)
+    rate, period = growth_of(shaken.dam, sliding_friction(shaken.case, shaken.dam))
     found = Growth(rate, period, sliding, None)
     if not found.matters or run.outcome != "ok":
         return found

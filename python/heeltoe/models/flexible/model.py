@@ -11,6 +11,7 @@ from heeltoe.mechanics.block import Block, build_block, static_state
 from heeltoe.models.flexible.cost import check_cost
 from heeltoe.models.flexible.excitation import self_excitation
 from heeltoe.models.flexible.expected import analysing, frame_step_of
+from heeltoe.models.flexible.law.worn import check_law, law_found, law_warnings, worn_of
 from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
 from heeltoe.models.flexible.refinement import Answer, answer
 from heeltoe.models.flexible.response import FlexibleResponse
@@ -34,18 +35,6 @@ from heeltoe.references import cited
 from heeltoe.result.rest import LAST_S, last_change, still_since
 
 _SHORTEST_FRAME_STEP = 1e-3
-
-
-def check_law(case: Case) -> None:
-    """Refuse a friction law of the crack, which this model does not know.
-
-    Raises
-    ------
-    InputError
-        Then.
-    """
-    if case.crack.law is not None:
-        raise InputError("law-model", "crack.law", f'"{case.crack.law.name}"')
 
 
 def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None = None) -> FlexibleResponse:
@@ -84,6 +73,7 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
     growth = None if outcome == "unstable" else self_excitation(shaken, run)
     cracks, envelope = histories_of_cracks(case, dam, run), envelope_of(dam, run)
     history = cracks[dam.asked]
+    worn = worn_of(case, dam, run)
     tension = None if outcome == "unstable" else tension_of(found, envelope)
     return FlexibleResponse(
         model="flexible",
@@ -93,11 +83,13 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
         warnings=(
             *warnings_of(shaken, run, cracks, found.evidences, growth, block.sliding_safety_factor, outcome),
             *tension_warnings(tension),
+            *(() if worn is None else law_warnings(worn)),
         ),
         summary=summary_of(shaken, run, evidence)
         | {
             "self_excitation": None if growth is None else growth.to_json(),
             "tension": tension,
+            "friction_law": None if worn is None else law_found(worn, run, dam.asked),
             "penetration_m": penetration_of(run, history),
             **several_of(found, cracks),
         },
@@ -105,7 +97,7 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
         motion=earthquake.motion,
         vertical=earthquake.vertical,
         gravity=case.gravity,
-        histories=histories_of(shaken.shaking, run, dam.asked),
+        histories=histories_of(shaken.shaking, run, dam.asked, law=worn is not None),
         mode=modes_of(run, dam.asked),
         event_log={},
         static=static_state(block),
@@ -164,4 +156,6 @@ def _references(case: Case, dam: FlexibleDam) -> tuple[str, ...]:
         keys.append(case.uplift.during_shaking)
     if case.concrete.tensile_strength is not None:
         keys.append("dynamic tension")
+    if case.crack.law is not None:
+        keys.append(f"law: {case.crack.law.name}")
     return cited(*keys)

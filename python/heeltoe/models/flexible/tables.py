@@ -149,12 +149,14 @@ def energy_of(run: DamRun) -> Energy:
     )
 
 
-def histories_of(shaking: Shaking, run: DamRun, place: int) -> dict[str, Floats]:
-    """Return the histories of the contract for a crack, frame by frame."""
+def histories_of(shaking: Shaking, run: DamRun, place: int, law: bool = False) -> dict[str, Floats]:
+    """Return the histories of the contract for a crack, frame by frame; with those of its friction `law`."""
     column, time = run.all_frames[place], run.frames["time"]
     result = {"time_s": time, "ground_acceleration_m_s2": np.interp(time, shaking.time, shaking.horizontal)}
     if shaking.up is not None:
         result["vertical_ground_acceleration_m_s2"] = np.interp(time, shaking.time, shaking.up)
+    if law:
+        result |= {"slip_path_m": column["slip_path"], "friction_strength_n": column["friction_strength"]}
     return result | {
         "slip_m": column["slip"],
         "slip_velocity_m_s": column["slip_velocity"],

@@ -73,6 +73,11 @@ _LAW: tuple[tuple[str, str, str | None], ...] = (
     ("Apparent friction before the earthquake", "apparent_friction_before", None),
     ("Apparent friction after it", "apparent_friction_after", None),
     ("Cohesion left", "cohesion_left_pa", None),
+    ("Work that broke the bond", "bond_energy_j", "energy"),
+    ("Least slip path of a node", "slip_path_range_m.0", "displacement"),
+    ("Largest slip path of a node", "slip_path_range_m.1", "displacement"),
+    ("Apparent friction of a node after it, least", "apparent_friction_after_range.0", None),
+    ("Apparent friction of a node after it, largest", "apparent_friction_after_range.1", None),
     ("Estimated error of the integration", "integration_error_m", None),
 )
 _FIGURES = (
@@ -212,7 +217,9 @@ def _law(subject: Subject) -> list[Block]:
             whose = "" if len(subject.runs) == 1 else f", {run.name}"
             blocks.append(paragraph(f"What it has come to{whose}: {law_line(found, subject.units)}."))
             rows = tuple(
-                (label, subject.numbers(f"{run.prefix}friction_law.{key}", quantity)) for label, key, quantity in _LAW
+                (label, subject.numbers(f"{run.prefix}friction_law.{key}", quantity))
+                for label, key, quantity in _LAW
+                if key.split(".")[0] in found
             )
             blocks.append(Table(("", "value"), rows, f"The friction law{whose}.", "lr"))
     return blocks

@@ -103,8 +103,10 @@ def _growth_line(found: Mapping[str, float | None], units: str) -> str:
 
 def _contact_line(response: FlexibleResponse) -> str:
     s = response.summary
+    law = s.get("friction_law")
+    how = _CONTACT[s["contact"]] if law is None else f"exact, with friction by {law['name']}"
     return (
-        f"{s['contact']}: {_CONTACT[s['contact']]}; {s['contact_iterations_per_step']:.3g} iterations per step, "
+        f"{s['contact']}: {how}; {s['contact_iterations_per_step']:.3g} iterations per step, "
         f"conditions met to {s['contact_residual']:.0e}"
     )
 

@@ -61,7 +61,7 @@ def print_head(response: Response, model: str, console: Console, units: str) -> 
     for label, motion in (("motion", response.motion), ("vertical motion", response.vertical)):
         if motion is not None:
             grid.add_row(label, escape(_motion_line(motion, response.gravity, units)))
-    for label, text in [*_static_lines(response), *_basis_lines(response, units)]:
+    for label, text in [*_static_lines(response), *_law_lines(response, units), *_basis_lines(response, units)]:
         grid.add_row(label, text)
     console.print(grid)
     console.print()
@@ -110,6 +110,12 @@ def _static_lines(response: Response) -> list[tuple[str, str]]:
             ranges = ", ".join(f"{each.varied} {each.way}" for each in both)
             lines.append(("  with vertical motion", ranges))
     return lines
+
+
+def _law_lines(response: Response, units: str) -> list[tuple[str, str]]:
+    """Return what a friction law has come to."""
+    found = response.summary.get("friction_law")
+    return [] if found is None else [("friction law", law_line(found, units))]
 
 
 def _basis_lines(response: Response, units: str) -> list[tuple[str, str]]:
@@ -187,8 +193,6 @@ def _chosen_lines(response: Response, units: str) -> list[tuple[str, str]]:
         lines.append(("rotation", "of any size" if s["rotation"] == "finite" else "small, with P-Delta"))
     if s.get("uplift_during_shaking", "constant") != "constant":
         lines.append(("uplift", f"{s['uplift_during_shaking']} in the earthquake"))
-    if s.get("friction_law") is not None:
-        lines.append(("friction law", law_line(s["friction_law"], units)))
     for number, anchor in enumerate(s.get("anchors", ()), 1):
         text = "largest tension {peak_tension_n:.3g MN/m}"
         if anchor["capacity_n"] is not None:

@@ -16,4 +16,13 @@ def law_line(found: Mapping[str, Any], units: str) -> str:
     )
     if found["cohesion_left_pa"] is not None:
         text += "; {cohesion_left_pa:.3g MPa} of cohesion is left"
+    if "slip_path_range_m" in found:
+        names = ("slip_path_range_m", "apparent_friction_before_range", "apparent_friction_after_range")
+        ends = {f"{name}_{k}": found[name][k] for name in names for k in (0, 1)}
+        text += (
+            "; along the crack {slip_path_range_m_0:.4g mm} to {slip_path_range_m_1:.4g mm} of slip, friction "
+            "{apparent_friction_before_range_0:.3g} to {apparent_friction_before_range_1:.3g} before, "
+            "{apparent_friction_after_range_0:.3g} to {apparent_friction_after_range_1:.3g} after"
+        )
+        found = {**found, **ends}
     return written(text, units, **found)

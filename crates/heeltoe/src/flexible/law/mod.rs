@@ -58,6 +58,7 @@ pub struct Worked {
 columns!(Worked, w => {
     "crack": w.crack as f64,
     "length": w.length,
+    "double": f64::from(w.double.is_some()),
     "path": w.worn.path,
     "bonded": f64::from(w.worn.bonded),
     "path_before": w.before.path,
