@@ -77,7 +77,8 @@ class Worn:
 
     def borne(self, path: Floats, bonded: Floats) -> Floats:
         """Return the shear stress that each bears at rest under the static loads [Pa]."""
-        return shear_stress(law_of(self.law), self.stress, path, 0.0, bonded)[0]
+        borne: Floats = shear_stress(law_of(self.law), self.stress, path, 0.0, bonded)[0]
+        return borne
 
     def apparent(self, path: Floats, bonded: Floats) -> tuple[float, list[float]]:
         """Return what the crack bears over what presses it, and the least and the most of a contact that is pressed."""
