@@ -115,3 +115,39 @@ def test_looks(case, heard_well):
     case.wait_for_selector("[data-handle='further crack 1']")
     case.evaluate("document.querySelectorAll('details').forEach(each => { each.open = true; })")
     assert not heard_well(case)
+
+
+RUN = "button:has-text('Run the elastic dam')"
+
+
+def test_each_of_several_cracks_answers(case, picture):
+    choose_example(case, "two-cracks")
+    case.wait_for_selector("[data-handle='further crack 1']")
+    for path in ("motion", "flexible"):
+        open_block(case, path)
+    case.fill("#field-motion-duration", "3 s")
+    case.fill("#field-flexible-elements-across", "3")
+    case.select_option("#field-flexible-evidence", "none")
+    sound(case)
+    case.click("#tab-answer")
+    case.wait_for_selector(".card[data-model=rigid] >> text=one crack alone")
+    case.wait_for_selector(".card[data-model=decoupled] >> text=one crack alone")
+    assert not case.is_visible("#page-answer .plot")
+    case.click(RUN)
+    case.wait_for_selector(".card[data-details=flexible] >> text=Each crack", timeout=120_000)
+    rows = case.locator("table[aria-label='Each crack, from the crest down'] tbody tr")
+    assert [each.split("\t")[0] for each in rows.all_inner_texts()] == ["90 m", "0 m, see above"]
+    case.wait_for_selector("text=Dotted: crack at 90 m")
+    # Each part is drawn as an outline of its own.
+    case.wait_for_function("() => document.querySelector('.dam-upper').getAttribute('d').split('Z').length === 3")
+    case.wait_for_selector("#page-answer .plot .main-svg")
+    picture(case, "answer-cracks")
+
+
+def test_a_law_tells_its_friction_and_what_cannot_be_run(case):
+    open_block(case, "crack.law")
+    case.click("text=Add friction law")
+    value_is(case, "#field-crack-law-peak-friction", "1")
+    case.click("#tab-answer")
+    case.wait_for_selector(".card[data-details=rigid] >> text=apparent friction is 0.8, before 1")
+    assert case.is_disabled("#slider-crack-friction")

@@ -10,6 +10,7 @@ import pytest
 
 from heeltoe import decoupled
 from heeltoe.app.live import answer
+from heeltoe.app.open_case import models_for
 from heeltoe.app.meant import in_words_of_the_page
 from heeltoe.app.sliders import change, sliders
 from heeltoe.app.thinned import thinned
@@ -38,6 +39,29 @@ def test_curves_are_the_histories():
     assert slip[-1] == pytest.approx(1e3 * found.residual_slip_m)
     assert told["verdict"] in repr(found)
     assert sum(span["end"] - span["start"] for span in told["ribbon"]) == pytest.approx(found.end_time_s)
+
+
+def test_a_sequence_and_a_law_are_told_beside_the_numbers():
+    told = answer(example("aftershocks"), {}, "rigid", "si")
+    [table] = told["tables"]
+    assert table["label"] == "Motion by motion"
+    assert [row[0].split()[0] for row in table["rows"]] == ["1", "2", "3"]
+    assert not told["facts"]
+    law = {"name": "slip weakening", "peak_friction": 1.2, "residual_friction": 0.8, "slip": "20 mm"}
+    case = example("typical-base").with_({"crack.law": law})
+    [[label, text]] = answer(case, {}, "rigid", "us")["facts"]
+    assert label == "friction law"
+    assert "0.8, before 1.2, under 119 psi" in text
+
+
+def test_what_knows_one_crack_alone_says_so():
+    case = example("two-cracks")
+    assert models_for(case) == {"models": ["flexible"], "inelastic": ""}
+    for model in ("rigid", "decoupled"):
+        assert "one crack alone" in answer(case, {}, model, "si")["absent"]
+    assert models_for(example("typical-height"))["models"] == ["rigid", "decoupled", "flexible"]
+    block = models_for(example("block"))
+    assert (block["models"], "concrete.modulus" in block["inelastic"]) == (["rigid"], True)
 
 
 def test_the_live_chain_is_the_chain():

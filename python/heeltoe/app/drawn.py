@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
 from heeltoe.app.meant import meant
 from heeltoe.app.thinned import thinned
+from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.verdict import verdict
+from heeltoe.units.sentences import written
 from heeltoe.units.systems import unit_system
 from heeltoe.units.write import angle, length
 from heeltoe.views.animation.page import packed
 from heeltoe.views.figures.panels import pieces
 from heeltoe.views.figures.style import shaken_by
+from heeltoe.views.words import cracks as crack_words
+from heeltoe.views.words import sequence as sequence_words
+from heeltoe.views.words.law import law_line
 
 # Stretches of a history of which each has its peaks drawn: as many as a large screen has room for.
 _BINS = 400
@@ -40,6 +46,10 @@ def drawn(response: Response, units: str) -> dict[str, Any]:
         "curves": _curves(response, units),
         "ribbon": _ribbon(response),
         "slips": _slips(response, units),
+        "facts": _facts(response, units),
+        "tables": [
+            {"label": label, "columns": columns, "rows": rows} for label, columns, rows in _tables(response, units)
+        ],
     }
 
 
@@ -52,20 +62,51 @@ def _numbers(response: Response, units: str) -> list[dict[str, str]]:
     return numbers
 
 
+def _facts(response: Response, units: str) -> list[tuple[str, str]]:
+    law = response.summary.get("friction_law")
+    return [] if law is None else [("friction law", law_line(law, units))]
+
+
+def _tables(response: Response, units: str) -> Iterator[tuple[str, Sequence[str], list[list[str]]]]:
+    """Walk what a response tells row by row: of several cracks, of several motions."""
+    if isinstance(response, FlexibleResponse) and response.at_cracks:
+        yield "Each crack, from the crest down", crack_words.COLUMNS, crack_words.crack_rows(response, units)
+    if response.sequence:
+        yield "Motion by motion", sequence_words.COLUMNS, sequence_words.sequence_rows(response, units)
+
+
 def _curves(response: Response, units: str) -> dict[str, Any]:
     h = response.histories
     ground = h["ground_acceleration_m_s2"] / response.gravity
-    kept = thinned([h["slip_m"], h["rotation_rad"], ground], _BINS)
+    others = response.others if isinstance(response, FlexibleResponse) and response.at_cracks else {}
+    cracks = [response, *others.values()]
+    moving = [each.histories[name] for each in cracks for name in ("slip_m", "rotation_rad")]
+    kept = thinned([*moving, ground], _BINS)
     system = unit_system(units)
     # The smallest units, whatever the size: the curves of two models share an axis.
-    slip, rotation = system.scale("displacement", 0.0), system.scale("rotation", 0.0)
-    rows = {"slip": (slip, h["slip_m"]), "rotation": (rotation, h["rotation_rad"])}
-    curves = {
-        name: {"unit": scale.unit, "values": packed(scale(values[kept]), "float32")}
-        for name, (scale, values) in rows.items()
+    scales = {"slip": system.scale("displacement", 0.0), "rotation": system.scale("rotation", 0.0)}
+
+    def rows(each: Response) -> dict[str, Any]:
+        values = {"slip": each.histories["slip_m"], "rotation": each.histories["rotation_rad"]}
+        return {
+            name: {"unit": scale.unit, "values": packed(scale(values[name][kept]), "float32")}
+            for name, scale in scales.items()
+        }
+
+    return {
+        "time": packed(h["time_s"][kept], "float32"),
+        "end": float(h["time_s"][-1]),
+        "ground": {"unit": "g", "values": packed(ground[kept], "float32")},
+        "cracks": [{"name": name, **rows(each)} for name, each in _named(response, others, units)],
+        **rows(response),
     }
-    curves["ground"] = {"unit": "g", "values": packed(ground[kept], "float32")}
-    return {"time": packed(h["time_s"][kept], "float32"), "end": float(h["time_s"][-1]), **curves}
+
+
+def _named(response: Response, others: Mapping[str, Response], units: str) -> Iterator[tuple[str, Response]]:
+    """Walk the cracks beside that of ``[crack]``, by where they are."""
+    for name, each in others.items():
+        place = int(name.rpartition("-")[2]) - 1
+        yield written("crack at {at_m:g m}", units, at_m=response.summary["cracks"][place]["elevation_m"]), each
 
 
 def _ribbon(response: Response) -> list[dict[str, Any]]:

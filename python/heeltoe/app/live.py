@@ -15,6 +15,10 @@ from heeltoe.models.run import cost_of, earthquake, live
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.beside import meaning
 
+_ONE_CRACK = (
+    "This model knows one crack alone, since what is above one of several is no single block: run the elastic dam with "
+    "its button."
+)
 _KEPT: Kept[Earthquake] = Kept(16)
 
 
@@ -23,13 +27,13 @@ def answer(case: Case, changes: Mapping[str, Any], model: str, units: str) -> di
     began = perf_counter()
     try:
         changed = case.with_(changes) if changes else case
-        if model == "decoupled" and changed.crack.elevation == 0.0:
+        if model == "decoupled" and changed.crack.elevation == 0.0 and not changed.further_cracks:
             return {"absent": "The decoupled chain needs something below the crack: this one is at the base."}
-        if model == "decoupled" and changed.concrete.modulus is None:
+        if model == "decoupled" and changed.concrete.modulus is None and not changed.further_cracks:
             return {"absent": "The decoupled chain needs the concrete's modulus, which this case does not give."}
         found = live(changed, model, _earthquake(changed))
     except InputError as error:
-        return refused(error)
+        return {"absent": _ONE_CRACK} if error.code == "several-cracks" else refused(error)
     return drawn(found, units) | {"dam": dam(changed, found), "computed_s": perf_counter() - began}
 
 

@@ -8,6 +8,8 @@ from typing import Any
 from heeltoe.app.actions import Asked, BadRequestError, Desk, Entry, text
 from heeltoe.app.examples import FIRST, example_path, examples
 from heeltoe.app.sessions import Session
+from heeltoe.case.model import Case
+from heeltoe.errors import InputError
 
 
 def state(session: Session) -> dict[str, Any]:
@@ -26,8 +28,26 @@ def state(session: Session) -> dict[str, Any]:
         "sliders": [asdict(each) for each in found],
         "moved": {each.path: each.value for each in found if each.path in session.moved},
         "drained": case.uplift.pattern == "drained",
-        "elastic": case.concrete.modulus is not None,
+        **models_for(case),
     }
+
+
+def models_for(case: Case) -> dict[str, Any]:
+    """Return which models can be run on a case, and why not the elastic dam where it cannot."""
+    from heeltoe.models.run import models_of
+
+    usual, why = models_of(case)
+    elastic = "flexible" in usual
+    try:
+        models_of(case, "rigid")
+        models = ["rigid"]
+    except InputError:
+        models = []
+    if models and case.concrete.modulus is not None and case.crack.elevation > 0.0:
+        models.append("decoupled")
+    if elastic:
+        models.append("flexible")
+    return {"models": models, "inelastic": "" if elastic else f"The elastic dam cannot be run: {why}."}
 
 
 def begin(session: Session) -> dict[str, Any]:

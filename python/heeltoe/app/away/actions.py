@@ -15,15 +15,18 @@ from heeltoe.app.sessions import Session
 
 _NUMBERS = count(1)
 _MADE = "away"
+_ALONE = ("rigid", "decoupled", "flexible")
 
 
 async def look(desk: Desk, asked: Asked) -> dict[str, Any]:
     """Return the words that do the same elsewhere, and whether the files that were made are of the case as it is."""
     from heeltoe.app.away.lines import RUNS, command, program, wanted_of
     from heeltoe.app.case.draft import case_of
+    from heeltoe.app.open_case import models_for
 
     session = desk.session
     case = await desk.workers.quick(case_of, session)
+    known = () if case is None else models_for(case)["models"]
     wanted = wanted_of({"model": RUNS[0], **asked}, session.units, "si" if case is None else case.units)
     made = session.kept_files
     return {
@@ -31,7 +34,8 @@ async def look(desk: Desk, asked: Asked) -> dict[str, Any]:
         "command": command(wanted),
         "program": program(wanted),
         "models": list(RUNS),
-        "elastic": case is not None and case.concrete.modulus is not None,
+        # Of two side by side, and of the one that fits, the run says itself why it cannot be.
+        "cannot": [name for name in RUNS if name in _ALONE and name not in known],
         "ready": case is not None and case.motion is not None,
         "same": made is not None and made[1] == _state(case),
     }

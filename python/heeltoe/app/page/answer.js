@@ -34,6 +34,8 @@ export function answerPage(talk) {
   const size = { width: 0, height: 0 };
   const cards = /** @type {Record<string, Card>} */ ({ rigid: new Card("rigid"), decoupled: new Card("decoupled") });
   const controls = element("div", { class: "controls" });
+  const key = element("p", { class: "key" }, "Modes of motion:");
+  const dotted = element("span", {});
   const plot = element("div", { class: "plot", role: "figure", "aria-label": "Ground acceleration, slip, rotation and modes of motion over time" });
   const flexible = new FlexibleRun(talk, () => values, (answer) => {
     answers.flexible = answer;
@@ -126,7 +128,10 @@ export function answerPage(talk) {
     const shown = [...LIVE, "flexible"]
       .filter((model) => answers[model] && answers[model].curves)
       .map((model) => ({ model, stale: Boolean(answers[model].stale), answer: answers[model] }));
-    plot.hidden = shown.length === 0;
+    plot.hidden = key.hidden = shown.length === 0;
+    const further = shown.flatMap(({ answer }) => answer.curves.cracks.map((/** @type {any} */ { name }) => name));
+    const text = further.length ? `Dotted: ${further.join(", ")}` : "";
+    if (dotted.textContent !== text) dotted.textContent = text;
     clearTimeout(resting);
     if (shown.length && size.width) {
       if (await draw(plot, shown, size, moving)) resting = setTimeout(redraw, RESTS_AFTER_MS);
@@ -154,8 +159,8 @@ export function answerPage(talk) {
     if (state.case) {
       showSliders(controls, state.sliders, state.drained, values, ask);
       controls.append(flexible.root);
-      flexible.begin(state.elastic);
-      spread.begin(state.elastic ? ["rigid", "decoupled", "flexible"] : ["rigid"]);
+      flexible.begin(state.inelastic);
+      spread.begin(state.models);
       ask(performance.now());
     }
   });
@@ -167,15 +172,16 @@ export function answerPage(talk) {
     redraw: () => redraw(),
     /** @param {HTMLElement} root */
     mount(root) {
-      const key = KINDS.map((kind) => {
+      for (const kind of KINDS) {
         const patch = element("i", {});
         patch.style.background = `var(--${kind})`;
-        return element("span", {}, patch, kind);
-      });
+        key.append(element("span", {}, patch, kind));
+      }
+      key.append(dotted);
       const all = [cards.rigid, cards.decoupled, flexible.card];
       const verdicts = element("div", { class: "cards" }, ...all.map((each) => each.root));
       const details = element("div", { class: "cards" }, ...all.map((each) => each.details));
-      const over = element("div", {}, plot, element("p", { class: "key" }, "Modes of motion:", ...key));
+      const over = element("div", {}, plot, key);
       const more = element("div", { class: "cards" }, spread.root, statics.root);
       root.append(element("div", { class: "answer" }, controls, element("div", {}, verdicts, element("div", { class: "over-time" }, over, dam.root), details, more)));
       return () => redraw();

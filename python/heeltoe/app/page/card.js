@@ -1,6 +1,7 @@
 /** What one model says: the verdict above the plot, numbers, slip by mode and warnings below it; both are marked where
  * they are not of the sliders as they stand. */
 import { element } from "./dom.js";
+import { row, table } from "./table.js";
 
 const NAMES = /** @type {Record<string, string>} */ ({ rigid: "Rigid block", decoupled: "Rigid block on an elastic part", flexible: "Elastic dam" });
 
@@ -18,6 +19,13 @@ function slips(answer) {
     return element("tr", {}, element("th", { scope: "row" }, `slip in ${each.kind}`), element("td", {}, each.text), element("td", { class: "bar", "aria-hidden": "true" }, bar));
   });
   return element("table", { class: "numbers", "aria-label": "Slip by mode of motion" }, element("tbody", {}, ...rows));
+}
+
+/** What a response says beside its numbers: of a friction law, of each crack, of each motion. @param {any} answer */
+function further(answer) {
+  const facts = answer.facts.map((/** @type {[string, string]} */ [label, text]) => element("p", {}, element("strong", {}, `${label}: `), text));
+  const tables = answer.tables.flatMap((/** @type {any} */ { label, columns, rows }) => [element("h3", { class: "plain" }, label), table(label, columns, rows.map(row))]);
+  return [...facts, ...tables];
 }
 
 /** @param {any} answer */
@@ -52,7 +60,7 @@ export class Card {
     const count = answer.warnings ? answer.warnings.length : 0;
     const caveat = count ? [element("p", { class: "caveat" }, `${count} warning${count > 1 ? "s" : ""} below`)] : [];
     this.verdict.replaceChildren(element("p", { class: kind }, said), ...caveat);
-    this.content.replaceChildren(...(answer.numbers ? [numbers(answer), slips(answer)] : []), ...(answer.beside ? [element("p", {}, answer.beside)] : []), ...(answer.warnings ? warnings(answer) : []));
+    this.content.replaceChildren(...(answer.numbers ? [numbers(answer), slips(answer), ...further(answer)] : []), ...(answer.beside ? [element("p", {}, answer.beside)] : []), ...(answer.warnings ? warnings(answer) : []));
     this.hide(false);
   }
 

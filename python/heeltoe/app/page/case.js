@@ -87,7 +87,7 @@ export function casePage(talk) {
     refresh();
   });
   talk.on("rigid", (answer) => {
-    verdict.textContent = (answer.error && answer.error.text) || answer.verdict || "";
+    verdict.textContent = answer.absent || (answer.error && answer.error.text) || answer.verdict || "";
   });
 
   /** Ask for the case where it may have changed elsewhere, and is seen. */

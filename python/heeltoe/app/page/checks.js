@@ -1,13 +1,8 @@
 /** Beside the answer: the static checks of the same dam, and how much its result hangs on the shaking. */
 import { element } from "./dom.js";
+import { table } from "./table.js";
 
 const MODELS = /** @type {Record<string, string>} */ ({ rigid: "rigid block", decoupled: "rigid block on an elastic part", flexible: "elastic dam" });
-
-/** @param {string} label @param {string[]} columns @param {Node[]} rows */
-function table(label, columns, rows) {
-  const heads = columns.map((each) => element("th", { scope: "col" }, each));
-  return element("div", { class: "table", tabindex: 0, role: "region", "aria-label": label }, element("table", { class: "numbers wide", "aria-label": label }, element("thead", {}, element("tr", {}, ...heads)), element("tbody", {}, ...rows)));
-}
 
 /** @param {string[]} texts */
 const items = (texts) => (texts.length ? [element("ul", { class: "warnings" }, ...texts.map((each) => element("li", {}, each)))] : []);

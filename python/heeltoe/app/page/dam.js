@@ -118,31 +118,24 @@ export class DamInMotion {
     if (!answer) return;
     const dam = unpacked(answer);
     const times = Number(this.size.value) || dam.exaggeration;
-    const [along, across, shrink, turn] = at(dam, this.time);
-    const upper = dam.upper.map(([x, z]) => {
-      const [a, b] = [x - dam.heel[0], z - dam.heel[1]];
-      return [
-        x + times * (along * dam.e[0] + across * dam.n[0] + shrink * a - turn * b),
-        z + times * (along * dam.e[1] + across * dam.n[1] + shrink * b + turn * a),
-      ];
-    });
+    const upper = standing(dam, this.time, times);
     this.view(dam);
-    this.parts.upper.setAttribute("d", path(upper));
-    this.parts.still.setAttribute("d", path(dam.upper));
+    this.parts.upper.setAttribute("d", upper.map(path).join(""));
+    this.parts.still.setAttribute("d", dam.blocks.map((/** @type {any} */ { points }) => path(points)).join(""));
     this.parts.lower.setAttribute("d", path(dam.lower));
     const kind = (answer.ribbon.find((/** @type {any} */ each) => each.start <= this.time && this.time <= each.end) || {}).kind || "rest";
     this.scrub.value = String(this.time);
     const now = `${this.time.toFixed(2)} s`;
     this.scrub.setAttribute("aria-valuetext", `${now}, ${kind}`);
     const size = times === 1 ? "displacements drawn to scale" : `displacements drawn × ${times}`;
-    const text = `${now}: ${kind}; ${size}, relative to the part below the crack${model === "flexible" ? ", without what the concrete itself gives" : ""}`;
+    const text = `${now}: ${kind}; ${size}, relative to ${upper.length > 1 ? "the ground" : "the part below the crack"}${model === "flexible" ? ", without what the concrete itself gives" : ""}`;
     if (this.says.textContent !== text) this.says.textContent = text;
     this.moved(this.time);
   }
 
   /** @param {any} dam */
   view(dam) {
-    const all = [...dam.upper, ...dam.lower];
+    const all = /** @type {number[][]} */ ([...dam.blocks.flatMap((/** @type {any} */ { points }) => points), ...dam.lower]);
     const xs = all.map(([x]) => x);
     const zs = all.map(([, z]) => z);
     const [left, right, base, top] = [Math.min(...xs), Math.max(...xs), Math.min(dam.base, ...zs), Math.max(...zs)];
@@ -150,6 +143,7 @@ export class DamInMotion {
     const margin = 0.14 * size;
     this.svg.setAttribute("viewBox", `${left - 2.4 * margin} ${-top - 0.6 * margin} ${right - left + 4.8 * margin} ${top - base + 1.2 * margin}`);
     this.svg.style.strokeWidth = String(size / 260);
+    this.parts.still.setAttribute("stroke-dasharray", String(size / 100));
     // Behind the section, which covers what of it reaches below a batter.
     const crest = all.filter(([, z]) => z >= top - 1e-6 * size).map(([x]) => x).sort((one, other) => one - other);
     const bath = (/** @type {number | null} */ level, /** @type {number} */ from, /** @type {number} */ to) => (level === null || level <= base ? "" : path([[from, base], [to, base], [to, level], [from, level]]));
@@ -163,14 +157,33 @@ const known = new WeakMap();
 
 /** @param {any} answer */
 function unpacked(answer) {
-  const found = known.get(answer.dam) || { ...answer.dam, time: unpack(answer.dam.time), motion: unpack(answer.dam.motion) };
+  const found = known.get(answer.dam) || { ...answer.dam, time: unpack(answer.dam.time), blocks: answer.dam.blocks.map((/** @type {any} */ each) => ({ ...each, motion: unpack(each.motion) })) };
   known.set(answer.dam, found);
   return found;
 }
 
-/** The four amplitudes of the upper part at a moment, straight between those that were sent. @param {any} dam @param {number} time */
-function at(dam, time) {
-  const { time: times, motion } = dam;
+/**
+ * Where the corners of each part stand: moved by its own crack, and by those below it, which carry it.
+ * @param {any} dam @param {number} time @param {number} times How many times as far it is drawn.
+ * @returns {number[][][]}
+ */
+function standing(dam, time, times) {
+  const moves = dam.blocks.map((/** @type {any} */ { motion }) => at(dam.time, motion, time));
+  return dam.blocks.map((/** @type {any} */ { points }, /** @type {number} */ place) => points.map(([x, z]) => {
+    let [right, up] = [x, z];
+    for (let below = place; below < dam.blocks.length; below += 1) {
+      const { heel, e, n } = dam.blocks[below];
+      const [along, across, shrink, turn] = moves[below];
+      const [a, b] = [x - heel[0], z - heel[1]];
+      right += times * (along * e[0] + across * n[0] + shrink * a - turn * b);
+      up += times * (along * e[1] + across * n[1] + shrink * b + turn * a);
+    }
+    return [right, up];
+  }));
+}
+
+/** The four amplitudes of a part at a moment, straight between those that were sent. @param {Float32Array} times @param {Float32Array} motion @param {number} time */
+function at(times, motion, time) {
   let [low, high] = [0, times.length - 1];
   while (high - low > 1) {
     const middle = (low + high) >> 1;

@@ -19,7 +19,7 @@ export class FlexibleRun {
     this.card.hide(true);
     this.start = element("button", { type: "button", class: "main", onclick: () => this.run() }, "Run the elastic dam");
     this.cancel = element("button", { type: "button", hidden: true, onclick: () => talk.ask("cancel", { number: this.number }) }, "Cancel");
-    this.said = element("p", { class: "faint", role: "status" });
+    this.said = element("p", { class: "faint status", role: "status" });
     this.bar = element("progress", { hidden: true, "aria-label": "The elastic dam is computed" });
     this.root = element("div", { class: "slider" }, this.start, this.cancel, this.bar, this.said);
     talk.on("job", (job) => this.take(job));
@@ -29,11 +29,11 @@ export class FlexibleRun {
     });
   }
 
-  /** @param {boolean} elastic Whether the case has what an elastic dam needs. */
-  begin(elastic) {
+  /** @param {string} why The elastic dam cannot be run; empty where it can. */
+  begin(why) {
     this.card.hide(true);
-    this.start.toggleAttribute("disabled", !elastic);
-    this.said.textContent = elastic ? "" : "It needs concrete.modulus, which this case does not give.";
+    this.start.toggleAttribute("disabled", why !== "");
+    this.said.textContent = why;
   }
 
   run() {

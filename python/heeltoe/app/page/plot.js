@@ -14,9 +14,9 @@ const NARROW = 600;
 /** @param {Shown[]} shown @param {boolean} narrow */
 function traces(shown, narrow) {
   /** @type {object[]} */
-  const found = lines(shown).map(({ row, of, stale, width, dash, x, y }) => ({
-    x, y, yaxis: AXES[row], type: "scatter", mode: "lines", name: of, opacity: stale ? 0.3 : 1, hovertemplate: `%{y:.4g} at %{x:.2f} s`,
-    line: { color: colour(of), width, dash: dash ? "dash" : "solid", simplify: false },
+  const found = lines(shown).map(({ row, of, name, stale, width, dash, x, y }) => ({
+    x, y, yaxis: AXES[row], type: "scatter", mode: "lines", name, opacity: stale ? 0.3 : 1, hovertemplate: `%{y:.4g} at %{x:.2f} s`,
+    line: { color: colour(of), width, dash, simplify: false },
   }));
   for (const kind of KINDS) {
     /** @type {(number | null)[]} */

@@ -25,9 +25,10 @@ from heeltoe.views.terminal.common import (
 from heeltoe.views.terminal.decoupled import crack_lines
 from heeltoe.views.terminal.elastic import elastic_lines
 from heeltoe.views.terminal.sequence import print_sequence
+from heeltoe.views.words import cracks
 from heeltoe.views.words.law import law_line
 from heeltoe.views.words.motion import sampling
-from heeltoe.views.words.numbers import Amount, Cell, in_one_unit
+from heeltoe.views.words.numbers import Amount, in_one_unit
 from heeltoe.views.words.sequence import part_lines
 from heeltoe.views.words.spread import COLUMNS, spread_rows, spread_said
 from heeltoe.views.words.starts import of_what, starts
@@ -152,19 +153,12 @@ def _result_table(response: Response, units: str) -> Table:
 def _cracks_table(response: FlexibleResponse, units: str) -> Table:
     """Return what each of several cracks did, from the crest down."""
     table = quiet_table()
-    table.add_column("crack at")
-    for name in ("residual slip", "peak down", "peak up", "opening up", "opening down", "strikes"):
+    first, *others = cracks.COLUMNS
+    table.add_column(first)
+    for name in others:
         table.add_column(name, justify="right")
-    cells: list[list[Cell]] = []
-    for place, crack in enumerate(response.cracks):
-        at = written("{at_m:g m}", units, at_m=crack["elevation_m"])
-        told = ", see above" if place == response.crack.place else ""
-        slips = (crack["residual_slip_m"], crack["peak_slip_downstream_m"], -crack["peak_slip_upstream_m"])
-        openings = (crack["opening_upstream_m"], crack["opening_downstream_m"])
-        amounts = [*(Amount(slip, "slip") for slip in slips), *(Amount(each, "opening") for each in openings)]
-        cells.append([f"{at}{told}", *amounts])
-    for crack, row in zip(response.cracks, in_one_unit(cells, units), strict=True):
-        table.add_row(*row, str(crack["impacts"]))
+    for row in cracks.crack_rows(response, units):
+        table.add_row(*row)
     return table
 
 

@@ -87,7 +87,7 @@ export function awayPage(talk) {
   talk.on("away", (told) => {
     command.textContent = told.command;
     program.textContent = told.program;
-    for (const option of model.input.options) option.disabled = option.value === "flexible" && !told.elastic;
+    for (const option of model.input.options) option.disabled = told.cannot.includes(option.value);
     make.toggleAttribute("disabled", !told.ready || (job && job.state === "running"));
     if (!told.ready) said.textContent = "The case has no motion to be run with.";
     old.hidden = told.same || !files.hasChildNodes();

@@ -2,22 +2,28 @@
 import { unpack } from "../unpack.js";
 
 /** @typedef {{model: string, stale: boolean, answer: any}} Shown */
-/** @typedef {{row: string, of: string, model: string, stale: boolean, width: number, dash: boolean, x: Float32Array, y: Float32Array}} Line */
+/** @typedef {{row: string, of: string, name: string, stale: boolean, width: number, dash: string, x: Float32Array, y: Float32Array}} Line */
+/** @typedef {{name: string, slip: Float32Array, rotation: Float32Array}} Crack */
 /** @typedef {{start: number, end: number}} Span */
 
 export const KINDS = ["rest", "slide", "rock", "slide-rock", "drift"];
 /** Rows of curves, as plotly calls their axes. */
 export const AXES = /** @type {Record<string, string>} */ ({ ground: "y", slip: "y2", rotation: "y3", modes: "y4" });
 
-/** @type {WeakMap<object, Record<string, Float32Array>>} */
+/** How a curve is broken, as plotly and as drawings say it. @type {Record<string, string>} */
+export const DASHES = { solid: "none", dash: "9 9", dot: "2 4" };
+
+/** @type {WeakMap<object, {time: Float32Array, ground: Float32Array, cracks: Crack[]}>} */
 const unpacked = new WeakMap();
 
 /** @param {any} answer */
 function curves(answer) {
   const known = unpacked.get(answer);
   if (known) return known;
-  const { time, ground, slip, rotation } = answer.curves;
-  const made = { time: unpack(time), ground: unpack(ground.values), slip: unpack(slip.values), rotation: unpack(rotation.values) };
+  const { time, ground, cracks } = answer.curves;
+  // That of [crack] first.
+  const all = [{ name: "", ...answer.curves }, ...cracks].map(({ name, slip, rotation }) => ({ name, slip: unpack(slip.values), rotation: unpack(rotation.values) }));
+  const made = { time: unpack(time), ground: unpack(ground.values), cracks: all };
   unpacked.set(answer, made);
   return made;
 }
@@ -29,12 +35,12 @@ function curves(answer) {
  */
 export function lines(shown) {
   return shown.flatMap(({ model, stale, answer }, place) => {
-    const data = curves(answer);
-    const rows = place > 0 ? ["slip", "rotation"] : ["ground", "slip", "rotation"];
-    return rows.map((row) => {
-      const of = row === "ground" ? row : model;
-      return { row, of, model, stale, width: row === "slip" ? 2 : 1.1, dash: of === "flexible", x: data.time, y: data[row] };
-    });
+    const { time, ground, cracks } = curves(answer);
+    const first = place > 0 ? [] : [{ row: "ground", of: "ground", name: "ground", stale, width: 1.1, dash: "solid", x: time, y: ground }];
+    return [...first, ...cracks.flatMap((crack) => (/** @type {const} */ (["slip", "rotation"])).map((row) => {
+      const dash = crack.name ? "dot" : model === "flexible" ? "dash" : "solid";
+      return { row, of: model, name: crack.name || model, stale, width: row === "slip" ? 2 : 1.1, dash, x: time, y: crack[row] };
+    }))];
   });
 }
 

@@ -1,6 +1,6 @@
 /** The curves while a slider moves: plain paths on the axes that stand, which are there sooner than a plot with axes of
  * its own. That is drawn (plot.js) where a curve would leave the axes, and as soon as the slider rests. */
-import { AXES, KINDS, lines, spans, thickness } from "./lines.js";
+import { AXES, DASHES, KINDS, lines, spans, thickness } from "./lines.js";
 
 /** @typedef {import("./lines.js").Shown} Shown */
 /** @typedef {{frames: Record<string, Element>, paths: Map<string, Element>}} Picture */
@@ -115,11 +115,11 @@ export function drawQuickly(place, shown, rows, narrow) {
     wanted.add(key);
   };
 
-  for (const { row, of, model, stale, width, dash, x, y } of lines(shown)) {
+  for (const { row, of, name, stale, width, dash, x, y } of lines(shown)) {
     const { l2p } = axis(place, row);
     const points = new Array(x.length);
     for (let k = 0; k < x.length; k += 1) points[k] = `${across(x[k])} ${l2p(y[k]).toFixed(2)}`;
-    put(row, of, model, `M${points.join("L")}`, { "stroke-width": width, "stroke-opacity": stale ? 0.3 : 1, "stroke-dasharray": dash ? "9 9" : "none" });
+    put(row, of, name, `M${points.join("L")}`, { "stroke-width": width, "stroke-opacity": stale ? 0.3 : 1, "stroke-dasharray": DASHES[dash] });
   }
   shown.forEach((each, at) => {
     const level = axis(place, "modes").l2p(shown.length - 1 - at);
