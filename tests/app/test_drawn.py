@@ -10,8 +10,8 @@ import pytest
 
 from heeltoe import decoupled
 from heeltoe.app.live import answer
-from heeltoe.app.open_case import models_for
 from heeltoe.app.meant import in_words_of_the_page
+from heeltoe.app.open_case import models_for
 from heeltoe.app.sliders import change, sliders
 from heeltoe.app.thinned import thinned
 from heeltoe.models.run import earthquake, live
