@@ -100,6 +100,7 @@ def run_rigid_varying(
     turning: Floats | None,
     output_times: Floats,
     start: Sequence[Sequence[float]] | None,
+    worn: tuple[float, bool] | None,
     settle: float,
     event_limit: int,
     jam: bool,
@@ -123,6 +124,8 @@ def run_rigid_varying(
         (n, 6) distance from the heel [m], axis along and across, prestress [N/m], axial and shear stiffness [N/m2].
     turning
         (n,) rotational acceleration of the ground about the middle of the crack, counter-clockwise [rad/s2].
+    worn
+        Where the crack is not new: how far it has slipped, to and fro [m], and whether its bond is whole.
 
     The others are those of :func:`run_rigid`.
 
@@ -199,6 +202,14 @@ class FollowingWater(Protocol):
     def still(self) -> Sequence[Floats]: ...
     @property
     def full(self) -> Sequence[Floats]: ...
+
+class RisingWater(Protocol):
+    """Water whose pressure changes with time; see :class:`heeltoe.kernel.dam.RisingWater`."""
+
+    @property
+    def span(self) -> tuple[float, float]: ...
+    @property
+    def change(self) -> Sequence[Floats]: ...
 
 class CrackAnchor(Protocol):
     """An anchor; see :class:`heeltoe.models.flexible.inside.CrackAnchor`."""
@@ -282,6 +293,7 @@ class CrackedDam:
         stresses: StressRows | None = None,
         penalty: tuple[float, float, float] | None = None,
         ending: Ending | None = None,
+        rising: Sequence[RisingWater] = (),
     ) -> tuple[Floats, Floats, Floats, Floats, Floats, NDArray[np.uint8], Floats, Floats, Floats, Floats]:
         """Shake it, with exact contact or with springs at the contacts.
 
@@ -304,6 +316,8 @@ class CrackedDam:
             accelerations at both ends of all steps, (n + 1, 2), and theta plays no part.
         ending
             What may end it.
+        rising
+            Water that changes meanwhile, in the only crack; the penalty method knows none.
 
         Returns
         -------
@@ -325,5 +339,6 @@ class CrackedDam:
         threads: int,
         penalty: tuple[float, float, float] | None = None,
         ending: Ending | None = None,
+        rising: Sequence[RisingWater] = (),
     ) -> Floats:
         """Shake it once for each pair of factors, on `threads` cores (0 for all); rows of summaries, crack by crack."""

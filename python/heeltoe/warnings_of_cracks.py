@@ -16,6 +16,12 @@ OF_CRACKS: dict[str, tuple[Severity, str, str]] = {
         "aftershocks",
         "the dam that {name} leaves does not meet the static checks before the next motion: {missed}",
     ),
+    "sequence-drains-close": (
+        "caution",
+        "aftershocks",
+        "the slip that {name} leaves keeps {share:.2g %} of the drainage: the motions after it are computed with "
+        "uplift.drain_efficiency = {efficiency:.3g}",
+    ),
     "sequence-drains": (
         "grave",
         "aftershocks",

@@ -87,8 +87,8 @@ def test_what_one_motion_leaves_is_judged_before_the_next():
     found = heeltoe.rigid(case)
     said = {each.code: dict(each.quantities) for each in found.warnings}
     slip = found.sequence[1].residual_slip_m
-    assert said["sequence-drains"]["share"] == pytest.approx(max(0.0, 1.0 - abs(slip) / 0.05))
-    assert found.sequence[1].static["drainage"] == said["sequence-drains"]["share"]
+    assert said["sequence-drains-close"]["share"] == pytest.approx(max(0.0, 1.0 - abs(slip) / 0.05))
+    assert found.sequence[1].static["drainage"] == said["sequence-drains-close"]["share"]
     assert "sliding factor" in said["sequence-statics"]["missed"]
     # What the checks ask for stands in the result, and is of use to it.
     assert not any("statics" in str(each) for each in found.warnings if each.code == "fields-unused")

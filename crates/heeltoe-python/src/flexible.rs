@@ -1,8 +1,8 @@
 //! The flexible model, bound to Python.
 
 use heeltoe::flexible::{
-    many, simulate, Dam, Extreme, FaceAnchor, Give, Inside, Line, Modes, Penalty, Point, Scheme, Shaking,
-    Sides, Span, Stressed, Stresses, Summary, Wanted, Worked,
+    many, simulate, Dam, Extreme, FaceAnchor, Give, Inside, Line, Modes, Penalty, Point, RisingWater, Scheme,
+    Shaking, Sides, Span, Stressed, Stresses, Summary, Wanted, Worked,
 };
 use heeltoe::inside::Law;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods};
@@ -64,6 +64,22 @@ impl FollowingWater<'_> {
             opening: self.opening,
             still: faces(&self.still)?,
             full: faces(&self.full)?,
+        })
+    }
+}
+
+/// Water whose pressure changes with time as Python gives it.
+#[derive(FromPyObject)]
+pub struct Rising<'py> {
+    span: [f64; 2],
+    change: Vec<Numbers<'py>>,
+}
+
+impl Rising<'_> {
+    fn water(&self) -> PyResult<RisingWater> {
+        Ok(RisingWater {
+            span: self.span,
+            change: faces(&self.change)?,
         })
     }
 }
@@ -207,6 +223,28 @@ impl CrackedDam {
     }
 }
 
+impl CrackedDam {
+    fn rising(&self, given: &[Rising], scheme: &Scheme) -> PyResult<Vec<RisingWater>> {
+        let found = given.iter().map(Rising::water).collect::<PyResult<Vec<_>>>()?;
+        let bodies = &self.dam.bodies;
+        let counts = [
+            bodies.upper.nodes(),
+            bodies
+                .lower
+                .as_ref()
+                .map_or(0, heeltoe::flexible::ReducedBody::nodes),
+        ];
+        let fits = |water: &RisingWater| [water.change[0].len(), water.change[1].len()] == counts;
+        if !found.iter().all(fits) {
+            return Err(wrong("the water that changes needs a force for each crack node"));
+        }
+        if !found.is_empty() && (matches!(scheme, Scheme::Penalty(_)) || self.dam.cracks.len() > 1) {
+            return Err(wrong("water that changes needs exact contact in one crack"));
+        }
+        Ok(found)
+    }
+}
+
 #[pymethods]
 impl CrackedDam {
     #[new]
@@ -254,7 +292,8 @@ impl CrackedDam {
     }
 
     /// See `_kernel.pyi`.
-    #[pyo3(signature = (ground, dt, theta, stride, keep_modes, stresses=None, penalty=None, ending=None))]
+    #[pyo3(signature = (ground, dt, theta, stride, keep_modes, stresses=None, penalty=None, ending=None,
+        rising=Vec::new()))]
     #[allow(clippy::too_many_arguments)]
     fn run<'py>(
         &self,
@@ -267,13 +306,16 @@ impl CrackedDam {
         stresses: Option<StressRows<'py>>,
         penalty: Option<[f64; 3]>,
         ending: Option<Bound<'py, Ending>>,
+        rising: Vec<Rising<'py>>,
     ) -> PyResult<Run<'py>> {
         let scheme = self.scheme(theta, penalty)?;
+        let rising = self.rising(&rising, &scheme)?;
         let ground = rows(ground.as_slice()?, "ground")?;
         let shaking = Shaking {
             ground,
             dt,
             scale: [1.0; 2],
+            rising: &rising,
         };
         let stresses = stresses.as_ref().map(StressRows::stressed).transpose()?;
         let reached = |run: &heeltoe::flexible::Run| Some([run.summary().end_time, run.summary().slip]);
@@ -307,7 +349,7 @@ impl CrackedDam {
     }
 
     /// See `_kernel.pyi`.
-    #[pyo3(signature = (ground, dt, theta, scales, threads, penalty=None, ending=None))]
+    #[pyo3(signature = (ground, dt, theta, scales, threads, penalty=None, ending=None, rising=Vec::new()))]
     #[allow(clippy::too_many_arguments)]
     fn run_many<'py>(
         &self,
@@ -319,12 +361,15 @@ impl CrackedDam {
         threads: usize,
         penalty: Option<[f64; 3]>,
         ending: Option<Bound<'py, Ending>>,
+        rising: Vec<Rising<'py>>,
     ) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let scheme = self.scheme(theta, penalty)?;
+        let rising = self.rising(&rising, &scheme)?;
         let shaking = Shaking {
             ground: rows(ground.as_slice()?, "ground")?,
             dt,
             scale: [1.0; 2],
+            rising: &rising,
         };
         let pool = pool(threads)?;
         let runs = watched(

@@ -1,5 +1,6 @@
 //! The rigid model, bound to Python.
 
+use heeltoe::friction::Worn as BeenThrough;
 use heeltoe::inside::{Anchor, Law};
 use heeltoe::rigid::varying::{self, Rotation, TurningBlock, TurningShaking, VaryingNumbers};
 use heeltoe::rigid::{
@@ -115,7 +116,7 @@ pub fn run_rigid<'py>(
 /// Run one block under loads and at rotations that change; see `_kernel.pyi`.
 #[pyfunction]
 #[pyo3(signature = (block, varying, rotation, law, pressure, anchors, friction, time, horizontal, vertical, turning,
-    output_times, start, settle, event_limit, jam))]
+    output_times, start, worn, settle, event_limit, jam))]
 #[allow(clippy::too_many_arguments)]
 pub fn run_rigid_varying<'py>(
     py: Python<'py>,
@@ -132,6 +133,7 @@ pub fn run_rigid_varying<'py>(
     turning: Option<Numbers<'py>>,
     output_times: Numbers<'py>,
     start: Option<[[f64; 3]; 2]>,
+    worn: Option<(f64, bool)>,
     settle: f64,
     event_limit: u64,
     jam: bool,
@@ -153,8 +155,10 @@ pub fn run_rigid_varying<'py>(
         jam,
     };
     let law = friction.map(|friction| friction.0.clone());
+    let worn = worn.map_or(BeenThrough::FRESH, |(path, bonded)| BeenThrough { path, bonded });
     let run = walked(py, &output_times, |wanted| {
-        varying::simulate(&block, &body, law.as_ref(), &shaking, start, options, wanted)
+        let law = law.as_ref().map(|law| (law, worn));
+        varying::simulate(&block, &body, law, &shaking, start, options, wanted)
     })?;
     let (summary, histories, modes, events) = arrays(py, &run);
     let worn = run.worn.map(|worn| {

@@ -74,6 +74,14 @@ pub struct Worn {
     pub bonded: bool,
 }
 
+impl Worn {
+    /// A crack that has never slipped.
+    pub const FRESH: Worn = Worn {
+        path: 0.0,
+        bonded: true,
+    };
+}
+
 /// What friction bears about a normal force: `coefficient * N + constant`, a tangent where it is curved; at rest and
 /// sliding.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -121,6 +121,8 @@ class BlockRun:
         (n,) largest tension of each anchor of what varies [N/m]; None where the walk was exact and nothing does.
     worn
         What the crack has been through, where its friction goes by a law.
+    drainage
+        How much of its drainage each motion of a sequence has found, where slip closes the drains.
     """
 
     summary: Mapping[str, float]
@@ -129,6 +131,7 @@ class BlockRun:
     events: Mapping[str, Floats]
     tension: Floats | None
     worn: Worn | None = None
+    drainage: tuple[float, ...] = ()
 
     @classmethod
     def of(
@@ -194,6 +197,7 @@ def run_block(
     *,
     start: Sequence[Sequence[float]] | None = None,
     varying: Varying | None = None,
+    worn: tuple[float, bool] | None = None,
 ) -> BlockRun:
     """Run one block through one motion: exactly from event to event, or by integration where something varies.
 
@@ -212,6 +216,8 @@ def run_block(
         and must be able to under its static loads.
     varying
         What changes as it moves, where anything does.
+    worn
+        How far a crack whose friction goes by a law has slipped [m] and whether its bond is whole, where it is not new.
     """
     time, horizontal, up = shaking.time, shaking.horizontal, shaking.up
     settle, most, jam = limits.settle, limits.event_limit, limits.jam
@@ -231,6 +237,7 @@ def run_block(
         shaking.turning,
         moments,
         start,
+        worn,
         settle,
         most,
         jam,

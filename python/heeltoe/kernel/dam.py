@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from copy import copy
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -58,6 +59,23 @@ def only_crack(
     """Return the crack between two parts that have no other."""
     above, below = (0 if part is None else part.position.size // 2 for part in (upper, lower))
     return (CrackLine((0, above), (0, below), friction, give, law),)
+
+
+@dataclass(frozen=True, eq=False)
+class RisingWater:
+    """Water in the only crack whose pressure changes with time.
+
+    Attributes
+    ----------
+    span
+        From when to when it changes, evenly [s].
+    change
+        By how much the forces of the nodes of the upper and, if there is one, of the lower face change across the
+        crack, (k,) each [N].
+    """
+
+    span: tuple[float, float]
+    change: tuple[Floats, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,6 +189,13 @@ class CrackedDam:
     ) -> None:
         self._dam = _kernel.CrackedDam(upper, lower, cracks, contactors, water, anchors)
         self._cracks, self._asked = len(cracks), asked
+        self._rising: Sequence[RisingWater] = ()
+
+    def under(self, rising: Sequence[RisingWater]) -> CrackedDam:
+        """Return the same dam with water that changes in its runs; springs know none."""
+        changed = copy(self)
+        changed._rising = rising
+        return changed
 
     def still(self) -> AtRest | None:
         """Return the state before the earthquake; None where friction does not hold the dam."""
@@ -213,7 +238,7 @@ class CrackedDam:
             What may end the run from another thread.
         """
         table, frames, upper, lower, force, status, above, below, *extremes, worked = self._dam.run(
-            ground, step, theta, stride, stride > 0, stresses, penalty, ending
+            ground, step, theta, stride, stride > 0, stresses, penalty, ending, self._rising
         )
         names, rows = _kernel.CRACK_SUMMARY_FIELDS, table.tolist()
         summaries = tuple(dict(zip(names, row, strict=False)) for row in rows)
@@ -263,6 +288,6 @@ class CrackedDam:
         """Shake it once for each pair of factors, (n, 2), on `threads` cores (0 for all); the numbers, (n,) by name, of
         each crack."""
         pairs = [(across, up) for across, up in scales.tolist()]
-        rows = self._dam.run_many(ground, step, theta, pairs, threads, penalty, ending)
+        rows = self._dam.run_many(ground, step, theta, pairs, threads, penalty, ending, self._rising)
         names = _kernel.CRACK_SUMMARY_FIELDS
         return tuple(columns(names, rows[k :: self._cracks, : len(names)]) for k in range(self._cracks))

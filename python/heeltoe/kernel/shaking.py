@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,12 +22,18 @@ class Shaking:
         Accelerations downstream and upward [m/s2], straight between the moments.
     turning
         Rotational acceleration about the middle of the crack, counter-clockwise [rad/s2].
+    begins
+        When the motions of a sequence but the first begin [s].
+    drainage
+        Between which moments the drainage changes [s], and how much of it is left then; what an elastic dam is told.
     """
 
     time: Floats
     horizontal: Floats
     up: Floats | None = None
     turning: Floats | None = None
+    begins: tuple[float, ...] = ()
+    drainage: tuple[tuple[float, float, float], ...] = ()
 
     @property
     def end(self) -> float:
@@ -37,7 +43,7 @@ class Shaking:
     def scaled(self, factor: float) -> Shaking:
         """Return the same motion, weaker or stronger."""
         up, turning = (None if each is None else factor * each for each in (self.up, self.turning))
-        return Shaking(self.time, factor * self.horizontal, up, turning)
+        return replace(self, horizontal=factor * self.horizontal, up=up, turning=turning)
 
 
 def peak_responses(time: Floats, ground: Floats, periods: Floats, damping: float) -> tuple[Floats, Floats]:

@@ -13,6 +13,7 @@ from heeltoe.case.shaking import resolve_all
 from heeltoe.case.use import unused_fields
 from heeltoe.case.warnings import case_warnings
 from heeltoe.errors import InputError, expect
+from heeltoe.models.drained import follows_drains, with_drains
 from heeltoe.models.rigid.omitted import omitted
 from heeltoe.models.silence import about_the_end, reach_of_block, until_rest
 from heeltoe.models.statics.standing import standing_warnings
@@ -308,7 +309,8 @@ def _sequence(case: Case, response: R) -> tuple[R, tuple[Notice, ...]]:
     from heeltoe.models.statics.between import about_the_sequence, judged_stages
 
     found = judged_stages(case, response)
-    return replace(response, sequence=found), tuple(about_the_sequence(case, found))
+    followed = response.summary.get("drainage_by_motion") is not None
+    return replace(response, sequence=found), tuple(about_the_sequence(case, found, followed=followed))
 
 
 def _slid_off(case: Case, response: Response) -> tuple[Notice, ...]:
@@ -347,7 +349,10 @@ def _live(case: Case, earthquake: Earthquake) -> DecoupledResponse:
 def _flexible(case: Case, earthquake: Earthquake, output_step: float | None) -> FlexibleResponse:
     from heeltoe.models.flexible.model import run_flexible
 
-    return run_flexible(case, earthquake, output_step)
+    def run(case: Case, through: Earthquake) -> FlexibleResponse:
+        return run_flexible(case, through, output_step)
+
+    return with_drains(case, earthquake, run) if follows_drains(case, earthquake) else run(case, earthquake)
 
 
 #: The models by name.

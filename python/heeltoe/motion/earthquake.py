@@ -29,6 +29,8 @@ class Earthquake:
         About the middle of the crack, counter-clockwise [rad/s2]; None where there is none. Only blocks feel one.
     silence
         How long the run goes on after that, the ground standing still [s].
+    drainage
+        What the slip of a run has left of the drains of an elastic dam, see :class:`heeltoe.kernel.shaking.Shaking`.
     """
 
     motion: GroundMotion
@@ -36,6 +38,7 @@ class Earthquake:
     end: float
     rotation: GroundMotion | None = None
     silence: float = 0.0
+    drainage: tuple[tuple[float, float, float], ...] = ()
 
     @property
     def run_end(self) -> float:
@@ -57,7 +60,8 @@ class Earthquake:
         if self.silence:
             time, (horizontal, *others) = _and_silence(time, [horizontal, *others], self.run_end)
         up = None if self.vertical is None else others.pop(0)
-        return Shaking(time, horizontal, up, others[0] if others else None)
+        begins = tuple(part.begins for part in self.motion.parts[1:] if part.begins < self.end)
+        return Shaking(time, horizontal, up, others[0] if others else None, begins, self.drainage)
 
 
 def _and_silence(time: Floats, series: list[Floats], end: float) -> tuple[Floats, list[Floats]]:

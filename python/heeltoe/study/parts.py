@@ -23,7 +23,7 @@ from heeltoe.mechanics.many import crack_widths, sound_blocks
 from heeltoe.models.rigid.many import run_rows
 from heeltoe.models.rigid.rows import Rows
 from heeltoe.models.rigid.tables import with_openings
-from heeltoe.models.rigid.varying import varies
+from heeltoe.models.rigid.varying import by_itself
 from heeltoe.models.rigid.walk import limits_of
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.contract import HEADLINES, LARGEST_ROTATION, TOO_FAR, headlines
@@ -151,7 +151,7 @@ def _blocks(
     """Return the numbers of the blocks of some dams, the blocks where something varies as they move, and which of the
     dams there are: the others are refused, and what stands in their places says nothing."""
     sound = np.ones(count, dtype=bool)
-    if values and not varies(plan.case) and values.keys() <= set(COLUMNS):
+    if values and not by_itself(plan.case) and values.keys() <= set(COLUMNS):
         numbers, sound = sound_blocks(plan.case, values)
         return numbers, [], sound
     numbers = np.zeros((count, len(BLOCK)))
@@ -166,7 +166,7 @@ def _blocks(
             sound[place], block = False, some
         numbers[place] = block.parameters()
         blocks.append(block)
-    return numbers, blocks if any(varies(block.case) for block in blocks) else [], sound
+    return numbers, blocks if any(by_itself(block.case) for block in blocks) else [], sound
 
 
 def _cases(plan: Plan, values: Mapping[str, NDArray[Any]], count: int) -> Iterator[Case | None]:
@@ -246,7 +246,7 @@ def _decoupled(plan: Plan, runs: Runs, rows: Integers, found: Found, threads: in
             shaken = crack_earthquake(case, plan.earthquakes[motion].silent(case.analysis.silence))
         many = Rows(
             np.tile(block.parameters(), (scales.size, 1)),
-            [block] * scales.size if varies(case) else [],
+            [block] * scales.size if by_itself(case) else [],
             np.zeros(scales.size, dtype=np.int64),
             _both_ways(scales),
         )

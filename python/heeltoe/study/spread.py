@@ -19,9 +19,10 @@ from heeltoe.kernel.dam import DAM_OUTCOMES
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.decoupled.response import DecoupledResponse
+from heeltoe.models.drained import schedule
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.models.rigid.tables import with_openings
-from heeltoe.models.rigid.varying import varies
+from heeltoe.models.rigid.varying import by_itself
 from heeltoe.models.rigid.walk import limits_of, walk
 from heeltoe.models.run import earthquake
 from heeltoe.result.contract import HEADLINES, JOINT_METER_M, LARGEST_ROTATION, headlines
@@ -97,6 +98,8 @@ def with_spread(response: R, case: Case, runs: int = RUNS, *, progress: Progress
         from heeltoe.models.flexible.shaken import ShakenDam
 
         step = _step(response)
+        shares = response.summary.get("drainage_by_motion") or ()
+        ground = replace(ground, drainage=schedule(response.motion.parts, shares))
         shaken = ShakenDam(case, response.crack.dam, ground.shaking)
         found, good = _flexible(shaken, scales, step, progress)
     elif isinstance(response, DecoupledResponse):
@@ -125,7 +128,7 @@ _Found = tuple[dict[str, Floats], NDArray[np.bool_]]
 def _rigid(case: Case, shaking: Shaking, scales: Floats, progress: Progress | None) -> _Found:
     """Return the headline numbers of a block, and which of the runs have a result."""
     block = build_block(case)
-    if varies(case) or shaking.turning is not None:
+    if by_itself(case) or shaking.turning is not None:
         rows = _walked(case, block, shaking, scales, progress)
     else:
         many = np.tile(block.parameters(), (scales.size, 1))

@@ -38,6 +38,24 @@ impl FollowingWater {
     }
 }
 
+/// Water in the crack whose pressure changes with time, whatever the crack does; its forces are those beyond what the
+/// bodies and other such water bear.
+#[derive(Clone, Debug)]
+pub struct RisingWater {
+    /// From when to when it changes, evenly (s).
+    pub span: [f64; 2],
+    /// Change of the forces of each node across the crack, of the upper and of the lower face (N).
+    pub change: [Vec<f64>; 2],
+}
+
+impl RisingWater {
+    /// How much of the change there is at a moment.
+    fn share(&self, time: f64) -> f64 {
+        let [begin, end] = self.span;
+        ((time - begin) / (end - begin)).clamp(0.0, 1.0)
+    }
+}
+
 /// A point of a face: nodes with their weights.
 pub type Point = [(usize, f64); 3];
 
@@ -64,6 +82,9 @@ impl Inside {
 /// The same under way.
 pub(super) struct Acting<'a> {
     inside: &'a Inside,
+    rising: &'a [RisingWater],
+    /// Steps so far.
+    steps: u32,
     /// Gap of each node at the start, up to which the static pressure holds.
     gaps: [Vec<f64>; 2],
     /// How far apart the points of each anchor were at the start.
@@ -81,13 +102,15 @@ pub(super) struct Acting<'a> {
 
 impl<'a> Acting<'a> {
     /// None where nothing acts.
-    pub(super) fn new(inside: &'a Inside, start: Faces) -> Option<Self> {
-        if inside.is_empty() {
+    pub(super) fn new(inside: &'a Inside, rising: &'a [RisingWater], start: Faces) -> Option<Self> {
+        if inside.is_empty() && rising.is_empty() {
             return None;
         }
         let room = || [vec![0.0; start.upper.len()], vec![0.0; start.lower.len()]];
         Some(Acting {
             inside,
+            rising,
+            steps: 0,
             apart: inside.anchors.iter().map(|a| apart(a, start)).collect(),
             water: room(),
             anchors: room(),
@@ -149,9 +172,32 @@ impl<'a> Acting<'a> {
                 }
             }
         }
+        self.rise(step);
         for (face, sum) in [upper, lower].into_iter().enumerate() {
             for ((sum, w), a) in sum.iter_mut().zip(&self.water[face]).zip(&self.anchors[face]) {
                 *sum = w + a;
+            }
+        }
+    }
+
+    /// Add what water that changes with time pushes in this step.
+    fn rise(&mut self, TimeStep { dt, theta }: TimeStep) {
+        let time = (f64::from(self.steps) + theta) * dt;
+        self.steps += 1;
+        if self.rising.is_empty() {
+            return;
+        }
+        for (face, impulse) in self.water.iter_mut().enumerate() {
+            let across = impulse.len() / 2;
+            let across = &mut impulse[across..];
+            if self.inside.water.is_none() {
+                across.fill(0.0);
+            }
+            for rising in self.rising {
+                let share = dt * rising.share(time);
+                for (impulse, change) in across.iter_mut().zip(&rising.change[face]) {
+                    *impulse += share * change;
+                }
             }
         }
     }

@@ -1,6 +1,6 @@
 //! What is shaken, and how.
 
-use super::acting::{FaceAnchor, Inside};
+use super::acting::{FaceAnchor, Inside, RisingWater};
 use super::body::ReducedBody;
 use super::envelope::Stressed;
 use super::idce::Penalty;
@@ -98,6 +98,8 @@ pub struct Shaking<'a> {
     pub dt: f64,
     /// Factors on the two accelerations.
     pub scale: [f64; 2],
+    /// Water in the only crack whose pressure changes meanwhile; the penalty method knows none.
+    pub rising: &'a [RisingWater],
 }
 
 /// How to step through time.

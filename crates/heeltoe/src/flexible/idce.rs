@@ -53,7 +53,9 @@ const BLOWN_UP: [f64; 2] = [0.5, 0.05];
 
 /// Shake the dam.
 pub(super) fn simulate(dam: &Dam, shaking: &Shaking, penalty: &Penalty, wanted: Wanted) -> Run {
-    let Shaking { ground, dt, scale } = shaking;
+    let Shaking {
+        ground, dt, scale, ..
+    } = shaking;
     let mut newmark = Newmark::new(dam, *dt, penalty, wanted);
     if newmark.walk.observed() {
         newmark.keep();

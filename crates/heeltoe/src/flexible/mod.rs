@@ -31,7 +31,7 @@ mod tests;
 mod walk;
 mod wide;
 
-pub use acting::{FaceAnchor, FollowingWater, Inside, Point};
+pub use acting::{FaceAnchor, FollowingWater, Inside, Point, RisingWater};
 pub use body::{Modes, ReducedBody};
 pub use dam::{Dam, Scheme, Shaking, Wanted};
 pub use envelope::{Extreme, Stressed, Stresses};

@@ -140,7 +140,7 @@ impl<'a> Moreau<'a> {
         }
         Moreau {
             walk,
-            acting: Acting::new(&dam.inside, faces),
+            acting: Acting::new(&dam.inside, shaking.rising, faces),
             dampers: Dampers::new(&bodies, step),
             still,
             quiet: false,
@@ -162,7 +162,9 @@ impl<'a> Moreau<'a> {
     /// Let the modes finish the step `now`, unless this is the start, and begin another with this state of damping.
     #[inline(always)]
     fn go_on<W: Wide>(&mut self, now: Option<Drive>, next: usize, damping: usize) {
-        let Shaking { ground, dt, scale } = self.shaking;
+        let Shaking {
+            ground, dt, scale, ..
+        } = self.shaking;
         let a = ground.get(next).copied().unwrap_or([0.0; 2]);
         self.drive = Drive {
             ground: [scale[0] * a[0] * dt, scale[1] * a[1] * dt],

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,7 +47,8 @@ class CrackMotion:
         """
         upward = case.decoupled.vertical or ground.vertical is not None
         return Earthquake(
-            self.horizontal,
+            # The motions of a sequence begin at the crack when they do below it.
+            replace(self.horizontal, parts=ground.motion.parts),
             self.vertical if upward else None,
             ground.run_end,
             self.rotation if case.decoupled.rotation else None,

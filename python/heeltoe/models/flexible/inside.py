@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +12,8 @@ from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError, shown
 from heeltoe.geometry.axes import along_and_across
+from heeltoe.kernel.dam import RisingWater
+from heeltoe.mechanics.drains import with_drainage
 from heeltoe.models.flexible.elastic import Body
 from heeltoe.models.flexible.loads import crack_point, full_head_profile, uplift_forces
 
@@ -62,17 +65,32 @@ def following_water(case: Case, bodies: tuple[Body, ...]) -> FollowingWater | No
     if case.uplift.during_shaking == "constant":
         return None
     _check_contact(case, "uplift.during_shaking", shown(case.uplift.during_shaking))
-    full = full_head_profile(case)
+    full = _across(case, bodies, full_head_profile(case))
+    return FollowingWater(case.uplift.during_shaking, case.uplift.opening_of_change, _across(case, bodies), full)
 
-    def across(profile: Floats | None) -> tuple[Floats, ...]:
-        found = []
-        for place, body in enumerate(bodies):
-            forces = uplift_forces(body.mesh, case, above=place == 0, profile=profile)
-            turned = along_and_across(forces.reshape(-1, 2)[body.mesh.crack], case.cut)
-            found.append(np.ascontiguousarray(turned[:, 1]))
-        return tuple(found)
 
-    return FollowingWater(case.uplift.during_shaking, case.uplift.opening_of_change, across(None), across(full))
+def rising_water(
+    case: Case, bodies: tuple[Body, ...], drainage: Sequence[tuple[float, float, float]]
+) -> tuple[RisingWater, ...]:
+    """Return how the uplift of a case changes as its drains close: between which moments [s], and what of the drainage
+    is left after them."""
+    found, before = [], case
+    for begin, end, share in drainage:
+        after = with_drainage(case, share)
+        change = tuple(b - a for a, b in zip(_across(before, bodies), _across(after, bodies), strict=True))
+        found.append(RisingWater((begin, end), change))
+        before = after
+    return tuple(found)
+
+
+def _across(case: Case, bodies: tuple[Body, ...], profile: Floats | None = None) -> tuple[Floats, ...]:
+    """Return the forces of the water on the nodes of either face, across the crack [N]."""
+    found = []
+    for place, body in enumerate(bodies):
+        forces = uplift_forces(body.mesh, case, above=place == 0, profile=profile)
+        turned = along_and_across(forces.reshape(-1, 2)[body.mesh.crack], case.cut)
+        found.append(np.ascontiguousarray(turned[:, 1]))
+    return tuple(found)
 
 
 def crack_anchors(case: Case, bodies: tuple[Body, ...]) -> tuple[CrackAnchor, ...]:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
-from heeltoe.kernel.dam import DamRun, Ending
+from heeltoe.kernel.dam import CrackedDam, DamRun, Ending
 from heeltoe.kernel.shaking import Shaking
+from heeltoe.models.flexible.inside import rising_water
 from heeltoe.models.flexible.modes import part_periods
 from heeltoe.models.flexible.reduced import FlexibleDam
 from heeltoe.models.flexible.step import longest_step
@@ -85,7 +87,7 @@ class ShakenDam:
             stride = max(1, min(count, round(frame_step / step)))
             often = max(1, round(min(_STRESS_STEP, frame_step) / step))
             stresses = StressRows(in_bodies(self.dam.stress_places), often)
-        return self.dam.kernel.run(
+        return self._kernel.run(
             self._ground(count),
             step,
             self.case.flexible.theta,
@@ -108,9 +110,19 @@ class ShakenDam:
         count, step = self._steps(step)
         pairs = np.column_stack([scales, scales])
         theta = self.case.flexible.theta
-        return self.dam.kernel.run_many_cracks(
-            self._ground(count), step, theta, pairs, threads=threads, penalty=self._penalty(), ending=ending
+        return self._kernel.run_many_cracks(
+            self._ground(count),
+            step,
+            theta,
+            pairs,
+            threads=threads,
+            penalty=self._penalty(),
+            ending=ending,
         )
+
+    @cached_property
+    def _kernel(self) -> CrackedDam:
+        return self.dam.kernel.under(rising_water(self.case, self.dam.bodies, self.shaking.drainage))
 
     def _steps(self, step: float) -> tuple[int, float]:
         """Return how many steps of about this length make the whole run, and their length [s]."""

@@ -131,6 +131,7 @@ def summary_of(shaken: ShakenDam, run: DamRun, evidence: Evidence | None) -> dic
         "evidence": None if evidence is None else evidence.to_json(),
         **({"anchors": anchors_of(case, run)} if case.anchors else {}),
         "uplift_during_shaking": case.uplift.during_shaking,
+        "drainage_by_motion": None,
     }
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
 from time import monotonic
 
 import numpy as np
@@ -13,12 +14,13 @@ from rich.progress import Progress
 
 from heeltoe.arrays import Floats, Integers
 from heeltoe.case.model import Case
-from heeltoe.kernel.block import MODES, OUTCOMES, SUMMARY, USUAL, Limits, run_block, run_blocks
+from heeltoe.kernel.block import MODES, OUTCOMES, SUMMARY, USUAL, Limits, run_blocks
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block
+from heeltoe.mechanics.drains import close_by_slip
 from heeltoe.models.rigid.rows import Rows, check_limits, rows_of
-from heeltoe.models.rigid.varying import varies, varying
-from heeltoe.models.rigid.walk import limits_of
+from heeltoe.models.rigid.varying import varies
+from heeltoe.models.rigid.walk import limits_of, walk
 from heeltoe.models.silence import STEP
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
@@ -97,7 +99,8 @@ def run_rows(
     """Run blocks that have been checked; what `rows.which` counts are `earthquakes`. `progress` is told how many more
     are done. Otherwise as :func:`rigid_many`."""
     table = {name: np.zeros(len(rows.numbers)) for name in SUMMARY}
-    for part, kind in _parts(rows, limits, _CHUNK if progress else len(rows.numbers)):
+    follow = any(each.motion.parts for each in earthquakes)
+    for part, kind in _parts(rows, limits, _CHUNK if progress else len(rows.numbers), sequences=follow):
         for some, found in _until_rest(rows, part, earthquakes, kind, threads):
             for name, values in found.items():
                 table[name][some] = values
@@ -106,11 +109,12 @@ def run_rows(
     return table
 
 
-def _parts(rows: Rows, limits: Limits | None, most: int) -> Iterator[tuple[Integers, _Kind]]:
-    """Yield rows that go together, up to so many."""
+def _parts(rows: Rows, limits: Limits | None, most: int, *, sequences: bool) -> Iterator[tuple[Integers, _Kind]]:
+    """Yield rows that go together, up to so many; in `sequences` of motions drains may close."""
     kinds: dict[_Kind, list[int]] = {}
     for row, block in enumerate(rows.blocks):
-        kinds.setdefault((limits or limits_of(block.case), not varies(block.case)), []).append(row)
+        exact = not varies(block.case) and not (sequences and close_by_slip(block.case))
+        kinds.setdefault((limits or limits_of(block.case), exact), []).append(row)
     together = {kind: np.array(alike) for kind, alike in kinds.items()}
     if not rows.blocks:
         together[limits or USUAL, True] = np.arange(len(rows.numbers))
@@ -161,15 +165,14 @@ def _move(found: dict[str, Floats]) -> NDArray[np.bool_]:
 def _integrated(
     rows: Rows, part: Integers, which: Integers, shakings: Sequence[Shaking], limits: Limits, threads: int
 ) -> dict[str, Floats]:
-    """Run blocks of which something changes as they move; the kernel leaves Python to the others meanwhile."""
+    """Run blocks of which something changes as they move, or between motions; the kernel leaves Python to others."""
 
     def run(place: int) -> list[float]:
         row, shaking = part[place], shakings[which[place]]
         block, (across, up) = rows.blocks[row], rows.scales[row]
         vertical = None if shaking.up is None else up * shaking.up
-        shaken = Shaking(shaking.time, across * shaking.horizontal, vertical)
-        what = varying(block.case, block)
-        return list(run_block(rows.numbers[row], shaken, np.empty(0), limits, varying=what).summary.values())
+        shaken = replace(shaking, horizontal=across * shaking.horizontal, up=vertical)
+        return list(walk(block.case, block, shaken, limits=limits).summary.values())
 
     with ThreadPoolExecutor(threads or None) as pool:
         summaries = np.array(list(pool.map(run, range(part.size))))

@@ -91,6 +91,7 @@ def summary_of(case: Case, block: Block, run: BlockRun) -> dict[str, Any]:
         "crack_width_m": block.width,
         "rotation": case.analysis.rotation,
         "uplift_during_shaking": case.uplift.during_shaking,
+        "drainage_by_motion": list(run.drainage) or None,
         "friction_law": None if case.crack.law is None else law_found(case, block, run),
         "overturned_about": about if run.outcome == "overturned" else None,
         "anchors": [

@@ -8,6 +8,7 @@ import numpy as np
 from heeltoe.case.model import Case
 from heeltoe.kernel.block import VARYING, Varying
 from heeltoe.mechanics.block import Block, across_crack
+from heeltoe.mechanics.drains import close_by_slip
 from heeltoe.mechanics.friction import law_of
 from heeltoe.mechanics.loads import face_at, total, uplift_profile, water_above_crack
 
@@ -20,6 +21,12 @@ def varies(case: Case) -> bool:
         or case.crack.law is not None
         or any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors)
     )
+
+
+def by_itself(case: Case) -> bool:
+    """Whether the block of a case must run by itself, not side by side with others: something varies as it moves, or
+    between the motions of its sequence."""
+    return varies(case) or (bool(case.aftershocks) and close_by_slip(case))
 
 
 def varying(case: Case, block: Block) -> Varying:

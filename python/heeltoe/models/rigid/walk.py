@@ -9,6 +9,7 @@ from heeltoe.case.model import Case
 from heeltoe.kernel.block import BlockRun, Limits, run_block
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block
+from heeltoe.models.rigid.stages import in_stages, start_of, walk_in_stages
 from heeltoe.models.rigid.varying import varies, varying
 
 
@@ -18,11 +19,22 @@ def limits_of(case: Case) -> Limits:
     return Limits(analysis.event_limit, analysis.paradox == "tangential impact", silence=analysis.silence)
 
 
-def walk(case: Case, block: Block, shaking: Shaking, moments: Floats | None = None) -> BlockRun:
-    """Run the block of a case as the case asks: exactly, or by integration where something varies.
+def walk(
+    case: Case, block: Block, shaking: Shaking, moments: Floats | None = None, limits: Limits | None = None
+) -> BlockRun:
+    """Run the block of a case as the case asks: exactly, or by integration where something varies; motion by motion
+    where slip closes drains between those of a sequence.
 
-    `moments` are those of the histories [s]; none without them.
+    `moments` are those of the histories [s]; none without them. `limits` stand in place of those of the case.
     """
-    wanted, limits = np.empty(0) if moments is None else moments, limits_of(case)
-    what = varying(case, block) if varies(case) or shaking.turning is not None else None
-    return run_block(block.parameters(), shaking, wanted, limits, varying=what)
+    wanted = np.empty(0) if moments is None else moments
+    ends = limits or limits_of(case)
+
+    def run(now: Case, block: Block, shaking: Shaking, moments: Floats, before: BlockRun | None) -> BlockRun:
+        what = varying(now, block) if varies(now) or shaking.turning is not None else None
+        start, worn = (None, None) if before is None else start_of(before)
+        return run_block(block.parameters(), shaking, moments, ends, start=start, varying=what, worn=worn)
+
+    if in_stages(case, shaking):
+        return walk_in_stages(case, block, shaking, wanted, run)
+    return run(case, block, shaking, wanted, None)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from heeltoe.case.model import Case
+from heeltoe.mechanics.drains import drainage_left
 from heeltoe.models.statics.model import statics
 from heeltoe.plain import plain
 from heeltoe.result.response import Response
@@ -20,9 +21,9 @@ def judged_stages(case: Case, response: Response) -> tuple[Stage, ...]:
     return tuple(_judged(case, each) for each in stages(response, response.motion.parts))
 
 
-def about_the_sequence(case: Case, found: tuple[Stage, ...]) -> Iterator[Notice]:
-    """Say where a motion meets a dam that is not at rest, that does not stand, or whose drains are not those of the
-    run."""
+def about_the_sequence(case: Case, found: tuple[Stage, ...], *, followed: bool) -> Iterator[Notice]:
+    """Say where a motion meets a dam that is not at rest, that does not stand, or whose drains slip has closed; the run
+    has `followed` these, or not."""
     for number, each in enumerate(found[:-1]):
         which = f"motion {number + 1}, {each.name},"
         if not each.at_rest:
@@ -33,21 +34,21 @@ def about_the_sequence(case: Case, found: tuple[Stage, ...]) -> Iterator[Notice]
         share = each.static["drainage"]
         if share < 1.0:
             efficiency = share * (case.uplift.drain_efficiency or 0.0)
-            yield Notice("sequence-drains", name=which, share=share, efficiency=efficiency)
+            code = "sequence-drains-close" if followed else "sequence-drains"
+            yield Notice(code, name=which, share=share, efficiency=efficiency)
 
 
 def _judged(case: Case, stage: Stage) -> Stage:
-    slip, size = stage.residual_slip_m, case.statics.drain_diameter
+    slip = stage.residual_slip_m
     if case.statics.residual_slip is not None:
         case = case.model_copy(update={"statics": case.statics.model_copy(update={"residual_slip": None})})
     found = statics(case, slip, slip_source=plain(stage.name))
     after = [check for check in found.checks if check.load_case == _AFTER]
-    drained = case.uplift.pattern == "drained" and size is not None
     return replace(
         stage,
         static={
             "ok": all(check.met for check in after),
             "missed": [str(check.sentence) for check in after if not check.met],
-            "drainage": max(0.0, 1.0 - abs(slip) / size) if drained and size else 1.0,
+            "drainage": drainage_left(case, slip),
         },
     )

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 from heeltoe.case.dam import Reservoir, Water
 from heeltoe.case.model import Case
+from heeltoe.mechanics.drains import drainage_left, with_drainage
 from heeltoe.mechanics.friction import peak_of, residual_of
 from heeltoe.mechanics.loads import Resultant, concrete_mass, scaled, static_forces
 from heeltoe.mechanics.virtual_water import moving_force
@@ -130,11 +131,10 @@ def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
         if choice.drain_diameter is None:
             said.append(Sentence("drains as before: statics.drain_diameter is not given"))
         else:
-            share = max(0.0, 1.0 - size / choice.drain_diameter)
+            share = drainage_left(case, slip)
             text = "slip over a drain diameter of {diameter_m:g m} leaves {share:.3g} of the drainage"
             said.append(Sentence.of(text, diameter_m=choice.drain_diameter, share=share))
-            efficiency = share * (case.uplift.drain_efficiency or 0.0)
-            case = case.model_copy(update={"uplift": case.uplift.model_copy(update={"drain_efficiency": efficiency})})
+            case = with_drainage(case, share)
     if case.anchors and size:
         said.append(Sentence("prestress of the anchors as before the slip"))
     start, end = (0.0, width - size) if slip >= 0.0 else (size, width)

@@ -23,6 +23,7 @@ OF_A_RUN: dict[str, str] = {
     "energy.impact_j": "Energy lost in impacts.",
     "energy.damping_j": "Energy lost in the concrete's damping; zero for a block.",
     "energy.numerical_j": "Energy lost by the time stepping itself; zero for a block.",
+    "drainage_by_motion": "Part of the drainage that each motion of a sequence has found; null where slip closes none.",
     "sequence[].static.*": "An answer of the static checks: ok, what is missed in words, or the drainage that is left.",
     "cracks[].elevation_m": "Of the upstream end of this one of several cracks, above the lowest point of the section.",
     "cracks[].friction": "Its coefficient of friction while it slips.",

@@ -27,16 +27,13 @@ pub(super) struct Rubbing<'a> {
 }
 
 impl<'a> Rubbing<'a> {
-    pub(super) fn new(law: &'a Law, block: &Block) -> Self {
+    pub(super) fn new(law: &'a Law, worn: Worn, block: &Block) -> Self {
         let normal = -block.generalised_force[HEEL].constant - block.generalised_force[TOE].constant;
         Rubbing {
             law,
             width: block.width,
             still: (normal / block.width).max(0.0),
-            worn: Worn {
-                path: 0.0,
-                bonded: true,
-            },
+            worn,
             kept: Vec::new(),
         }
     }

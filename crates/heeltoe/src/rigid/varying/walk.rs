@@ -14,7 +14,7 @@ use super::instant::Instant;
 use super::rubbing::Rubbing;
 use super::shaking::{Ground, Piece, TurningShaking};
 use super::step::State;
-use crate::friction::Law;
+use crate::friction::{Law, Worn};
 
 /// Relative error allowed in a step, of lengths of the crack's width and of velocities of sqrt(g B).
 pub(super) const TOLERANCE: f64 = 1e-12;
@@ -51,18 +51,19 @@ pub(super) struct Varying<'a> {
     pub(super) error: f64,
 }
 
-/// Run one block through one motion; `start`, `options` and `wanted` are those of [`super::super::exact::simulate`].
+/// Run one block through one motion, with what its crack has been through; `start`, `options` and `wanted` are those of
+/// [`super::super::exact::simulate`].
 pub fn simulate(
     block: &Block,
     turning: &TurningBlock,
-    law: Option<&Law>,
+    law: Option<(&Law, Worn)>,
     shaking: &TurningShaking,
     start: Option<[Vector; 2]>,
     options: Options,
     wanted: Wanted,
 ) -> Run {
     let [position, velocity] = start.unwrap_or([[0.0; 3]; 2]);
-    let rubbing = law.map(|law| Rubbing::new(law, block));
+    let rubbing = law.map(|(law, worn)| Rubbing::new(law, worn, block));
     let bond = rubbing.as_ref().map_or(0.0, Rubbing::bond);
     let block = &block.under(turning.force_scale(shaking.peaks()).max(bond));
     let speed = (block.acceleration_scale() * block.width).sqrt();
