@@ -87,7 +87,7 @@ class ShakenDam:
             stride = max(1, min(count, round(frame_step / step)))
             often = max(1, round(min(_STRESS_STEP, frame_step) / step))
             stresses = StressRows(in_bodies(self.dam.stress_places), often)
-        return self._kernel.run(
+        return self._shaken_dam.run(
             self._ground(count),
             step,
             self.case.flexible.theta,
@@ -110,7 +110,7 @@ class ShakenDam:
         count, step = self._steps(step)
         pairs = np.column_stack([scales, scales])
         theta = self.case.flexible.theta
-        return self._kernel.run_many_cracks(
+        return self._shaken_dam.run_many_cracks(
             self._ground(count),
             step,
             theta,
@@ -121,7 +121,7 @@ class ShakenDam:
         )
 
     @cached_property
-    def _kernel(self) -> CrackedDam:
+    def _shaken_dam(self) -> CrackedDam:
         return self.dam.kernel.under(rising_water(self.case, self.dam.bodies, self.shaking.drainage))
 
     def _steps(self, step: float) -> tuple[int, float]:
