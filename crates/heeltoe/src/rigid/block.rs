@@ -112,7 +112,7 @@ numbers! {
 
 impl BlockNumbers {
     /// Static loads, and those per horizontal and per vertical acceleration of the ground.
-    fn loads(&self) -> [Vector; 3] {
+    pub(super) fn loads(&self) -> [Vector; 3] {
         [
             [self.static_horizontal, self.static_vertical, self.static_moment],
             [

@@ -14,13 +14,13 @@ use super::shaking::Piece;
 // successor agree.
 
 /// Below this a value counts as zero and the sign of its slope decides.
-const TIE: f64 = 1e-13;
+pub(super) const TIE: f64 = 1e-13;
 /// A condition counts as violated within a piece only if it falls below this. It is far above [`TIE`], so that where an
 /// event is seen the slopes that decide what follows are told from rounding.
 pub(super) const VIOLATION: f64 = 1e-10;
 /// Last resort where rounding makes every mode look inadmissible by a hair, as under ground accelerations a thousand
 /// times the loads, by which sizes are not measured.
-const HAIR: f64 = 1e-9;
+pub(super) const HAIR: f64 = 1e-9;
 
 /// A block that has to go on: the corners whose gap and gap velocity are zero, the slip velocity, the ground from here.
 pub(super) struct Moving<'a> {
@@ -31,7 +31,7 @@ pub(super) struct Moving<'a> {
 
 /// Whether the block can move on in `mode`, and if so what it feels there.
 #[inline(always)]
-fn admissible(reaction: &Reaction, moving: &Moving, tie: f64, felt: &mut Felt) -> bool {
+pub(super) fn admissible(reaction: &Reaction, moving: &Moving, tie: f64, felt: &mut Felt) -> bool {
     let Moving {
         closed,
         velocity,

@@ -4,6 +4,8 @@
 //! modes, reactions, impact and the choice of what comes next, in contact coordinates `w = (slip, heel gap, toe gap)`:
 //!
 //! `w'' = b + A (T, N_h, N_t)`.
+//!
+//! [`stack`] has two such blocks, one on the other.
 
 mod block;
 mod choice;
@@ -16,6 +18,7 @@ mod mode;
 mod reaction;
 mod result;
 mod shaking;
+pub mod stack;
 pub mod varying;
 mod walk;
 

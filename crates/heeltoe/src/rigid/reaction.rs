@@ -115,7 +115,7 @@ fn all_held(a: &[Vector; 3], b: &Vector) -> Vector {
 impl Reaction {
     fn new(block: &Block, mode: Mode) -> Self {
         let (pull, free) = &pulled(block, mode);
-        let (forces, accelerations) = (block.force_scale, block.acceleration_scale());
+        let accelerations = block.acceleration_scale();
         let size = |i: usize| {
             let Affine {
                 constant,
@@ -150,6 +150,24 @@ impl Reaction {
                 from(coupling, &mut acceleration[i], &mut acceleration_size[i]);
             }
         }
+        Reaction::made(
+            block,
+            mode,
+            regular,
+            (force, force_size),
+            (acceleration, acceleration_size),
+        )
+    }
+
+    /// Of forces and accelerations that have been worked out, each with the size of its terms.
+    pub(super) fn made(
+        block: &Block,
+        mode: Mode,
+        regular: bool,
+        (force, force_size): ([Affine; 3], Vector),
+        (mut acceleration, acceleration_size): ([Affine; 3], Vector),
+    ) -> Self {
+        let (forces, accelerations) = (block.force_scale, block.acceleration_scale());
         let [friction, heel, toe] = force_size.map(|terms| terms.max(forces));
         let [along, left, right] = acceleration_size.map(|terms| terms.max(accelerations));
         let cone_size = block.friction_static * (heel + toe) + friction + block.cohesion[0].abs();

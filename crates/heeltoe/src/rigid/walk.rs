@@ -18,11 +18,11 @@ use super::result::{Event, EventKind, Moment, Outcome, Run, Summary};
 use crate::stop::Stop;
 
 /// A slip slower than this many times the bound of bounces may jam unasked; it would end within a nanometre or so.
-const CRAWL: f64 = 100.0;
+pub(super) const CRAWL: f64 = 100.0;
 /// Events in which time does not move, after which it never will.
-const STANDING: u32 = 1000;
+pub(super) const STANDING: u32 = 1000;
 /// Corners nearer than this part of the width touch: it is rounding.
-const NEAR: f64 = 1e-13;
+pub(super) const NEAR: f64 = 1e-13;
 
 /// How a block is to move.
 #[derive(Clone, Copy, Debug)]
@@ -282,7 +282,7 @@ pub(super) trait Carried<'a> {
 }
 
 /// The name of an event in which nothing strikes.
-fn describe(before: Mode, after: Mode, cause: Option<Cause>) -> EventKind {
+pub(super) fn describe(before: Mode, after: Mode, cause: Option<Cause>) -> EventKind {
     let (was, is) = (before.contacts(), after.contacts());
     if cause == Some(Cause::Stop) {
         EventKind::SlipStops
