@@ -3,11 +3,13 @@
 mod flexible;
 mod law;
 mod rigid;
+mod stack;
 mod tables;
 mod watch;
 
 use heeltoe::flexible::{self as elastic, Frames, State, Status};
 use heeltoe::friction::{LawNumbers, Shape};
+use heeltoe::rigid::stack::Place;
 use heeltoe::rigid::varying::VaryingNumbers;
 use heeltoe::rigid::{BlockNumbers, Event, EventKind, Mode, Moment, Outcome, Shaking, Summary};
 use numpy::PyArray2;
@@ -27,6 +29,8 @@ mod _kernel {
     use crate::law::FrictionLaw;
     #[pymodule_export]
     use crate::rigid::{run_rigid, run_rigid_many, run_rigid_varying};
+    #[pymodule_export]
+    use crate::stack::run_rigid_stack;
     #[pymodule_export]
     use crate::watch::Ending;
 
@@ -61,6 +65,7 @@ mod _kernel {
         quiet();
         m.add("InternalError", m.py().get_type::<InternalError>())?;
         m.add("BLOCK_FIELDS", BlockNumbers::FIELDS.to_vec())?;
+        m.add("PLACE_FIELDS", Place::FIELDS.to_vec())?;
         m.add("VARYING_FIELDS", VaryingNumbers::FIELDS.to_vec())?;
         m.add("LAW_FIELDS", LawNumbers::FIELDS.to_vec())?;
         m.add("LAWS", Shape::NAMES.to_vec())?;

@@ -13,7 +13,7 @@ use crate::law::FrictionLaw;
 use crate::tables::{named, pool, row, rows, slice, table, wrong, Numbers};
 use crate::watch::{prompt, watched};
 
-type Result<'py> = (
+pub type Result<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray1<u8>>,
@@ -43,7 +43,7 @@ fn reached(run: &Run) -> Option<[f64; 2]> {
 }
 
 /// Summary, histories, modes and events.
-fn arrays<'py>(py: Python<'py>, run: &Run) -> Result<'py> {
+pub fn arrays<'py>(py: Python<'py>, run: &Run) -> Result<'py> {
     let modes: Vec<u8> = run.moments.iter().map(|m| m.mode.index() as u8).collect();
     (
         run.summary.row().to_vec().into_pyarray(py),

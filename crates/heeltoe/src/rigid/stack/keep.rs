@@ -45,7 +45,7 @@ impl Walk<'_> {
     pub(super) fn course<'p>(&mut self, piece: &'p Piece<2>) -> Course<'p> {
         let mut motion = [[0.0; 2]; 6];
         let reactions = self.reactions.of(self.modes);
-        for crack in 0..2 {
+        for (crack, reaction) in reactions.iter().enumerate() {
             let (mode, first) = (self.modes[crack], 3 * crack);
             let slips = mode.slip().is_some() && self.velocity[first + SLIP] == 0.0;
             let starts = [
@@ -57,7 +57,7 @@ impl Walk<'_> {
                 f64::from(free(mode, HEEL) && self.closed[crack][0]),
                 f64::from(free(mode, TOE) && self.closed[crack][1]),
             ];
-            let own = accelerations(&reactions[crack], &self.felt[crack], starts, piece.left);
+            let own = accelerations(reaction, &self.felt[crack], starts, piece.left);
             motion[first..first + 3].copy_from_slice(&own);
         }
         Course { motion, piece }
@@ -82,9 +82,9 @@ impl Walk<'_> {
         let mut step = course.piece.left;
         let mut ended = None;
         let reactions = self.reactions.of(self.modes);
-        for crack in 0..2 {
+        for (crack, reaction) in reactions.iter().enumerate() {
             let (mode, first) = (self.modes[crack], 3 * crack);
-            let (felt, reaction) = (&self.felt[crack], &reactions[crack]);
+            let felt = &self.felt[crack];
             let mut earlier = |t: f64, why: Cause| {
                 if t < step || (t == step && ended.is_none()) {
                     step = t;

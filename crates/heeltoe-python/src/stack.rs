@@ -1,0 +1,67 @@
+//! Two rigid blocks, one on the other, bound to Python.
+
+use heeltoe::rigid::stack::{simulate, Place, Stack, StackRun};
+use heeltoe::rigid::{BlockNumbers, Options, Shaking, Wanted};
+use numpy::PyArray2;
+use pyo3::prelude::*;
+
+use crate::rigid::{arrays, Result};
+use crate::tables::{row, slice, table, wrong, Numbers};
+use crate::watch::watched;
+
+type StackResult<'py> = (
+    Result<'py>,
+    Result<'py>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+);
+
+/// How far a run has come (s).
+fn reached(run: &StackRun) -> Option<[f64; 2]> {
+    let summary = &run.cracks[0].summary;
+    Some([summary.end_time, summary.position[0]])
+}
+
+/// Run two blocks; see `_kernel.pyi`.
+#[pyfunction]
+#[pyo3(signature = (lower, upper, place, time, horizontal, vertical, output_times, settle, event_limit, jam))]
+#[allow(clippy::too_many_arguments)]
+pub fn run_rigid_stack<'py>(
+    py: Python<'py>,
+    lower: Numbers<'py>,
+    upper: Numbers<'py>,
+    place: Numbers<'py>,
+    time: Numbers<'py>,
+    horizontal: Numbers<'py>,
+    vertical: Option<Numbers<'py>>,
+    output_times: Numbers<'py>,
+    settle: f64,
+    event_limit: u64,
+    jam: bool,
+) -> PyResult<StackResult<'py>> {
+    let block = |numbers: &Numbers| Ok::<_, PyErr>(BlockNumbers::from_row(&row(numbers, "a block")?));
+    let place = Place::from_row(&row(&place, "a place")?);
+    let stack = Stack::new(&block(&lower)?, &block(&upper)?, &place).map_err(wrong)?;
+    let shaking = Shaking::new(time.as_slice()?, horizontal.as_slice()?, slice(&vertical)?).map_err(wrong)?;
+    let options = Options {
+        settle,
+        event_limit,
+        jam,
+    };
+    let times = output_times.as_slice()?;
+    let run = watched(py, None, reached, |stop| {
+        let wanted = Wanted {
+            times,
+            events: true,
+            stop,
+        };
+        simulate(&stack, &shaking, options, wanted)
+    })?;
+    let [below, above] = &run.cracks;
+    Ok((
+        arrays(py, below),
+        arrays(py, above),
+        table(py, run.tilts.into_iter()),
+        table(py, run.lost.into_iter()),
+    ))
+}
