@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from heeltoe import InputError, build_block, flexible, read_case, rigid, rigid_many, run, statics
+from heeltoe import InputError, build_block, read_case, rigid, rigid_many, statics
 from heeltoe.app.sliders import sliders
 from heeltoe.kernel.block import Limits, run_block
 from heeltoe.kernel.friction import LAWS, friction_law, shear_stress
@@ -354,16 +354,6 @@ def test_a_law_stands_beside_nothing_that_says_the_same():
     with pytest.raises(InputError) as refused:
         typical(COHESION, statics={"bonded": 0.5, "cohesion": "0.1 MPa"})
     assert refused.value.code == "law-twice"
-
-
-def test_the_flexible_model_refuses_a_law_and_auto_leaves_it_out():
-    case = typical(WEAKENING, concrete={"density": "2650 kg/m^3", "modulus": "20 GPa"})
-    with pytest.raises(InputError) as refused:
-        flexible(case, SHAKEN)
-    assert refused.value.code == "law-model"
-    found = run(case, motion=SHAKEN)
-    assert found.model == "rigid"
-    assert "crack.law" in found.chosen.why
 
 
 def test_coefficients_that_are_given_take_the_place_of_a_law():

@@ -142,7 +142,7 @@ impl<'a> Stand<'a> {
 }
 
 /// Length of the face that belongs to each node: half of what is between it and its neighbours.
-pub(super) fn lengths(along: &[f64]) -> Vec<f64> {
+fn lengths(along: &[f64]) -> Vec<f64> {
     let last = along.len().saturating_sub(1);
     (0..along.len())
         .map(|k| (along[(k + 1).min(last)] - along[k.saturating_sub(1)]) / 2.0)

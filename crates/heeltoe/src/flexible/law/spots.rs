@@ -3,11 +3,10 @@
 use super::super::contact::{Contactor, Contacts};
 use super::super::dam::Dam;
 use super::super::sides::Place;
-use super::super::stance::lengths;
 
 /// What a contact has of its crack.
 pub(super) struct Spot {
-    /// Its share of the length (m).
+    /// Its share of the length (m), see [`shares`].
     pub length: f64,
     /// The contact, counted in its crack, of the other face's end in whose place it comes; none of a contact that is there
     /// from the beginning.
@@ -21,7 +20,7 @@ pub(super) fn spots(dam: &Dam, contacts: &Contacts) -> Vec<Vec<Spot>> {
     let each = places.iter().zip(contacts.of_cracks());
     each.map(|(place, own)| {
         let meeting = place.of(faces);
-        let shares = [meeting.upper, meeting.lower].map(|face| lengths(face.along));
+        let shares = [meeting.upper, meeting.lower].map(|face| shares(face.along));
         let contactors = &contacts.contactors[own];
         // Where all nodes of both faces are watched, each place is there twice.
         let twice = dam.contactors == 5 && !shares[1].is_empty();
@@ -35,6 +34,25 @@ pub(super) fn spots(dam: &Dam, contacts: &Contacts) -> Vec<Vec<Spot>> {
         contactors.iter().map(spot).collect()
     })
     .collect()
+}
+
+/// Length of a face that belongs to each node, as a uniform stress makes forces on them: of an edge of three nodes, which
+/// eight-node elements have, a sixth, four and a sixth. A face of an even number of nodes has edges of two.
+fn shares(along: &[f64]) -> Vec<f64> {
+    let of_edge: &[f64] = if along.len() % 2 == 1 {
+        &[1.0 / 6.0, 4.0 / 6.0, 1.0 / 6.0]
+    } else {
+        &[0.5, 0.5]
+    };
+    let mut shares = vec![0.0; along.len()];
+    let last = of_edge.len() - 1;
+    for first in (0..along.len().saturating_sub(1)).step_by(last) {
+        let length = along[first + last] - along[first];
+        for (k, share) in of_edge.iter().enumerate() {
+            shares[first + k] += share * length;
+        }
+    }
+    shares
 }
 
 fn double(contactor: &Contactor, all: &[Contactor], others: usize) -> Option<usize> {
