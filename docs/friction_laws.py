@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from heeltoe import read_case, rigid
+from heeltoe import flexible, read_case, rigid
+from heeltoe.result.response import Response
 
 LAWS: dict[str, dict[str, Any]] = {
     "constant, 1.2": {"crack.friction": 1.2},
@@ -44,17 +45,22 @@ CASE = Path(__file__).parent.parent / "examples" / "typical-base.toml"
 
 def main() -> None:
     """Print a row for each law."""
-    print("| law | friction before, after | residual slip |\n| --- | --- | --- |")
+    print("| law | friction before, after | rigid block | flexible dam |\n| --- | --- | --- | --- |")
     for name, change in LAWS.items():
         case = read_case(CASE, change)
-        found = rigid(case)
-        law = found.friction_law
+        block, dam = rigid(case), flexible(case)
+        law = block.friction_law
         mu = case.crack.mu_static
         both = (mu, mu) if law is None else (law["apparent_friction_before"], law["apparent_friction_after"])
-        slip = f"{1e3 * found.residual_slip_m:.0f} mm"
-        if abs(found.residual_slip_m) > case.cut.crack_width:
-            slip = "slides off"
-        print(f"| {name} | {both[0]:.2f}, {both[1]:.2f} | {slip} |")
+        slips = f"{told(block)} | {told(dam)} ± {1e3 * dam.evidence['residual_slip_m']['uncertainty']:.0f} mm"
+        print(f"| {name} | {both[0]:.2f}, {both[1]:.2f} | {slips} |")
+
+
+def told(response: Response) -> str:
+    """Return a residual slip in words."""
+    if abs(response.residual_slip_m) > response.crack_width_m:
+        return "slides off"
+    return f"{1e3 * response.residual_slip_m:.0f} mm"
 
 
 if __name__ == "__main__":

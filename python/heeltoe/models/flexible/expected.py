@@ -16,6 +16,8 @@ from heeltoe.models.silence import STEP
 _FRAME_STEP = 0.01
 # Seconds of a step, of each 2 k m in it, and of that to the power of 3/2, as caches end.
 _STEP, _ANSWERED, _FETCHED = 6e-7, 4.3e-10, 8.6e-13
+# Times as much where a friction law is found by passes, 1.7 to 4 of it.
+_BY_LAW = 2.5
 # Bytes of a step of the ground; copies of a frame.
 _GROUND, _COPIES = 300.0, 3.0
 # Runs that a result takes by its evidence, in single ones, without refinement.
@@ -49,6 +51,8 @@ def running(case: Case, end: float, frame_step: float, step: float | None = None
     answers = sum(2.0 * part.nodes * part.modes for part in parts)
     steps = end / (step or case.flexible.time_step or _step_of(case))
     each = steps * (_STEP * len(parts) + _ANSWERED * answers + _FETCHED * answers**1.5)
+    if case.crack.law is not None:
+        each *= _BY_LAW
     frame = 16.0 + sum(part.modes + 6.0 * part.nodes for part in parts)
     frames = min(steps, end / frame_step) * frame * NUMBER * _COPIES
     return Cost(each * (_RUNS[case.flexible.evidence] if runs is None else runs), _GROUND * steps + frames)

@@ -24,7 +24,8 @@ const NEAR: f64 = 0.02;
 const MISSED: f64 = 1e-11;
 /// A solution that breaks the conditions of contact by more is none.
 const NONE: f64 = 1e-9;
-/// Passes after which half of each change must do, and after which what is found must do; its miss is in the residual.
+/// Passes after which half of each change must do, and what is found where contact has no solution; and after which it
+/// must do anyhow. Its miss is in the residual.
 const HALVED: u32 = 12;
 const MOST: u32 = 40;
 
@@ -61,11 +62,14 @@ impl Laws {
         self.passes += 1;
         let missed = self.missed(problem, solver, before, step);
         let none = report.residual > NONE;
+        let mut most = MOST;
         if none {
             self.careful = true;
-            self.break_worst(problem, solver);
+            if !self.break_worst(problem, solver) {
+                most = HALVED;
+            }
         }
-        if (none || missed > MISSED) && self.passes < MOST {
+        if (none || missed > MISSED) && self.passes < most {
             self.draw(problem, solver, step.dt);
             return false;
         }
@@ -102,17 +106,19 @@ impl Laws {
         }
     }
 
-    /// Break the bond of the contact that breaks its conditions most.
-    fn break_worst(&mut self, problem: &Problem, solver: &Solver) {
+    /// Break the bond of the contact that breaks its conditions most; false where there is none to break.
+    fn break_worst(&mut self, problem: &Problem, solver: &Solver) -> bool {
         let violation = |worked: &Worked| solver.violation(problem, worked.contact);
         let bonded = self.contacts.iter_mut().filter(|worked| {
             worked.bond[0] > 0.0 && solver.status[worked.contact] != Status::Absent && violation(worked) > 0.0
         });
-        if let Some(worked) = bonded.max_by(|a, b| violation(a).total_cmp(&violation(b))) {
-            worked.worn.bonded = false;
-            (0..2).for_each(|k| worked.bears.constant[k] -= worked.bond[k]);
-            worked.bond = [0.0; 2];
-        }
+        let Some(worked) = bonded.max_by(|a, b| violation(a).total_cmp(&violation(b))) else {
+            return false;
+        };
+        worked.worn.bonded = false;
+        (0..2).for_each(|k| worked.bears.constant[k] -= worked.bond[k]);
+        worked.bond = [0.0; 2];
+        true
     }
 
     /// Draw the lines through what contacts bear where they are.

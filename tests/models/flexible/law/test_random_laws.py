@@ -1,0 +1,42 @@
+"""Random dams with random friction laws: they end, with numbers, and contact makes no energy."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from heeltoe.kernel.dam import CrackedDam
+from heeltoe.models.flexible.reduced import side_by_side_in
+from heeltoe.validation.random_dams import LEFT, MADE, draw
+from models.rigid.test_friction_laws import random_law
+
+
+def check(seed):
+    rng = np.random.default_rng(seed)
+    drawn = draw(rng)
+    law = random_law(rng)
+    upper, *lower = (side_by_side_in(drawn.dam.reduced[k::2]) for k in range(len(drawn.dam.reduced)))
+    lines = tuple(replace(line, law=law) for line in drawn.dam.lines)
+    kernel = CrackedDam(upper, lower[0] if lower else None, lines, drawn.case.flexible.contactors)
+    run = replace(drawn, dam=replace(drawn.dam, kernel=kernel, lines=lines)).run()
+    found = run.summary
+    assert all(np.isfinite(value) for value in found.values())
+    assert run.outcome in ("ok", "lost")
+    assert found["energy_residual"] <= max(drawn.residual_allowed(run), 1e-10)
+    assert (run.worked["path"] >= run.worked["path_before"]).all()
+    assert (run.worked["bonded"] <= run.worked["bonded_before"]).all()
+    assert found["bond_energy"] >= 0.0
+    if drawn.ordinary:
+        assert found["energy_gained"] <= MADE * found["energy_turnover"]
+        assert found["energy_friction"] + found["energy_impact"] >= -LEFT * found["energy_turnover"]
+    return float(found["contact_residual"]) if drawn.ordinary else 0.0
+
+
+@pytest.mark.parametrize("count", [10, pytest.param(200, marks=pytest.mark.slow)])
+def test_random_dams_with_random_laws_end(count):
+    left = np.array([check(seed) for seed in range(count)])
+    # All nodes of both faces watched are next to singular; friction at rest above that of sliding may have no solution.
+    assert (left < 1e-3).all()
+    assert (left > 1e-6).mean() < 0.05
