@@ -31,12 +31,10 @@ def check(seed):
     if drawn.ordinary:
         assert found["energy_gained"] <= MADE * found["energy_turnover"]
         assert found["energy_friction"] + found["energy_impact"] >= -LEFT * found["energy_turnover"]
-    return float(found["contact_residual"]) if drawn.ordinary else 0.0
+    # Where all nodes of both faces are watched the problem is next to singular, by any law.
+    return float(found["contact_residual"]) if drawn.ordinary and drawn.case.flexible.contactors != 5 else 0.0
 
 
 @pytest.mark.parametrize("count", [10, pytest.param(200, marks=pytest.mark.slow)])
 def test_random_dams_with_random_laws_end(count):
-    left = np.array([check(seed) for seed in range(count)])
-    # All nodes of both faces watched are next to singular; friction at rest above that of sliding may have no solution.
-    assert (left < 1e-3).all()
-    assert (left > 1e-6).mean() < 0.05
+    assert max(check(seed) for seed in range(count)) < 1e-6
