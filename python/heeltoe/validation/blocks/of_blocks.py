@@ -8,6 +8,7 @@ from heeltoe.validation.blocks import (
     closed_forms,
     elastic_bar,
     flexible_blocks,
+    friction_laws,
     sliding_spectra,
     thesis_blocks,
     turning,
@@ -16,6 +17,7 @@ from heeltoe.validation.chart import Chart
 from heeltoe.validation.declared import Declared
 
 _EXACT = "Exact from event to event: there is no step and no mesh."
+_INTEGRATED = "Integrated with an error of 1e-12 of the motion in every step."
 _SMOOTH = "Nothing here strikes or is at a threshold: ours moves as the shaking does."
 _ONE_PER_CENT = "Ours under 99 % and 101 % of the shaking stands beside it."
 _PULSE = "The pulse is given by its formula."
@@ -50,6 +52,35 @@ CASES: dict[str, Declared] = {
         closed_forms.pulse,
         ("rigid",),
         'N. M. Newmark, "Effects of earthquakes on dams and embankments", Géotechnique 15 (1965), 139-160',
+        _EXACT,
+        _PULSE,
+    ),
+    "weakening-slider": Declared(
+        friction_laws.weakening_slider,
+        ("rigid",),
+        f"Closed forms; {REFERENCES['law: slip weakening']}; N. M. Newmark, Géotechnique 15 (1965), 139-160",
+        _INTEGRATED,
+        _PULSE,
+    ),
+    "barton-bandis": Declared(
+        friction_laws.barton_bandis,
+        ("rigid",),
+        f"{REFERENCES['law: barton-bandis']}; N. M. Newmark, Géotechnique 15 (1965), 139-160",
+        _INTEGRATED,
+        _PULSE,
+    ),
+    "laws-to-coulomb": Declared(
+        friction_laws.laws_to_coulomb,
+        ("rigid",),
+        "The exact walk with a constant coefficient; an independent program of small steps",
+        _INTEGRATED,
+        "The motion is given by its formula.",
+        long=True,
+    ),
+    "sequence": Declared(
+        friction_laws.sequence,
+        ("rigid",),
+        "N. M. Newmark, Géotechnique 15 (1965), 139-160; each motion alone",
         _EXACT,
         _PULSE,
     ),
