@@ -373,3 +373,16 @@ def test_comparison_figure(both, tmp_path):
     figures = all_figures(None, both, "us")
     assert next(iter(figures)) == "comparison"
     assert {"rigid/response", "deformed"} <= set(figures)
+
+
+def test_what_a_crack_with_a_law_bears_stays_below_what_it_could():
+    law = {"name": "slip weakening", "peak_friction": 1.0, "residual_friction": 0.7, "slip": "20 mm"}
+    points = [["0 s", "0 g"], ["0.1 s", "-0.8 g"], ["0.3 s", "0.5 g"], ["0.5 s", "0 g"]]
+    motion = {"points": points, "pga": None, "duration": None}
+    found = rigid(read_case(BASE, [{"crack.law": law, "motion": motion}]))
+    figures = all_figures(None, found)
+    assert "friction" in figures
+    could, slip = (axes.lines[0] for axes in figures["friction"].axes)
+    assert could.get_ydata()[0] > could.get_ydata()[-1]
+    assert np.all(np.diff(slip.get_ydata()) >= 0.0)
+    assert "friction" not in all_figures(None, rigid(read_case(BASE, [{"motion": motion}])))

@@ -26,6 +26,7 @@ from heeltoe.views.figures.histories import (
 from heeltoe.views.figures.panels import is_elastic
 from heeltoe.views.figures.path import path_figure
 from heeltoe.views.figures.spectrum import spectrum_figure
+from heeltoe.views.figures.worn import friction_figure
 
 if TYPE_CHECKING:
     from heeltoe.case.model import Case
@@ -37,6 +38,7 @@ NAMES = (
     "comparison",
     "response",
     "slip-by-mode",
+    "friction",
     "accelerations",
     "forces",
     "energy",
@@ -52,7 +54,7 @@ NAMES = (
     "modes",
 )
 #: Those that each of several cracks has.
-_OF_CRACKS = ("response", "slip-by-mode", "forces", "path", "crack", "pressure")
+_OF_CRACKS = ("response", "slip-by-mode", "friction", "forces", "path", "crack", "pressure")
 #: Lift-offs below this [m] have no picture of their own.
 _NO_LIFT = 1e-5
 
@@ -151,6 +153,8 @@ def _drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]
     # Of a single mode the slip of the response says it all.
     if sum(abs(slip) > NO_SLIP for slip in response.slip_by_mode_m.values()) > 1:
         found["slip-by-mode"] = lambda: slip_by_mode_figure(response, units)
+    if "friction_strength_n" in response.histories:
+        found["friction"] = lambda: friction_figure(response, units)
     if is_elastic(response):
         found["forces"] = lambda: force_figure(response, units)
     else:

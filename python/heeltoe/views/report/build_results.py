@@ -84,6 +84,7 @@ _FIGURES = (
     "comparison",
     "response",
     "slip-by-mode",
+    "friction",
     "crack-level",
     "accelerations",
     "forces",

@@ -20,6 +20,7 @@ CAPTIONS = {
     "comparison": "Both models side by side, shaken by the same ground motion.",
     "response": "Ground acceleration, slip (positive downstream), rotation and openings if there are any, the mode.",
     "slip-by-mode": "Slip gathered in each mode of motion.",
+    "friction": "Friction in the crack, what its law could bear at the moment, slip, and the way slipped to and fro.",
     "accelerations": "Acceleration of the ground, acceleration of the slip, and the forces at heel and toe.",
     "forces": "Forces across the crack.",
     "energy": "Where the energy put in by the earthquake goes.",
@@ -41,6 +42,7 @@ _SHARES = {
     "tension": 0.8,
     "spectrum": 0.7,
     "slip-by-mode": 0.8,
+    "friction": 0.9,
     "energy": 0.8,
     "mesh": 0.55,
 }
