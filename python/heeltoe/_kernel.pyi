@@ -104,7 +104,7 @@ def run_rigid_varying(
     settle: float,
     event_limit: int,
     jam: bool,
-) -> tuple[Floats, Floats, NDArray[np.uint8], Floats, Floats, tuple[Floats, float, bool, float] | None]:
+) -> tuple[Floats, Floats, NDArray[np.uint8], Floats, Floats, tuple[Floats, float, bool, float, float] | None]:
     """Run one block whose loads or geometry change as it moves, by integration between events.
 
     Parameters

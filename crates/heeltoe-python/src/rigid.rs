@@ -30,7 +30,7 @@ type VaryingResult<'py> = (
 );
 
 /// Path and bond at the moments asked for, and at the end, and the error of the integration.
-type Worn<'py> = (Bound<'py, PyArray2<f64>>, f64, bool, f64);
+type Worn<'py> = (Bound<'py, PyArray2<f64>>, f64, bool, f64, f64);
 
 /// Runs of no more events, samples and moments that are wanted take a few milliseconds: nobody interrupts them.
 const EVENTS_AT_ONCE: u64 = 2000;
@@ -163,7 +163,7 @@ pub fn run_rigid_varying<'py>(
     let (summary, histories, modes, events) = arrays(py, &run);
     let worn = run.worn.map(|worn| {
         let kept = table(py, worn.kept.into_iter());
-        (kept, worn.end.path, worn.end.bonded, worn.error)
+        (kept, worn.end.path, worn.end.bonded, worn.error, worn.integrated)
     });
     Ok((
         summary,

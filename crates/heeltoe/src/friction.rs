@@ -115,6 +115,37 @@ impl Law {
         self.shape == Shape::Barton
     }
 
+    /// The path at which what it bears next has a corner.
+    pub(crate) fn corner(&self, worn: Worn) -> f64 {
+        let up_to = |end: f64| if worn.path < end { end } else { f64::INFINITY };
+        let bond = if worn.bonded && self.numbers.cohesion > 0.0 {
+            up_to(self.numbers.loss)
+        } else {
+            f64::INFINITY
+        };
+        match self.shape {
+            Shape::Linear => bond.min(up_to(self.numbers.scale)),
+            _ => bond,
+        }
+    }
+
+    /// Whether up to the next corner it is a straight line over the path; one that is so only while the normal force stays
+    /// as it is, is that where this is `pressed_evenly`.
+    pub(crate) fn straight(&self, worn: Worn, pressed_evenly: bool) -> bool {
+        let LawNumbers {
+            peak,
+            residual,
+            scale,
+            ..
+        } = self.numbers;
+        match self.shape {
+            Shape::Constant => true,
+            Shape::Linear => pressed_evenly || worn.path >= scale || peak == residual,
+            Shape::Barton | Shape::Lift => pressed_evenly,
+            Shape::Exponential | Shape::Speed => false,
+        }
+    }
+
     /// Cohesion of the whole bond (Pa).
     pub(crate) fn cohesion(&self) -> f64 {
         self.numbers.cohesion

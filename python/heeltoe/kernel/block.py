@@ -93,7 +93,9 @@ class Worn:
     end, bonded_at_end
         The same when the run ended.
     error
-        Sum of the errors estimated of all steps of the integration [m].
+        Sum of the errors estimated of all steps of the integration, and of what those in the velocity come to [m].
+    integrated
+        Time that these steps took; all else of the run is exact [s].
     """
 
     path: Floats
@@ -101,6 +103,7 @@ class Worn:
     end: float
     bonded_at_end: bool
     error: float
+    integrated: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,7 +144,7 @@ class BlockRun:
         mode: NDArray[np.uint8],
         events: Floats,
         tension: Floats | None = None,
-        worn: tuple[Floats, float, bool, float] | None = None,
+        worn: tuple[Floats, float, bool, float, float] | None = None,
     ) -> BlockRun:
         """Put the names on what a kernel returns."""
         return cls(

@@ -254,6 +254,13 @@ impl Block {
         (self.mass_horizontal * horizontal).max(self.mass_vertical * vertical)
     }
 
+    /// Whether the whole normal force stays as it is while the block slides on a ground whose acceleration changes at
+    /// `rate`: neither that nor friction has a part in it.
+    pub(super) fn presses_evenly(&self, rate: [f64; 2]) -> bool {
+        let [heel, toe] = [HEEL, TOE].map(|gap| self.generalised_force[gap].slope(rate));
+        self.coupling[0] == 0.0 && heel + toe == 0.0
+    }
+
     /// A velocity of the size of sqrt(g' B): g' the vertical force per mass, B the width.
     pub(super) fn velocity_scale(&self) -> f64 {
         let g = -self.generalised_force[HEEL].constant - self.generalised_force[TOE].constant;

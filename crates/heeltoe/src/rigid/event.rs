@@ -128,7 +128,7 @@ fn near(c0: f64, c1: f64, c2: f64, [start, stop]: [f64; 2]) -> f64 {
 
 /// Root of a function that falls monotonically from `value(above) > 0` to `value(below) <= 0`, to rounding error:
 /// Newton's iteration kept inside the bracket by bisection.
-fn bracketed(
+pub(super) fn bracketed(
     value: impl Fn(f64) -> f64,
     slope: impl Fn(f64) -> f64,
     [mut above, mut below]: [f64; 2],

@@ -237,11 +237,17 @@ impl Reactions {
         Reactions(table)
     }
 
-    /// Of a block whose friction is another one in each mode.
-    pub(super) fn each(block: impl Fn(Mode) -> Block) -> Self {
-        let mut table = [Reaction::new(&block(Mode::Drift), Mode::Drift); Mode::COUNT];
+    /// Of a block whose friction is another one in each mode, and none in a mode that it jams.
+    pub(super) fn each(block: &Block, rubbing: impl Fn(Mode) -> Option<Block>) -> Self {
+        let mut table = [Reaction::new(block, Mode::Drift); Mode::COUNT];
         for mode in Mode::ALL {
-            table[mode.index()] = Reaction::new(&block(mode), mode);
+            table[mode.index()] = match rubbing(mode) {
+                Some(block) => Reaction::new(&block, mode),
+                None => Reaction {
+                    regular: false,
+                    ..Reaction::new(block, mode)
+                },
+            };
         }
         Reactions(table)
     }

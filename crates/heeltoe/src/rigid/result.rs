@@ -143,8 +143,10 @@ pub struct Wear {
     pub kept: Vec<[f64; 2]>,
     /// At the end.
     pub end: Worn,
-    /// Sum of the errors estimated of all steps of the integration (m).
+    /// Sum of the errors estimated of all steps of the integration, and of what those in the velocity come to (m).
     pub error: f64,
+    /// Time that they took: what else there is of the run is exact (s).
+    pub integrated: f64,
 }
 
 /// End, peaks and sums of a run; SI, per metre of dam.

@@ -32,6 +32,7 @@ def law_found(case: Case, block: Block, run: BlockRun) -> dict[str, Any] | None:
         "apparent_friction_after": with_bond,
         "cohesion_left_pa": None if case.crack.law.cohesion is None else (with_bond - without) * pressed,
         "surface": case.crack.law.surface,
+        "integrated_time_s": run.worn.integrated,
         "integration_error_m": run.worn.error,
     }
 

@@ -78,6 +78,7 @@ _LAW: tuple[tuple[str, str, str | None], ...] = (
     ("Largest slip path of a node", "slip_path_range_m.1", "displacement"),
     ("Apparent friction of a node after it, least", "apparent_friction_after_range.0", None),
     ("Apparent friction of a node after it, largest", "apparent_friction_after_range.1", None),
+    ("Time walked by integration, the rest exactly", "integrated_time_s", "time"),
     ("Estimated error of the integration", "integration_error_m", None),
 )
 _FIGURES = (

@@ -27,6 +27,8 @@ pub(super) struct Trial<'a> {
     pub length: f64,
     /// Of the step, in parts of what is allowed.
     pub error: f64,
+    /// Whether it was integrated at all.
+    pub integrated: bool,
     pub piece: &'a Piece,
 }
 
@@ -40,6 +42,7 @@ impl<'a> Trial<'a> {
             rate_at_end: rate,
             length,
             error: 0.0,
+            integrated: false,
             piece,
         }
     }
@@ -81,15 +84,21 @@ impl Found {
 impl Varying<'_> {
     /// Move to the next event, or by one step; returns the time that took and what ended it.
     pub(super) fn advance(&mut self, piece: &Piece, time: f64) -> (f64, Option<Cause>) {
+        let fresh = self.starting.take();
+        if let Some(slide) = self.closed_slide(piece, fresh) {
+            return self.slide_on(&slide, piece, time);
+        }
         let start = self.state;
         let rate = self.rates(&start, &piece.ground);
-        let fresh = self.starting.take();
         let length = if self.walk.mode == Mode::Rest {
             piece.left
         } else {
             piece.left.min(self.suggested)
         };
-        let mut trial = Trial::still(start, rate, length, piece);
+        let mut trial = Trial {
+            integrated: true,
+            ..Trial::still(start, rate, length, piece)
+        };
         loop {
             if !self.integrate(&mut trial) {
                 continue;

@@ -219,6 +219,11 @@ impl Instant {
         [SLIP, HEEL, TOE].map(|i| self.free_acceleration[i] + dot(&self.compliance[i], reactions))
     }
 
+    /// What the loads push along the crack.
+    pub(super) fn pushed(&self) -> f64 {
+        self.load[0]
+    }
+
     /// Work per time of the loads.
     pub(super) fn power(&self, state: &State) -> f64 {
         dot(&self.load, &[state[3], state[4], state[5]])

@@ -6,8 +6,8 @@ use super::super::mode::{Corner, Mode};
 use super::super::result::Moment;
 use super::advance::Trial;
 use super::shaking::Piece;
-use super::step::State;
-use super::walk::{Varying, TOLERANCE};
+use super::step::{State, SIZE};
+use super::walk::Varying;
 
 impl Varying<'_> {
     /// Take over the state `end` after so much of a step that began at `time`.
@@ -16,11 +16,12 @@ impl Varying<'_> {
         let kind = self.walk.mode.kind();
         self.walk.summary.time_by_mode[kind] += taken;
         if self.walk.mode == Mode::Rest || taken == 0.0 {
+            self.error.speed = 0.0;
             return;
         }
         self.turning_points(trial, end, taken);
-        self.error += trial.error.min(1.0) * TOLERANCE * self.walk.block.width;
-        self.wear(end);
+        let past = self.wear(end);
+        self.gather_error(trial, past, taken);
         self.state = *end;
         let (work, rubbed) = (end[6], end[7]);
         self.state[6] = 0.0;
@@ -39,6 +40,22 @@ impl Varying<'_> {
         let at = self.walk.summary.position;
         self.walk.summary.widen(&at, self.state[2]);
         self.strain();
+    }
+
+    /// Add the error of a step to those before, and what theirs in the velocity has come to on its way.
+    fn gather_error(&mut self, trial: &Trial, past_a_corner: bool, taken: f64) {
+        let sum = &mut self.error;
+        sum.slip += sum.speed * taken;
+        if !trial.integrated {
+            return;
+        }
+        // A corner of a law between the stages of a step spoils its estimate: it is no more than what is allowed. All of
+        // what is a mean over the components may be the slip's.
+        let error = if past_a_corner { 1.0 } else { trial.error.min(1.0) };
+        let parts = error * (SIZE as f64).sqrt();
+        sum.slip += parts * self.scale[0];
+        sum.speed += parts * self.scale[3];
+        sum.time += taken;
     }
 
     /// A state as seen from the corner whose way along the crack is the slip; where one is in contact, it is that one.

@@ -5,10 +5,12 @@
 //!
 //! `q'' = M^-1 (Q + G^T (T, N_h, N_t))`
 //!
-//! is integrated to a tolerance far below anything that is shown, and events are found on the integrated motion.
+//! is integrated to a tolerance far below anything that is shown, and events are found on the integrated motion; but for a
+//! slide whose friction goes by a law that is a straight line over the path, which has a closed form.
 
 mod advance;
 mod block;
+mod curve;
 mod instant;
 mod keep;
 mod located;
@@ -16,6 +18,7 @@ mod rates;
 mod rest;
 mod rubbing;
 mod shaking;
+mod slide;
 mod step;
 mod walk;
 mod water;

@@ -52,9 +52,12 @@ impl Varying<'_> {
         ]
     }
 
-    /// The state after `since` from `start`, by one step.
+    /// The state after `since` from the present one, `start`, in closed form or by one step.
     pub(super) fn moved(&self, start: &State, rate: &State, piece: &Piece, since: f64) -> State {
-        self.stepped(start, rate, piece, since).0
+        match self.closed_slide(piece, None) {
+            Some(slide) => slide.state(start, since),
+            None => self.stepped(start, rate, piece, since).0,
+        }
     }
 
     /// The same with the error of that step, as [`step`] has it.

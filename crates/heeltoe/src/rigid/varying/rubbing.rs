@@ -5,9 +5,10 @@
 use super::super::block::{Block, Vector, HEEL, SLIP, TOE};
 use super::super::mode::{Mode, Slip};
 use super::super::reaction::reaction_to;
+use super::super::result::Wear;
 use super::instant::Instant;
 use super::step::State;
-use super::walk::Varying;
+use super::walk::{Gathered, Varying};
 use crate::friction::{Law, Strength, Worn};
 
 /// Tangents before giving up; two or three do, one where the normal force does not go by friction.
@@ -38,9 +39,29 @@ impl<'a> Rubbing<'a> {
         }
     }
 
+    /// Hand over what there is to tell.
+    pub(super) fn told(self, error: &Gathered) -> Wear {
+        Wear {
+            kept: self.kept,
+            end: self.worn,
+            error: error.slip,
+            integrated: error.time,
+        }
+    }
+
     /// The largest force that its bond bears.
     pub(super) fn bond(&self) -> f64 {
         self.law.cohesion() * self.width
+    }
+
+    /// Whether what it bears is a straight line over the path up to the next corner.
+    pub(super) fn straight(&self, pressed_evenly: bool) -> bool {
+        self.law.straight(self.worn, pressed_evenly)
+    }
+
+    /// The path at which what it bears next has a corner.
+    pub(super) fn corner(&self) -> f64 {
+        self.law.corner(self.worn)
     }
 
     /// Whether what it bears is no straight line over the normal force.
@@ -130,12 +151,22 @@ impl Varying<'_> {
         }
     }
 
-    /// Note how far the base has slipped on the way to `end`.
-    pub(super) fn wear(&mut self, end: &State) {
-        if let Some(worn) = self.worn_at(end) {
-            if let Some(rubbing) = &mut self.rubbing {
-                rubbing.worn = worn;
-            }
+    /// Note how far the base has slipped on the way to `end`; true where that went past a corner of the law.
+    pub(super) fn wear(&mut self, end: &State) -> bool {
+        let Some(worn) = self.worn_at(end) else {
+            return false;
+        };
+        self.rubbing.as_mut().is_some_and(|rubbing| {
+            let past = worn.path > rubbing.corner();
+            rubbing.worn = worn;
+            past
+        })
+    }
+
+    /// Note that the path has come to a corner of the law: it lies exactly there.
+    pub(super) fn turn_corner(&mut self, corner: f64) {
+        if let Some(rubbing) = &mut self.rubbing {
+            rubbing.worn.path = corner;
         }
     }
 

@@ -6,7 +6,7 @@ use super::super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
 use super::super::choice::{accelerations, select, Moving};
 use super::super::mode::{Corner, Mode, Slip};
 use super::super::reaction::{Felt, Reactions};
-use super::super::result::{Outcome, Run, Wear};
+use super::super::result::{Outcome, Run};
 use super::super::shaking::Piece as Level;
 use super::super::walk::{Carried, Cause, Options, Walk, Wanted};
 use super::block::{Rotation, TurningBlock};
@@ -17,7 +17,7 @@ use super::step::State;
 use crate::friction::{Law, Worn};
 
 /// Relative error allowed in a step, of lengths of the crack's width and of velocities of sqrt(g B).
-pub(super) const TOLERANCE: f64 = 1e-12;
+const TOLERANCE: f64 = 1e-12;
 /// The choice of the next mode takes accelerations as linear in time; their rate enters through a ground that passes so
 /// many seconds in one, so that it has no part in the sizes by which rounding is judged.
 const UNIT: f64 = 1e-9;
@@ -47,8 +47,18 @@ pub(super) struct Varying<'a> {
     pub(super) reserve: Option<[[f64; 4]; 4]>,
     /// Friction that goes by a law, where it does.
     pub(super) rubbing: Option<Rubbing<'a>>,
-    /// Sum of the errors estimated of all steps (m).
-    pub(super) error: f64,
+    pub(super) error: Gathered,
+}
+
+/// Errors estimated of all integrated steps.
+#[derive(Default)]
+pub(super) struct Gathered {
+    /// Of the slip (m).
+    pub slip: f64,
+    /// Of its velocity since the block last rested (m/s).
+    pub speed: f64,
+    /// Time that these steps took (s).
+    pub time: f64,
 }
 
 /// Run one block through one motion, with what its crack has been through; `start`, `options` and `wanted` are those of
@@ -93,7 +103,7 @@ pub fn simulate(
         tensions: vec![0.0; turning.anchors.len()],
         reserve: None,
         rubbing,
-        error: 0.0,
+        error: Gathered::default(),
     };
     varying.place(&position, &velocity);
     let theta = varying.state[2];
@@ -103,11 +113,7 @@ pub fn simulate(
     varying.run(shaking, start.is_none());
     varying.see();
     let energy = varying.kinetic_energy();
-    let worn = varying.rubbing.map(|rubbing| Wear {
-        kept: rubbing.kept,
-        end: rubbing.worn,
-        error: varying.error,
-    });
+    let worn = varying.rubbing.map(|rubbing| rubbing.told(&varying.error));
     Run {
         worn,
         ..varying.walk.end(energy, varying.tensions)
@@ -271,9 +277,9 @@ impl Varying<'_> {
         let ahead = self.ahead(piece, &now);
         let reactions = match self.rubbing {
             None => Reactions::new(&ahead),
-            Some(_) => Reactions::each(|mode| {
-                let rubbed = self.rubbed(mode, &self.state, &now);
-                rubbed.map_or_else(|| ahead.clone(), |(_, strength)| ahead.rubbing(&strength))
+            Some(_) => Reactions::each(&ahead, |mode| {
+                let (_, strength) = self.rubbed(mode, &self.state, &now)?;
+                Some(ahead.rubbing(&strength))
             }),
         };
         let level = Level {
