@@ -12,7 +12,7 @@
 
 use std::ops::Range;
 
-use super::sides::{Face, Faces, Meeting, Place};
+use super::sides::{Face, Faces, Meeting, Place, Span};
 
 /// Weights of the nodes of both bodies in the motion of the upper face of a crack against the lower one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -47,8 +47,6 @@ pub(super) struct Contacts {
     pub moved: Vec<bool>,
     /// Faces of each crack, and which of the contactors are its own.
     cracks: Vec<(Place, Range<usize>)>,
-    /// Whether the only crack is on a rigid plane.
-    rigid_plane: bool,
 }
 
 impl Contacts {
@@ -68,7 +66,6 @@ impl Contacts {
             gaps: vec![f64::INFINITY; contactors.len()],
             moved: vec![true; contactors.len()],
             contactors,
-            rigid_plane: places.len() == 1 && places[0].lower.count == 0,
             cracks,
         }
     }
@@ -86,21 +83,20 @@ impl Contacts {
     /// Find every contactor's place on the other face; `sticks` says which nodes keep their place.
     #[inline(always)]
     pub(super) fn update(&mut self, faces: Faces, sticks: impl Fn(usize) -> bool) {
-        if self.rigid_plane {
-            let first = self.pairs[0].is_none();
-            self.moved.fill(first);
-            if first {
-                let pair = |c: &Contactor| Pair {
-                    upper: [(c.node, 1.0), (c.node, 0.0)],
-                    lower: [(0, 0.0); 2],
-                };
-                self.pairs = self.contactors.iter().map(|c| Some(pair(c))).collect();
-            }
-            self.gaps.copy_from_slice(&faces.upper[faces.upper.len() / 2..]);
-            return;
-        }
         for (place, range) in &self.cracks {
             let meeting = place.of(faces);
+            if place.on_plane() {
+                // Every node stands opposite to itself for ever.
+                let first = self.pairs[range.start].is_none();
+                self.moved[range.clone()].fill(first);
+                if first {
+                    for k in range.clone() {
+                        self.pairs[k] = self.contactors[k].place(meeting).map(|pair| pair.among(place));
+                    }
+                }
+                self.gaps[range.clone()].copy_from_slice(meeting.upper.across);
+                continue;
+            }
             for k in range.clone() {
                 self.moved[k] = false;
                 if !(sticks(k) && self.pairs[k].is_some()) {
@@ -120,33 +116,45 @@ impl Contacts {
     /// nothing is met.
     #[inline(always)]
     pub(super) fn relative(&self, faces: Faces, motion: &mut [f64]) {
-        if self.rigid_plane {
-            motion.copy_from_slice(faces.upper);
-            return;
-        }
         let (along, across) = motion.split_at_mut(self.len());
-        for ((pair, along), across) in self.pairs.iter().zip(along).zip(across) {
-            (*along, *across) = match pair {
-                Some(pair) => (pair.relative(faces, 0), pair.relative(faces, 1)),
-                None => (0.0, 0.0),
-            };
+        for (place, range) in &self.cracks {
+            let (along, across) = (&mut along[range.clone()], &mut across[range.clone()]);
+            if place.on_plane() {
+                let own = place.of(faces).upper;
+                along.copy_from_slice(own.along);
+                across.copy_from_slice(own.across);
+                continue;
+            }
+            for ((pair, along), across) in self.pairs[range.clone()].iter().zip(along).zip(across) {
+                (*along, *across) = match pair {
+                    Some(pair) => (pair.relative(faces, 0), pair.relative(faces, 1)),
+                    None => (0.0, 0.0),
+                };
+            }
         }
     }
 
     /// Put the forces that the contacts exert on both faces, up on the upper one and down on the lower one.
     #[inline(always)]
     pub(super) fn spread(&self, forces: &[f64], upper: &mut [f64], lower: &mut [f64]) {
-        if self.rigid_plane {
-            upper.copy_from_slice(forces);
-            return;
-        }
         upper.fill(0.0);
         lower.fill(0.0);
         let (along, across) = forces.split_at(self.len());
-        for (pair, force) in self.pairs.iter().zip(along.iter().zip(across)) {
-            if let Some(pair) = pair {
-                pair.spread(0, *force.0, upper, lower);
-                pair.spread(1, *force.1, upper, lower);
+        for (place, range) in &self.cracks {
+            let (along, across) = (&along[range.clone()], &across[range.clone()]);
+            if place.on_plane() {
+                let body = if place.turned { &mut *lower } else { &mut *upper };
+                let Span { first, count } = place.upper;
+                let half = body.len() / 2;
+                body[first..][..count].copy_from_slice(along);
+                body[half + first..][..count].copy_from_slice(across);
+                continue;
+            }
+            for (pair, force) in self.pairs[range.clone()].iter().zip(along.iter().zip(across)) {
+                if let Some(pair) = pair {
+                    pair.spread(0, *force.0, upper, lower);
+                    pair.spread(1, *force.1, upper, lower);
+                }
             }
         }
     }

@@ -125,6 +125,12 @@ impl Place {
         dam.cracks.iter().enumerate().map(place).collect()
     }
 
+    /// Whether what is below it is a rigid plane.
+    #[inline(always)]
+    pub(super) fn on_plane(&self) -> bool {
+        self.lower.count == 0
+    }
+
     /// The only crack of a dam, between faces of so many nodes.
     #[cfg(test)]
     pub(super) fn only(upper: usize, lower: usize) -> Self {

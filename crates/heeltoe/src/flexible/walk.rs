@@ -123,7 +123,8 @@ pub(super) struct Walk<'a> {
 impl<'a> Walk<'a> {
     /// `start` is where the nodes of both bodies are.
     pub(super) fn new(dam: &'a Dam, dt: f64, wanted: Wanted<'a>, start: Faces) -> Self {
-        let crack = Crack::new(dam, dam.bodies.upper.dampers);
+        let mut crack = Crack::new(dam, dam.bodies.upper.dampers);
+        crack.solver.lasting = dam.cracks.len() > 1;
         let contactors = &crack.contacts.contactors;
         let cracks = Place::all(dam)
             .into_iter()

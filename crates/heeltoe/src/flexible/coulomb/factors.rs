@@ -42,10 +42,17 @@ impl Default for Kept {
 }
 
 impl Kept {
-    /// Forget those that contain a contact that has moved, because its part of `G` is another one.
+    /// Forget those that contain a contact that has moved, because its part of `G` is another one; or, where they are to
+    /// last, know that they are old.
     #[inline(always)]
-    pub(super) fn forget(&mut self, moved: &[bool]) {
-        self.all.iter_mut().for_each(|factors| factors.forget(moved));
+    pub(super) fn forget(&mut self, moved: &[bool], last: bool) {
+        for factors in &mut self.all {
+            if last {
+                factors.old = true;
+            } else {
+                factors.forget(moved);
+            }
+        }
     }
 
     /// Turn to the factors of a set of states; false where they are not known.
@@ -84,6 +91,8 @@ pub(super) struct Factors {
     pivots: Vec<usize>,
     x: Vec<f64>,
     fresh: bool,
+    /// Whether a contact has moved since they were worked out.
+    old: bool,
     /// When they came into use last.
     turn: u64,
     /// How often they have been used.
@@ -109,16 +118,36 @@ impl Factors {
         self.fresh && self.of == status
     }
 
+    /// Whether a contact has moved since they were worked out.
+    #[inline(always)]
+    pub(super) fn old(&self) -> bool {
+        self.old
+    }
+
     /// Solve for the impulses `p`.
     #[inline(always)]
     pub(super) fn solve<W: Wide>(&mut self, problem: &Problem, p: &mut [f64]) {
-        let m = problem.h.len();
+        self.amiss(&problem.b, &problem.h);
+        self.feel(problem);
+        p.fill(0.0);
+        self.add::<W>(problem, p);
+    }
+
+    /// What the velocities `u` are amiss at most; to be corrected next.
+    #[inline(always)]
+    pub(super) fn amiss(&mut self, u: &[f64], h: &[f64]) -> f64 {
+        let m = h.len();
         self.x.clear();
         for &k in &self.unknowns {
-            let room = if k < m { 0.0 } else { problem.h[k - m] };
-            self.x.push(-problem.b[k] - room);
+            let room = if k < m { 0.0 } else { h[k - m] };
+            self.x.push(-u[k] - room);
         }
-        self.add(problem);
+        self.x.iter().fold(0.0, |most, x| most.max(x.abs()))
+    }
+
+    /// Add to the impulses `p` what corrects that.
+    #[inline(always)]
+    pub(super) fn add<W: Wide>(&mut self, problem: &Problem, p: &mut [f64]) {
         self.used += 1;
         if self.used == INVERT_AFTER {
             self.invert::<W>();
@@ -131,10 +160,10 @@ impl Factors {
             let n = self.x.len();
             self.x.copy_from_slice(&self.sum.as_flattened()[..n]);
         }
-        p.fill(0.0);
         for (&k, &value) in self.unknowns.iter().zip(&self.x) {
-            p[k] = value;
+            p[k] += value;
         }
+        let m = problem.h.len();
         for &(contact, factor) in &self.slips {
             p[contact] = factor * p[m + contact];
             if !problem.added.is_empty() {
@@ -145,7 +174,7 @@ impl Factors {
 
     /// Let the unknowns feel what the contacts that slip bear beside friction.
     #[inline(always)]
-    fn add(&mut self, problem: &Problem) {
+    fn feel(&mut self, problem: &Problem) {
         if problem.added.is_empty() {
             return;
         }
@@ -216,6 +245,7 @@ impl Factors {
         self.pivots.clear();
         self.inverse.clear();
         self.used = 0;
+        self.old = false;
         self.fresh = self.eliminate::<W>();
         if self.fresh {
             self.of.clear();

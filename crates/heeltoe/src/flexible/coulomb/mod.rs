@@ -99,6 +99,11 @@ const ONE_BY_ONE: u32 = 60;
 /// What counts as a violation, relative to the largest term: well above rounding, far below what matters.
 const SLACK: f64 = 1e-11;
 
+/// What old factors may leave, relative to the fastest node: less than what counts as a violation.
+const RIGHT: f64 = 1e-12;
+/// Factors that leave more than this share of what they are to correct are too old.
+const OLD: f64 = 0.02;
+
 /// State of the contacts and the factors that belong to it.
 #[derive(Default)]
 pub(super) struct Solver {
@@ -108,6 +113,9 @@ pub(super) struct Solver {
     /// Velocities of the solution.
     pub u: Vec<f64>,
     factors: Kept,
+    /// Whether factors last although contacts have moved a little, and what they miss is corrected: a node that slips moves
+    /// in every step, and where there are several cracks the factors of all are large.
+    pub lasting: bool,
     /// A set met before, to know a circle by.
     mark: Vec<Status>,
 }
@@ -122,10 +130,11 @@ impl Solver {
         }
     }
 
-    /// Forget the factors where they contain a contact that has moved, because its part of `G` is another one.
+    /// Forget the factors where they contain a contact that has moved, because its part of `G` is another one; lasting ones
+    /// grow old.
     #[inline(always)]
     pub(super) fn forget(&mut self, moved: &[bool]) {
-        self.factors.forget(moved);
+        self.factors.forget(moved, self.lasting);
     }
 
     /// Solve, starting from the states of the last time; `Absent` ones must have been set by the caller.
@@ -162,15 +171,9 @@ impl Solver {
         self.mark.clear();
         for trial in 1..=most {
             report.iterations += 1;
-            let status = &self.status;
-            if !self.factors.turn_to(status) {
-                crack.fill(problem, |contact| status[contact].closed());
-                if !self.factors.now().factor::<W>(problem, status) {
-                    return false;
-                }
+            if !self.impulses::<W>(problem, crack) {
+                return false;
             }
-            self.factors.now().solve::<W>(problem, &mut self.p);
-            crack.velocities::<W>(problem, &self.p, &mut self.u);
             if !self.amend(problem, worst_only) {
                 return true;
             }
@@ -182,6 +185,48 @@ impl Solver {
             }
         }
         false
+    }
+
+    /// Find the impulses of the set of states and the velocities they make; false where the set has none.
+    #[inline(always)]
+    fn impulses<W: Wide>(&mut self, problem: &mut Problem, crack: &mut impl Answering) -> bool {
+        let known = self.factors.turn_to(&self.status);
+        if known {
+            self.factors.now().solve::<W>(problem, &mut self.p);
+            crack.velocities::<W>(problem, &self.p, &mut self.u);
+            if !self.factors.now().old() || self.correct::<W>(problem, crack) {
+                return true;
+            }
+        }
+        let status = &self.status;
+        crack.fill(problem, |contact| status[contact].closed());
+        let factors = self.factors.now();
+        if !factors.factor::<W>(problem, status) {
+            return false;
+        }
+        factors.solve::<W>(problem, &mut self.p);
+        crack.velocities::<W>(problem, &self.p, &mut self.u);
+        true
+    }
+
+    /// Correct what old factors miss; false where they are too old for that.
+    #[inline(always)]
+    fn correct<W: Wide>(&mut self, problem: &Problem, crack: &mut impl Answering) -> bool {
+        let factors = self.factors.now();
+        let fastest = problem.b.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
+        let mut before = fastest;
+        loop {
+            let now = factors.amiss(&self.u, &problem.h);
+            if now <= RIGHT * fastest {
+                return true;
+            }
+            if now.is_nan() || now > OLD * before {
+                return false;
+            }
+            before = now;
+            factors.add::<W>(problem, &mut self.p);
+            crack.velocities::<W>(problem, &self.p, &mut self.u);
+        }
     }
 
     /// Change the state of the contacts that break their conditions, all or the worst; false where none does.
