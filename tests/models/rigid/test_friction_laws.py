@@ -127,6 +127,30 @@ def test_barton_bandis_at_points_of_its_curves(jrc, ratio, angle):
     )
 
 
+# E. Hoek, Practical Rock Engineering, chapter "Shear strength of discontinuities": Barton's law for a joint of JRC 16.9,
+# JCS 96 MPa and 29 degrees: normal stress, shear strength [MPa], slope of the curve. Not compared with the print.
+HOEK = [
+    (0.360, 0.989, 1.652),
+    (0.720, 1.538, 1.423),
+    (1.440, 2.476, 1.213),
+    (2.880, 4.073, 1.030),
+    (5.759, 6.779, 0.872),
+    (11.518, 11.344, 0.733),
+    (23.036, 18.973, 0.609),
+    (46.073, 31.533, 0.496),
+]
+
+
+@pytest.mark.parametrize(("stress", "strength", "slope"), HOEK)
+def test_barton_bandis_gives_a_published_table(stress, strength, slope):
+    numbers = {"roughness": 16.9, "wall_strength": 96.0, "residual_angle": math.radians(29.0)}
+    law = friction_law("barton-bandis", numbers)
+    assert shear_stress(law, stress)[1] == pytest.approx(strength, abs=0.0011)
+    # At 0.36 MPa the angle is 70 degrees, and held there below: the slope is that to the right.
+    right = shear_stress(law, np.array([stress + 1e-3, stress + 2e-3]))[1]
+    assert (right[1] - right[0]) / 1e-3 == pytest.approx(slope, abs=0.002 + 0.003 / stress)
+
+
 def test_a_lift_joint_is_basic_friction_and_what_is_rough():
     law = friction_law("lift joint", {"residual": 0.7}, [(1e5, 0.4), (5e5, 0.2), (2e6, 0.1)])
     stress = np.array([5e4, 1e5, 3e5, 5e5, 1e6, 3e6])
@@ -161,23 +185,27 @@ def hand_written(name, stress, path, speed):
         "exponential slip weakening": 0.12 + 0.1 * math.exp(-path / 0.02),
         "speed weakening": 0.12 + 0.1 * math.exp(-speed / 0.1),
         "constant": 0.15,
+        "gradual": 0.15,
+        "brittle": 0.15,
         "barton-bandis": math.tan(math.radians(5.0 + 4.0 * math.log10(20.0 / stress))),
         "lift joint": 0.1 + 0.05 * stress / 10.0 if stress < 10.0 else 0.15,
     }[name]
-    bond = 0.03 * max(0.0, 1.0 - path / 0.01) if name == "constant" else 0.0
-    return mu * stress + bond, mu * stress + bond
+    bond = {"gradual": 0.03 * max(0.0, 1.0 - path / 0.01), "brittle": 0.03 * (path == 0.0)}.get(name, 0.0)
+    return mu * stress + bond, mu * stress + (0.0 if name == "brittle" else bond)
 
 
 NUMBERS = {
     **{name: {"peak": 0.22, "residual": 0.12, "scale": 0.02} for name in LAWS[1:3]},
     "speed weakening": {"peak": 0.22, "residual": 0.12, "scale": 0.1},
-    "constant": {"peak": 0.15, "residual": 0.15, "cohesion": 0.03, "loss": 0.01},
+    "constant": {"peak": 0.15, "residual": 0.15},
+    "gradual": {"peak": 0.15, "residual": 0.15, "cohesion": 0.03, "loss": 0.01},
+    "brittle": {"peak": 0.15, "residual": 0.15, "cohesion": 0.03},
     "barton-bandis": {"roughness": 4.0, "wall_strength": 20.0, "residual_angle": math.radians(5.0)},
     "lift joint": {"residual": 0.1},
 }
 
 
-@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("name", NUMBERS)
 def test_a_program_of_small_steps_agrees_on_a_real_record(name, records):
     motion = {"file": str(next(records.glob("taft-1952-s69e-caltech*"))), "pga": "0.4 g"}
     case = read_case(rectangle(20.0, 1.0, 0.2, motion=motion))
@@ -186,49 +214,20 @@ def test_a_program_of_small_steps_agrees_on_a_real_record(name, records):
         key: value * (density if key in ("cohesion", "wall_strength") else 1.0) for key, value in NUMBERS[name].items()
     }
     points = [(0.0, 0.0), (10.0 * density, 0.05)] if name == "lift joint" else []
+    shape = name if name in LAWS else "constant"
     shaking = earthquake(case).shaking
     time, ground = shaking.time, shaking.horizontal
     keep = time <= 12.0
     time, ground = time[keep], ground[keep]
-    found = walked(case, time, ground, friction_law(name, numbers, points)).summary["slip"]
+    found = walked(case, time, ground, friction_law(shape, numbers, points)).summary["slip"]
 
     def law(stress, path, speed):
         return hand_written(name, stress, path, speed)
 
     coarse, fine = (small_steps(time, ground, G, law, 20.0, count) for count in (10, 20))
-    assert abs(found) > 1e-3
+    assert abs(found) > 1e-4
     assert found == pytest.approx(fine, abs=2.0 * abs(fine - coarse) + 1e-7)
     assert abs(fine - coarse) < 0.1 * abs(found)
-
-
-def test_a_mirrored_motion_mirrors_the_slip():
-    case = read_case(rectangle(4.0, 2.0, 0.6, crack={"restitution": 0.3}))
-    rng = np.random.default_rng(3)
-    time, ground = np.arange(60) * 0.05, np.append(rng.normal(size=58) * 8.0, [0.0, 0.0])
-    law = linear(0.7, 0.4, 0.01)
-    one, other = (walked(case, time, way * ground, law).summary for way in (1.0, -1.0))
-    assert one["slip"] != 0.0
-    assert one["slip"] == pytest.approx(-other["slip"], rel=1e-9)
-    assert one["rotation_max"] == pytest.approx(-other["rotation_min"], rel=1e-9)
-
-
-def test_a_larger_block_slides_as_much_further():
-    # Lengths and ways times four, times twice, stresses times four.
-    rng = np.random.default_rng(5)
-    ground = np.append(rng.normal(size=38) * 6.0, [0.0, 0.0])
-    found = []
-    for size in (1.0, 4.0):
-        case = read_case(rectangle(4.0 * size, 2.0 * size, 0.6))
-        for law in (
-            linear(0.6, 0.4, 0.01 * size),
-            friction_law(
-                "barton-bandis", {"roughness": 8.0, "wall_strength": 2e5 * size, "residual_angle": math.radians(20.0)}
-            ),
-        ):
-            time = np.arange(40) * 0.05 * math.sqrt(size)
-            found.append(walked(case, time, ground, law).summary["slip"] / size)
-    assert found[0] != 0.0
-    assert found[2:] == pytest.approx(found[:2], rel=1e-8)
 
 
 def random_law(rng):
