@@ -228,12 +228,16 @@ def test_a_silence_that_nobody_needs_is_told():
 def test_a_crack_that_swings_on_moves_a_block_that_had_come_to_rest():
     cuts = [example("typical-height", "crack.friction=0.6", "motion.pga=1g", "flexible.elements_across=2")]
     cuts = [cuts[0].with_(f"motion.duration={6.0 + 0.05 * place:g}s") for place in range(20)]
-    resting = [case for case in cuts if decoupled(case.with_(ENDS)).final_mode == "rest"]
     moved = []
-    for case in resting[:6]:
-        ends, goes_on = decoupled(case.with_(ENDS)), decoupled(case)
+    for case in cuts:
+        ends = decoupled(case.with_(ENDS))
+        if ends.final_mode != "rest":
+            continue
+        goes_on = decoupled(case)
         motion = ends.motion.cut(case.motion.duration)
         by_hand = decoupled(case.with_(ENDS, "motion.duration=20s"), padded(motion, 20.0 - motion.duration))
         assert goes_on.residual_slip_m == pytest.approx(by_hand.residual_slip_m, rel=1e-9)
         moved.append(goes_on.residual_slip_m != ends.residual_slip_m)
+        if len(moved) == 6:
+            break
     assert any(moved)

@@ -30,7 +30,7 @@ def small_disk(tmp_path):
 
 def test_a_disk_that_fills(tmp_path, small_disk):
     disk, grow = small_disk
-    file = study_file(tmp_path, DRAWN.replace("samples = 60", "samples = 40000"))
+    file = study_file(tmp_path, DRAWN.replace("samples = 60", "samples = 12000"))
     whole = run_study(file, tmp_path / "whole").to_table()
     said = process("study", file, "--out", disk / "out")
     assert said.returncode == 2

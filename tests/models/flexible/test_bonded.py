@@ -49,7 +49,9 @@ def test_what_bends_a_dam_otherwise_is_built_anew(change):
 
 
 def test_no_field_that_is_left_out_changes_the_modes(tmp_path):
-    seen, files = [], [tmp_path / "a.csv", tmp_path / "b.csv"]
+    # What is built is held by what is told of it: each dam is built once, and every change against it.
+    seen, built = [], {}
+    files = [tmp_path / "a.csv", tmp_path / "b.csv"]
     for file, toe in zip(files, (26, 27), strict=True):
         file.write_text(f"0,0\n{toe},0\n5,30\n0,30\n")
     drawn = {"section": {"file": str(files[0]), "unit": "m"}}
@@ -62,9 +64,12 @@ def test_no_field_that_is_left_out_changes_the_modes(tmp_path):
             cases = read_case(before), read_case(after)
         except InputError:
             continue
-        if len({bonded.told(case, bonded.NOT_OF_MODES) for case in cases}) == 1:
+        told, other = (bonded.told(case, bonded.NOT_OF_MODES) for case in cases)
+        if told == other:
             seen.append(path)
-            assert _numbers(cases[0]) == _numbers(cases[1]), path
+            if told not in built:
+                built[told] = _numbers(cases[0])
+            assert _numbers(cases[1]) == built[told], path
     assert {"crack.friction", "crack.static_friction", "concrete.damping", "flexible.contactors"} <= set(seen)
 
 

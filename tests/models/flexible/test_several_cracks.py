@@ -222,7 +222,7 @@ def two_blocks(time, ground, masses, friction, gravity=9.80665):
 def test_two_stiff_blocks_slide_as_rigid_ones():
     points = [
         ["0 s", "0 g"],
-        *([f"{t:.3f} s", f"{0.5 * np.sin(2.0 * np.pi * 2.0 * t):.6f} g"] for t in np.arange(1, 101) / 100),
+        *([f"{t:.3f} s", f"{0.5 * np.sin(2.0 * np.pi * 2.0 * t):.6f} g"] for t in np.arange(1, 61) / 100),
     ]
     case = read_case(
         {
@@ -231,14 +231,14 @@ def test_two_stiff_blocks_slide_as_rigid_ones():
             "crack": {"elevation": "0 m", "friction": 0.3},
             "further_cracks": [{"elevation": "2 m", "friction": 0.2}],
             "uplift": {"pattern": "none"},
-            "motion": {"points": points, "duration": "1 s"},
+            "motion": {"points": points, "duration": "0.6 s"},
             "analysis": {"silence": "0 s"},
             "flexible": {"elements_across": 4, "evidence": "none", "time_step": "0.02 ms"},
         }
     )
     response = flexible(case)
     step = 1e-5
-    time = np.arange(100_000) * step
+    time = np.arange(60_000) * step
     shaking = earthquake(case).shaking
     ground = np.interp(time + step / 2.0, shaking.time, shaking.horizontal)
     slips = two_blocks(time, ground, (2500.0 * 16.0, 2500.0 * 32.0), (0.2, 0.3))
