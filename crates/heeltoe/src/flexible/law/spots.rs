@@ -63,3 +63,16 @@ fn double(contactor: &Contactor, all: &[Contactor], others: usize) -> Option<usi
     all.iter()
         .position(|other| other.closed && other.of_upper != contactor.of_upper && other.node == end)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::shares;
+
+    #[test]
+    fn a_uniform_stress_presses_each_node_by_its_share() {
+        // Two edges of quadratic shape functions, of lengths 6 and 12.
+        assert_eq!(shares(&[0.0, 3.0, 6.0, 12.0, 18.0]), [1.0, 4.0, 3.0, 8.0, 2.0]);
+        // Linear ones.
+        assert_eq!(shares(&[0.0, 3.0, 6.0, 12.0]), [1.5, 3.0, 4.5, 3.0]);
+    }
+}
