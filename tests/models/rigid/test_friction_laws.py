@@ -127,7 +127,7 @@ def test_barton_bandis_at_points_of_its_curves(jrc, ratio, angle):
     )
 
 
-# E. Hoek, Practical Rock Engineering, chapter "Shear strength of discontinuities": Barton's law for a joint of JRC 16.9,
+# E. Hoek, Practical Rock Engineering, chapter "Shear strength of discontinuities": Barton's law for a joint, JRC 16.9,
 # JCS 96 MPa and 29 degrees: normal stress, shear strength [MPa], slope of the curve. Not compared with the print.
 HOEK = [
     (0.360, 0.989, 1.652),
@@ -219,15 +219,19 @@ def test_a_program_of_small_steps_agrees_on_a_real_record(name, records):
     time, ground = shaking.time, shaking.horizontal
     keep = time <= 12.0
     time, ground = time[keep], ground[keep]
-    found = walked(case, time, ground, friction_law(shape, numbers, points)).summary["slip"]
+    run = walked(case, time, ground, friction_law(shape, numbers, points))
+    found, path_slipped = run.summary["slip"], run.worn.end
 
     def law(stress, path, speed):
         return hand_written(name, stress, path, speed)
 
-    coarse, fine = (small_steps(time, ground, G, law, 20.0, count) for count in (10, 20))
+    # A brittle bond breaks on a step, so that its error does not fall evenly: three of them say how large it is.
+    counts = (10, 20, 40) if name == "brittle" else (10, 20)
+    tried = [small_steps(time, ground, G, law, 20.0, count) for count in counts]
+    error = max(tried) - min(tried)
     assert abs(found) > 1e-4
-    assert found == pytest.approx(fine, abs=2.0 * abs(fine - coarse) + 1e-7)
-    assert abs(fine - coarse) < 0.1 * abs(found)
+    assert found == pytest.approx(tried[-1], abs=2.0 * error + 1e-7)
+    assert error < 0.1 * path_slipped
 
 
 def random_law(rng):
