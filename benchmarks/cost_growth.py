@@ -126,7 +126,7 @@ def report(finest: int = ACROSS[-1]) -> str:
             "Elastic, 8 across, by the length of the record, and 20 s by the number of runs one after the other.",
             table(["record", "a run"], some),
             table(["runs", "all", "each"], many),
-            "With the number of cracks: a dam has one so far.",
+            "With the number of cracks: see `crack_dam`.",
         ]
     )
 
