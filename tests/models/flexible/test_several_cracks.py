@@ -288,8 +288,8 @@ def test_evidence_is_that_of_every_crack(free):
     assert weak.at_crack(0).summary["evidence"] == found[0]
 
 
-#: The typical dam of examples/two-cracks.toml with 12 s of its record; its neck slides at a friction of 0.7, and tips before
-#: it slides at 1.0: it is 8 m wide and 10 m high.
+#: The typical dam of examples/two-cracks.toml with 12 s of its record. Its neck slides at a friction of 0.7, and tips
+#: before it slides at 1.0: what is above it is 8 m wide and 10 m high.
 EXAMPLE = ("motion.duration=12s", "analysis.silence=0s")
 
 
@@ -309,10 +309,8 @@ def test_two_sliding_cracks_converge_with_step_and_mesh():
     usual = ensemble(0.7, 8, 1.4e-4)
     finer = [ensemble(0.7, 8, 7e-5), ensemble(0.7, 16, 1.4e-4)]
     for found in (usual, *finer):
-        print(np.round(found.mean(axis=1), 1), np.round(np.ptp(found, axis=1), 1))
         assert found.mean(axis=1) == pytest.approx(usual.mean(axis=1), rel=0.03)
         assert (np.ptp(found, axis=1) < 0.08 * found.mean(axis=1)).all()
     # A neck that tips strikes as it comes down, and what it does then is decided by a hundredth of the shaking.
     rocking = ensemble(1.0, 8, 1.4e-4)
-    print(np.round(rocking.mean(axis=1), 1), np.round(np.ptp(rocking, axis=1), 1))
     assert np.ptp(rocking[0]) > 0.3 * rocking[0].mean()
