@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from heeltoe import decoupled, read_case, rigid
@@ -11,6 +12,7 @@ from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.histories import response_figure
 from heeltoe.views.figures.overturning import overturning_figure
 from heeltoe.views.figures.runs import slips_figure
+from heeltoe.views.figures.style import STYLE
 from heeltoe.views.figures.write import save
 
 HERE = Path(__file__).parent
@@ -22,11 +24,39 @@ def koyna_top() -> Figure:
     return response_figure(rigid(read_case(EXAMPLES / "koyna-top.toml", ["motion.pga=1g", "motion.duration=15s"])))
 
 
+def real_cracks() -> Figure:
+    """Return the slip of the typical dam's block by what friction is taken for."""
+    laws = {
+        "constant 1.2": {"crack.friction": 1.2},
+        "constant 0.8": {"crack.friction": 0.8},
+        "1.2, worn to 0.8 in 20 mm": {
+            "crack.law": {"name": "slip weakening", "peak_friction": 1.2, "residual_friction": 0.8, "slip": "20 mm"}
+        },
+        "1.2, worn to 0.8 in 500 mm": {
+            "crack.law": {"name": "slip weakening", "peak_friction": 1.2, "residual_friction": 0.8, "slip": "500 mm"}
+        },
+        "Barton-Bandis, JRC 10": {
+            "crack.law": {"name": "barton-bandis", "jrc": 10, "jcs": "20 MPa", "residual_angle": "32 deg"}
+        },
+    }
+    with rc_context(STYLE):
+        figure = Figure(figsize=(7.0, 4.0), layout="constrained")
+        axes = figure.subplots()
+        for (name, law), dash in zip(laws.items(), ("-", "-", "--", ":", "-."), strict=True):
+            found = rigid(read_case(EXAMPLES / "typical-base.toml", law)).histories
+            axes.plot(found["time_s"], 1e3 * found["slip_m"], linestyle=dash, linewidth=1.5, label=name)
+        axes.set_xlabel("time [s]")
+        axes.set_ylabel("slip of the block [mm]")
+        axes.legend(loc="upper left")
+    return figure
+
+
 if __name__ == "__main__":
     varied = parse_axes(["crack.friction=0.8,1.0,1.2", "uplift.pattern=uniform,triangular"])
     grid = run_small(EXAMPLES / "koyna.toml", [], varied, decoupled)
     save(koyna_top(), HERE / "koyna-top.png", dpi=110)
     save(crack_level_figure(grid.responses[0]), HERE / "koyna-crack-level.png", dpi=110)
     save(slips_figure(grid), HERE / "koyna-slips.png", dpi=110)
+    save(real_cracks(), HERE / "real-cracks.png", dpi=110)
     pulses = overturning_map(read_case(EXAMPLES / "slender.toml"), count=100)
     save(overturning_figure(pulses), HERE / "overturning.png", dpi=110)

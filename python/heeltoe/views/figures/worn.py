@@ -30,7 +30,7 @@ def friction_figure(response: Response, units: str = "si") -> Figure:
     forces.set_ylabel(f"friction, either way\n[{scale.unit}]")
     forces.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, fontsize=8, borderaxespad=0.0)
     scale = system.scale("displacement", largest(h["slip_path_m"], h["slip_m"]))
-    path.plot(time, scale(h["slip_path_m"]), color="#000000", linestyle="--", linewidth=1.0, label="way, to and fro")
+    path.plot(time, scale(h["slip_path_m"]), color="#bbbbbb", linewidth=3.0, label="way, to and fro")
     path.plot(time, scale(h["slip_m"]), color=COLOURS["slip"], linewidth=1.2, label="slip, + downstream")
     path.set_ylabel(f"slip and its way\n[{scale.unit}]")
     path.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, fontsize=8, borderaxespad=0.0)
