@@ -17,7 +17,7 @@ from heeltoe.validation.chart import Chart
 from heeltoe.validation.declared import Declared
 
 _EXACT = "Exact from event to event: there is no step and no mesh."
-_INTEGRATED = "Integrated with an error of 1e-12 of the motion in every step."
+_INTEGRATED = "Exact where the law is a straight line over its path; else integrated, with an error of 1e-12 in a step."
 _SMOOTH = "Nothing here strikes or is at a threshold: ours moves as the shaking does."
 _ONE_PER_CENT = "Ours under 99 % and 101 % of the shaking stands beside it."
 _PULSE = "The pulse is given by its formula."
