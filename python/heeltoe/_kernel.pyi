@@ -10,6 +10,7 @@ VERSION: Final[str]
 PROFILE: Final[str]
 BLOCK_FIELDS: Final[list[str]]
 VARYING_FIELDS: Final[list[str]]
+ASPERITY_FIELDS: Final[list[str]]
 LAW_FIELDS: Final[list[str]]
 LAWS: Final[list[str]]
 SUMMARY_FIELDS: Final[list[str]]
@@ -94,6 +95,7 @@ def run_rigid_varying(
     pressure: Floats,
     anchors: Floats,
     friction: FrictionLaw | None,
+    asperities: Floats | None,
     time: Floats,
     horizontal: Floats,
     vertical: Floats | None,
@@ -101,10 +103,19 @@ def run_rigid_varying(
     output_times: Floats,
     start: Sequence[Sequence[float]] | None,
     worn: tuple[float, bool] | None,
+    rough: tuple[float, float] | None,
     settle: float,
     event_limit: int,
     jam: bool,
-) -> tuple[Floats, Floats, NDArray[np.uint8], Floats, Floats, tuple[Floats, float, bool, float, float] | None]:
+) -> tuple[
+    Floats,
+    Floats,
+    NDArray[np.uint8],
+    Floats,
+    Floats,
+    tuple[Floats, float, bool, float, float] | None,
+    tuple[Floats, list[float], float] | None,
+]:
     """Run one block whose loads or geometry change as it moves, by integration between events.
 
     Parameters
@@ -122,10 +133,16 @@ def run_rigid_varying(
         (k, 2) distance from the heel [m] and pressure while the crack is closed [Pa]; straight in between.
     anchors
         (n, 6) distance from the heel [m], axis along and across, prestress [N/m], axial and shear stiffness [N/m2].
+    friction
+        Along the crack, or along the flanks of its asperities.
+    asperities
+        Their numbers in the order of ``ASPERITY_FIELDS``, where the crack is rough and has a law.
     turning
         (n,) rotational acceleration of the ground about the middle of the crack, counter-clockwise [rad/s2].
     worn
         Where the crack is not new: how far it has slipped, to and fro [m], and whether its bond is whole.
+    rough
+        Where a rough crack is not new: how far it has dilated [m], and the plastic work that has worn it [J/m2].
 
     The others are those of :func:`run_rigid`.
 
@@ -133,6 +150,11 @@ def run_rigid_varying(
     -------
     summary, histories, modes, events, tension
         As of :func:`run_rigid`, and the largest tension (n,) of each anchor [N/m].
+    worn
+        With a law: (k, 2) path slipped [m] and 1 while the bond is whole, both at the end, error of the steps [m].
+    rough
+        With asperities: (k, 3) dilation [m], angle [rad] and plastic work [J/m2], the same at the end, and the largest
+        dilation in contact [m].
     """
 
 def run_rigid_many(

@@ -76,6 +76,16 @@ OF_DAMS: dict[str, tuple[str, str]] = {
         "{value} is not known to the penalty method",
         'use flexible.contact = "coulomb", or the rigid model or the decoupled chain',
     ),
+    "rough-law": (
+        "does not go with the law {value}: its coefficients are those of plane flanks alone",
+        "give friction, that of the flanks, in place of the law",
+    ),
+    "rough-locks": (
+        "friction and flanks come to {value} together: a crack that steep locks",
+        "lower it, or the friction, or give a longer wave_length, so that they stay below 85 degrees",
+    ),
+    "rough-other": ("{value} does not go with crack.roughness", "choose another, or leave out crack.roughness"),
+    "rough-model": ("is not known to {model}", "use the rigid model or the decoupled chain"),
     "law-unknown": ("{value} is no friction law", "give one of {names}, or a case, CASE.toml{near}"),
     "law-twice": ("cannot stand beside the cohesion of crack.law", "keep one of them"),
     "uplift-option-foreign": (

@@ -30,6 +30,14 @@ REFERENCES = {
         "E. Hairer, S. P. Nørsett and G. Wanner, Solving Ordinary Differential Equations I, 2nd edition, Springer, "
         "1993 (DOP853)"
     ),
+    "rough crack": (
+        'F. D. Patton, "Multiple Modes of Shear Failure in Rock", 1st Congress of the International Society of Rock '
+        "Mechanics, Lisbon, 1966, vol. 1, pp. 509-513"
+    ),
+    "wear": (
+        'M. E. Plesha, "Constitutive Models for Rock Discontinuities with Dilatancy and Surface Degradation", '
+        "International Journal for Numerical and Analytical Methods in Geomechanics, vol. 11, 1987, pp. 345-362"
+    ),
     "law: slip weakening": (
         'A. C. Palmer and J. R. Rice, "The growth of slip surfaces in the progressive failure of over-consolidated '
         'clay", Proceedings of the Royal Society A 332 (1973), 527-548'

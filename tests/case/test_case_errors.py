@@ -18,7 +18,8 @@ REFUSED = [
     (
         dam(crack=CRACK | {"colour": "red"}),
         "crack.colour: no such field; "
-        "the fields here are elevation, inclination, friction, static_friction, kinetic_friction, law, restitution",
+        "the fields here are elevation, inclination, friction, static_friction, kinetic_friction, law, "
+        "roughness, restitution",
     ),
     (
         dam(motion=FILE | {"vertical": {"file": "a", "revers": True}}),

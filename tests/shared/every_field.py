@@ -106,6 +106,8 @@ LIFT: Fields = {
     "basic_friction": 0.6,
     "roughness_friction": [["0.1 MPa", 0.2], ["2 MPa", 0.1]],
 }
+ROUGH: Fields = {"asperity_height": "2 mm", "wave_length": "50 mm", "wear": "1e-5 m^2/J"}
+STIFF: Fields = {"anchors": GONE, "uplift.during_shaking": GONE, "uplift.opening": GONE}
 NO_COEFFICIENTS: Fields = {"crack.static_friction": GONE, "crack.kinetic_friction": GONE, "statics.cohesion": GONE}
 #: For fields that stand only in another case than the base, or have no value there: what changes first, then the value.
 HELPED: dict[str, tuple[Fields, Any]] = {
@@ -139,6 +141,10 @@ HELPED: dict[str, tuple[Fields, Any]] = {
             (LIFT, "basic_friction", 0.55),
             (LIFT, "roughness_friction", [["0.1 MPa", 0.25], ["2 MPa", 0.1]]),
         )
+    },
+    **{
+        f"crack.roughness.{name}": ({**STIFF, "crack.roughness": ROUGH}, value)
+        for name, value in (("asperity_height", "3 mm"), ("wave_length", "60 mm"), ("wear", "1e-4 m^2/J"))
     },
     "crack.inclination": ({}, "5 deg"),
     "reservoir.nappe": ({"reservoir.depth": "31 m", "ice": GONE}, "weight"),

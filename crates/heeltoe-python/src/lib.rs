@@ -7,6 +7,7 @@ mod stack;
 mod tables;
 mod watch;
 
+use heeltoe::asperity::AsperityNumbers;
 use heeltoe::flexible::{self as elastic, Frames, State, Status};
 use heeltoe::friction::{LawNumbers, Shape};
 use heeltoe::rigid::stack::Place;
@@ -67,6 +68,7 @@ mod _kernel {
         m.add("BLOCK_FIELDS", BlockNumbers::FIELDS.to_vec())?;
         m.add("PLACE_FIELDS", Place::FIELDS.to_vec())?;
         m.add("VARYING_FIELDS", VaryingNumbers::FIELDS.to_vec())?;
+        m.add("ASPERITY_FIELDS", AsperityNumbers::FIELDS.to_vec())?;
         m.add("LAW_FIELDS", LawNumbers::FIELDS.to_vec())?;
         m.add("LAWS", Shape::NAMES.to_vec())?;
         m.add("SUMMARY_FIELDS", Summary::FIELDS.to_vec())?;

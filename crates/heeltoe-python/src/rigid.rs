@@ -1,8 +1,9 @@
 //! The rigid model, bound to Python.
 
+use heeltoe::asperity::{Asperities, AsperityNumbers};
 use heeltoe::friction::Worn as BeenThrough;
 use heeltoe::inside::{Anchor, Law};
-use heeltoe::rigid::varying::{self, Rotation, TurningBlock, TurningShaking, VaryingNumbers};
+use heeltoe::rigid::varying::{self, Rotation, Surface, TurningBlock, TurningShaking, VaryingNumbers};
 use heeltoe::rigid::{
     exact, many, Block, BlockNumbers, Event, Moment, Options, Outcome, Run, Shaking, Wanted,
 };
@@ -27,10 +28,14 @@ type VaryingResult<'py> = (
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray1<f64>>,
     Option<Worn<'py>>,
+    Option<Rough<'py>>,
 );
 
 /// Path and bond at the moments asked for, and at the end, and the error of the integration.
 type Worn<'py> = (Bound<'py, PyArray2<f64>>, f64, bool, f64, f64);
+
+/// Dilation, angle and plastic work of the asperities at the moments asked for, and at the end, and the largest dilation.
+type Rough<'py> = (Bound<'py, PyArray2<f64>>, [f64; 3], f64);
 
 /// Runs of no more events, samples and moments that are wanted take a few milliseconds: nobody interrupts them.
 const EVENTS_AT_ONCE: u64 = 2000;
@@ -115,8 +120,8 @@ pub fn run_rigid<'py>(
 
 /// Run one block under loads and at rotations that change; see `_kernel.pyi`.
 #[pyfunction]
-#[pyo3(signature = (block, varying, rotation, law, pressure, anchors, friction, time, horizontal, vertical, turning,
-    output_times, start, worn, settle, event_limit, jam))]
+#[pyo3(signature = (block, varying, rotation, law, pressure, anchors, friction, asperities, time, horizontal,
+    vertical, turning, output_times, start, worn, rough, settle, event_limit, jam))]
 #[allow(clippy::too_many_arguments)]
 pub fn run_rigid_varying<'py>(
     py: Python<'py>,
@@ -127,6 +132,7 @@ pub fn run_rigid_varying<'py>(
     pressure: PyReadonlyArray2<'py, f64>,
     anchors: PyReadonlyArray2<'py, f64>,
     friction: Option<PyRef<'py, FrictionLaw>>,
+    asperities: Option<Numbers<'py>>,
     time: Numbers<'py>,
     horizontal: Numbers<'py>,
     vertical: Option<Numbers<'py>>,
@@ -134,6 +140,7 @@ pub fn run_rigid_varying<'py>(
     output_times: Numbers<'py>,
     start: Option<[[f64; 3]; 2]>,
     worn: Option<(f64, bool)>,
+    rough: Option<[f64; 2]>,
     settle: f64,
     event_limit: u64,
     jam: bool,
@@ -155,24 +162,43 @@ pub fn run_rigid_varying<'py>(
         jam,
     };
     let law = friction.map(|friction| friction.0.clone());
-    let worn = worn.map_or(BeenThrough::FRESH, |(path, bonded)| BeenThrough { path, bonded });
+    let asperities = asperities.as_ref().map(self::asperities).transpose()?;
+    let surface = law.as_ref().map(|law| Surface {
+        law,
+        worn: worn.map_or(BeenThrough::FRESH, |(path, bonded)| BeenThrough { path, bonded }),
+        asperities: asperities.map(|asperities| (asperities, rough.unwrap_or_default())),
+    });
     let run = walked(py, &output_times, |wanted| {
-        let law = law.as_ref().map(|law| (law, worn));
-        varying::simulate(&block, &body, law, &shaking, start, options, wanted)
+        varying::simulate(&block, &body, surface.as_ref(), &shaking, start, options, wanted)
     })?;
+    Ok(varying_arrays(py, run))
+}
+
+/// The same as [`arrays`], with what has changed as the block moved.
+fn varying_arrays(py: Python<'_>, run: Run) -> VaryingResult<'_> {
     let (summary, histories, modes, events) = arrays(py, &run);
     let worn = run.worn.map(|worn| {
         let kept = table(py, worn.kept.into_iter());
         (kept, worn.end.path, worn.end.bonded, worn.error, worn.integrated)
     });
-    Ok((
+    let rough = run.rough.map(|rough| {
+        let kept = table(py, rough.kept.into_iter());
+        (kept, rough.end, rough.highest)
+    });
+    (
         summary,
         histories,
         modes,
         events,
         run.tensions.into_pyarray(py),
         worn,
-    ))
+        rough,
+    )
+}
+
+fn asperities(numbers: &Numbers) -> PyResult<Asperities> {
+    let numbers = AsperityNumbers::from_row(&row(numbers, "a rough crack")?);
+    Ok(Asperities::new(&numbers))
 }
 
 fn anchor(&[place, along, across, prestress, axial_stiffness, shear_stiffness]: &[f64; 6]) -> Anchor<f64> {

@@ -90,6 +90,8 @@ pub struct Strength {
     pub coefficient: [f64; 2],
     /// Forces at rest and sliding.
     pub constant: [f64; 2],
+    /// On a slope: what is added to the coefficients where it slips, or would, downstream, and taken off them upstream.
+    pub lean: [f64; 2],
 }
 
 /// The steepest that Barton and Choubey (1977) let the angle of friction be.

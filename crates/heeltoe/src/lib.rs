@@ -4,6 +4,7 @@
 #![doc = include_str!("../README.md")]
 #![deny(missing_docs)]
 
+pub mod asperity;
 pub mod flexible;
 pub mod friction;
 pub mod inside;

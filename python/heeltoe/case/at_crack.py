@@ -122,6 +122,20 @@ def anchor_line(anchor: Anchor, section: CutSection, below: float) -> tuple[Plac
     return head(section, anchor.distance, anchor.inclination), (section.heel[0] + x, section.heel[1] + z)
 
 
+def rough_crack(case: Case) -> Iterator[InputError]:
+    """Walk what of a case does not go with a rough crack."""
+    if case.crack.roughness is None:
+        return
+    if case.analysis.rotation == "finite":
+        yield InputError("rough-other", "analysis.rotation", shown("finite"))
+    if case.uplift.during_shaking != "constant":
+        yield InputError("rough-other", "uplift.during_shaking", shown(case.uplift.during_shaking))
+    for place, anchor in enumerate(case.anchors):
+        for name in ("axial_stiffness", "shear_stiffness"):
+            if getattr(anchor, name):
+                yield InputError("rough-other", f"anchors[{place}].{name}", f"{getattr(anchor, name):g} N/m^2")
+
+
 def many_cracks(case: Case) -> Iterator[InputError]:
     """Walk what of a case does not go with several cracks."""
     if not case.further_cracks:
@@ -133,6 +147,8 @@ def many_cracks(case: Case) -> Iterator[InputError]:
             yield InputError("one-crack-only", name, other=other)
     if case.crack.law is not None:
         yield InputError("one-crack-only", "crack.law", other=other)
+    if case.crack.roughness is not None:
+        yield InputError("one-crack-only", "crack.roughness", other=other)
     if case.uplift.during_shaking != "constant":
         yield InputError("one-crack-value", "uplift.during_shaking", shown(case.uplift.during_shaking), other=other)
     for name, unfit in (("contact", "idce"), ("damping", "thesis"), ("virtual_mass", "thesis")):

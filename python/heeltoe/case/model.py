@@ -17,6 +17,7 @@ from heeltoe.case.at_crack import (
     flat,
     many_cracks,
     places_of,
+    rough_crack,
     too_flat,
     uplift_at_crack,
 )
@@ -121,6 +122,7 @@ class Case(Shown, Fields):
         if self.aftershocks and self.motion is None:
             yield InputError("needs-other", "aftershocks", other="a motion")
         yield from many_cracks(self)
+        yield from rough_crack(self)
         if self.crack.law is not None and self.crack.law.cohesion is not None and self.statics.cohesion:
             yield InputError("law-twice", "statics.cohesion")
         if self.statics.drain_diameter is not None and self.uplift.pattern != "drained":

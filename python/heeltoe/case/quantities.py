@@ -42,6 +42,10 @@ Frequency = Annotated[float, BeforeValidator(_validator("frequency")), _written(
 """A frequency [Hz]."""
 Angle = Annotated[float, BeforeValidator(_validator("angle")), _written("angle"), _schema("angle")]
 """An angle [rad]."""
+WearCoefficient = Annotated[
+    float, BeforeValidator(_validator("wear coefficient")), _written("wear coefficient"), _schema("wear coefficient")
+]
+"""A wear coefficient [m^2/J]."""
 MemorySize = Annotated[float, BeforeValidator(_validator("memory")), _written("memory"), _schema("memory")]
 """A size of memory [B]."""
 LineForce = Annotated[float, BeforeValidator(_validator("line force")), _written("line force"), _schema("line force")]

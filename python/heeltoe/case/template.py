@@ -65,6 +65,11 @@ friction = 1.0
 # kinetic_friction = 1.0           # is higher than in motion
 restitution = 0.5                  # of a rocking block's impacts: 0 stays down, 1 loses nothing
 
+# [crack.roughness]                # asperities that a rigid block climbs; friction is that of their flanks then
+# asperity_height = "20 mm"        # the crack dilates by so much at most
+# wave_length = "200 mm"           # from peak to peak
+# wear = "1e-6 m^2/J"              # c in i = i0 exp(-c W), W the work of friction per area
+
 # A friction law, in place of the coefficients (heeltoe law NAME draws one); each knows some of these fields:
 # [crack.law]
 # name = "slip weakening"          # or "speed weakening", "cohesion", "barton-bandis", "lift joint"

@@ -36,6 +36,8 @@ READ_BY: dict[str, frozenset[str]] = {
     "concrete.tensile_strength": frozenset({"flexible"}),
     "concrete.dynamic_tension": frozenset({"flexible"}),
     "crack.restitution": _BLOCKS,
+    "crack.roughness": _BLOCKS | {"statics"},
+    "crack.roughness.wear": _BLOCKS,
     "further_cracks": frozenset({"flexible", "statics"}),
     **dict.fromkeys((f"crack.law.{name}" for name in ("form", "slip", "speed", "surface")), _SHAKEN),
     "reservoir.virtual_mass_rotates": _BLOCKS,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import shapely
@@ -14,6 +15,9 @@ from heeltoe.warnings import Notice
 
 # What is so near a face, as a part of the height of the dam, is on it.
 _ON_FACE = 1e-3
+# Steeper flanks [rad] and higher asperities, as a part of the width of the crack, than a block climbs.
+_STEEPEST_FLANK = math.radians(45.0)
+_TALL = 0.03
 
 
 def case_warnings(case: Case) -> tuple[Notice, ...]:
@@ -52,7 +56,20 @@ def case_warnings(case: Case) -> tuple[Notice, ...]:
         said.append(Notice("tailwater-below-crack"))
     if case.tailwater and case.tailwater.depth > upstream:
         said.append(Notice("tailwater-deeper"))
-    return (*said, *_about_the_anchors(case))
+    return (*said, *_about_the_anchors(case), *_about_the_asperities(case))
+
+
+def _about_the_asperities(case: Case) -> Iterator[Notice]:
+    """Walk what is out of the range in which a crack is a sawtooth that a block climbs."""
+    rough, width = case.crack.roughness, case.cut.crack_width
+    if rough is None:
+        return
+    if rough.angle > _STEEPEST_FLANK:
+        yield Notice("rough-steep", angle_deg=math.degrees(rough.angle))
+    if rough.asperity_height > _TALL * width:
+        yield Notice("rough-tall", height_m=rough.asperity_height, share=rough.asperity_height / width, width_m=width)
+    if rough.wave_length > width:
+        yield Notice("rough-long", wave_m=rough.wave_length, width_m=width)
 
 
 def _about_the_anchors(case: Case) -> Iterator[Notice]:

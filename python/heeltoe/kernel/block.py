@@ -46,6 +46,10 @@ class Varying:
         (n, 6) distance, axis along and across the crack, prestress, axial and shear stiffness.
     friction
         Law of the crack, in place of the coefficients of the block.
+    asperities
+        Height and wave length [m] and wear [m2/J] of those of a rough crack, on whose flanks `friction` acts.
+    dilated
+        How far it has dilated [m] and the plastic work that has worn it [J/m2], where it is not new.
     """
 
     numbers: Floats
@@ -54,6 +58,8 @@ class Varying:
     pressure: Floats
     anchors: Floats
     friction: FrictionLaw | None = None
+    asperities: Floats | None = None
+    dilated: tuple[float, float] | None = None
 
 
 @dataclass(frozen=True)
@@ -107,6 +113,26 @@ class Worn:
 
 
 @dataclass(frozen=True, eq=False)
+class Roughness:
+    """What the asperities of a rough crack have been through.
+
+    Attributes
+    ----------
+    kept
+        (k, 3) at the moments that were asked for: how high the flank is on which the block is, or above which it flies,
+        over the valley in which it stood at first [m], angle of the flanks [rad], plastic work per area [J/m2].
+    end
+        The same three when the run ended.
+    highest
+        Largest dilation with a corner in contact [m].
+    """
+
+    kept: Floats
+    end: Sequence[float]
+    highest: float
+
+
+@dataclass(frozen=True, eq=False)
 class BlockRun:
     """What a block did.
 
@@ -126,6 +152,8 @@ class BlockRun:
         What the crack has been through, where its friction goes by a law.
     drainage
         How much of its drainage each motion of a sequence has found, where slip closes the drains.
+    rough
+        What its asperities have been through, where it is rough.
     """
 
     summary: Mapping[str, float]
@@ -135,6 +163,7 @@ class BlockRun:
     tension: Floats | None
     worn: Worn | None = None
     drainage: tuple[float, ...] = ()
+    rough: Roughness | None = None
 
     @classmethod
     def of(
@@ -145,6 +174,7 @@ class BlockRun:
         events: Floats,
         tension: Floats | None = None,
         worn: tuple[Floats, float, bool, float, float] | None = None,
+        rough: tuple[Floats, Sequence[float], float] | None = None,
     ) -> BlockRun:
         """Put the names on what a kernel returns."""
         return cls(
@@ -154,6 +184,7 @@ class BlockRun:
             events=columns(_kernel.EVENT_FIELDS, events),
             tension=tension,
             worn=None if worn is None else Worn(worn[0][:, 0], worn[0][:, 1], *worn[1:]),
+            rough=None if rough is None else Roughness(rough[0], rough[1], rough[2]),
         )
 
     @property
@@ -234,6 +265,7 @@ def run_block(
         varying.pressure,
         varying.anchors,
         varying.friction,
+        varying.asperities,
         time,
         horizontal,
         up,
@@ -241,6 +273,7 @@ def run_block(
         moments,
         start,
         worn,
+        varying.dilated,
         settle,
         most,
         jam,

@@ -60,7 +60,7 @@ def friction_of(crack: Crack, normal_force: float, width: float) -> Pair:
     """Return the friction of a crack under its static loads: at rest before any slip, with its bond, and sliding after
     all of it; by a law, those of the mean normal stress."""
     if crack.law is None:
-        return crack.mu_static, crack.mu_kinetic
+        return crack.apparent_friction, crack.mu_kinetic
     law, stress = law_of(crack.law), normal_force / width
     at_rest, _ = coefficients(law, stress, bond=1.0)
     _, sliding = coefficients(law, stress, FAR, FAST)

@@ -115,6 +115,9 @@ def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
         return (BOTH[model], "flexible"), "it is the better one of the two that were asked for"
     if model != AUTO:
         return (model,), _ASKED_FOR
+    if case.crack.roughness is not None:
+        at_height = case.crack.elevation > 0.0 and case.concrete.modulus is not None
+        return ("decoupled" if at_height else "rigid",), "the flexible model does not know asperities"
     if case.concrete.modulus is None:
         return ("rigid",), "the case gives no concrete.modulus, without which the dam can only be a rigid block"
     block = "decoupled" if case.crack.elevation > 0.0 else "rigid"

@@ -205,6 +205,7 @@ class Response(Shown):
     events = Of[int]("Changes of mode and impacts of a block.")
     rotation = Of[str]("Geometry of a block: small, p-delta or finite.")
     friction_law = Of[dict[str, Any] | None]("What the friction law of a crack has come to; null of coefficients.")
+    roughness = Of[dict[str, Any] | None]("What the asperities of a rough crack have come to; null of a flat one.")
     overturned_about = Of[str | None]("Corner about which a block has overturned.")
 
     #: Whether the parts of the dam are elastic, so that both ends of a crack shift with nothing happening to the dam.

@@ -63,6 +63,7 @@ DIMENSIONS = {
     "angle": Dimension("an angle", "rad", "5 deg"),
     "line force": Dimension("a force per metre of dam", "N/m", "150 kN/m"),
     "stiffness": Dimension("a stiffness per metre of dam", "N/m^2", "50 MN/m/m"),
+    "wear coefficient": Dimension("a wear coefficient", "m^2/J", "1e-5 m^2/J"),
     "memory": Dimension("a size of memory", "B", "8 GB"),
     "number": Dimension("a number", "", 1.0),
 }

@@ -152,6 +152,10 @@ pub struct Block {
     pub(super) friction_kinetic: f64,
     /// What friction bears without a normal force, at rest and sliding.
     pub(super) cohesion: [f64; 2],
+    /// On a slope: what is added to the coefficients of friction downstream, and taken off them upstream.
+    lean: [f64; 2],
+    /// Slope of what the gaps count from, over the slip.
+    slope: f64,
     pub(super) restitution: f64,
     /// A force of the size of the loads: ties are told from rounding relative to it.
     pub(super) force_scale: f64,
@@ -201,6 +205,8 @@ impl Block {
             friction_static: p.friction_static,
             friction_kinetic: p.friction_kinetic,
             cohesion: [0.0; 2],
+            lean: [0.0; 2],
+            slope: 0.0,
             restitution: p.restitution,
             force_scale: p.static_horizontal.abs() + p.static_vertical.abs() + p.static_moment.abs() / width,
         }
@@ -232,8 +238,27 @@ impl Block {
             friction_static,
             friction_kinetic,
             cohesion: strength.constant,
+            lean: strength.lean,
             ..self.clone()
         }
+    }
+
+    /// The same block, its gaps counted from a slope.
+    pub(super) fn on_slope(&self, slope: f64) -> Self {
+        Block {
+            slope,
+            ..self.clone()
+        }
+    }
+
+    /// Coefficient of friction that keeps it from slipping this way, 1 or -1.
+    pub(super) fn friction_static_towards(&self, way: f64) -> f64 {
+        self.friction_static + way * self.lean[0]
+    }
+
+    /// Coefficient of friction as it slips this way.
+    pub(super) fn friction_kinetic_towards(&self, way: f64) -> f64 {
+        self.friction_kinetic + way * self.lean[1]
     }
 
     /// What friction bears.
@@ -241,6 +266,7 @@ impl Block {
         Strength {
             coefficient: [self.friction_static, self.friction_kinetic],
             constant: self.cohesion,
+            lean: self.lean,
         }
     }
 
@@ -281,7 +307,7 @@ impl Block {
     pub(super) fn kinetic_energy(&self, velocity: &Vector) -> f64 {
         let turning = self.rotation(velocity);
         let downstream = velocity[SLIP] - self.height * turning;
-        let upward = velocity[HEEL] + self.heel_distance * turning;
+        let upward = velocity[HEEL] + self.slope * velocity[SLIP] + self.heel_distance * turning;
         0.5 * (self.mass_horizontal * downstream * downstream
             + self.mass_vertical * upward * upward
             + self.inertia * turning * turning)

@@ -76,7 +76,8 @@ impl Approach<'_> {
         match assumed.friction {
             Friction::Stick => {
                 let normal = impulse[HEEL] + impulse[TOE];
-                if impulse[SLIP].abs() > self.block.friction_static * normal + push {
+                let friction = self.block.friction_static_towards(-impulse[SLIP].signum());
+                if impulse[SLIP].abs() > friction * normal + push {
                     return None;
                 }
                 after[SLIP] = 0.0;
@@ -110,7 +111,7 @@ impl Approach<'_> {
                 right[SLIP] = -before[SLIP];
             }
             Friction::Slip(sign) => {
-                let mu = self.block.friction_kinetic * sign;
+                let mu = self.block.friction_kinetic_towards(sign) * sign;
                 m[SLIP] = [1.0, mu, mu].map(|factor| factor * a[SLIP][SLIP]);
             }
         }

@@ -25,6 +25,6 @@ mod walk;
 pub use block::{Block, BlockNumbers, Vector};
 pub use ledger::Ledger;
 pub use mode::{Corner, Mode, Slip};
-pub use result::{Event, EventKind, Moment, Outcome, Run, Summary, Wear};
+pub use result::{Event, EventKind, Moment, Outcome, Roughness, Run, Summary, Wear};
 pub use shaking::Shaking;
 pub use walk::{Options, Wanted};

@@ -131,10 +131,12 @@ impl Reaction {
         let mut force_size = [pull.abs(), 0.0, 0.0];
         let mut acceleration_size = [SLIP, HEEL, TOE].map(size);
         let mut regular = true;
+        let way = mode.slip().map_or(0.0, Slip::sign);
+        let friction_kinetic = block.friction_kinetic_towards(way);
         for (column, load) in free.iter().enumerate() {
             let mut one = [0.0; 3];
             one[column] = 1.0;
-            let Some(unit) = reaction_to(&block.compliance, block.friction_kinetic, mode, &one) else {
+            let Some(unit) = reaction_to(&block.compliance, friction_kinetic, mode, &one) else {
                 regular = false;
                 break;
             };
@@ -252,6 +254,16 @@ impl Reactions {
         Reactions(table)
     }
 
+    /// Of each mode either these or those of another block, `there`.
+    pub(super) fn or(mut self, there: &Self, which: impl Fn(Mode) -> bool) -> Self {
+        for mode in Mode::ALL.into_iter().chain([Mode::Drift]) {
+            if which(mode) {
+                self.0[mode.index()] = there.0[mode.index()];
+            }
+        }
+        self
+    }
+
     #[inline]
     pub(super) fn of(&self, mode: Mode) -> &Reaction {
         &self.0[mode.index()]
@@ -270,10 +282,11 @@ fn pulled(block: &Block, mode: Mode) -> (f64, [Affine; 3]) {
     (pull, free)
 }
 
-/// `mu_s (N_h + N_t) - direction * T`: what is left of the friction cone.
+/// `mu_s (N_h + N_t) - direction * T`: what is left of the friction cone; friction downstream keeps from slipping upstream.
 fn cone(block: &Block, force: &[Affine; 3], direction: f64) -> Affine {
+    let friction_static = block.friction_static_towards(-direction);
     let left = |f: fn(&Affine) -> f64| {
-        block.friction_static * (f(&force[HEEL]) + f(&force[TOE])) - direction * f(&force[SLIP])
+        friction_static * (f(&force[HEEL]) + f(&force[TOE])) - direction * f(&force[SLIP])
     };
     Affine {
         constant: left(|q| q.constant) + block.cohesion[0],

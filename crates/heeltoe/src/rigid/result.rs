@@ -43,6 +43,8 @@ named! {
         BothStrike = "both strike",
         /// A tangential impact ends a Painlevé paradox.
         Jams = "jams",
+        /// The block slides over a peak of a rough crack, or passes a valley or a peak in the air.
+        AsperityPassed = "asperity passed",
         /// None of these, but the mode is another.
         ModeChanges = "mode changes",
     }
@@ -134,6 +136,19 @@ pub struct Run {
     pub tensions: Vec<f64>,
     /// What the crack has been through, where its friction goes by a law.
     pub worn: Option<Wear>,
+    /// What the asperities have been through, where the crack is rough.
+    pub rough: Option<Roughness>,
+}
+
+/// What the asperities of a rough crack have been through.
+#[derive(Clone, Debug)]
+pub struct Roughness {
+    /// At the moments asked for: dilation (m), angle (rad), plastic work per area (J/m2).
+    pub kept: Vec<[f64; 3]>,
+    /// At the end.
+    pub end: [f64; 3],
+    /// Largest dilation with a corner in contact (m).
+    pub highest: f64,
 }
 
 /// What a crack whose friction goes by a law has been through.

@@ -53,6 +53,8 @@ pub(super) enum Cause {
     Cone,
     Stop,
     Gap(usize),
+    /// A block in the air passes a valley or a peak of a rough crack, or slides over a peak.
+    Turn,
 }
 
 /// What every walk knows, and what it has seen.
@@ -104,6 +106,7 @@ impl<'a> Walk<'a> {
             events: self.events,
             tensions,
             worn: None,
+            rough: None,
         }
     }
 
@@ -284,7 +287,9 @@ pub(super) trait Carried<'a> {
 /// The name of an event in which nothing strikes.
 pub(super) fn describe(before: Mode, after: Mode, cause: Option<Cause>) -> EventKind {
     let (was, is) = (before.contacts(), after.contacts());
-    if cause == Some(Cause::Stop) {
+    if cause == Some(Cause::Turn) {
+        EventKind::AsperityPassed
+    } else if cause == Some(Cause::Stop) {
         EventKind::SlipStops
     } else if was[0] && !is[0] {
         EventKind::HeelLifts

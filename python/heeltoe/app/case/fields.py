@@ -22,6 +22,7 @@ _UNITS = {
     "angle": ("deg", "deg"),
     "line force": ("kN/m", "kip/ft"),
     "stiffness": ("MN/m/m", "kip/ft/ft"),
+    "wear coefficient": ("m^2/J", "m^2/J"),
     "memory": ("GB", "GB"),
 }
 _LABELS = {

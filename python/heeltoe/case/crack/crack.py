@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
 from heeltoe.case.crack.law import Law
+from heeltoe.case.crack.roughness import Roughness
 from heeltoe.case.dam import UPLIFT_OPTIONS, Uplift
 from heeltoe.case.fields import STEEPEST, Fields, Fraction, FrictionCoefficient
 from heeltoe.case.quantities import Angle, DimensionlessNumber, Length
 from heeltoe.case.sentences import gathered
-from heeltoe.errors import InputError
+from heeltoe.errors import InputError, shown
+
+#: Angle of friction along the mean plane of a crack [rad] that asperities and friction may have together.
+STEEPEST_STRENGTH = math.radians(85.0)
 
 
 class Crack(Fields):
@@ -30,6 +35,8 @@ class Crack(Fields):
     """Coefficient of friction while sliding."""
     law: Law | None = None
     """A friction law, in place of the coefficients."""
+    roughness: Roughness | None = None
+    """Asperities that the block climbs and wears; the coefficients are those of their flanks then."""
     restitution: Fraction = 0.5
     """Newton's coefficient of restitution of a corner that strikes: 0 stays down, 1 loses nothing.
     The default is that of Zhu (2004)."""
@@ -44,6 +51,23 @@ class Crack(Fields):
         yield from (
             InputError("fields-conflict", name, other="law") for name in names if getattr(self, name) is not None
         )
+
+    @model_validator(mode="after")
+    @gathered
+    def _rough(self) -> Iterator[InputError]:
+        if self.roughness is None:
+            return
+        if self.law is not None:
+            yield InputError("rough-law", "roughness", shown(self.law.name))
+        steep = math.atan(self.mu_static) + self.roughness.angle
+        if steep >= STEEPEST_STRENGTH:
+            yield InputError("rough-locks", "roughness.asperity_height", f"{math.degrees(steep):.3g} degrees")
+
+    @property
+    def apparent_friction(self) -> float:
+        """Coefficient of friction along the mean plane before any slip; zero where a law says it."""
+        rough = self.roughness
+        return self.mu_static if rough is None else math.tan(math.atan(self.mu_static) + rough.angle)
 
     @property
     def mu_static(self) -> float:

@@ -67,7 +67,7 @@ def omitted(case: Case, response: Response) -> tuple[Notice, ...]:
 def friction_at_rest(case: Case, response: Response) -> float:
     """Return the friction of the crack before any slip; by a law, under its static loads."""
     law = response.summary.get("friction_law")
-    return case.crack.mu_static if law is None else float(law["apparent_friction_before"])
+    return case.crack.apparent_friction if law is None else float(law["apparent_friction_before"])
 
 
 def _swings(dam: _Dam, swing: Swing, moduli: tuple[float, ...]) -> Notice:

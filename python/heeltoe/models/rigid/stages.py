@@ -10,7 +10,7 @@ import numpy as np
 
 from heeltoe.arrays import Floats
 from heeltoe.case.model import Case
-from heeltoe.kernel.block import BlockRun, Worn
+from heeltoe.kernel.block import BlockRun, Roughness, Worn
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.mechanics.drains import close_by_slip, drainage_left, with_drainage
@@ -108,6 +108,7 @@ def _joined(first: BlockRun, then: BlockRun) -> BlockRun:
         events=_behind(first.events, then.events),
         tension=tension,
         worn=None if first.worn is None or then.worn is None else _worn(first.worn, then.worn),
+        rough=None if first.rough is None or then.rough is None else _rough(first.rough, then.rough),
     )
 
 
@@ -122,3 +123,7 @@ def _worn(first: Worn, then: Worn) -> Worn:
         bonded=np.concatenate([first.bonded, then.bonded]),
         error=first.error + then.error,
     )
+
+
+def _rough(first: Roughness, then: Roughness) -> Roughness:
+    return replace(then, kept=np.concatenate([first.kept, then.kept]), highest=max(first.highest, then.highest))

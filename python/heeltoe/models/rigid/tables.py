@@ -12,7 +12,7 @@ from heeltoe.case.model import Case
 from heeltoe.kernel.block import EVENT_KINDS, MODES, SUMMARY, BlockRun
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block
-from heeltoe.models.rigid.worn import law_found, law_histories
+from heeltoe.models.rigid.worn import law_found, law_histories, roughness_found, roughness_histories
 from heeltoe.references import cited
 from heeltoe.result.contract import HEADLINES, headlines
 from heeltoe.result.response import Energy
@@ -55,6 +55,10 @@ def references_of(case: Case, block: Block, run: BlockRun) -> tuple[str, ...]:
         keys.append("integration")
     if case.crack.law is not None:
         keys.append(f"law: {case.crack.law.name}")
+    if case.crack.roughness is not None:
+        keys.append("rough crack")
+    if case.crack.roughness is not None and case.crack.roughness.wear:
+        keys.append("wear")
     return cited(*keys)
 
 
@@ -93,6 +97,7 @@ def summary_of(case: Case, block: Block, run: BlockRun) -> dict[str, Any]:
         "uplift_during_shaking": case.uplift.during_shaking,
         "drainage_by_motion": list(run.drainage) or None,
         "friction_law": None if case.crack.law is None else law_found(case, block, run),
+        "roughness": roughness_found(case, run),
         "overturned_about": about if run.outcome == "overturned" else None,
         "anchors": [
             {"distance_m": anchor.distance, "peak_tension_n": float(peak), "capacity_n": anchor.capacity}
@@ -141,7 +146,7 @@ def histories_of(case: Case, block: Block, shaking: Shaking, moments: Floats, ru
     }
     if case.crack.law is not None and run.worn is not None:
         result |= law_histories(case, block, run)
-    return result
+    return result | roughness_histories(run)
 
 
 def events_of(run: BlockRun) -> dict[str, Any]:

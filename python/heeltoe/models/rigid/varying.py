@@ -9,7 +9,7 @@ from heeltoe.case.model import Case
 from heeltoe.kernel.block import VARYING, Varying
 from heeltoe.mechanics.block import Block, across_crack
 from heeltoe.mechanics.drains import close_by_slip
-from heeltoe.mechanics.friction import law_of
+from heeltoe.mechanics.friction import crack_law
 from heeltoe.mechanics.loads import face_at, total, uplift_profile, water_above_crack
 
 
@@ -19,6 +19,7 @@ def varies(case: Case) -> bool:
         case.analysis.rotation != "small"
         or case.uplift.during_shaking != "constant"
         or case.crack.law is not None
+        or case.crack.roughness is not None
         or any(anchor.axial_stiffness or anchor.shear_stiffness for anchor in case.anchors)
     )
 
@@ -39,7 +40,7 @@ def varying(case: Case, block: Block) -> Varying:
     water = section.in_crack_frame(face_at(section, block.water.height), block.water.height)
     horizontal = section.in_crack_frame(1.0, 0.0)
     following = across_crack(total("following", block.following), section)
-    g = case.gravity
+    g, rough = case.gravity, case.crack.roughness
     profile = uplift_profile(case)
     full = 0.0
     if case.reservoir is not None:
@@ -86,5 +87,6 @@ def varying(case: Case, block: Block) -> Varying:
         law=uplift.during_shaking,
         pressure=np.ascontiguousarray(profile),
         anchors=np.array(anchors, dtype=np.float64).reshape(-1, 6),
-        friction=None if case.crack.law is None else law_of(case.crack.law),
+        friction=None if case.crack.law is None and rough is None else crack_law(case.crack),
+        asperities=None if rough is None else np.array([rough.asperity_height, rough.wave_length, rough.wear]),
     )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from heeltoe.arrays import Floats
@@ -33,6 +35,9 @@ def walk(
     def run(now: Case, block: Block, shaking: Shaking, moments: Floats, before: BlockRun | None) -> BlockRun:
         what = varying(now, block) if varies(now) or shaking.turning is not None else None
         start, worn = (None, None) if before is None else start_of(before)
+        if what is not None and before is not None and before.rough is not None:
+            dilation, _, work = before.rough.end
+            what = replace(what, dilated=(dilation, work))
         return run_block(block.parameters(), shaking, moments, ends, start=start, varying=what, worn=worn)
 
     if in_stages(case, shaking):

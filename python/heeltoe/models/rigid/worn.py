@@ -1,7 +1,8 @@
-"""What a crack whose friction goes by a law has been through, by the names of the contract."""
+"""What a crack whose friction goes by a law, or that is rough, has been through, by the names of the contract."""
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -48,3 +49,36 @@ def law_histories(case: Case, block: Block, run: BlockRun) -> dict[str, Floats]:
     at_rest, sliding = shear_stress(law_of(case.crack.law), stress, worn.path, speed, worn.bonded * closed)
     strength: Floats = np.where(speed > 0.0, sliding, at_rest)
     return {"slip_path_m": worn.path, "friction_strength_n": block.width * strength}
+
+
+def roughness_found(case: Case, run: BlockRun) -> dict[str, Any] | None:
+    """Return what the asperities have come to: dilation, angle and friction along the mean plane before and after; None
+    of a crack that is not rough."""
+    rough = case.crack.roughness
+    if rough is None or run.rough is None or run.worn is None:
+        return None
+    dilation, angle, work = run.rough.end
+    flank = math.atan(case.crack.mu_static)
+    return {
+        "asperity_height_m": rough.asperity_height,
+        "wave_length_m": rough.wave_length,
+        "asperity_angle_before_rad": rough.angle,
+        "asperity_angle_after_rad": angle,
+        "apparent_friction_before": math.tan(flank + rough.angle),
+        "apparent_friction_after": math.tan(flank + angle),
+        "residual_dilation_m": dilation,
+        "peak_dilation_m": run.rough.highest,
+        "plastic_work_j_m2": work,
+        "slip_path_m": run.worn.end,
+        "asperities_passed": len(run.times_of("asperity passed")),
+        "integration_error_m": run.worn.error,
+    }
+
+
+def roughness_histories(run: BlockRun) -> dict[str, Floats]:
+    """Return how far the crack has dilated [m], the angle of its flanks [rad] and the plastic work [J/m^2]."""
+    rough = run.rough
+    if rough is None:
+        return {}
+    names = ("dilation_m", "asperity_angle_rad", "plastic_work_j_m2")
+    return dict(zip(names, rough.kept.T, strict=True))

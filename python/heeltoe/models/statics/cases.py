@@ -84,7 +84,7 @@ def pseudo_static(case: Case, before: Solved) -> tuple[Solved, ...]:
             given = Given(
                 f"pseudo-static {way}{name}",
                 "earthquake",
-                case.crack.mu_static,
+                case.crack.apparent_friction,
                 case.statics.cohesion,
                 (Sentence(f"uplift: {source}"),),
                 sources_of(case) | sources_of_inertia(case, *ground),
@@ -179,6 +179,6 @@ def _still(name: str, loads: Loads, case: Case, said: tuple[Sentence, ...]) -> S
     """Return a case of still water on the crack as it is before the earthquake."""
     contact = _contact(case)
     water = still_water(case, contact.start, contact.end)
-    friction, cohesion = case.crack.mu_static, case.statics.cohesion
+    friction, cohesion = case.crack.apparent_friction, case.statics.cohesion
     given = Given(name, loads, friction, cohesion, said, sources_of(case), peak_of(case.crack))
     return solve_case(given, case.cut, _dry(case), contact, water)

@@ -202,7 +202,7 @@ def statics(
 
 def _peak(case: Case, usual: LoadCase) -> float:
     """Return the friction of the crack before any slip; by a law, under the usual loads."""
-    return case.crack.mu_static if case.crack.law is None else usual.friction
+    return case.crack.apparent_friction if case.crack.law is None else usual.friction
 
 
 def _said_of(case: Case, usual: LoadCase) -> list[Notice]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from heeltoe.units.sentences import written
 from heeltoe.views.report.content import Block, Inline, Section, Table, paragraph
 from heeltoe.views.report.subject import Subject
-from heeltoe.views.words.law import law_line
+from heeltoe.views.words.law import law_line, roughness_line
 from heeltoe.views.words.numbers import Value
 from heeltoe.views.words.sequence import COLUMNS, sequence_rows
 from heeltoe.views.words.starts import starts
@@ -204,11 +204,22 @@ def _anchors(subject: Subject) -> list[Block]:
     return [Table(head, rows, caption, "l" + "r" * (2 + len(runs)))] if rows else []
 
 
+def _rough(subject: Subject) -> list[Block]:
+    """Return what a rough crack has come to."""
+    blocks: list[Block] = []
+    for run in subject.runs:
+        found = run.response.summary.get("roughness")
+        if found is not None:
+            whose = "" if len(subject.runs) == 1 else f", {run.name}"
+            blocks.append(paragraph(f"The rough crack{whose}: {roughness_line(found, subject.units)}."))
+    return blocks
+
+
 def _law(subject: Subject) -> list[Block]:
-    """Return what a friction law is, looks like, and has come to."""
+    """Return what a friction law is, looks like, and has come to, or a rough crack."""
     law = subject.case.crack.law
     if law is None:
-        return []
+        return _rough(subject)
     blocks: list[Block] = [
         paragraph(f"The friction of the crack goes by the law {law.name}; its figure shows what is borne.")
     ]

@@ -26,7 +26,7 @@ from heeltoe.views.terminal.decoupled import crack_lines
 from heeltoe.views.terminal.elastic import elastic_lines
 from heeltoe.views.terminal.sequence import print_sequence
 from heeltoe.views.words import cracks
-from heeltoe.views.words.law import law_line
+from heeltoe.views.words.law import law_line, roughness_line
 from heeltoe.views.words.motion import sampling
 from heeltoe.views.words.numbers import Amount, in_one_unit
 from heeltoe.views.words.sequence import part_lines
@@ -114,9 +114,10 @@ def _static_lines(response: Response) -> list[tuple[str, str]]:
 
 
 def _law_lines(response: Response, units: str) -> list[tuple[str, str]]:
-    """Return what a friction law has come to."""
-    found = response.summary.get("friction_law")
-    return [] if found is None else [("friction law", law_line(found, units))]
+    """Return what a friction law or a rough crack has come to."""
+    law, rough = (response.summary.get(name) for name in ("friction_law", "roughness"))
+    lines = [] if law is None else [("friction law", law_line(law, units))]
+    return lines if rough is None else [*lines, ("rough crack", roughness_line(rough, units))]
 
 
 def _basis_lines(response: Response, units: str) -> list[tuple[str, str]]:

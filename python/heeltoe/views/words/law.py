@@ -1,11 +1,23 @@
-"""What a friction law has come to, in words."""
+"""What a friction law or a rough crack has come to, in words."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from typing import Any
 
 from heeltoe.units.sentences import written
+
+
+def roughness_line(found: Mapping[str, Any], units: str) -> str:
+    """Say how far a rough crack has dilated, how worn it is, and what its friction was before and is after."""
+    text = (
+        "dilated by {peak_dilation_m:.3g mm} at most, {residual_dilation_m:.3g mm} in the end; the flanks wore from "
+        f"{math.degrees(found['asperity_angle_before_rad']):.3g} to "
+        f"{math.degrees(found['asperity_angle_after_rad']):.3g} degrees; the apparent friction is "
+        "{apparent_friction_after:.4g}, before {apparent_friction_before:.4g}"
+    )
+    return written(text, units, **found)
 
 
 def law_line(found: Mapping[str, Any], units: str) -> str:

@@ -318,6 +318,7 @@ impl Walk<'_> {
                     events,
                     tensions: Vec::new(),
                     worn: None,
+                    rough: None,
                 }
             });
         let cracks = std::array::from_fn(|_| runs.next().expect("two cracks"));

@@ -127,6 +127,7 @@ impl Varying<'_> {
             if why == Cause::Stop {
                 self.state[3] = 0.0;
             }
+            let why = if why == Cause::Turn { self.turn() } else { why };
             if matches!(why, Cause::Normal | Cause::Cone | Cause::Stop) || at < 1e-3 * trial.length {
                 self.suggested = self.suggested.max(trial.length);
             }
@@ -157,7 +158,7 @@ impl Varying<'_> {
         let Trial {
             start, end, length, ..
         } = trial;
-        let instant = self.turning.at(self.corner, start, &trial.piece.ground);
+        let instant = self.seen_from(self.corner, start, &trial.piece.ground);
         let (reactions, strength) = self.reactions(start, &instant);
         let mut first = Earliest::default();
         self.see_limits(trial, self.limits_under(&reactions, &strength), &mut first);
@@ -194,6 +195,7 @@ impl Varying<'_> {
             Cause::Gap(gap) => {
                 self.located(trial, near, |y, _| self.turning.gaps(self.corner, y)[gap - HEEL])
             }
+            Cause::Turn => self.located(trial, near, |y, _| self.before_turns(y)[which]),
         };
         Found::of(why, found.unwrap_or((f64::NAN, *start, 0.0)))
     }
@@ -250,6 +252,17 @@ impl Varying<'_> {
             let bend = (v1 - v0 - s * real[SLIP] * length) / (length * length);
             if let Some(t) = event::quadratic(v0, a0, bend, length) {
                 first.note(t, Cause::Stop, SLIP);
+            }
+        }
+        if self.rough.is_some() && self.walk.mode.free()[SLIP] {
+            let left = ends.map(|y| self.before_turns(y));
+            for (which, way) in [1.0, -1.0].into_iter().enumerate() {
+                let (p0, p1) = (left[0][which], left[1][which]);
+                let (v0, a0) = (way * speeds[0][SLIP], way * now[SLIP]);
+                let bend = (p1 - p0 - length * (v0 + 0.5 * length * way * real[SLIP])) / length.powi(3);
+                if let Some(t) = event::cubic(p0, v0, 0.5 * a0, bend, length) {
+                    first.note(t, Cause::Turn, which);
+                }
             }
         }
         let gaps = ends.map(|y| self.turning.gaps(self.corner, y));

@@ -30,6 +30,17 @@ pub(super) struct Instant {
     pub free_acceleration: Vector,
     /// Velocity terms of the equations of motion, on the side of the loads.
     centrifugal: Vector,
+    /// What wear adds to the acceleration off a slope per friction.
+    wear: f64,
+}
+
+/// What the gaps of a rough crack count from.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Slope {
+    /// Rise over slip.
+    pub slope: f64,
+    /// Acceleration of the slope, away from the block, per friction that wears it.
+    pub wear: f64,
 }
 
 /// How the block is turned, seen from a corner: sine and cosine, J of the centroid and of the water, `r`.
@@ -92,6 +103,7 @@ impl TurningBlock {
             compliance,
             free_acceleration,
             centrifugal,
+            wear: 0.0,
         }
     }
 
@@ -211,7 +223,44 @@ impl Instant {
             let contact: f64 = (0..3).map(|k| self.gradient[k][i] * reactions[k]).sum();
             self.load[i] + self.centrifugal[i] + contact
         });
-        times(&self.inverse_mass, &total)
+        let mut acceleration = times(&self.inverse_mass, &total);
+        if self.wear != 0.0 {
+            acceleration[1] += self.wear * reactions[SLIP];
+        }
+        acceleration
+    }
+
+    /// The same with the gaps counted from a slope: `Z = X tan i + Z*`, `M* = L^T M L`, `Q* = L^T Q`, the friction that
+    /// does the work of the slip `T* = T + tan i (N_h + N_t)`.
+    pub(super) fn on(mut self, Slope { slope: k, wear }: Slope) -> Self {
+        if k != 0.0 {
+            for j in 0..3 {
+                self.mass[0][j] += k * self.mass[1][j];
+                self.inverse_mass[1][j] -= k * self.inverse_mass[0][j];
+            }
+            for i in 0..3 {
+                self.mass[i][0] += k * self.mass[i][1];
+                self.inverse_mass[i][1] -= k * self.inverse_mass[i][0];
+            }
+            self.load[0] += k * self.load[1];
+            self.centrifugal[0] += k * self.centrifugal[1];
+            for gap in [HEEL, TOE] {
+                self.free_acceleration[gap] -= k * self.free_acceleration[SLIP];
+                for j in 0..3 {
+                    self.compliance[gap][j] -= k * self.compliance[SLIP][j];
+                }
+            }
+            for i in 0..3 {
+                for gap in [HEEL, TOE] {
+                    self.compliance[i][gap] -= k * self.compliance[i][SLIP];
+                }
+            }
+        }
+        for gap in [HEEL, TOE] {
+            self.compliance[gap][SLIP] += wear;
+        }
+        self.wear = wear;
+        self
     }
 
     /// Accelerations of slip, heel gap and toe gap under these reactions.

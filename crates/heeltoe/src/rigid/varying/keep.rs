@@ -1,6 +1,6 @@
 //! What is kept of a step: the new state, the books, extremes, tension of anchors, histories.
 
-use super::super::block::{Vector, HEEL};
+use super::super::block::{Vector, HEEL, SLIP, TOE};
 use super::super::event;
 use super::super::mode::{Corner, Mode};
 use super::super::result::Moment;
@@ -22,6 +22,7 @@ impl Varying<'_> {
         self.turning_points(trial, end, taken);
         let past = self.wear(end);
         self.gather_error(trial, past, taken);
+        self.rise_to(trial, end, taken);
         self.state = *end;
         let (work, rubbed) = (end[6], end[7]);
         self.state[6] = 0.0;
@@ -108,7 +109,7 @@ impl Varying<'_> {
             return;
         }
         let (corner, seen) = self.slipping(start);
-        let instant = self.turning.at(corner, &seen, &piece.ground);
+        let instant = self.seen_from(corner, &seen, &piece.ground);
         let [slip, heel, toe] = instant.contact_acceleration(&self.reactions(&seen, &instant).0);
         for (i, a0) in [slip, heel, toe, rate[5]].into_iter().enumerate() {
             let (v0, v1) = (speeds[i], last[i]);
@@ -138,8 +139,8 @@ impl Varying<'_> {
             };
             let state = self.moved(start, &rate, piece, t);
             let (corner, seen) = self.slipping(&state);
-            let instant = self.turning.at(corner, &seen, &piece.after(t));
-            let (reaction, _) = self.reactions(&seen, &instant);
+            let instant = self.seen_from(corner, &seen, &piece.after(t));
+            let (mut reaction, _) = self.reactions(&seen, &instant);
             let mut acceleration = instant.contact_acceleration(&reaction);
             let contacts = self.walk.mode.contacts();
             let held = [self.walk.mode.sticks(), contacts[0], contacts[1]];
@@ -149,6 +150,8 @@ impl Varying<'_> {
                 }
             }
             self.keep_worn(&state);
+            self.keep_rough(start, &rate, piece, &state, t);
+            reaction[SLIP] -= self.slope(&state).slope * (reaction[HEEL] + reaction[TOE]);
             let [position, velocity] = self.contact(&state);
             self.walk.keep(Moment {
                 mode: self.walk.mode,

@@ -10,12 +10,14 @@
 
 mod advance;
 mod block;
+mod carried;
 mod curve;
 mod instant;
 mod keep;
 mod located;
 mod rates;
 mod rest;
+mod rough;
 mod rubbing;
 mod shaking;
 mod slide;
@@ -25,4 +27,4 @@ mod water;
 
 pub use block::{Rotation, TurningBlock, VaryingNumbers};
 pub use shaking::TurningShaking;
-pub use walk::simulate;
+pub use walk::{simulate, Surface};

@@ -19,13 +19,13 @@ impl Varying<'_> {
     /// Whether friction makes the reactions of a slip infinite at a state.
     pub(super) fn jams(&self, state: &State, ground: &Ground) -> bool {
         self.walk.mode.slip().is_some() && {
-            let instant = self.turning.at(self.corner, state, ground);
+            let instant = self.seen_from(self.corner, state, ground);
             self.rubbed(self.walk.mode, state, &instant).is_none()
         }
     }
 
     pub(super) fn rates(&self, state: &State, ground: &Ground) -> State {
-        let instant = self.turning.at(self.corner, state, ground);
+        let instant = self.seen_from(self.corner, state, ground);
         let (reactions, _) = self.reactions(state, &instant);
         let mut acceleration = instant.acceleration(&reactions);
         let contacts = self.walk.mode.contacts();
@@ -72,7 +72,7 @@ impl Varying<'_> {
 
     /// Normal forces and what is left of the friction cone, both ways, at a state; sizes to judge them by.
     pub(super) fn limits(&self, state: &State, ground: &Ground) -> [(f64, f64); 4] {
-        let instant = self.turning.at(self.corner, state, ground);
+        let instant = self.seen_from(self.corner, state, ground);
         let (reactions, strength) = self.reactions(state, &instant);
         self.limits_under(&reactions, &strength)
     }
@@ -80,14 +80,14 @@ impl Varying<'_> {
     pub(super) fn limits_under(&self, reactions: &Vector, strength: &Strength) -> [(f64, f64); 4] {
         let [friction, heel, toe] = *reactions;
         let scale = self.walk.block.force_scale;
-        let ([mu, _], [held, _]) = (strength.coefficient, strength.constant);
+        let ([mu, _], [held, _], [lean, _]) = (strength.coefficient, strength.constant, strength.lean);
         let size = |force: f64| scale.max(force.abs());
         let cone = mu * (size(heel) + size(toe)) + size(friction) + held.abs();
         [
             (heel, size(heel)),
             (toe, size(toe)),
-            (mu * (heel + toe) - friction + held, cone),
-            (mu * (heel + toe) + friction + held, cone),
+            ((mu - lean) * (heel + toe) - friction + held, cone),
+            ((mu + lean) * (heel + toe) + friction + held, cone),
         ]
     }
 

@@ -98,9 +98,10 @@ impl Varying<'_> {
         };
         let bonded = worn.bonded && mode.contacts() == [true, true];
         let speed = state[3].abs();
-        rubbing
+        let strength = rubbing
             .law
-            .strength(rubbing.width, normal, speed, Worn { bonded, ..worn })
+            .strength(rubbing.width, normal, speed, Worn { bonded, ..worn });
+        self.leaning(strength, state)
     }
 
     /// Reactions in a mode at a state of the present step, and what friction bears there; none where friction makes the
@@ -133,8 +134,9 @@ impl Varying<'_> {
             let Strength {
                 coefficient: [_, coefficient],
                 constant: [_, constant],
+                lean: [_, lean],
             } = self.strength(self.walk.mode, normal, state);
-            coefficient * normal + constant
+            (coefficient + slip.signum() * lean) * normal + constant
         });
         -slip.signum() * (then - now)
     }
@@ -145,10 +147,11 @@ impl Varying<'_> {
             return self.walk.block.strength();
         };
         let speed = self.state[3].abs();
-        Strength {
+        let strength = Strength {
             coefficient: rubbing.law.coefficients(rubbing.still, speed, rubbing.worn.path),
-            constant: [0.0; 2],
-        }
+            ..Strength::default()
+        };
+        self.leaning(strength, &self.state)
     }
 
     /// Note how far the base has slipped on the way to `end`; true where that went past a corner of the law.
@@ -196,7 +199,7 @@ impl Varying<'_> {
 /// Reactions of a mode where friction bears this.
 fn under(strength: &Strength, mode: Mode, instant: &Instant) -> Option<Vector> {
     let way = mode.slip().map_or(0.0, Slip::sign);
-    let [_, coefficient] = strength.coefficient;
+    let coefficient = strength.coefficient[1] + way * strength.lean[1];
     let pull = -way * strength.constant[1];
     if pull == 0.0 {
         return reaction_to(&instant.compliance, coefficient, mode, &instant.free_acceleration);

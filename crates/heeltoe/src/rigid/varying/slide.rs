@@ -49,6 +49,9 @@ impl Varying<'_> {
         let Mode::Slide(slip) = self.walk.mode else {
             return None;
         };
+        if self.rough.is_some() {
+            return None;
+        }
         let rubbing = self.rubbing.as_ref()?;
         let [across, up, spin] = piece.rate;
         let even = spin == 0.0 && self.walk.block.presses_evenly([across, up]);

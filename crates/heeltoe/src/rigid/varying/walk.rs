@@ -1,7 +1,5 @@
 //! From sample to sample of the record, and from event to event within each piece.
 
-use std::borrow::Cow;
-
 use super::super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
 use super::super::choice::{accelerations, select, Moving};
 use super::super::mode::{Corner, Mode, Slip};
@@ -11,9 +9,11 @@ use super::super::shaking::Piece as Level;
 use super::super::walk::{Carried, Cause, Options, Walk, Wanted};
 use super::block::{Rotation, TurningBlock};
 use super::instant::Instant;
+use super::rough::Rough;
 use super::rubbing::Rubbing;
 use super::shaking::{Ground, Piece, TurningShaking};
 use super::step::State;
+use crate::asperity::Asperities;
 use crate::friction::{Law, Worn};
 
 /// Relative error allowed in a step, of lengths of the crack's width and of velocities of sqrt(g B).
@@ -47,6 +47,8 @@ pub(super) struct Varying<'a> {
     pub(super) reserve: Option<[[f64; 4]; 4]>,
     /// Friction that goes by a law, where it does.
     pub(super) rubbing: Option<Rubbing<'a>>,
+    /// Asperities, where the crack is rough.
+    pub(super) rough: Option<Rough>,
     pub(super) error: Gathered,
 }
 
@@ -61,19 +63,30 @@ pub(super) struct Gathered {
     pub time: f64,
 }
 
-/// Run one block through one motion, with what its crack has been through; `start`, `options` and `wanted` are those of
-/// [`super::super::exact::simulate`].
+/// What the faces of a crack are like, where friction goes by a law, and what they have been through.
+#[derive(Clone, Copy)]
+pub struct Surface<'a> {
+    /// Friction along the crack, or along the flanks of its asperities.
+    pub law: &'a Law,
+    /// How far it has slipped.
+    pub worn: Worn,
+    /// Its asperities, where it is rough; dilation (m) and plastic work (J/m2) so far.
+    pub asperities: Option<(Asperities, [f64; 2])>,
+}
+
+/// Run one block through one motion; `start`, `options` and `wanted` are those of [`super::super::exact::simulate`].
 pub fn simulate(
     block: &Block,
     turning: &TurningBlock,
-    law: Option<(&Law, Worn)>,
+    surface: Option<&Surface>,
     shaking: &TurningShaking,
     start: Option<[Vector; 2]>,
     options: Options,
     wanted: Wanted,
 ) -> Run {
     let [position, velocity] = start.unwrap_or([[0.0; 3]; 2]);
-    let rubbing = law.map(|(law, worn)| Rubbing::new(law, worn, block));
+    let rubbing = surface.map(|surface| Rubbing::new(surface.law, surface.worn, block));
+    let rough = surface.and_then(|surface| surface.asperities);
     let bond = rubbing.as_ref().map_or(0.0, Rubbing::bond);
     let block = &block.under(turning.force_scale(shaking.peaks()).max(bond));
     let speed = (block.acceleration_scale() * block.width).sqrt();
@@ -103,6 +116,7 @@ pub fn simulate(
         tensions: vec![0.0; turning.anchors.len()],
         reserve: None,
         rubbing,
+        rough: rough.map(|(asperities, before)| Rough::new(asperities, before, position[SLIP], block.width)),
         error: Gathered::default(),
     };
     varying.place(&position, &velocity);
@@ -112,15 +126,21 @@ pub fn simulate(
     varying.strain();
     varying.run(shaking, start.is_none());
     varying.see();
-    let energy = varying.kinetic_energy();
-    let worn = varying.rubbing.map(|rubbing| rubbing.told(&varying.error));
-    Run {
-        worn,
-        ..varying.walk.end(energy, varying.tensions)
-    }
+    varying.end()
 }
 
 impl Varying<'_> {
+    /// Hand over what there is to tell.
+    fn end(self) -> Run {
+        let energy = self.kinetic_energy();
+        let worn = self.rubbing.map(|rubbing| rubbing.told(&self.error));
+        Run {
+            worn,
+            rough: self.rough.map(Rough::end),
+            ..self.walk.end(energy, self.tensions)
+        }
+    }
+
     /// Take over slip, gaps and their velocities.
     fn place(&mut self, position: &Vector, velocity: &Vector) {
         let own = self.corner.gap();
@@ -146,7 +166,7 @@ impl Varying<'_> {
     }
 
     pub(super) fn instant(&self, ground: &Ground) -> Instant {
-        self.turning.at(self.corner, &self.state, ground)
+        self.seen_from(self.corner, &self.state, ground)
     }
 
     fn kinetic_energy(&self) -> f64 {
@@ -253,7 +273,7 @@ impl Varying<'_> {
         for (value, rate) in later.iter_mut().zip(self.rates(&self.state, &piece.ground)) {
             *value += ahead * rate;
         }
-        let then = self.turning.at(self.corner, &later, &piece.after(ahead));
+        let then = self.seen_from(self.corner, &later, &piece.after(ahead));
         // Where modes are at a tie they share their reactions, by which the compliance changes the accelerations, too.
         let (reactions, _) = self.reactions(&self.state, now);
         let pull = self.changed_pull(&reactions, &later);
@@ -271,17 +291,22 @@ impl Varying<'_> {
         self.walk.block.at(now.compliance, affine)
     }
 
-    /// The mode in which the block can go on with its bond as it is.
-    fn chosen(&mut self, piece: &Piece) -> Option<Mode> {
+    /// The reactions of all modes as the block is now.
+    pub(super) fn reactions_ahead(&self, piece: &Piece) -> Reactions {
         let now = self.instant(&piece.ground);
         let ahead = self.ahead(piece, &now);
-        let reactions = match self.rubbing {
+        match self.rubbing {
             None => Reactions::new(&ahead),
             Some(_) => Reactions::each(&ahead, |mode| {
                 let (_, strength) = self.rubbed(mode, &self.state, &now)?;
                 Some(ahead.rubbing(&strength))
             }),
-        };
+        }
+    }
+
+    /// The mode in which the block can go on with its bond as it is.
+    pub(super) fn chosen(&mut self, piece: &Piece) -> Option<Mode> {
+        let (reactions, upstream) = self.reactions_about(piece);
         let level = Level {
             ground: [0.0; 2],
             rate: [1.0 / UNIT, 0.0],
@@ -296,6 +321,7 @@ impl Varying<'_> {
         };
         let mut felt = Felt::default();
         let mode = select(&reactions, self.walk.mode, &moving, &mut felt)?;
+        self.take_side(mode, upstream);
         let starts = [
             if slip == 0.0 {
                 mode.slip().map_or(0.0, Slip::sign)
@@ -311,93 +337,11 @@ impl Varying<'_> {
     }
 
     /// Go over to the other corner, which is in contact: its gap is exactly zero.
-    fn turn_to(&mut self, corner: Corner) {
+    pub(super) fn turn_to(&mut self, corner: Corner) {
         self.state = self.turning.other_corner(self.corner, &self.state);
         self.corner = corner;
         if self.state[1].abs() <= self.walk.near() {
             self.state[1] = 0.0;
         }
-    }
-}
-
-impl<'a> Carried<'a> for Varying<'a> {
-    type Piece = Piece;
-
-    fn walk(&mut self) -> &mut Walk<'a> {
-        &mut self.walk
-    }
-
-    fn velocity(&self) -> Vector {
-        let (corner, state) = self.slipping(&self.state);
-        self.turning.contact_velocity(corner, &state)
-    }
-
-    fn closed(&self) -> [bool; 2] {
-        let gaps = self.turning.gaps(self.corner, &self.state);
-        let velocity = self.velocity();
-        [
-            gaps[0] == 0.0 && velocity[HEEL] == 0.0,
-            gaps[1] == 0.0 && velocity[TOE] == 0.0,
-        ]
-    }
-
-    fn block(&self) -> Cow<'_, Block> {
-        let block = self.walk.block;
-        let compliance = self.instant(&[0.0; 3]).compliance;
-        let block = block.at(compliance, block.free_acceleration);
-        Cow::Owned(block.rubbing(&self.struck()))
-    }
-
-    /// The accelerations with which the block goes on are kept. A corner that would lift takes the bond with it: where no
-    /// mode is admissible with a bond, it breaks.
-    fn pick(&mut self, piece: &Piece) -> Option<Mode> {
-        self.chosen(piece).or_else(|| {
-            let breaks = self.break_bond();
-            if breaks {
-                self.chosen(piece)
-            } else {
-                None
-            }
-        })
-    }
-    fn land(&mut self, gap: usize) -> [bool; 2] {
-        let corner = if gap == HEEL { Corner::Heel } else { Corner::Toe };
-        if corner != self.corner {
-            self.turn_to(corner);
-        }
-        self.state[1] = 0.0;
-        let other = corner.other().gap();
-        let open = self.turning.gaps(corner, &self.state)[other - HEEL];
-        if self.walk.touches(open, self.velocity()[other]) {
-            self.state[2] = 0.0;
-        }
-        self.turning.gaps(corner, &self.state).map(|open| open <= 0.0)
-    }
-
-    fn set_velocity(&mut self, velocity: &Vector) {
-        // A corner that has come to lie is at exactly zero velocity only where the motion counts from it.
-        let other = self.corner.other();
-        if self.state[2] == 0.0 && velocity[other.gap()] == 0.0 {
-            self.turn_to(other);
-        }
-        let cosine = match self.turning.rotation {
-            Rotation::Finite => self.state[2].cos(),
-            _ => 1.0,
-        };
-        self.state[3] = velocity[SLIP];
-        self.state[4] = velocity[self.corner.gap()];
-        self.state[5] = self.walk.block.rotation(velocity) / cosine;
-    }
-
-    /// The motion counts from a corner that stays in contact.
-    fn begin(&mut self) {
-        self.reserve = None;
-        self.lift();
-        if let Mode::Rock(corner) | Mode::SlideRock(corner, _) = self.walk.mode {
-            if corner != self.corner {
-                self.turn_to(corner);
-            }
-        }
-        self.see();
     }
 }

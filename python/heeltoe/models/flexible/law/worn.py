@@ -23,13 +23,15 @@ _PART = 0.05
 
 
 def check_law(case: Case) -> None:
-    """Refuse a friction law of the crack under the penalty method, which does not know any.
+    """Refuse asperities of the crack, and under the penalty method a friction law: they are not known there.
 
     Raises
     ------
     InputError
         Then.
     """
+    if case.crack.roughness is not None:
+        raise InputError("rough-model", "crack.roughness", model="the flexible model")
     if case.crack.law is not None and case.flexible.contact == "idce":
         raise InputError("law-penalty", "crack.law", f'"{case.crack.law.name}"')
 

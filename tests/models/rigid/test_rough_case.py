@@ -1,0 +1,111 @@
+"""A dam on a rough crack, from the case to its result: what is told, warned of and refused."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from heeltoe import InputError, flexible, read_case, rigid, run, statics
+from heeltoe.case.warnings import case_warnings
+from heeltoe.motion.ground_motion import GroundMotion
+from shared.dams import TYPICAL_SECTION
+
+ROUGH = {"asperity_height": "20 mm", "wave_length": "200 mm", "wear": "1e-5 m^2/J"}
+SHAKEN = GroundMotion.from_points([0.0, 0.2, 0.3, 0.5, 3.0], [0.0, -9.0, -9.0, 0.0, 0.0], name="pulse")
+
+
+def typical(roughness=None, **more):
+    crack = {"restitution": 0.5, "friction": 0.7, "roughness": {**ROUGH, **(roughness or {})}} | more.pop("crack", {})
+    return read_case(
+        {
+            "section": TYPICAL_SECTION,
+            "concrete": {"density": "2650 kg/m^3"},
+            "crack": crack,
+            "reservoir": {"depth": "80 m"},
+            **more,
+        }
+    )
+
+
+def test_a_dam_on_a_rough_crack():
+    response = rigid(typical(), SHAKEN)
+    found, histories = response.roughness, response.histories
+    assert response.outcome == "ok"
+    assert abs(response.residual_slip_m) > 1e-3
+    before = math.tan(math.atan(0.7) + math.atan(0.2))
+    assert found["apparent_friction_before"] == pytest.approx(before, rel=1e-12)
+    assert 0.7 < found["apparent_friction_after"] < before
+    assert 0.0 < found["peak_dilation_m"] <= 0.02
+    assert found["integration_error_m"] < 1e-6
+    assert histories["dilation_m"][-1] == pytest.approx(found["residual_dilation_m"], rel=1e-12)
+    assert histories["asperity_angle_rad"][-1] == found["asperity_angle_after_rad"]
+    assert (np.diff(histories["plastic_work_j_m2"]) >= 0.0).all()
+    assert {"Plesha", "Patton"} <= {word.strip(",") for source in response.references for word in source.split()}
+    usual = statics(typical()).cases[0]
+    assert usual.friction == pytest.approx(before, rel=1e-12)
+
+
+def test_aftershocks_find_the_asperities_as_they_were_left():
+    points = [["0 s", "0 g"], ["0.2 s", "-0.9 g"], ["0.4 s", "0 g"], ["3 s", "0 g"]]
+    found = run(typical(motion={"points": points}, aftershocks=[{"points": points}]))
+    once = run(typical(motion={"points": points}))
+    assert found.roughness["plastic_work_j_m2"] > 1.5 * once.roughness["plastic_work_j_m2"]
+    assert found.roughness["asperity_angle_after_rad"] < once.roughness["asperity_angle_after_rad"]
+
+
+def test_the_chain_knows_a_rough_crack():
+    case = typical(concrete={"density": "2650 kg/m^3", "modulus": "20 GPa"}, crack={"elevation": "20 m"})
+    found = run(case, motion=SHAKEN)
+    assert found.model == "decoupled"
+    assert "asperities" in found.chosen.why
+    assert found.roughness["peak_dilation_m"] >= 0.0
+
+
+@pytest.mark.parametrize(
+    ("roughness", "more", "code"),
+    [
+        ({}, {"analysis": {"rotation": "finite"}}, "rough-other"),
+        ({}, {"uplift": {"pattern": "uniform", "during_shaking": "zero while open"}}, "rough-other"),
+        ({}, {"anchors": [{"distance": "4 m", "axial_stiffness": "20 MN/m/m"}]}, "rough-other"),
+        ({}, {"anchors": [{"distance": "4 m", "shear_stiffness": "20 MN/m/m"}]}, "rough-other"),
+        ({"asperity_height": "0.5 m"}, {"crack": {"friction": 3.0}}, "rough-locks"),
+        (
+            {},
+            {
+                "crack": {
+                    "friction": None,
+                    "law": {"name": "barton-bandis", "jrc": 5, "jcs": "10 MPa", "residual_angle": "30 deg"},
+                }
+            },
+            "rough-law",
+        ),
+        ({}, {"further_cracks": [{"elevation": "50 m"}]}, "one-crack-only"),
+        ({"wear": "1 mm"}, {}, "wrong-quantity"),
+    ],
+)
+def test_what_does_not_go_with_a_rough_crack_is_refused(roughness, more, code):
+    with pytest.raises(InputError) as refused:
+        typical(roughness, **more)
+    assert refused.value.code == code
+
+
+def test_the_flexible_model_refuses_a_rough_crack():
+    case = typical(concrete={"density": "2650 kg/m^3", "modulus": "20 GPa"})
+    with pytest.raises(InputError) as refused:
+        flexible(case, SHAKEN)
+    assert refused.value.code == "rough-model"
+
+
+@pytest.mark.parametrize(
+    ("roughness", "code"),
+    [
+        ({"asperity_height": "0.105 m", "wave_length": "0.2 m"}, "rough-steep"),
+        ({"asperity_height": "3 m", "wave_length": "60 m"}, "rough-tall"),
+        ({"asperity_height": "1 m", "wave_length": "90 m"}, "rough-long"),
+    ],
+)
+def test_what_is_no_sawtooth_that_a_block_climbs_is_warned_of(roughness, code):
+    assert code in [notice.code for notice in case_warnings(typical(roughness))]
+    assert code not in [notice.code for notice in case_warnings(typical())]
