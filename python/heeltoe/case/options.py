@@ -187,7 +187,8 @@ class StaticsChoice(Fields):
     residual_slip: Annotated[Length, Field(ge=0.0)] | None = None
     """Slip after the earthquake; that of an analysis where it is not given."""
     drain_diameter: Annotated[Length, Field(gt=0.0, le=10.0)] | None = None
-    """Of the drains of a `drained` uplift: slip closes them in proportion, and wholly from one diameter on."""
+    """Of the drains of a `drained` uplift: slip closes them in proportion, and wholly from one diameter on; before the
+    checks after an earthquake, and before each further motion of a sequence."""
     sections: tuple[Annotated[StaticsSection, BeforeValidator(_section_of)], ...] = ()
     """Lift joints to judge, the base among them where it is listed: elevations, or tables with what differs there."""
 

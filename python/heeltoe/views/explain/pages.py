@@ -84,6 +84,7 @@ _PAGES = {
     "crack_level": "koyna.md equation 6",
     "crack_level.spectrum": "koyna.md equation 7",
     "sequence": "sequence.md#what-is-told",
+    "drainage_by_motion": "sequence.md#drains-that-slip-closes",
     "silence_s": "flexible.md#the-end-of-a-run",
     "before_shaking": "flexible.md equation 1a",
     "elastic_give": "flexible.md#what-the-dam-does",

@@ -23,10 +23,10 @@ from heeltoe.views.figures.histories import (
     response_figure,
     slip_by_mode_figure,
 )
+from heeltoe.views.figures.law import friction_figure, law_figure
 from heeltoe.views.figures.panels import is_elastic
 from heeltoe.views.figures.path import path_figure
 from heeltoe.views.figures.spectrum import spectrum_figure
-from heeltoe.views.figures.worn import friction_figure
 
 if TYPE_CHECKING:
     from heeltoe.case.model import Case
@@ -120,7 +120,6 @@ def all_figures(case: Case | None, result: Response, units: str = "si") -> Figur
         drawings["section"] = lambda: section_figure(case, units)
         if case.crack.law is not None:
             from heeltoe.mechanics.law_curve import curve_of
-            from heeltoe.views.figures.law import law_figure
 
             drawings["law"] = lambda: law_figure(curve_of(case), units)
     beside = result.beside
