@@ -122,6 +122,7 @@ def _worn(first: Worn, then: Worn) -> Worn:
         path=np.concatenate([first.path, then.path]),
         bonded=np.concatenate([first.bonded, then.bonded]),
         error=first.error + then.error,
+        integrated=first.integrated + then.integrated,
     )
 
 
