@@ -255,7 +255,7 @@ def check_random(seed):
     assert np.isfinite(found.worn.error)
     assert all(np.isfinite(column).all() for column in found.histories.values())
     assert raw["energy_friction"] >= -1e-9 * abs(raw["energy_input"])
-    assert raw["energy_residual"] < 1e-5
+    assert raw["energy_residual"] < 1e-7
     assert (np.diff(found.worn.path) >= 0.0).all()
     return found.outcome
 
@@ -263,15 +263,20 @@ def check_random(seed):
 def test_random_blocks_with_random_laws_end():
     ends = [check_random(seed) for seed in range(60)]
     assert ends.count("ok") > 45
-    assert not {"cycling", "paradox"} & set(ends)
+    assert set(ends) <= {"ok", "unstable"}
+
+
+# A slip that slows until friction, which rises meanwhile, makes the reaction infinite.
+@pytest.mark.parametrize("seed", [383, 2446, 3804, 8294])
+def test_friction_that_jams_a_slowing_slip_ends_it(seed):
+    assert check_random(seed) == "ok"
 
 
 @pytest.mark.slow
 def test_ten_thousand_random_blocks_with_random_laws_end():
     ends = [check_random(seed) for seed in range(10_000)]
     assert ends.count("ok") > 7500
-    assert ends.count("cycling") == 0
-    assert ends.count("paradox") + ends.count("event limit") < 100
+    assert set(ends) <= {"ok", "unstable"}
 
 
 WEAKENING = {"name": "slip weakening", "peak_friction": 1.1, "residual_friction": 0.9, "slip": "20 mm"}
