@@ -126,3 +126,11 @@ def test_every_list_begins_with_something_sound(session):
         edit(session, {path: [item(session.case, "si", path)]})
         assert not draft_of(session).errors, path
         back(session)
+
+
+def test_every_block_begins_sound(session):
+    had = [each.path for each in blocks() if each.optional]
+    assert {"crack.law", "crack.roughness", "tailwater"} <= set(had)
+    for path in had:
+        put(session, path, there=True)
+        back(session)
