@@ -40,7 +40,6 @@ def test_cracks_stand_from_the_crest_down_and_inherit_friction_and_uplift():
         ({"further_cracks": [{"elevation": "120 m"}]}, "further_cracks[0].elevation: at 120 m"),
         ({"further_cracks": [{"elevation": "90 m", "static_friction": 1.0}]}, "kinetic_friction: is required"),
         ({"anchors": [{"distance": "5 m", "prestress": "1 MN/m"}]}, "anchors: does not go with further_cracks"),
-        ({"aftershocks": [{"file": "elcentro-1940-180-nga"}]}, "aftershocks: does not go with further_cracks"),
         (
             {"crack.law": {"name": "cohesion", "cohesion": "0.1 MPa", "residual_friction": 0.8}},
             "crack.law: does not go with further_cracks",

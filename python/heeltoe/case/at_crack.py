@@ -142,9 +142,8 @@ def many_cracks(case: Case) -> Iterator[InputError]:
         return
     other = "further_cracks"
     options = case.flexible
-    for name in ("anchors", "aftershocks"):
-        if getattr(case, name):
-            yield InputError("one-crack-only", name, other=other)
+    if case.anchors:
+        yield InputError("one-crack-only", "anchors", other=other)
     if case.crack.law is not None:
         yield InputError("one-crack-only", "crack.law", other=other)
     if case.crack.roughness is not None:

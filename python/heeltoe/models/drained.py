@@ -23,7 +23,7 @@ _FASTEST = 1.0
 
 def follows_drains(case: Case, earthquake: Earthquake) -> bool:
     """Whether drains may close in a run of an elastic dam, and its uplift can change then."""
-    there = bool(earthquake.shaking.begins) and close_by_slip(case)
+    there = bool(earthquake.shaking.begins) and close_by_slip(case) and not case.further_cracks
     return there and case.uplift.during_shaking == "constant" and case.flexible.contact == "coulomb"
 
 

@@ -311,9 +311,21 @@ def _sequence(case: Case, response: R) -> tuple[R, tuple[Notice, ...]]:
         return response, ()
     from heeltoe.models.statics.between import about_the_sequence, judged_stages
 
-    found = judged_stages(case, response)
     followed = response.summary.get("drainage_by_motion") is not None
-    return replace(response, sequence=found), tuple(about_the_sequence(case, found, followed=followed))
+    if not case.further_cracks:
+        found = judged_stages(case, response)
+        return replace(response, sequence=found), tuple(about_the_sequence(case, found, followed=followed))
+    from heeltoe.models.flexible.response import FlexibleResponse
+
+    # The flexible model alone knows several.
+    assert isinstance(response, FlexibleResponse)
+    each = [judged_stages(alone, response.at_crack(place)) for place, alone in enumerate(case.cracks)]
+    said = [
+        notice
+        for alone, found in zip(case.cracks, each, strict=True)
+        for notice in about_the_sequence(alone, found, followed=followed, several=True)
+    ]
+    return response.with_sequences(each), tuple(said)
 
 
 def _slid_off(case: Case, response: Response) -> tuple[Notice, ...]:

@@ -288,6 +288,29 @@ def test_evidence_is_that_of_every_crack(free):
     assert weak.at_crack(0).summary["evidence"] == found[0]
 
 
+def test_each_motion_of_a_sequence_is_told_of_every_crack(free):
+    again = {"points": [[time, f"{0.8 * float(a.split()[0]):g} g"] for time, a in PULSES], "pause": "1 s"}
+    free = free.with_({"flexible.time_step": "0.1 ms", "motion.duration": "2 s"})
+    alone, twice = flexible(free), flexible(free.with_({"aftershocks": [again], "motion.duration": "1 s"}))
+    assert [each["elevation_m"] for each in twice.to_json()["cracks"]] == [90.0, 0.0]
+    for place, told in enumerate(twice.to_json()["cracks"]):
+        first, second = told["sequence"]
+        # Until the next motion begins the dam does what it does alone; peaks are those of histories, between moments.
+        assert first["peak_slip_downstream_m"] == pytest.approx(
+            alone.at_cracks[place].summary["peak_slip_downstream_m"], rel=1e-3
+        )
+        assert first["slip_m"] + second["slip_m"] == pytest.approx(told["residual_slip_m"], abs=1e-12)
+        assert first["slip_m"] > 1e-4
+        assert first["static"]["ok"] in (True, False)
+        assert [each.to_json() for each in twice.at_crack(place).sequence] == told["sequence"]
+    assert [each.to_json() for each in twice.sequence] == twice.to_json()["cracks"][1]["sequence"]
+    # Drains keep what they have: what the slip closes is said of the crack that has it.
+    drained = {"uplift.pattern": "drained", "uplift.drain_position": 0.1, "uplift.drain_efficiency": 0.6}
+    wet = free.with_({"aftershocks": [again], "motion.duration": "1 s", "statics.drain_diameter": "20 mm", **drained})
+    said = [each for each in flexible(wet).warnings if each.code == "sequence-drains"]
+    assert any("at the crack at" in str(each) for each in said)
+
+
 #: The typical dam of examples/two-cracks.toml with 12 s of its record. Its neck slides at a friction of 0.7, and tips
 #: before it slides at 1.0: what is above it is 8 m wide and 10 m high.
 EXAMPLE = ("motion.duration=12s", "analysis.silence=0s")

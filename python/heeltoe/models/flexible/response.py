@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, ClassVar, Self
 
@@ -13,6 +13,7 @@ from heeltoe.result.response import Of, Response
 if TYPE_CHECKING:
     from heeltoe.models.flexible.history import CrackHistory
     from heeltoe.models.flexible.stress.envelope import PartEnvelope
+    from heeltoe.result.sequence import Stage
 
 # A crack that lets go for less than this in all [s] moves no dam.
 _LETS_GO_S = 0.02
@@ -26,7 +27,7 @@ class AtCrack:
     ----------
     elevation
         Of its upstream end above the lowest point of the section [m].
-    summary, histories, mode, crack
+    summary, histories, mode, crack, sequence
         As in :class:`FlexibleResponse`, of this crack.
     """
 
@@ -35,6 +36,7 @@ class AtCrack:
     histories: Mapping[str, Floats]
     mode: tuple[str, ...]
     crack: CrackHistory
+    sequence: tuple[Stage, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
@@ -66,9 +68,24 @@ class FlexibleResponse(Response):
             histories=found.histories,
             mode=found.mode,
             crack=found.crack,
+            sequence=found.sequence,
             at_cracks=(),
             limits=(),
             beside=None,
+        )
+
+    def with_sequences(self, found: Sequence[tuple[Stage, ...]]) -> Self:
+        """Return the response with what each motion of a sequence does to each crack, from the crest down."""
+        told = [
+            {**each, "sequence": [stage.to_json() for stage in stages]}
+            for each, stages in zip(self.summary["cracks"], found, strict=True)
+        ]
+        pairs = zip(self.at_cracks, found, strict=True)
+        return replace(
+            self,
+            sequence=found[self.crack.place],
+            summary={**self.summary, "cracks": told},
+            at_cracks=tuple(replace(each, sequence=stages) for each, stages in pairs),
         )
 
     @property

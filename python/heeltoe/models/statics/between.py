@@ -21,11 +21,14 @@ def judged_stages(case: Case, response: Response) -> tuple[Stage, ...]:
     return tuple(_judged(case, each) for each in stages(response, response.motion.parts))
 
 
-def about_the_sequence(case: Case, found: tuple[Stage, ...], *, followed: bool) -> Iterator[Notice]:
+def about_the_sequence(
+    case: Case, found: tuple[Stage, ...], *, followed: bool, several: bool = False
+) -> Iterator[Notice]:
     """Say where a motion meets a dam that is not at rest, that does not stand, or whose drains slip has closed; the run
-    has `followed` these, or not."""
+    has `followed` these, or not. Where there are `several` cracks it is said of which."""
+    where = f" at the crack at {case.crack.elevation:g} m," if several else ""
     for number, each in enumerate(found[:-1]):
-        which = f"motion {number + 1}, {each.name},"
+        which = f"motion {number + 1}, {each.name},{where}"
         if not each.at_rest:
             field, begins = f"aftershocks[{number}].pause", found[number + 1].begins_s
             yield Notice("sequence-moves", name=which, field=field, time_s=begins)
