@@ -8,6 +8,8 @@
 //! The last half of one step and the first half of the next go over the mode shapes together, as reading them is what a
 //! step costs.
 
+use std::borrow::Cow;
+
 use super::body::{combine, fma, Group, ReducedBody, BUNDLE, LANES};
 use super::coupling::Answer;
 use super::ledger::Sums;
@@ -55,6 +57,8 @@ pub(super) struct Moving<'a> {
     /// static loads without them.
     held: &'a [f64],
     left: Vec<Group>,
+    /// The static loads as the motion has them: those that the forces and the stress of the start balance to the last bit.
+    balanced: Cow<'a, [Group]>,
     /// How crack and dashpots answer when these forces are taken away for a step, for both states of damping.
     released: [Vec<Group>; 2],
     pub v: Vec<Group>,
@@ -82,6 +86,15 @@ pub(super) struct Moving<'a> {
 pub(super) struct Drive {
     pub ground: [f64; 2],
     pub damping: usize,
+}
+
+/// The loads that balance the stress of these modes and these forces on the crack.
+fn balancing(body: &ReducedBody, modes: &[Group], force: &[f64]) -> Vec<Group> {
+    let balance = |(group, q): (usize, &Group)| -> Group {
+        let push = body.on_modes(group, force);
+        std::array::from_fn(|l| body.omega_squared[group][l] * q[l] - push[l])
+    };
+    modes.iter().enumerate().map(balance).collect()
 }
 
 impl<'a> Moving<'a> {
@@ -117,6 +130,9 @@ impl<'a> Moving<'a> {
             q: vec![[0.0; LANES]; body.groups()],
             held: still.map_or(&[], |still| &still.force[face]),
             left,
+            balanced: still.map_or(Cow::Borrowed(&body.load), |still| {
+                Cow::Owned(balancing(body, start, &still.force[face]))
+            }),
             v: vec![[0.0; LANES]; body.groups()],
             v_free: vec![[0.0; LANES]; body.groups()],
             position: still.map_or_else(|| body.position.clone(), |still| still.position[face].clone()),
@@ -176,7 +192,7 @@ impl<'a> Moving<'a> {
         let TimeStep { dt, theta } = step;
         let body = self.body;
         // Copies, so that the compiler sees that nothing overlaps, and uses wide registers.
-        let (w, load) = (body.omega_squared[group], body.load[group]);
+        let (w, load) = (body.omega_squared[group], self.balanced[group]);
         let gamma = [body.participation[0][group], body.participation[1][group]];
         let c = body.damping[now.damping][group];
         let d = self.operator.d[now.damping][group];
