@@ -57,6 +57,26 @@ OF_DAMS: dict[str, tuple[str, str]] = {
         "{model} knows one crack alone, since what is above one of several is no single block",
         "run the flexible model, which knows several, or leave out [[further_cracks]]",
     ),
+    "kinks-order": ("the distances {value} do not ascend from the heel", "give the kinks in order, from heel to toe"),
+    "kinks-outside": ("{value} is beyond the toe: the crack is {width} wide", "give distances below {width}"),
+    "kinks-steep": (
+        "the crack runs at {value} to its mean line or to the horizontal behind {start}",
+        "let it run at up to {most}; a step needs some length",
+    ),
+    "kinks-base": (
+        "there is nothing of the dam below the crack that could have kinks",
+        "give crack.elevation, and a section that goes down into the rock",
+    ),
+    "kinks-mesh": ("elements cannot follow {value} kinks", "give more elements_across, fewer kinks or flatter ones"),
+    "kinks-straight": (
+        "{model} knows straight cracks alone",
+        "run the flexible model, or leave out the kinks",
+    ),
+    "kinks-beside": ("does not go with crack.kinks: it is known of a straight crack alone", "remove it, or the kinks"),
+    "kinks-value": (
+        "{value} does not go with crack.kinks: it is known of a straight crack alone",
+        "choose another, or leave out the kinks",
+    ),
     "one-crack-value": (
         "{value} does not go with {other}: it is known of one crack alone",
         "choose another, or one crack",

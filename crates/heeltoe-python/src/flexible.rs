@@ -124,6 +124,7 @@ pub struct CrackLine<'py> {
     friction: [f64; 2],
     law: Option<Bound<'py, FrictionLaw>>,
     give: (f64, f64),
+    angles: [Vec<f64>; 2],
 }
 
 impl CrackLine<'_> {
@@ -137,6 +138,7 @@ impl CrackLine<'_> {
                 rotation: self.give.0,
                 gap: self.give.1,
             },
+            angles: self.angles.clone(),
         }
     }
 }

@@ -15,6 +15,7 @@ from heeltoe.models.run import cost_of, earthquake, live
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.beside import meaning
 
+_STRAIGHT = "This model knows straight cracks alone: run the elastic dam with its button."
 _ONE_CRACK = (
     "This model knows one crack alone, since what is above one of several is no single block: run the elastic dam with "
     "its button."
@@ -33,7 +34,8 @@ def answer(case: Case, changes: Mapping[str, Any], model: str, units: str) -> di
             return {"absent": "The decoupled chain needs the concrete's modulus, which this case does not give."}
         found = live(changed, model, _earthquake(changed))
     except InputError as error:
-        return {"absent": _ONE_CRACK} if error.code == "several-cracks" else refused(error)
+        absent = {"several-cracks": _ONE_CRACK, "kinks-straight": _STRAIGHT}
+        return {"absent": absent[error.code]} if error.code in absent else refused(error)
     return drawn(found, units) | {"dam": dam(changed, found), "computed_s": perf_counter() - began}
 
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from heeltoe.arrays import number
+from heeltoe.case.crack.kinks import straight_crack
 from heeltoe.case.dam import STEEPEST_ANCHOR, Anchor, Uplift
 from heeltoe.errors import InputError, shown
 from heeltoe.geometry.crossing import Crossing, Place, crossing, head
@@ -198,7 +199,7 @@ def _cut(case: Case, field: str) -> tuple[float, float]:
 
 
 def one_crack(case: Case, model: str) -> None:
-    """Refuse a case with several cracks for what knows one alone.
+    """Refuse a case with several cracks, or one that is not straight, for what knows a straight one alone.
 
     Raises
     ------
@@ -207,3 +208,4 @@ def one_crack(case: Case, model: str) -> None:
     """
     if case.further_cracks:
         raise InputError("several-cracks", "further_cracks", model=model)
+    straight_crack(case, model)

@@ -11,6 +11,7 @@ import numpy as np
 import shapely
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
+from heeltoe.arrays import Floats
 from heeltoe.case.at_crack import (
     AnchorAtCrack,
     anchor_at_crack,
@@ -23,6 +24,7 @@ from heeltoe.case.at_crack import (
 )
 from heeltoe.case.changes import apply
 from heeltoe.case.crack.crack import Crack, FurtherCrack
+from heeltoe.case.crack.kinks import kinks_alone, kinks_misfit
 from heeltoe.case.dam import Anchor, Concrete, Ice, Reservoir, Silt, Uplift, Water
 from heeltoe.case.fields import Fields
 from heeltoe.case.motion import Aftershock, Motion
@@ -123,6 +125,7 @@ class Case(Shown, Fields):
             yield InputError("needs-other", "aftershocks", other="a motion")
         yield from many_cracks(self)
         yield from rough_crack(self)
+        yield from kinks_alone(self)
         if self.crack.law is not None and self.crack.law.cohesion is not None and self.statics.cohesion:
             yield InputError("law-twice", "statics.cohesion")
         if self.statics.drain_diameter is not None and self.uplift.pattern != "drained":
@@ -194,6 +197,14 @@ class Case(Shown, Fields):
         if np.ndim(elevation):
             return cut_levels(self.outline, np.asarray(elevation), inclination)
         return cut(self.outline, elevation, inclination)
+
+    @property
+    def crack_line(self) -> Floats:
+        """Corners of the crack from heel to toe (x, z), shape (k, 2) [m]."""
+        section = self.cut
+        points = (section.from_crack_frame(*kink) for kink in self.crack.kinks)
+        between = [(section.heel[0] + x, section.heel[1] + z) for x, z in points]
+        return np.array([section.heel, *between, section.toe])
 
     @cached_property
     def cracks(self) -> tuple[Case, ...]:
@@ -335,6 +346,9 @@ def misfits(case: Case) -> Iterator[tuple[bool, Callable[[], InputError]]]:
     if case.further_cracks:
         _ = case.cracks  # says so itself where they meet
     section = case.cut
+    wrong = kinks_misfit(case)
+    if wrong is not None:
+        yield True, partial(wrong.with_others, ())
     for place, anchor in enumerate(case.anchors):
         if anchor.distance is not None:
             far = partial(_beyond_toe, f"anchors[{place}].distance", anchor.distance, section.crack_width)

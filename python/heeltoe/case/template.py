@@ -60,6 +60,7 @@ modulus = "20 GPa"                 # without it the dam can only be a rigid bloc
 [crack]
 elevation = "0 m"                  # at the upstream face, above the lowest point of the section
 # inclination = "0 deg"            # positive where the crack rises downstream
+# kinks = [["20 m", "0 m"], ["22 m", "1.5 m"]]   # [distance from the heel, height above the line to the toe]
 friction = 1.0
 # static_friction = 1.1            # instead of friction, where the friction at rest
 # kinetic_friction = 1.0           # is higher than in motion

@@ -38,6 +38,7 @@ READ_BY: dict[str, frozenset[str]] = {
     "crack.restitution": _BLOCKS,
     "crack.roughness": _BLOCKS | {"statics"},
     "crack.roughness.wear": _BLOCKS,
+    "crack.kinks": frozenset({"flexible"}),
     "further_cracks": frozenset({"flexible", "statics"}),
     **dict.fromkeys((f"crack.law.{name}" for name in ("form", "slip", "speed", "surface")), _SHAKEN),
     "reservoir.virtual_mass_rotates": _BLOCKS,

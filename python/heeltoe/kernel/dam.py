@@ -40,6 +40,8 @@ class CrackLine:
         Rotation [rad] and gap [m] of the faces that elastic deformation alone accounts for.
     law
         A friction law in place of the coefficients.
+    angles
+        Of the segments of the upper and of the lower face to the line from heel to toe [rad]; none of a straight crack.
     """
 
     upper: tuple[int, int]
@@ -47,6 +49,7 @@ class CrackLine:
     friction: tuple[float, float]
     give: tuple[float, float] = (0.0, 0.0)
     law: FrictionLaw | None = None
+    angles: tuple[list[float], list[float]] = ([], [])
 
 
 def only_crack(

@@ -109,7 +109,7 @@ def check_model(name: str, field: str) -> None:
 
 def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
     """Return the models that are run for a case where `model` is asked for, the better one last, and why it is that."""
-    if case.further_cracks:
+    if case.further_cracks or case.crack.kinks:
         return _of_several(case, model)
     if model in BOTH:
         return (BOTH[model], "flexible"), "it is the better one of the two that were asked for"
@@ -125,10 +125,11 @@ def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
 
 
 def _of_several(case: Case, model: str) -> tuple[tuple[str, ...], str]:
-    """Return the only model that knows several cracks."""
+    """Return the only model that knows several cracks, and kinks."""
     if model not in (AUTO, "flexible"):
         one_crack(case, _KNOW_ONE.get(model, "the model"))
-    why = "the case has several cracks, which the flexible model alone knows"
+    what = "several cracks" if case.further_cracks else "a crack with kinks"
+    why = f"the case has {what}, which the flexible model alone knows"
     return ("flexible",), _ASKED_FOR if model == "flexible" else why
 
 

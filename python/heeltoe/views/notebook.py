@@ -122,7 +122,6 @@ def line(x: Floats, y: Floats, label: str) -> str:
 
 def _section(case: Case) -> str:
     """Return the outline of the dam, its crack and its water as an inline SVG."""
-    section = case.cut
     corners = np.array(case.section.vertices())
     left, low = corners.min(axis=0)
     size = float(max(corners.max(axis=0) - corners.min(axis=0))) or 1.0
@@ -135,7 +134,7 @@ def _section(case: Case) -> str:
     if case.reservoir is not None and case.reservoir.depth:
         deep = case.reservoir.depth * scale
         water = f'<rect x="0" y="{165 - deep:.1f}" width="60" height="{deep:.1f}" fill="#CFE6F5"/>'
-    crack = place(np.array([section.heel, section.toe]))
+    crack = place(case.crack_line)
     return (
         f'<svg style="display:block" width="240" height="172" viewBox="0 0 240 172" role="img" '
         f'aria-label="section of the dam">{water}'

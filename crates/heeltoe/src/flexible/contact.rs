@@ -8,11 +8,13 @@
 //! ```
 //!
 //! with `t` along the crack and `n` across it; plus for a node of the upper face. A sliding node travels from segment
-//! to segment; one that sticks keeps the material point it stands on.
+//! to segment; one that sticks keeps the material point it stands on. Of a crack that is not straight each pair has the
+//! directions of its segment, see the module `kinks`.
 
 use std::ops::Range;
 
-use super::sides::{Face, Faces, Meeting, Place, Span};
+use super::kinks::{Corners, Turn};
+use super::sides::{Face, Faces, Line, Meeting, Place, Span};
 
 /// Weights of the nodes of both bodies in the motion of the upper face of a crack against the lower one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -22,6 +24,8 @@ pub(super) struct Pair {
     /// Two nodes of the lower body with their weights, which are negative where it is below the crack; not used on a rigid
     /// plane.
     pub lower: [(usize, f64); 2],
+    /// Direction of the segment.
+    pub turn: Turn,
 }
 
 /// A node that is watched.
@@ -34,6 +38,8 @@ pub(super) struct Contactor {
     /// Whether it counts at the very end of the other face. Where the ends of both faces are watched and meet, one of
     /// them must not, or the same constraint would be there twice.
     pub closed: bool,
+    /// Whether it is a corner that the other face turns around.
+    corner: bool,
     segment: usize,
 }
 
@@ -46,33 +52,46 @@ pub(super) struct Contacts {
     /// Which pairs the last `update` changed.
     pub moved: Vec<bool>,
     /// Faces of each crack, and which of the contactors are its own.
-    cracks: Vec<(Place, Range<usize>)>,
+    cracks: Vec<(Place, Range<usize>, Corners)>,
+    /// Whether all of them are straight.
+    straight: bool,
 }
 
 impl Contacts {
     /// Choose the contactors of each crack, by the five kinds of Zhu (2004), section 6.3: 1 all nodes of the upper face, 2
     /// of the lower, 3 all of the upper and the ends of the lower, 4 the reverse, 5 all of both. On a rigid plane, without
     /// lower nodes, those of the upper face are watched.
-    pub(super) fn new(kind: u8, places: &[Place]) -> Self {
+    pub(super) fn new(kind: u8, places: &[Place], lines: &[Line]) -> Self {
         let mut contactors = Vec::new();
         let mut cracks = Vec::new();
-        for place in places {
+        for (k, place) in places.iter().enumerate() {
             let first = contactors.len();
+            let corners = lines.get(k).map_or_else(Corners::default, Corners::of);
             contactors.extend(chosen(kind, place.upper.count, place.lower.count));
-            cracks.push((*place, first..contactors.len()));
+            contactors.extend(turned_around(kind, &corners));
+            cracks.push((*place, first..contactors.len(), corners));
         }
         Contacts {
             pairs: vec![None; contactors.len()],
             gaps: vec![f64::INFINITY; contactors.len()],
             moved: vec![true; contactors.len()],
             contactors,
+            straight: cracks
+                .iter()
+                .all(|(_, _, corners): &(_, _, Corners)| corners.none()),
             cracks,
         }
     }
 
+    /// Whether all cracks are straight.
+    #[inline(always)]
+    pub(super) fn straight(&self) -> bool {
+        self.straight
+    }
+
     /// Which contactors are those of each crack.
     pub(super) fn of_cracks(&self) -> impl Iterator<Item = Range<usize>> + '_ {
-        self.cracks.iter().map(|(_, range)| range.clone())
+        self.cracks.iter().map(|(_, range, _)| range.clone())
     }
 
     /// Number of contactors, whether they meet anything or not.
@@ -83,7 +102,7 @@ impl Contacts {
     /// Find every contactor's place on the other face; `sticks` says which nodes keep their place.
     #[inline(always)]
     pub(super) fn update(&mut self, faces: Faces, sticks: impl Fn(usize) -> bool) {
-        for (place, range) in &self.cracks {
+        for (place, range, corners) in &self.cracks {
             let meeting = place.of(faces);
             if place.on_plane() {
                 // Every node stands opposite to itself for ever.
@@ -91,7 +110,9 @@ impl Contacts {
                 self.moved[range.clone()].fill(first);
                 if first {
                     for k in range.clone() {
-                        self.pairs[k] = self.contactors[k].place(meeting).map(|pair| pair.among(place));
+                        self.pairs[k] = self.contactors[k]
+                            .place(meeting, corners)
+                            .map(|pair| pair.among(place));
                     }
                 }
                 self.gaps[range.clone()].copy_from_slice(meeting.upper.across);
@@ -100,12 +121,14 @@ impl Contacts {
             for k in range.clone() {
                 self.moved[k] = false;
                 if !(sticks(k) && self.pairs[k].is_some()) {
-                    let pair = self.contactors[k].place(meeting).map(|pair| pair.among(place));
+                    let pair = self.contactors[k]
+                        .place(meeting, corners)
+                        .map(|pair| pair.among(place));
                     self.moved[k] = pair != self.pairs[k];
                     self.pairs[k] = pair;
                 }
                 self.gaps[k] = match &self.pairs[k] {
-                    Some(pair) => pair.relative(faces, 1),
+                    Some(pair) => pair.gap(faces),
                     None => f64::INFINITY,
                 };
             }
@@ -117,7 +140,7 @@ impl Contacts {
     #[inline(always)]
     pub(super) fn relative(&self, faces: Faces, motion: &mut [f64]) {
         let (along, across) = motion.split_at_mut(self.len());
-        for (place, range) in &self.cracks {
+        for (place, range, _) in &self.cracks {
             let (along, across) = (&mut along[range.clone()], &mut across[range.clone()]);
             if place.on_plane() {
                 let own = place.of(faces).upper;
@@ -127,7 +150,7 @@ impl Contacts {
             }
             for ((pair, along), across) in self.pairs[range.clone()].iter().zip(along).zip(across) {
                 (*along, *across) = match pair {
-                    Some(pair) => (pair.relative(faces, 0), pair.relative(faces, 1)),
+                    Some(pair) => pair.turn.onto(pair.relative(faces, 0), pair.relative(faces, 1)),
                     None => (0.0, 0.0),
                 };
             }
@@ -140,7 +163,7 @@ impl Contacts {
         upper.fill(0.0);
         lower.fill(0.0);
         let (along, across) = forces.split_at(self.len());
-        for (place, range) in &self.cracks {
+        for (place, range, _) in &self.cracks {
             let (along, across) = (&along[range.clone()], &across[range.clone()]);
             if place.on_plane() {
                 let body = if place.turned { &mut *lower } else { &mut *upper };
@@ -152,8 +175,9 @@ impl Contacts {
             }
             for (pair, force) in self.pairs[range.clone()].iter().zip(along.iter().zip(across)) {
                 if let Some(pair) = pair {
-                    pair.spread(0, *force.0, upper, lower);
-                    pair.spread(1, *force.1, upper, lower);
+                    let (along, across) = pair.turn.back(*force.0, *force.1);
+                    pair.spread(0, along, upper, lower);
+                    pair.spread(1, across, upper, lower);
                 }
             }
         }
@@ -167,6 +191,7 @@ fn chosen(kind: u8, upper: usize, lower: usize) -> Vec<Contactor> {
             node,
             of_upper,
             closed,
+            corner: false,
             segment: 0,
         })
     };
@@ -182,9 +207,27 @@ fn chosen(kind: u8, upper: usize, lower: usize) -> Vec<Contactor> {
     }
 }
 
+/// Choose the corners that are watched beside the nodes of the other face: those of the face of which else only the ends
+/// are, where the nodes of the other one pass them by.
+fn turned_around(kind: u8, corners: &Corners) -> Vec<Contactor> {
+    let of_upper = match kind {
+        3 => false,
+        4 => true,
+        _ => return Vec::new(),
+    };
+    let contactor = |node| Contactor {
+        node,
+        of_upper,
+        closed: false,
+        corner: true,
+        segment: 0,
+    };
+    corners.standing_out(of_upper).map(contactor).collect()
+}
+
 impl Contactor {
     /// Find the segment below or above the node, from where it was last; nodes are counted on either face.
-    fn place(&mut self, faces: Meeting) -> Option<Pair> {
+    fn place(&mut self, faces: Meeting, corners: &Corners) -> Option<Pair> {
         let (Face { along: own, .. }, Face { along, .. }) = if self.of_upper {
             (faces.upper, faces.lower)
         } else {
@@ -195,6 +238,7 @@ impl Contactor {
             return Some(Pair {
                 upper: [(self.node, 1.0), (self.node, 0.0)],
                 lower: [(0, 0.0); 2],
+                turn: Turn::default(),
             });
         }
         let t = own[self.node];
@@ -216,15 +260,21 @@ impl Contactor {
         }
         self.segment = j;
         let s = ((t - along[j]) / (along[j + 1] - along[j])).clamp(0.0, 1.0);
+        if self.corner && Corners::at_node(s) {
+            return None;
+        }
+        let turn = corners.turn(self.of_upper, j, s);
         Some(if self.of_upper {
             Pair {
                 upper: [(self.node, 1.0), (self.node, 0.0)],
                 lower: [(j, s - 1.0), (j + 1, -s)],
+                turn,
             }
         } else {
             Pair {
                 upper: [(j, 1.0 - s), (j + 1, s)],
                 lower: [(self.node, -1.0), (self.node, 0.0)],
+                turn,
             }
         })
     }
@@ -244,9 +294,14 @@ impl Pair {
             return Pair {
                 upper: lower,
                 lower: upper,
+                turn: self.turn,
             };
         }
-        Pair { upper, lower }
+        Pair {
+            upper,
+            lower,
+            turn: self.turn,
+        }
     }
 
     /// Motion of the upper face against the lower one: `direction` 0 along the crack, 1 across it.
@@ -257,6 +312,16 @@ impl Pair {
             nodes[0].1 * half[nodes[0].0] + nodes[1].1 * half[nodes[1].0]
         };
         of(faces.upper, &self.upper) + of(faces.lower, &self.lower)
+    }
+
+    /// Distance of the upper face from the lower one.
+    #[inline(always)]
+    fn gap(&self, faces: Faces) -> f64 {
+        let across = self.relative(faces, 1);
+        if self.turn.straight() {
+            return across;
+        }
+        self.turn.onto(self.relative(faces, 0), across).1
     }
 
     /// Add the force `value` that a contact exerts.

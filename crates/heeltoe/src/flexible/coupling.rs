@@ -15,6 +15,7 @@ use super::body::Group;
 use super::contact::{Contacts, Pair};
 use super::coulomb::{Problem, Report, Solver};
 use super::dam::Dam;
+use super::kinks::Turn;
 use super::law::Laws;
 use super::sides::{Faces, Place, Sides};
 use super::status::Status;
@@ -39,7 +40,7 @@ pub(super) struct Crack {
 impl Crack {
     /// `dampers` is the number of dashpots that hold the crack back.
     pub(super) fn new(dam: &Dam, dampers: usize) -> Self {
-        let contacts = Contacts::new(dam.contactors, &Place::all(dam));
+        let contacts = Contacts::new(dam.contactors, &Place::all(dam), &dam.cracks);
         let m = contacts.len();
         let friction: Vec<[f64; 2]> = contacts
             .of_cracks()
@@ -157,7 +158,14 @@ impl Crack {
     #[inline(always)]
     pub(super) fn sums(&self, contacts: Range<usize>) -> [f64; 2] {
         let (along, across) = self.solver.p.split_at(self.contacts.len());
-        [along, across].map(|impulses| impulses[contacts.clone()].iter().sum())
+        if self.contacts.straight() {
+            return [along, across].map(|impulses| impulses[contacts.clone()].iter().sum());
+        }
+        contacts.fold([0.0; 2], |sum, k| {
+            let turn = self.contacts.pairs[k].map_or_else(Turn::default, |pair| pair.turn);
+            let (t, n) = turn.back(along[k], across[k]);
+            [sum[0] + t, sum[1] + n]
+        })
     }
 }
 
@@ -291,17 +299,21 @@ impl Blocks {
         }
         self.felt[contact] = self.now;
         let m = self.moved.len();
+        let felt = |k: usize, direction: usize| {
+            let upper = &answers.upper;
+            let mut felt = upper.felt(2 * upper.nodes + k, &pair.upper, direction);
+            if let Some(lower) = &answers.lower {
+                felt += lower.felt(2 * lower.nodes + k, &pair.lower, direction);
+            }
+            felt
+        };
+        for k in 0..d {
+            let (along, across) = pair.turn.onto(felt(k, 0), felt(k, 1));
+            self.v[contact * d + k] = along;
+            self.v[(m + contact) * d + k] = across;
+        }
         for direction in 0..2 {
             let first = (direction * m + contact) * d;
-            for k in 0..d {
-                let mut felt = answers
-                    .upper
-                    .felt(2 * answers.upper.nodes + k, &pair.upper, direction);
-                if let Some(lower) = &answers.lower {
-                    felt += lower.felt(2 * lower.nodes + k, &pair.lower, direction);
-                }
-                self.v[first + k] = felt;
-            }
             for k in 0..d {
                 let row = gain[k * d..][..d].iter().zip(&self.v[first..][..d]);
                 self.v_n[first + k] = row.map(|(a, b)| a * b).sum();
@@ -326,5 +338,5 @@ fn block(one: &Pair, other: &Pair, answers: &Sides<Answer>) -> [[f64; 2]; 2] {
     if let Some(lower) = &answers.lower {
         lower.couple(&mut block, &one.lower, &other.lower);
     }
-    block
+    one.turn.of_block(other.turn, block)
 }

@@ -37,7 +37,8 @@ impl Dam {
 
     /// What to add to the answer of a contact to itself, as a share of the largest.
     pub(super) fn softness(&self) -> f64 {
-        if self.contactors == 5 && self.bodies.lower.is_some() {
+        let kinked = self.cracks.iter().any(|line| !line.angles[0].is_empty());
+        if kinked || self.contactors == 5 && self.bodies.lower.is_some() {
             SOFTNESS
         } else {
             0.0
@@ -62,6 +63,10 @@ impl Dam {
                 if span.first + span.count > counts[body] || (span.count < 2 && (side, span.count) != (1, 0))
                 {
                     return Err("a crack needs two nodes or more of each body, which are there");
+                }
+                let segments = line.angles[side].len();
+                if segments > 0 && segments + 1 != span.count {
+                    return Err("a crack that is not straight needs an angle for each segment");
                 }
                 met[body] += span.count;
             }

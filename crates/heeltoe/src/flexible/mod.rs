@@ -14,6 +14,7 @@ mod dampers;
 mod envelope;
 mod frames;
 mod idce;
+mod kinks;
 mod law;
 mod ledger;
 pub mod many;

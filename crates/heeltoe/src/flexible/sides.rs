@@ -89,6 +89,9 @@ pub struct Line {
     pub friction: [f64; 2],
     /// A friction law in their place.
     pub law: Option<Law>,
+    /// Angles of the segments of its upper and of its lower face to the line from heel to toe (rad); none of a straight
+    /// crack.
+    pub angles: [Vec<f64>; 2],
     /// What tells rocking and drifting from elastic deformation.
     pub give: Give,
 }
@@ -100,6 +103,7 @@ impl Line {
             nodes: nodes.map(|count| Span { first: 0, count }),
             friction,
             law: None,
+            angles: [Vec::new(), Vec::new()],
             give,
         }
     }

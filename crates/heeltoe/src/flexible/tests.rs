@@ -171,7 +171,7 @@ fn stands(first: usize, slope: f64, status: Status) -> State {
     let flat: Vec<f64> = along.clone().chain([0.0; 9]).collect();
     let turned: Vec<f64> = along.clone().chain(along.map(|x| slope * (10.0 - x))).collect();
     let place = Place::only(9, 0);
-    let mut contacts = Contacts::new(3, &[place]);
+    let mut contacts = Contacts::new(3, &[place], &[]);
     let faces = |upper| Faces { upper, lower: &[] };
     contacts.update(faces(&turned), |_| false);
     let give = Give {

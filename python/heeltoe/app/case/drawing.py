@@ -79,7 +79,7 @@ def _lines(case: Case, size: float) -> Iterator[tuple[str, list[list[float]]]]:
     section = case.cut
     for crack in case.cracks:
         kind = "crack" if crack is case.cracks[case.asked] else "further-crack"
-        yield kind, [list(crack.cut.heel), list(crack.cut.toe)]
+        yield kind, crack.crack_line.tolist()
     position = case.uplift_at_crack.drain_position
     if position is not None:
         x, z = section.from_crack_frame(position * section.crack_width, 0.0)

@@ -21,12 +21,15 @@ STEEPEST_STRENGTH = math.radians(85.0)
 
 
 class Crack(Fields):
-    """The crack: a straight line through the section, with Coulomb friction or by a law."""
+    """The crack: a line through the section, straight or with kinks, with Coulomb friction or by a law."""
 
     elevation: Annotated[Length, Field(ge=0.0)] = Field(default="0 m", validate_default=True)
     """Height of the crack at the upstream face above the lowest point of the section."""
     inclination: Annotated[Angle, Field(ge=-STEEPEST, le=STEEPEST)] = Field(default="0 deg", validate_default=True)
     """Angle of the crack to the horizontal; positive where it rises downstream."""
+    kinks: tuple[tuple[Length, Length], ...] = ()
+    """Corners of a crack that is not straight: [distance from the heel along the straight line from heel to toe, height
+    above that line]. The flexible model alone knows them."""
     friction: FrictionCoefficient | None = None
     """Coefficient of friction, at rest and sliding."""
     static_friction: FrictionCoefficient | None = None

@@ -14,6 +14,7 @@ from heeltoe.kept import Kept
 from heeltoe.models.flexible.cost import building, check_cost, part_of
 from heeltoe.models.flexible.elastic import Dam, bonded_state, dam
 from heeltoe.models.flexible.mesh.dam import dam_mesh
+from heeltoe.models.flexible.mesh.kinks import kinked
 from heeltoe.models.flexible.modes import Modes, enough_modes, error_frequency, reduce, residual_error
 from heeltoe.models.flexible.stress.places import StressPlaces, stress_places
 
@@ -89,7 +90,7 @@ def fingerprints(case: Case) -> list[str]:
 
 
 def _build(case: Case) -> BondedDam:
-    mesh = dam_mesh(case)
+    mesh = kinked(dam_mesh(case), case)
     check_cost(case, building([part_of(case, each.crack.size, each.nodes.size) for each in mesh.parts]))
     bonded = dam(case, mesh)
     bent, forces = bonded_state(bonded)

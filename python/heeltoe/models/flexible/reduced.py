@@ -20,6 +20,7 @@ from heeltoe.models.flexible.bonded import NOT_OF_DAM, BondedDam, bonded_dam, to
 from heeltoe.models.flexible.damping import Damping, damping_of
 from heeltoe.models.flexible.elastic import Body
 from heeltoe.models.flexible.inside import CrackAnchor, FollowingWater, crack_anchors, following_water
+from heeltoe.models.flexible.mesh.kinks import angles
 from heeltoe.models.flexible.modes import Modes
 from heeltoe.models.flexible.stance import elastic_give
 
@@ -220,7 +221,8 @@ def _lines(case: Case, bonded: BondedDam) -> tuple[CrackLine, ...]:
         lower = (0, 0) if below is None else (firsts[place + 1], below.mesh.faces[0].size)
         friction, law = (alone.crack.mu_static, alone.crack.mu_kinetic), alone.crack.law
         give = elastic_give(alone, alone.cut, force)
-        found.append(CrackLine(upper, lower, friction, give, None if law is None else law_of(law)))
+        turned = angles(above, alone), [] if below is None else angles(below.mesh, alone)
+        found.append(CrackLine(upper, lower, friction, give, None if law is None else law_of(law), turned))
     return tuple(found)
 
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from heeltoe.case.crack.kinks import straight_crack
 from heeltoe.case.model import Case
 from heeltoe.case.use import unused_fields
 from heeltoe.case.warnings import case_warnings
@@ -155,6 +156,7 @@ def statics(
         Where the crack does not cut the section in two.
     """
     expect(case, Case, "not-a-case", "case")
+    straight_crack(case, "the static check")
     section, choice, rules = case.cut, case.statics, rules_of(case)
     warnings = [*case_warnings(case), *unused_fields(case, ("statics", *beside)), *_unread(case, rules)]
     before = usual(case)

@@ -10,7 +10,6 @@ from heeltoe.arrays import Floats
 from heeltoe.case.at_crack import anchor_line
 from heeltoe.case.model import Case
 from heeltoe.geometry.beside import beside
-from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.loads import uplift_profile
 from heeltoe.units.systems import Units, unit_system
 from heeltoe.views.figures.canvas import Canvas
@@ -70,9 +69,9 @@ def section_figure(case: Case, units: str = "si") -> Figure:
     anchored = _draw_anchors(canvases[-1], case)
     depth = draw_uplift(canvases[-1], case, system)
     draw_dimensions(canvases[0], case, system, depth if one else 0.0)
-    draw_crack(canvases[-1], section, small=False)
+    draw_crack(canvases[-1], case, small=False)
     if not one:
-        draw_crack(canvases[0], section, small=True)
+        draw_crack(canvases[0], case, small=True)
     _draw_further(canvases[0], case)
     if anchored is not None:
         canvases[-1].label("anchors" if len(case.anchors) > 1 else "anchor", anchored, "#B22222", first=(1, 1))
@@ -146,11 +145,11 @@ def _draw_surface(canvas: Canvas, whole: shapely.Polygon, level: float, side: st
         canvas.line([[at - part * size, z], [at + part * size, z]], color="#0072B2", linewidth=0.8, zorder=4)
 
 
-def draw_crack(canvas: Canvas, section: CutSection, *, small: bool) -> None:
+def draw_crack(canvas: Canvas, case: Case, *, small: bool) -> None:
     """Draw the crack, its two ends and the centroid of what is above it."""
-    ends = [section.heel, section.toe]
-    canvas.line(ends, keep_off=True, color="white", linewidth=3.6, zorder=4.5)
-    canvas.line(ends, color=COLOURS["crack"], linewidth=2.0, zorder=4.6)
+    section, line = case.cut, case.crack_line
+    canvas.line(line, keep_off=True, color="white", linewidth=3.6, zorder=4.5)
+    canvas.line(line, color=COLOURS["crack"], linewidth=2.0, zorder=4.6)
     if small:
         canvas.label("crack", section.toe, COLOURS["crack"], first=(1, 1))
         return

@@ -57,7 +57,7 @@ def _draw_section(axes: Axes, case: Case, units: Units) -> None:
     canvas.look_at(*corners(case, canvas.size, below=0.18))
     draw_bodies(canvas, case)
     draw_dimensions(canvas, case, units, 0.0)
-    draw_crack(canvas, case.cut, small=True)
+    draw_crack(canvas, case, small=True)
     axes.set_axis_off()
 
 

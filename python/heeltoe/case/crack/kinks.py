@@ -1,0 +1,77 @@
+"""A crack that is not straight: what is wrong with its kinks, and what they do not go with."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+from heeltoe.errors import InputError, shown
+from heeltoe.geometry.section import CutSection
+
+if TYPE_CHECKING:
+    from heeltoe.case.model import Case
+
+# Of a piece of the line, to the straight line from heel to toe and to the horizontal [rad]: on a steeper one a node
+# has no place that is told by its distance from the heel.
+_STEEPEST = math.radians(60.0)
+_FIELD = "crack.kinks"
+
+
+def kinks_alone(case: Case) -> Iterator[InputError]:
+    """Walk what of a case does not go with a crack that is not straight."""
+    if not case.crack.kinks:
+        return
+    for name in ("further_cracks", "anchors", "aftershocks"):
+        if getattr(case, name):
+            yield InputError("kinks-beside", name)
+    if case.crack.law is not None:
+        yield InputError("kinks-beside", "crack.law")
+    if case.uplift.during_shaking != "constant":
+        yield InputError("kinks-value", "uplift.during_shaking", shown(case.uplift.during_shaking))
+    if case.flexible.contact == "idce":
+        yield InputError("kinks-value", "flexible.contact", shown("idce"))
+    for name in ("mesh_above", "mesh_below", "elements_across_below"):
+        if getattr(case.flexible, name) is not None:
+            yield InputError("kinks-beside", f"flexible.{name}")
+
+
+def kinks_misfit(case: Case) -> InputError | None:
+    """Return what is wrong with the kinks of a crack in its section."""
+    section, kinks = case.cut, case.crack.kinks
+    if not kinks:
+        return None
+    distances = [distance for distance, _ in kinks]
+    if distances[0] <= 0.0 or any(a >= b for a, b in pairwise(distances)):
+        return InputError("kinks-order", _FIELD, shown(distances))
+    if distances[-1] >= section.crack_width:
+        return InputError("kinks-outside", _FIELD, f"{distances[-1]:g} m", width=f"{section.crack_width:g} m")
+    for (start, low), (end, high) in pairwise(corners(section, kinks)):
+        angle = math.atan2(high - low, end - start)
+        steepest = max(abs(angle), abs(angle + section.inclination))
+        if steepest > _STEEPEST:
+            most = f"{math.degrees(_STEEPEST):g} deg"
+            return InputError(
+                "kinks-steep", _FIELD, f"{math.degrees(steepest):.3g} deg", start=f"{start:g} m", most=most
+            )
+    if case.outline.area - section.area <= 1e-9 * section.area:
+        return InputError("kinks-base", _FIELD)
+    return None
+
+
+def corners(section: CutSection, kinks: tuple[tuple[float, float], ...]) -> list[tuple[float, float]]:
+    """Return the corners of a crack from heel to toe, along and above the straight line between them [m]."""
+    return [(0.0, 0.0), *kinks, (section.crack_width, 0.0)]
+
+
+def straight_crack(case: Case, model: str) -> None:
+    """Refuse a case whose crack is not straight for what knows straight ones alone.
+
+    Raises
+    ------
+    InputError
+        Then.
+    """
+    if case.crack.kinks:
+        raise InputError("kinks-straight", _FIELD, model=model)
