@@ -191,6 +191,14 @@ HELPED |= {
         0.5,
     ),
 }
+_STRAIGHT_ALONE = (
+    "anchors",
+    "aftershocks",
+    "uplift.during_shaking",
+    "uplift.opening",
+    "flexible.elements_across_below",
+)
+HELPED["crack.kinks"] = (dict.fromkeys(_STRAIGHT_ALONE, GONE), [["8 m", "0.5 m"]])
 HELPED |= {f"statics.sections[0].{name}": ({"statics.sections": [JOINT]}, None) for name in JOINT}
 _NUMBER = re.compile(r"-?\d+(?:\.\d*)?(?:e[+-]?\d+)?")
 

@@ -1,0 +1,169 @@
+"""Cracks that are not straight: limits, a climbing sawtooth, a shear key, balance of forces and energy, refusals."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import numpy as np
+import pytest
+
+from heeltoe import run, statics
+from heeltoe.case.model import Case
+from heeltoe.errors import InputError
+from heeltoe.geometry.axes import places
+from heeltoe.models.flexible.mesh.kinks import angles
+from heeltoe.models.flexible.reduced import build_flexible_dam
+from heeltoe.models.run import flexible
+
+GRAVITY = 9.80665
+PULSES = [["0 s", "0 g"], ["0.15 s", "-0.6 g"], ["0.4 s", "0.5 g"], ["0.65 s", "-0.5 g"], ["0.8 s", "0 g"]]
+DAM = {
+    "section": {"height": "110 m", "crest_width": "8 m", "base_width": "90 m"},
+    "concrete": {"modulus": "20 GPa"},
+    "crack": {"elevation": "20 m", "friction": 0.9},
+    "reservoir": {"depth": "105 m"},
+    "motion": {"points": PULSES, "duration": "1 s"},
+    "analysis": {"silence": "0 s"},
+    "flexible": {"elements_across": 6, "evidence": "none"},
+}
+STEP = [["30 m", "0 m"], ["34 m", "1.5 m"]]
+
+
+def dam(**crack: object) -> Case:
+    return Case.of(DAM | {"crack": DAM["crack"] | crack})
+
+
+def slip_of(case: Case):
+    return flexible(case).histories["slip_m"]
+
+
+def test_kinks_of_no_height_are_none():
+    straight = slip_of(dam())
+    assert abs(straight).max() > 0.01
+    assert slip_of(dam(kinks=[["30 m", "0 m"]])).tobytes() == straight.tobytes()
+
+
+def test_kinks_of_hardly_a_height_change_hardly_anything():
+    # At corners of elements, so that the mesh is the same but for the height.
+    width = dam().cut.crack_width
+    kinks = [[f"{width / 3!r} m", "1e-7 m"], [f"{width / 2!r} m", "0 m"]]
+    straight, other = slip_of(dam()), slip_of(dam(kinks=kinks))
+    assert np.any(straight != other)
+    np.testing.assert_allclose(other, straight, rtol=0.0, atol=2e-5 * abs(straight).max())
+
+
+def test_both_faces_follow_the_line():
+    case = dam(kinks=STEP, inclination="5 deg")
+    built = build_flexible_dam(case)
+    upper, lower = (body.mesh for body in built.bodies)
+    line = places(upper.nodes[upper.crack], case.cut)
+    np.testing.assert_allclose(upper.nodes[upper.crack], lower.nodes[lower.crack], rtol=0.0, atol=1e-9)
+    corners = np.array([(0.0, 0.0), (30.0, 0.0), (34.0, 1.5), (case.cut.crack_width, 0.0)])
+    np.testing.assert_allclose(line[:, 1], np.interp(line[:, 0], *corners.T), rtol=0.0, atol=1e-9)
+    for corner in corners:
+        assert np.hypot(*(line - corner).T).min() < 1e-9
+    assert max(angles(upper, case)) == pytest.approx(math.atan2(1.5, 4.0))
+    total = sum(body.loads["weight"].sum() for body in built.bodies)
+    assert total == pytest.approx(-case.concrete.density * GRAVITY * case.outline.area, rel=1e-9)
+
+
+def sawtooth(rise: float, friction: float, push: float) -> Case:
+    """Return a block of 8 m x 3 m on four teeth with flanks of a slope [rad], pushed downstream [m/s2]."""
+    height = math.tan(rise)
+    kinks = [[f"{place} m", f"{height * (place % 2)} m"] for place in range(1, 8)]
+    return Case.of(
+        {
+            "section": {"polygon": [["0 m", "0 m"], ["8 m", "0 m"], ["8 m", "6 m"], ["0 m", "6 m"]]},
+            "concrete": {"modulus": "1000 GPa"},
+            "crack": {"elevation": "3 m", "kinks": kinks, "friction": friction},
+            "uplift": {"pattern": "none"},
+            "motion": {"points": [["0 s", f"{-push} m/s^2"], ["0.25 s", f"{-push} m/s^2"]], "duration": "0.25 s"},
+            "analysis": {"silence": "0 s"},
+            "flexible": {"elements_across": 8, "evidence": "none", "time_step": "0.1 ms"},
+        }
+    )
+
+
+@pytest.mark.parametrize(("degrees", "friction"), [(10.0, 0.3), (20.0, 0.2)])
+def test_a_sawtooth_climbs_as_a_block_on_a_slope_does(degrees, friction):
+    """On a slope i the crack holds up to tan(phi + i), and above it the block is pushed uphill as by hand."""
+    rise = math.radians(degrees)
+    strength = GRAVITY * math.tan(math.atan(friction) + rise)
+    assert abs(slip_of(sawtooth(rise, friction, 0.95 * strength))).max() < 1e-3
+    push = 1.4 * strength
+    found = flexible(sawtooth(rise, friction, push))
+    uphill = push * math.cos(rise) - GRAVITY * math.sin(rise)
+    uphill -= friction * (GRAVITY * math.cos(rise) + push * math.sin(rise))
+    time, slip, gap = (found.histories[name] for name in ("time_s", "slip_m", "gap_heel_m"))
+    assert slip[-1] == pytest.approx(0.5 * uphill * time[-1] ** 2 * math.cos(rise), rel=0.05)
+    assert gap[-1] >= 0.0
+
+
+def test_a_step_without_friction_bears_the_push_by_its_face():
+    """Nothing but pressure normal to each piece: what holds the dam along the crack is the face of the step."""
+    case = dam(kinks=[["30 m", "0 m"], ["36 m", "6 m"], ["60 m", "0 m"]], friction=0.0).with_("uplift.pattern=none")
+    built = build_flexible_dam(case)
+    assert built.start.stands
+    along, across = built.crack_forces[0]
+    body = built.bodies[0]
+    push, weight = body.load[::2].sum(), body.load[1::2].sum()
+    assert along.sum() == pytest.approx(-push, rel=1e-9)
+    assert across.sum() == pytest.approx(-weight, rel=1e-9)
+    slope = np.array(angles(body.mesh, case))
+    inner = np.flatnonzero(np.abs(np.diff(slope)) < 1e-9) + 1
+    np.testing.assert_allclose(along[inner], -np.tan(slope[inner]) * across[inner], atol=1e-9 * abs(push))
+
+
+def test_the_ledger_closes_and_a_step_holds_back():
+    found = flexible(dam(kinks=STEP))
+    energy = {
+        name: found.histories[f"{name}_energy_j"] for name in ("stored", "input", "damping", "friction", "impact")
+    }
+    lost = energy["damping"] + energy["friction"] + energy["impact"]
+    left = energy["input"] - (energy["stored"] - energy["stored"][0]) - lost
+    assert abs(left).max() < 0.02 * abs(energy["input"]).max()
+    assert left.min() > -1e-3 * abs(energy["input"]).max()
+    assert abs(found.histories["slip_m"]).max() < abs(slip_of(dam())).max()
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"crack.kinks": [["30 m", "1 m"], ["20 m", "0 m"]]}, "crack.kinks: the distances [30.0, 20.0] do not ascend"),
+        ({"crack.kinks": [["0 m", "1 m"]]}, "crack.kinks: the distances [0.0] do not ascend"),
+        ({"crack.kinks": [["90 m", "1 m"]]}, "crack.kinks: 90 m is beyond the toe"),
+        ({"crack.kinks": [["30 m", "0 m"], ["31 m", "5 m"]]}, "crack.kinks: the crack runs at 78.7 deg"),
+        ({"crack.elevation": "0 m"}, "crack.kinks: there is nothing of the dam below the crack"),
+        (
+            {"crack.law": {"name": "cohesion", "cohesion": "0.1 MPa", "residual_friction": 0.8}},
+            "crack.law: does not go",
+        ),
+        ({"anchors": [{"distance": "5 m", "prestress": "1 MN/m"}]}, "anchors: does not go with crack.kinks"),
+        ({"further_cracks": [{"elevation": "60 m"}]}, "further_cracks: does not go with crack.kinks"),
+        ({"uplift.during_shaking": "zero while open"}, 'uplift.during_shaking: "zero while open" does not go with'),
+        ({"flexible.contact": "idce", "flexible.damping": "stiffness"}, 'flexible.contact: "idce" does not go with'),
+        ({"flexible.elements_across_below": 4}, "flexible.elements_across_below: does not go with crack.kinks"),
+    ],
+)
+def test_what_is_wrong_is_refused_by_name(changes, said):
+    changes = {name: None for name in ("crack.friction",) if "crack.law" in changes} | changes
+    with pytest.raises(InputError, match=re.escape(said)):
+        dam(kinks=STEP).with_(changes)
+
+
+def test_elements_that_cannot_follow_are_refused():
+    many = [[f"{5 * k} m", f"{k % 2} m"] for k in range(1, 12)]
+    with pytest.raises(InputError, match=r"crack\.kinks: elements cannot follow 11 kinks"):
+        flexible(dam(kinks=many))
+
+
+@pytest.mark.parametrize("model", ["rigid", "decoupled", "both"])
+def test_other_models_refuse_kinks_by_name(model):
+    with pytest.raises(InputError, match=r"crack\.kinks: .* knows straight cracks alone"):
+        run(dam(kinks=STEP), model=model)
+
+
+def test_static_checks_refuse_kinks_by_name():
+    with pytest.raises(InputError, match=r"crack\.kinks: the static check knows straight cracks alone"):
+        statics(dam(kinks=STEP))
