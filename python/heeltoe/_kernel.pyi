@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 VERSION: Final[str]
 PROFILE: Final[str]
 BLOCK_FIELDS: Final[list[str]]
+PLACE_FIELDS: Final[list[str]]
 VARYING_FIELDS: Final[list[str]]
 ASPERITY_FIELDS: Final[list[str]]
 LAW_FIELDS: Final[list[str]]
@@ -85,6 +86,39 @@ def run_rigid(
     summary, histories, modes, events
         (len(SUMMARY_FIELDS),); (k', len(HISTORY_FIELDS)) and (k',), where k' < k if the run stopped early;
         (m, len(EVENT_FIELDS)).
+    """
+
+_Walked = tuple[Floats, Floats, NDArray[np.uint8], Floats]
+
+def run_rigid_stack(
+    lower: Floats,
+    upper: Floats,
+    place: Floats,
+    time: Floats,
+    horizontal: Floats,
+    vertical: Floats | None,
+    output_times: Floats,
+    settle: float,
+    event_limit: int,
+    jam: bool,
+) -> tuple[_Walked, _Walked, Floats, Floats]:
+    """Run two blocks, one on the other, exactly from event to event.
+
+    Parameters
+    ----------
+    lower, upper
+        (21,) numbers in the order of ``BLOCK_FIELDS``: of all above the lower crack as one block, and of what is above
+        the upper one.
+    place
+        (3,) numbers in the order of ``PLACE_FIELDS``.
+    time, horizontal, vertical, output_times, settle, event_limit, jam
+        As of :func:`run_rigid`.
+
+    Returns
+    -------
+    tuple
+        For the lower and for the upper crack what :func:`run_rigid` returns; (2, 2) least and largest rotation of both
+        blocks; (2, 2) energy lost to friction and to impacts in both cracks.
     """
 
 def run_rigid_varying(

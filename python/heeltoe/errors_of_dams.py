@@ -77,6 +77,10 @@ OF_DAMS: dict[str, tuple[str, str]] = {
         "{value} does not go with crack.kinks: it is known of a straight crack alone",
         "choose another, or leave out the kinks",
     ),
+    "two-cracks-most": (
+        "{value} make three blocks or more, and the rigid model knows two, one on the other",
+        "leave one further crack, or run the flexible model, which knows any number",
+    ),
     "one-crack-value": (
         "{value} does not go with {other}: it is known of one crack alone",
         "choose another, or one crack",

@@ -9,7 +9,6 @@ import numpy as np
 
 from heeltoe.app.meant import meant
 from heeltoe.app.thinned import thinned
-from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.verdict import verdict
@@ -69,7 +68,7 @@ def _facts(response: Response, units: str) -> list[tuple[str, str]]:
 
 def _tables(response: Response, units: str) -> Iterator[tuple[str, Sequence[str], list[list[str]]]]:
     """Walk what a response tells row by row: of several cracks, of several motions."""
-    if isinstance(response, FlexibleResponse) and response.at_cracks:
+    if "cracks" in response.summary:
         yield "Each crack, from the crest down", crack_words.COLUMNS, crack_words.crack_rows(response, units)
     if response.sequence:
         yield "Motion by motion", sequence_words.COLUMNS, sequence_words.sequence_rows(response, units)
@@ -78,7 +77,7 @@ def _tables(response: Response, units: str) -> Iterator[tuple[str, Sequence[str]
 def _curves(response: Response, units: str) -> dict[str, Any]:
     h = response.histories
     ground = h["ground_acceleration_m_s2"] / response.gravity
-    others = response.others if isinstance(response, FlexibleResponse) and response.at_cracks else {}
+    others = response.others
     cracks = [response, *others.values()]
     moving = [each.histories[name] for each in cracks for name in ("slip_m", "rotation_rad")]
     kept = thinned([*moving, ground], _BINS)

@@ -15,6 +15,7 @@ from heeltoe.case.warnings import case_warnings
 from heeltoe.errors import InputError, expect
 from heeltoe.models.drained import follows_drains, with_drains
 from heeltoe.models.rigid.omitted import omitted
+from heeltoe.models.rigid.stack.model import check_stack
 from heeltoe.models.silence import about_the_end, reach_of_block, until_rest
 from heeltoe.models.statics.standing import standing_warnings
 from heeltoe.motion.earthquake import Earthquake
@@ -125,11 +126,14 @@ def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
 
 
 def _of_several(case: Case, model: str) -> tuple[tuple[str, ...], str]:
-    """Return the only model that knows several cracks, and kinks."""
+    """Return the model that knows several cracks, and kinks; the rigid one knows two cracks where it is asked for."""
+    if model == "rigid" and case.further_cracks:
+        check_stack(case)
+        return ("rigid",), _ASKED_FOR
     if model not in (AUTO, "flexible"):
         one_crack(case, _KNOW_ONE.get(model, "the model"))
-    what = "several cracks" if case.further_cracks else "a crack with kinks"
-    why = f"the case has {what}, which the flexible model alone knows"
+    what = "several cracks, and its parts can vibrate as they do"
+    why = f"the case has {what if case.further_cracks else 'a crack with kinks, which the flexible model alone knows'}"
     return ("flexible",), _ASKED_FOR if model == "flexible" else why
 
 
@@ -192,7 +196,12 @@ def rigid(
     given; `rotation` is that of the ground about the middle of the crack, counter-clockwise [rad/s2].
     """
     expect(case, Case, "not-a-case", "case")
-    one_crack(case, _KNOW_ONE["rigid"])
+    if case.further_cracks:
+        check_stack(case)
+        if rotation is not None:
+            one_crack(case, "a ground that turns")
+    else:
+        one_crack(case, _KNOW_ONE["rigid"])
     return _alone(_rigid(case, earthquake(case, motion, vertical, rotation), output_step), case)
 
 
@@ -342,6 +351,10 @@ def _rigid(case: Case, earthquake: Earthquake, output_step: float | None) -> Res
     from heeltoe.models.rigid.model import run_rigid
 
     def run(through: Earthquake) -> Response:
+        if case.further_cracks:
+            from heeltoe.models.rigid.stack.model import run_two_blocks
+
+            return run_two_blocks(case, through, output_step)
         return run_rigid(case, through, output_step)
 
     return until_rest(run, reach_of_block, earthquake, case.analysis.silence)

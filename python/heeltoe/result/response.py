@@ -207,6 +207,8 @@ class Response(Shown):
     friction_law = Of[dict[str, Any] | None]("What the friction law of a crack has come to; null of coefficients.")
     roughness = Of[dict[str, Any] | None]("What the asperities of a rough crack have come to; null of a flat one.")
     overturned_about = Of[str | None]("Corner about which a block has overturned.")
+    cracks = Of[list[dict[str, Any]]]("What each of several cracks did, from the crest down.")
+    governing_crack = Of[int]("Which of several cracks slips most, from the crest down.")
 
     #: Whether the parts of the dam are elastic, so that both ends of a crack shift with nothing happening to the dam.
     elastic: ClassVar[bool] = False
@@ -248,6 +250,26 @@ class Response(Shown):
     def histories_of_cracks(self) -> tuple[Mapping[str, Floats], ...]:
         """The histories of each crack, from the crest down."""
         return (self.histories,)
+
+    @property
+    def place(self) -> int:
+        """Which of several cracks is that of ``[crack]``, from the crest down."""
+        return 0
+
+    @property
+    def others(self) -> Mapping[str, Response]:
+        """The response at each of several cracks but that of ``[crack]``, by name: counted from the crest down."""
+        return {}
+
+    @property
+    def event_logs(self) -> tuple[Mapping[str, Any], ...]:
+        """The events of each crack, from the crest down."""
+        return (self.event_log,)
+
+    @property
+    def final_modes(self) -> tuple[str, ...]:
+        """The mode of motion of each crack at the end, from the crest down."""
+        return (self.final_mode,)
 
     def lets_go(self) -> bool:
         """Whether there are moments in which the whole dam can slide; a block slides as a whole or not at all."""

@@ -63,7 +63,7 @@ def comes_to_rest(response: Response) -> bool:
     A rigid block says so itself. An elastic dam is never quite still, and where its crack stays open in part it is not
     in the state of rest: it has stopped where its slip and its openings change by nothing measurable any more.
     """
-    return last_of(response).rest if response.elastic else bool(response.final_mode == "rest")
+    return last_of(response).rest if response.elastic else all(mode == "rest" for mode in response.final_modes)
 
 
 def rests_from(response: Response) -> float:
@@ -72,7 +72,7 @@ def rests_from(response: Response) -> float:
         return math.inf
     if response.elastic:
         return max(still_since(*each) for each in _moved(response))
-    return float(max(response.event_log["time_s"], default=0.0))
+    return max(float(max(log["time_s"], default=0.0)) for log in response.event_logs)
 
 
 def motion_end(response: Response) -> float:

@@ -44,7 +44,7 @@ def verdict(response: Response, units: str = "si") -> str:
             cracks_said(response.summary.get("tension"), units),
         ]
     else:
-        sentences = [_slip(response, units), _rocking(response, units), _end(response)]
+        sentences = [_slip(response, units), _rocking(response, units), _end(response), _other_cracks(response, units)]
     told = [*sentences, sequence_said(response.sequence, units), _limits(response, units)]
     return " ".join(sentence for sentence in told if sentence)
 

@@ -21,6 +21,7 @@ from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.decoupled.response import DecoupledResponse
 from heeltoe.models.drained import schedule
 from heeltoe.models.flexible.response import FlexibleResponse
+from heeltoe.models.rigid.stack.model import walk_two_blocks
 from heeltoe.models.rigid.tables import with_openings
 from heeltoe.models.rigid.varying import by_itself
 from heeltoe.models.rigid.walk import limits_of, walk
@@ -128,7 +129,7 @@ _Found = tuple[dict[str, Floats], NDArray[np.bool_]]
 def _rigid(case: Case, shaking: Shaking, scales: Floats, progress: Progress | None) -> _Found:
     """Return the headline numbers of a block, and which of the runs have a result."""
     block = build_block(case)
-    if by_itself(case) or shaking.turning is not None:
+    if by_itself(case) or shaking.turning is not None or case.further_cracks:
         rows = _walked(case, block, shaking, scales, progress)
     else:
         many = np.tile(block.parameters(), (scales.size, 1))
@@ -146,6 +147,8 @@ def _walked(case: Case, block: Block, shaking: Shaking, scales: Floats, progress
     rows = []
 
     def run(scale: float) -> Mapping[str, float]:
+        if case.further_cracks:
+            return walk_two_blocks(case, shaking.scaled(scale))[1].cracks[1 - case.asked].summary
         return walk(case, block, shaking.scaled(scale)).summary
 
     # The kernel lets go of the interpreter.

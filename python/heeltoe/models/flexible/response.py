@@ -89,7 +89,12 @@ class FlexibleResponse(Response):
         )
 
     @property
-    def others(self) -> dict[str, Self]:
+    def place(self) -> int:
+        """Which of several cracks is that of ``[crack]``, from the crest down."""
+        return self.crack.place
+
+    @property
+    def others(self) -> Mapping[str, Self]:
         """The response at each of several cracks but that of ``[crack]``, by name: counted from the crest down."""
         places = [place for place in range(len(self.at_cracks)) if place != self.crack.place]
         return {f"crack-{place + 1}": self.at_crack(place) for place in places}
@@ -121,8 +126,6 @@ class FlexibleResponse(Response):
     time_step_s = Of[float]("Their length [s].")
     contact_iterations_per_step = Of[float]("Tries until the contact forces are found.")
     contact_residual = Of[float]("Worst violation of the contact conditions, over the impulse.")
-    cracks = Of[list[dict[str, Any]]]("What each of several cracks did, from the crest down.")
-    governing_crack = Of[int]("Which of several cracks slips most, from the crest down.")
     evidence = Of[Mapping[str, Any] | None](
         "How far step, mesh and 1 % of the shaking move it; None where none was wanted."
     )

@@ -40,7 +40,7 @@ def run_rigid(
     """
     block = block or build_block(case)
     shaking = earthquake.shaking
-    moments = _moments(earthquake, output_step)
+    moments = moments_of(earthquake, output_step)
     run = walk(case, block, shaking, moments)
     moments = moments[: run.mode.size]
     end = run.summary["end_time"]
@@ -62,7 +62,7 @@ def run_rigid(
         vertical=earthquake.vertical,
         gravity=case.gravity,
         histories=histories_of(case, block, shaking, moments, run) if started else {},
-        mode=tuple(_MODES.take(run.mode).tolist()) if started else (),
+        mode=tuple(MODE_NAMES.take(run.mode).tolist()) if started else (),
         event_log=events_of(run),
         static=static_state(block),
         references=references_of(case, block, run),
@@ -70,14 +70,16 @@ def run_rigid(
     )
 
 
-_MODES = np.array(MODES, dtype=object)
+#: Modes of motion by their numbers.
+MODE_NAMES = np.array(MODES, dtype=object)
 #: Moments that a history may have: each takes some 200 bytes, here and in the file.
 MOST_MOMENTS = 2_000_000
 # In the silence after it there are samples as far apart as those of the record, within these bounds [s].
 _SHORTEST_STEP, _LONGEST_STEP = 0.005, 0.02
 
 
-def _moments(earthquake: Earthquake, step: float | None) -> Floats:
+def moments_of(earthquake: Earthquake, step: float | None) -> Floats:
+    """Return the moments of the histories [s]: so far apart, or the samples of the record."""
     time = earthquake.shaking.time
     if step is None:
         if not earthquake.silence and np.all(time[1:] > time[:-1]):

@@ -11,6 +11,7 @@ import shapely
 
 from heeltoe.arrays import Floats, Integers
 from heeltoe.case.model import Case
+from heeltoe.geometry.section import CutSection
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.mesh.checks import boundary_edges
 from heeltoe.models.flexible.mesh.dam import BodyMesh
@@ -131,13 +132,13 @@ def rigid_parts(case: Case, histories: Mapping[str, Floats], moments: Moments) -
         shapes=shapes,
         amplitudes=np.column_stack([along, heel, cosine - 1.0, sine]),
     )
-    lower = _still(case, len(slip))
-    return (upper,) if lower is None else (upper, lower)
+    lower = part_below(section, case.outline)
+    return (upper,) if lower is None else (upper, replace(lower, amplitudes=np.zeros((len(slip), 0))))
 
 
-def _still(case: Case, frames: int) -> Part | None:
-    """Return the part below the crack, which stands still; None where there is none to speak of."""
-    section, whole = case.cut, case.outline
+def part_below(section: CutSection, whole: shapely.Polygon, base: tuple[Floats, Floats] | None = None) -> Part | None:
+    """Return the part of a section below a crack, still without motion; None where there is none to speak of. Its faces
+    begin at the corners of its `base`, those of the lowest level where it is not given."""
     # By the line of the crack: the outline of the part above it is rounded, and would leave slivers along the faces.
     far = 10.0 * float(np.ptp(shapely.get_coordinates(whole), axis=0).max())
     along, across = np.array(section.from_crack_frame(far, 0.0)), np.array(section.from_crack_frame(0.0, far))
@@ -148,9 +149,11 @@ def _still(case: Case, frames: int) -> Part | None:
     if rest is None or rest.area < 1e-6 * whole.area:
         return None
     points = shapely.get_coordinates(shapely.geometry.polygon.orient(rest).exterior)[:-1]
-    at_base = np.flatnonzero(points[:, 1] <= section.base_elevation + 1e-9 * section.height)
-    ends = (at_base[points[at_base, 0].argmin()], at_base[points[at_base, 0].argmax()])
-    heel, toe = (int(np.hypot(*(points - corner).T).argmin()) for corner in (section.heel, section.toe))
+    if base is None:
+        at_base = np.flatnonzero(points[:, 1] <= section.base_elevation + 1e-9 * section.height)
+        base = points[at_base[points[at_base, 0].argmin()]], points[at_base[points[at_base, 0].argmax()]]
+    corners = (section.heel, section.toe, *base)
+    heel, toe, *ends = (int(np.hypot(*(points - corner).T).argmin()) for corner in corners)
     count = len(points)
 
     def round_to(start: int, end: int, step: int) -> Integers:
@@ -160,11 +163,11 @@ def _still(case: Case, frames: int) -> Part | None:
         points=points,
         outline=np.arange(count),
         grid=np.empty((0, 2), dtype=np.int64),
-        upstream=round_to(int(ends[0]), heel, -1),
-        downstream=round_to(int(ends[1]), toe, 1),
+        upstream=round_to(ends[0], heel, -1),
+        downstream=round_to(ends[1], toe, 1),
         crack=np.array([heel, toe]),
         shapes=np.zeros((0, count, 2)),
-        amplitudes=np.zeros((frames, 0)),
+        amplitudes=np.zeros((0, 0)),
     )
 
 

@@ -15,10 +15,12 @@ from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
 from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.response import FlexibleResponse
+from heeltoe.models.rigid.stack.response import StackResponse
 from heeltoe.plain import plain
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Units, unit_system
 from heeltoe.views.animation.bodies import Moments, Part, elastic_parts, rigid_parts
+from heeltoe.views.animation.stack import stack_parts
 
 #: What a point of the crack does, as `Scene.status` counts it; -1 where nothing is known or opposite.
 STATUSES = ("open", "stick", "slip downstream", "slip upstream")
@@ -121,7 +123,9 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
     histories = response.histories
     moments = Moments.of(histories["time_s"], times)
     if not isinstance(response, FlexibleResponse):
-        parts = rigid_parts(case, histories, moments)
+        stacked = isinstance(response, StackResponse)
+        apart = response.histories_of_cracks
+        parts = stack_parts(case, apart, moments) if stacked else rigid_parts(case, histories, moments)
         forces, status = _corners(section, histories, response.mode, moments)
         scale = system.scale("force")
     else:
@@ -130,7 +134,7 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
         forces, status = _nodes(section, response.crack, moved)
         scale = system.scale("pressure")
     forces = scale(forces)
-    above = response.crack.place if isinstance(response, FlexibleResponse) else 0
+    above = response.place
     largest = max(float(np.abs(part.displacements(part.outline)).max()) for part in parts)
     if exaggeration is None:
         overturned = response.outcome == "overturned"

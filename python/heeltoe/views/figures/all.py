@@ -128,10 +128,9 @@ def all_figures(case: Case | None, result: Response, units: str = "si") -> Figur
 
         drawings["comparison"] = lambda: comparison_figure(result, beside, units)
     drawings |= _drawings(result, units)
-    if isinstance(result, FlexibleResponse):
-        for name, other in result.others.items():
-            drawn = _drawings(other, units)
-            drawings |= {f"{name}/{each}": drawn[each] for each in _OF_CRACKS if each in drawn}
+    for name, other in result.others.items():
+        drawn = _drawings(other, units)
+        drawings |= {f"{name}/{each}": drawn[each] for each in _OF_CRACKS if each in drawn}
     if beside is not None:
         drawings |= {f"{beside.model}/{name}": draw for name, draw in _drawings(beside, units).items()}
     return Figures(drawings)

@@ -209,13 +209,16 @@ def _(response: Response, directory: Path, suffix: str, vtk: bool) -> None:
     write_table(response.to_table(), directory / f"histories{suffix}")
     if response.event_log:
         write_table(response.events_table(), directory / f"events{suffix}")
-    if not isinstance(response, FlexibleResponse):
-        return
-    write_table(crack_table(response.crack), directory / f"crack{suffix}")
     for name, other in response.others.items():
         (directory / name).mkdir()
         write_table(other.to_table(), directory / name / f"histories{suffix}")
-        write_table(crack_table(other.crack), directory / name / f"crack{suffix}")
+        if other.event_log:
+            write_table(other.events_table(), directory / name / f"events{suffix}")
+    if not isinstance(response, FlexibleResponse):
+        return
+    write_table(crack_table(response.crack), directory / f"crack{suffix}")
+    for name, at_crack in response.others.items():
+        write_table(crack_table(at_crack.crack), directory / name / f"crack{suffix}")
     if vtk:
         (directory / VTK).mkdir()
         write_frames(response.crack, directory / VTK)

@@ -8,7 +8,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from heeltoe.case.model import Case
-from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.plain import plain
 from heeltoe.result.response import Response
 from heeltoe.views.report.content import FigureBlock, Inline
@@ -74,9 +73,9 @@ class Subject:
         return tuple(Run(each, "" if each is self.result else "beside.") for each in self.result.responses)
 
     @cached_property
-    def others(self) -> dict[str, FlexibleResponse]:
+    def others(self) -> Mapping[str, Response]:
         """Return the response at further cracks, by name."""
-        return self.result.others if isinstance(self.result, FlexibleResponse) else {}
+        return self.result.others
 
     @cached_property
     def references(self) -> tuple[str, ...]:

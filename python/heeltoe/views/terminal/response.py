@@ -41,7 +41,7 @@ def print_summary(response: Response, console: Console, units: str = "si") -> No
     print_head(response, f"{response.model} model", console, units)
     if response.summary:
         console.print(_result_table(response, units))
-        if isinstance(response, FlexibleResponse) and response.at_cracks:
+        if "cracks" in response.summary:
             console.print()
             console.print(_cracks_table(response, units))
         console.print()
@@ -151,7 +151,7 @@ def _result_table(response: Response, units: str) -> Table:
     return table
 
 
-def _cracks_table(response: FlexibleResponse, units: str) -> Table:
+def _cracks_table(response: Response, units: str) -> Table:
     """Return what each of several cracks did, from the crest down."""
     table = quiet_table()
     first, *others = cracks.COLUMNS

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from heeltoe.models.flexible.response import FlexibleResponse
+from heeltoe.result.response import Response
 from heeltoe.units.sentences import written
 from heeltoe.views.words.numbers import Amount, Cell, in_one_unit
 
 COLUMNS = ("crack at", "residual slip", "peak down", "peak up", "opening up", "opening down", "strikes")
 
 
-def crack_rows(response: FlexibleResponse, units: str) -> list[list[str]]:
+def crack_rows(response: Response, units: str) -> list[list[str]]:
     """Return the rows of :data:`COLUMNS`, from the crest down."""
     cells: list[list[Cell]] = []
     for place, crack in enumerate(response.cracks):
         at = written("{at_m:g m}", units, at_m=crack["elevation_m"])
-        told = ", see above" if place == response.crack.place else ""
+        told = ", see above" if place == response.place else ""
         slips = (crack["residual_slip_m"], crack["peak_slip_downstream_m"], -crack["peak_slip_upstream_m"])
         openings = (crack["opening_upstream_m"], crack["opening_downstream_m"])
         amounts = [*(Amount(slip, "slip") for slip in slips), *(Amount(each, "opening") for each in openings)]
