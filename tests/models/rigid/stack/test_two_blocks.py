@@ -1,0 +1,165 @@
+"""A dam cracked at two levels as two rigid blocks: the blocks of either crack alone, and all that a case may say."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+import pytest
+
+from heeltoe import run
+from heeltoe.errors import InputError
+from heeltoe.mechanics.block import build_block
+from heeltoe.models.rigid.stack.model import place_of, walk_two_blocks
+from heeltoe.models.rigid.stack.response import StackResponse
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.study.spread import with_spread
+from shared.dams import example
+
+CASE = example("two-cracks")
+HEADLINES = ("residual_slip_m", "peak_slip_downstream_m", "largest_gap_heel_m", "largest_gap_toe_m", "impacts")
+
+
+def shaken(case, size=4.0, up=0.0):
+    """Run a case through waves that come and go."""
+    time = np.arange(800) * 0.01
+    waves = np.exp(-(((time - 2.5) / 1.2) ** 2)) * (np.sin(9.0 * time) + 0.5 * np.sin(23.0 * time))
+    across = GroundMotion(time=time, acceleration=size * waves, name="waves")
+    vertical = GroundMotion(time=time, acceleration=up * np.roll(waves, 30), name="up") if up else None
+    return run(case, "rigid", across, vertical)
+
+
+def cracks(base=1.2, neck=1.0, level=60.0, **more):
+    """Return the typical dam with another crack."""
+    further = [{"elevation": f"{level} m", "friction": neck}]
+    return CASE.with_({"crack.friction": base, "further_cracks": further, **more})
+
+
+@pytest.mark.parametrize("up", [0.0, 1.0])
+@pytest.mark.parametrize(("bonded", "base", "neck"), [(0, 0.9, 9.0), (1, 9.0, 0.9)])
+def test_a_bonded_crack_leaves_what_the_other_does_alone(bonded, base, neck, up):
+    case = cracks(base, neck)
+    found = shaken(case, 2.5, up)
+    alone = shaken(case.cracks[1 - bonded], 2.5, up)
+    assert found.cracks[bonded]["events"] == 0
+    assert abs(alone.residual_slip_m) > 0.01
+    for name in HEADLINES:
+        assert found.cracks[1 - bonded][name] == pytest.approx(alone.summary[name], abs=1e-10), name
+    assert found.energy.friction_j == pytest.approx(alone.energy.friction_j, rel=1e-10)
+
+
+def test_water_presses_on_both_faces_of_the_upper_crack():
+    # Its uplift carries the upper block, and is nothing to both of them together.
+    wet, dry = cracks(), cracks()
+    wet = wet.with_({"further_cracks": [{"elevation": "60 m", "friction": 1.0, "uplift_intensity": 1.0}]})
+    dry = dry.with_({"further_cracks": [{"elevation": "60 m", "friction": 1.0, "uplift": "none"}]})
+    upper, lower = (np.array([build_block(each).static.vertical for each in case.cracks]) for case in (wet, dry))
+    assert upper[0] > lower[0]
+    assert upper[1] == lower[1]
+
+
+@pytest.mark.parametrize("inclination", [0.0, 8.0, -6.0])
+def test_the_place_of_the_upper_block_leaves_the_weight_of_the_lower_one(inclination):
+    further = [{"elevation": "60 m", "friction": 1.0, "inclination": f"{inclination} deg", "uplift": "none"}]
+    case = CASE.with_({"reservoir": None, "uplift.pattern": "none", "further_cracks": further})
+    upper, lower = (build_block(each) for each in case.cracks)
+    along, across, turned = place_of(lower, upper)
+    sine, cosine = np.sin(turned), np.cos(turned)
+    x, z = upper.static.horizontal, upper.static.vertical
+    # The upper block's loads as the lower one feels them: along and across its crack, and about its reference point.
+    passed = np.array([cosine * x - sine * z, sine * x + cosine * z])
+    assert passed[0] == pytest.approx(lower.static.horizontal, abs=1e-9 * abs(z))
+    alone = passed[1] - lower.static.vertical
+    section = case.cracks[0].outline.area - upper.section.area
+    assert alone == pytest.approx(CASE.concrete.density * section * case.gravity, rel=1e-9)
+    moment = along * passed[1] - across * passed[0] + upper.static_moment
+    centre = (lower.concrete_mass * 0.0 - upper.concrete_mass * along) / (lower.concrete_mass - upper.concrete_mass)
+    assert lower.static_moment - moment == pytest.approx(-alone * centre, rel=1e-6)
+
+
+def test_both_blocks_move_and_all_that_a_response_says_agrees():
+    found = shaken(cracks(0.9, 0.8), size=9.0, up=2.0)
+    assert isinstance(found, StackResponse)
+    assert found.ok
+    assert found.model == "rigid"
+    assert [each["elevation_m"] for each in found.cracks] == [60.0, 0.0]
+    upper, lower = found.cracks
+    assert abs(upper["residual_slip_m"]) > 0.01
+    assert abs(lower["residual_slip_m"]) > 0.01
+    assert found.residual_slip_m == lower["residual_slip_m"]
+    slips = [abs(each["residual_slip_m"]) for each in found.cracks]
+    assert found.governing_crack == slips.index(max(slips))
+    assert found.energy.residual < 1e-12
+    for loss in ("friction_j", "impact_j"):
+        assert sum(each["crack_energy"][loss] for each in found.cracks) == pytest.approx(getattr(found.energy, loss))
+    assert list(found.others) == ["crack-1"]
+    assert found.others["crack-1"].residual_slip_m == upper["residual_slip_m"]
+    assert found.histories_of_cracks[1] is found.at_cracks[1].histories
+    assert "Of all 2 cracks, from the crest down, that at 60 m slips" in found.to_json()["verdict"]
+
+
+def test_below_what_moves_them_nothing_moves():
+    found = shaken(CASE, size=0.5)
+    for crack in found.cracks:
+        assert crack["residual_slip_m"] == crack["largest_gap_heel_m"] == crack["largest_gap_toe_m"] == 0.0
+        assert crack["events"] == 0
+    assert found.energy.input_j == 0.0
+
+
+def test_the_spread_is_that_of_the_crack_asked_of():
+    case = cracks(0.9, 0.8)
+    found = shaken(case)
+    spread = with_spread(found, case, 3).spread
+    assert spread["failed"] == 0
+    assert spread["residual_slips_m"][1] == pytest.approx(found.residual_slip_m, rel=1e-12)
+    assert spread["residual_slips_m"][0] != spread["residual_slips_m"][2]
+
+
+def test_the_kernel_counts_from_the_ground_up():
+    case = cracks(0.9, 9.0)
+    found = shaken(case)
+    _, raw = walk_two_blocks(case, run_earthquake(found))
+    assert raw.cracks[0].summary["slip"] == found.cracks[1]["residual_slip_m"]
+
+
+def run_earthquake(response):
+    """Return what has shaken a response."""
+    from heeltoe.motion.earthquake import Earthquake
+
+    return Earthquake(response.motion, response.vertical, response.motion.duration).silent(response.silence_s).shaking
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        (
+            {"further_cracks": [{"elevation": "60 m"}, {"elevation": "90 m"}]},
+            "further_cracks: 2 further cracks make three blocks or more",
+        ),
+        ({"analysis.rotation": "finite"}, 'analysis.rotation: "finite" does not go with further_cracks'),
+        ({"reservoir.virtual_mass_rotates": False}, "reservoir.virtual_mass_rotates: false does not go with"),
+        ({"reservoir.hydrodynamic": "zangar"}, 'reservoir.hydrodynamic: "zangar" does not go with'),
+    ],
+)
+def test_what_two_blocks_cannot_use_is_refused_by_name(changes, said):
+    with pytest.raises(InputError, match=re.escape(said)):
+        run(CASE.with_(changes), "rigid")
+
+
+def test_a_dam_that_does_not_stand_says_at_which_crack():
+    found = shaken(cracks(1.2, 0.1))
+    assert found.outcome == "unstable"
+    assert not found.summary
+    assert str(found.advice).startswith("at the crack at 60 m: it slides under its static loads alone")
+
+
+def test_a_block_that_turns_too_far_is_named():
+    found = shaken(cracks(3.0, 3.0, level=92.0, reservoir=None, **{"uplift.pattern": "none"}), size=60.0)
+    assert found.outcome != "ok"
+    assert "the block above the crack at 92 m rotates by" in str(found.advice)
+
+
+def test_too_many_events_say_so():
+    found = shaken(cracks(0.9, 0.8, **{"analysis.event_limit": 5}), size=9.0)
+    assert found.outcome == "event limit"
+    assert "at the crack at 0 m: stopped at" in str(found.advice)
