@@ -107,7 +107,7 @@ def _frictions_agree(crack: Crack | FurtherCrack) -> Iterator[InputError]:
 
 class FurtherCrack(Fields):
     """One more crack, above or below that of `[crack]`; what it does not say of friction and uplift is as there. The
-    flexible model alone knows several cracks; the static checks judge each as a section."""
+    flexible model knows any number of cracks, the rigid model two; the static checks judge each as a section."""
 
     elevation: Annotated[Length, Field(ge=0.0)]
     """Height of the crack at the upstream face above the lowest point of the section."""
