@@ -10,7 +10,7 @@ import pytest
 from heeltoe import run
 from heeltoe.errors import InputError
 from heeltoe.mechanics.block import build_block
-from heeltoe.models.rigid.stack.model import place_of, walk_two_blocks
+from heeltoe.models.rigid.stack.model import check_stack, place_of, walk_two_blocks
 from heeltoe.models.rigid.stack.response import StackResponse
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.study.spread import with_spread
@@ -144,6 +144,24 @@ def run_earthquake(response):
 def test_what_two_blocks_cannot_use_is_refused_by_name(changes, said):
     with pytest.raises(InputError, match=re.escape(said)):
         run(CASE.with_(changes), "rigid")
+
+
+def test_two_blocks_refuse_by_themselves_what_they_cannot_use():
+    # Whatever an elastic dam with several cracks may learn.
+    alone = CASE.cracks[1]
+    held = alone.with_({"anchors": [{"distance": "5 m", "prestress": "1 MN/m"}]}).anchors
+    later = alone.with_({"aftershocks": [{"file": "elcentro-1940-180-nga"}]}).aftershocks
+    law = {"name": "cohesion", "cohesion": "0.1 MPa", "residual_friction": 0.8}
+    laws = alone.with_({"crack": {"elevation": "0 m", "law": law}}).crack
+    open_water = alone.with_({"uplift.during_shaking": "zero while open"}).uplift
+    for name, given, field in (
+        ("anchors", held, "anchors"),
+        ("aftershocks", later, "aftershocks"),
+        ("crack", laws, "crack.law"),
+        ("uplift", open_water, "uplift.during_shaking"),
+    ):
+        with pytest.raises(InputError, match=re.escape(field)):
+            check_stack(CASE.model_copy(update={name: given}))
 
 
 def test_a_dam_that_does_not_stand_says_at_which_crack():

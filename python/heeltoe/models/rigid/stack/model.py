@@ -44,6 +44,13 @@ def check_stack(case: Case) -> None:
 
 def _unfit(case: Case) -> Iterator[InputError]:
     other = "further_cracks"
+    for name in ("anchors", "aftershocks"):
+        if getattr(case, name):
+            yield InputError("one-crack-only", name, other=other)
+    if any(each.crack.law is not None for each in case.cracks):
+        yield InputError("one-crack-only", "crack.law", other=other)
+    if case.uplift.during_shaking != "constant":
+        yield InputError("one-crack-value", "uplift.during_shaking", shown(case.uplift.during_shaking), other=other)
     if case.analysis.rotation != "small":
         yield InputError("one-crack-value", "analysis.rotation", shown(case.analysis.rotation), other=other)
     for name, water in (("reservoir", case.reservoir), ("tailwater", case.tailwater)):
