@@ -64,7 +64,6 @@ def test_inclined_cracks_that_cross_are_refused():
 @pytest.mark.parametrize(
     ("model", "who"),
     [
-        ("rigid", "the rigid model"),
         ("decoupled", "the decoupled chain"),
         ("both", "the block beside the flexible model"),
     ],

@@ -83,25 +83,7 @@ impl Stack {
                 }
             }
         }
-        let (loads, above) = (lower.loads(), upper.loads());
-        let mut free = [Affine::default(); 6];
-        for (i, value) in free.iter_mut().enumerate() {
-            let part = |k: usize| {
-                let passed = transposed(&carried, &above[k]);
-                let alone = [0, 1, 2].map(|c| passed[c] - loads[k][c]);
-                let of_lower = form(&left[i / 3][i % 3], &inverses[0], &alone);
-                if i > 2 {
-                    of_lower + form(&rows[1][i - 3], &inverses[1], &above[k])
-                } else {
-                    of_lower
-                }
-            };
-            *value = Affine {
-                constant: part(0),
-                horizontal: part(1),
-                vertical: part(2),
-            };
-        }
+        let free = free([lower, upper], &carried, &left, &inverses);
         Ok(Stack {
             blocks: [Block::new(lower), Block::new(upper)],
             compliance,
@@ -141,6 +123,36 @@ impl Stack {
         let [lower, relative] = [0, 1].map(|crack| self.blocks[crack].rotation(&part(w, crack)));
         [lower, lower + relative]
     }
+}
+
+/// What the blocks do without any force at the cracks, `left` being how the lower one moves each of their coordinates.
+fn free(
+    of: [&BlockNumbers; 2],
+    carried: &[Vector; 3],
+    left: &[[Vector; 3]; 2],
+    inverses: &[[Vector; 3]; 2],
+) -> [Affine; 6] {
+    let [loads, above] = of.map(BlockNumbers::loads);
+    let rows = rows_of(of[1]);
+    let mut free = [Affine::default(); 6];
+    for (i, value) in free.iter_mut().enumerate() {
+        let part = |k: usize| {
+            let passed = transposed(carried, &above[k]);
+            let alone = [0, 1, 2].map(|c| passed[c] - loads[k][c]);
+            let of_lower = form(&left[i / 3][i % 3], &inverses[0], &alone);
+            if i > 2 {
+                of_lower + form(&rows[i - 3], &inverses[1], &above[k])
+            } else {
+                of_lower
+            }
+        };
+        *value = Affine {
+            constant: part(0),
+            horizontal: part(1),
+            vertical: part(2),
+        };
+    }
+    free
 }
 
 /// The coordinates of one crack.
