@@ -186,6 +186,8 @@ HELPED |= {f"further_cracks[0].{name}": (SEVERAL, None) for name in SECOND}
 HELPED |= {
     "further_cracks[0].inclination": (SEVERAL, "5 deg"),
     "further_cracks[0].uplift": (SEVERAL, "uniform"),
+    # Low enough for a rigid block to slide.
+    "further_cracks[0].static_friction": (SEVERAL | {"further_cracks": [SECOND | {"kinetic_friction": 0.3}]}, 0.35),
     "further_cracks[0].friction": (
         SEVERAL | {"further_cracks": [{"elevation": "18 m", "friction": 0.6, "uplift": "triangular"}]},
         0.5,
