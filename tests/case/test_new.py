@@ -38,6 +38,8 @@ def test_what_the_new_case_comments_out_is_sound(tmp_path):
     fine.add("section-file-missing")
     # Each law knows some of the fields.
     fine |= {"law-option-missing", "law-option-foreign"}
+    # The crack of a new case is at the base, where there is nothing below it.
+    fine.add("kinks-base")
     lines = new_case_text("x").splitlines()
     header, tried = -1, 0
     for number, line in enumerate(lines):

@@ -18,7 +18,7 @@ from shared.pages import PAGES, command_lines, spans
 
 LINES = command_lines()
 COMMANDS = typer.main.get_command(app).commands
-COARSE = ("--set", "flexible.elements_across=2", "--set", "flexible.evidence=none")
+COARSE = ("--set", "flexible.elements_across=3", "--set", "flexible.evidence=none")
 # What is added so that a command does not take long: an option given twice has its last value.
 QUICK = {
     "run": (*COARSE, "--duration", "1s"),

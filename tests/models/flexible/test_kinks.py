@@ -139,6 +139,7 @@ def test_the_ledger_closes_and_a_step_holds_back():
             {"crack.law": {"name": "cohesion", "cohesion": "0.1 MPa", "residual_friction": 0.8}},
             "crack.law: does not go",
         ),
+        ({"crack.roughness": {"asperity_height": "5 cm", "wave_length": "1 m"}}, "crack.roughness: does not go with"),
         ({"anchors": [{"distance": "5 m", "prestress": "1 MN/m"}]}, "anchors: does not go with crack.kinks"),
         ({"further_cracks": [{"elevation": "60 m"}]}, "further_cracks: does not go with crack.kinks"),
         ({"uplift.during_shaking": "zero while open"}, 'uplift.during_shaking: "zero while open" does not go with'),

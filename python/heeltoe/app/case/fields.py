@@ -41,6 +41,7 @@ _CELLS = {
     "section.downstream": ("Elevation", "Slope"),
     "uplift.points": ("Distance", "Head"),
     "motion.points": ("Time", "Acceleration"),
+    "crack.kinks": ("Distance from the heel", "Height above the line"),
     "crack.law.roughness_friction": ("Normal stress", "Coefficient"),
 }
 # Motions, of which all have the same fields.

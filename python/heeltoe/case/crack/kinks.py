@@ -26,8 +26,9 @@ def kinks_alone(case: Case) -> Iterator[InputError]:
     for name in ("further_cracks", "anchors", "aftershocks"):
         if getattr(case, name):
             yield InputError("kinks-beside", name)
-    if case.crack.law is not None:
-        yield InputError("kinks-beside", "crack.law")
+    for name in ("law", "roughness"):
+        if getattr(case.crack, name) is not None:
+            yield InputError("kinks-beside", f"crack.{name}")
     if case.uplift.during_shaking != "constant":
         yield InputError("kinks-value", "uplift.during_shaking", shown(case.uplift.during_shaking))
     if case.flexible.contact == "idce":

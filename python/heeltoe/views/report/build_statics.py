@@ -43,6 +43,9 @@ _SHARES = "lrrrrr"
 def static_checks(subject: Subject) -> Section | None:
     """Return the section of the static checks; None where there are none."""
     found = subject.statics
+    if found is None and subject.case.crack.kinks:
+        left_out = "They are left out: they know straight cracks alone, and this one has kinks."
+        return Section("Static checks", (paragraph(left_out),))
     if found is None or not found.checks:
         return None
     blocks: list[Block] = [

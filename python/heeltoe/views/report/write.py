@@ -67,8 +67,10 @@ def build_report(
     from heeltoe.views.report.subject import Subject
     from heeltoe.views.words.numbers import Numbers
 
-    found = statics_after(case, *reversed(result.responses)) if statics is None else statics
-    numbers = Numbers({**result.to_json(), "statics": found.to_json()}, units)
+    # The static checks know straight cracks alone.
+    judged = statics is None and not case.crack.kinks
+    found = statics_after(case, *reversed(result.responses)) if judged else statics
+    numbers = Numbers({**result.to_json(), **({} if found is None else {"statics": found.to_json()})}, units)
     drawn = all_figures(case, result, units) if figures is None else figures
     runs = tuple(run for run in reversed(result.responses) if has_pictures(run))
     if not drawn:
@@ -103,7 +105,8 @@ def write_report(
     directory
         Where; it is made if it is not there.
     statics
-        Result of :func:`heeltoe.statics`; computed with the residual slip of the result where it is not given.
+        Result of :func:`heeltoe.statics`; computed with the residual slip of the result where it is not given. A report
+        of a crack with kinks has none.
     units
         ``"si"`` or ``"us"``: of input, numbers, sentences and figures; those of the case where it is not given. The
         JSON stays SI.
