@@ -97,7 +97,7 @@ def summary_of(case: Case, block: Block, run: BlockRun) -> dict[str, Any]:
         "uplift_during_shaking": case.uplift.during_shaking,
         "drainage_by_motion": list(run.drainage) or None,
         "friction_law": None if case.crack.law is None else law_found(case, block, run),
-        "roughness": roughness_found(case, run),
+        "roughness": roughness_found(case.crack, run),
         "overturned_about": about if run.outcome == "overturned" else None,
         "anchors": [
             {"distance_m": anchor.distance, "peak_tension_n": float(peak), "capacity_n": anchor.capacity}

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from heeltoe.arrays import Floats
+from heeltoe.case.crack.crack import Crack
 from heeltoe.case.model import Case
 from heeltoe.kernel.block import BlockRun
 from heeltoe.kernel.friction import shear_stress
@@ -51,14 +52,14 @@ def law_histories(case: Case, block: Block, run: BlockRun) -> dict[str, Floats]:
     return {"slip_path_m": worn.path, "friction_strength_n": block.width * strength}
 
 
-def roughness_found(case: Case, run: BlockRun) -> dict[str, Any] | None:
+def roughness_found(crack: Crack, run: BlockRun) -> dict[str, Any] | None:
     """Return what the asperities have come to: dilation, angle and friction along the mean plane before and after; None
     of a crack that is not rough."""
-    rough = case.crack.roughness
+    rough = crack.roughness
     if rough is None or run.rough is None or run.worn is None:
         return None
     dilation, angle, work = run.rough.end
-    flank = math.atan(case.crack.mu_static)
+    flank = math.atan(crack.mu_static)
     return {
         "asperity_height_m": rough.asperity_height,
         "wave_length_m": rough.wave_length,
