@@ -48,6 +48,10 @@ OF_DAMS: dict[str, tuple[str, str]] = {
         "the line at {value} meets the section in several pieces",
         "give an elevation with one piece of concrete",
     ),
+    "crack-overhang": (
+        "the line at {value} goes through concrete upstream of where it starts, too",
+        "give an inclination or elevation where it starts at the upstream face",
+    ),
     "crack-no-width": ("the section has no width at {value}", "give an elevation where it has one"),
     "cracks-meet": (
         "the crack at {value} meets or crosses that at {other}, or leaves less than {least} between them",

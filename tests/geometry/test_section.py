@@ -154,3 +154,11 @@ def test_a_copy_of_a_case_is_cut_where_it_says():
     assert (case.outline.area, wider.outline.area, wider.cut.crack_width) == (12, 15, 5)
     assert case == make([(0, 0), (4, 0), (4, 3), (0, 3)], 1.0)
     assert "cut" not in case.model_dump()
+
+
+def test_a_line_that_is_in_concrete_before_it_starts():
+    # Under the overhang it would start at the crest.
+    overhang = outline([(0, 0), (50, 0), (50, 100), (-100, 100), (0, 90)])
+    assert cut(overhang, 90.0, math.radians(-5.0)).crack_width == pytest.approx(50.0 / math.cos(math.radians(5.0)))
+    with pytest.raises(InputError, match="-6 deg goes through concrete upstream of where it starts, too"):
+        cut(overhang, 90.0, math.radians(-6.0))

@@ -168,15 +168,20 @@ impl Piece<'_> {
     fn turning<Q: Quantity>(&self, end: [f64; 3], known: f64) -> f64 {
         let o = self.oscillator;
         let ([f0, g0], [f1, g1]) = (Q::value_and_rate(o, self.start), Q::value_and_rate(o, end));
-        if f0.abs().max(f1.abs()) + self.length * g0.abs().max(g1.abs()) <= known {
-            return 0.0;
-        }
         let bend = |state| Q::bend(o, state, self.slope);
         let (b0, b1) = (bend(self.start), bend(end));
-        let turns = (g0 > 0.0) != (g1 > 0.0);
+        // Inside, a rate exceeds those at both ends by half the length times the largest rate of its own, which on an
+        // eighth of a period is less than twice the larger one of the ends.
+        let fastest = g0.abs().max(g1.abs()) + self.length * b0.abs().max(b1.abs());
+        if f0.abs().max(f1.abs()) + self.length * fastest <= known {
+            return 0.0;
+        }
+        // From rest, or to rest, the way is that of the rate just after or just before.
+        let rises = g0 > 0.0 || (g0 == 0.0 && b0 > 0.0);
+        let turns = rises != (g1 > 0.0 || (g1 == 0.0 && b1 < 0.0));
         if turns {
             // Seen as a maximum of `up * f`. Where that is concave it stays below both tangents.
-            let up = if g0 > 0.0 { 1.0 } else { -1.0 };
+            let up = if rises { 1.0 } else { -1.0 };
             let concave = up * b0 <= 0.0 && up * b1 <= 0.0;
             let meet = (up * (f1 - f0) + g1.abs() * self.length) / (g0.abs() + g1.abs());
             if concave && up * f0 + g0.abs() * meet <= known {
@@ -189,19 +194,20 @@ impl Piece<'_> {
         let value = |t| Q::value_and_rate(o, self.at(t))[0].abs();
         let rate = |state| Q::value_and_rate(o, state)[1];
         if turns {
-            return value(self.root(0.0, self.length, rate));
+            return value(self.root(0.0, self.length, rises, rate));
         }
-        let middle = self.root(0.0, self.length, bend);
-        if (rate(self.at(middle)) > 0.0) == (g0 > 0.0) {
+        let middle = self.root(0.0, self.length, b0 > 0.0, bend);
+        if (rate(self.at(middle)) > 0.0) == rises {
             return 0.0;
         }
-        let first = self.root(0.0, middle, rate);
-        let second = self.root(middle, self.length, rate);
+        let first = self.root(0.0, middle, rises, rate);
+        let second = self.root(middle, self.length, !rises, rate);
         value(first).max(value(second))
     }
 
-    /// Moment in `(low, high)` at which `f` changes its sign: the secant method inside the bracket.
-    fn root(&self, mut low: f64, mut high: f64, f: impl Fn([f64; 3]) -> f64) -> f64 {
+    /// Moment in `(low, high)` at which `f`, positive or not just after `low`, changes its sign: the secant method inside
+    /// the bracket.
+    fn root(&self, mut low: f64, mut high: f64, positive: bool, f: impl Fn([f64; 3]) -> f64) -> f64 {
         let (mut f_low, mut f_high) = (f(self.at(low)), f(self.at(high)));
         let mut t = low;
         // A turning point is flat: an error e in time is e^2 in value, so a few rounds reach rounding.
@@ -218,7 +224,7 @@ impl Piece<'_> {
             if f_t == 0.0 || high - low < 1e-9 * self.length {
                 break;
             }
-            if (f_t > 0.0) == (f_low > 0.0) {
+            if (f_t > 0.0) == positive {
                 (low, f_low) = (t, f_t);
             } else {
                 (high, f_high) = (t, f_t);
@@ -334,6 +340,17 @@ mod tests {
             let (a, b) = (peak(&coarse.0, &coarse.1, w, 0.05), peak(&time, &ground, w, 0.05));
             close(a.displacement, b.displacement, 1e-11);
             close(a.total_acceleration, b.total_acceleration, 1e-11);
+        }
+    }
+
+    #[test]
+    fn a_turn_just_before_the_end_of_a_piece_from_rest_is_found() {
+        for sign in [1.0, -1.0] {
+            let ground = [sign, -sign, sign];
+            let p = peak(&[0.0, 0.05, 0.1], &ground, 2.0 * PI, 0.0);
+            // By small steps elsewhere.
+            close(p.displacement, 4.106_048_342_976e-4, 1e-9);
+            close(p.total_acceleration, 4.0 * PI * PI * p.displacement, 1e-12);
         }
     }
 

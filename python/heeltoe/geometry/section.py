@@ -206,6 +206,9 @@ def _cut_inclined(whole: shapely.Polygon, level: float, inclination: float, slac
     turn = np.array([[down, up], [-up, down]])
     turned = shapely.transform(whole, lambda corners: (corners - heel) @ turn.T)
     corners = _cut_level(turned, 0.0, slack, level - whole.bounds[1])
+    if abs(corners[0, 0]) > slack:
+        # Under an overhang the line is in concrete on either side of the heel.
+        raise InputError("crack-overhang", "crack.inclination", f"{math.degrees(inclination):g} deg")
     back: Floats = corners @ turn + heel
     # The crest, whose corners tell the two faces apart, must be level again to the last bit.
     for corner in shapely.get_coordinates(whole):

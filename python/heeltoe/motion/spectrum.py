@@ -12,9 +12,9 @@ from heeltoe.errors import InputError
 from heeltoe.kernel.shaking import peak_responses
 from heeltoe.motion.ground_motion import GroundMotion
 
-#: 200 periods from 0.02 s to 10 s, evenly spread on a logarithmic axis.
 # A shorter period [s] but zero has nothing in a record to answer to, and takes for ever to follow.
 _SHORTEST = 1e-4
+#: 200 periods from 0.02 s to 10 s, evenly spread on a logarithmic axis.
 PERIODS: Floats = np.geomspace(0.02, 10.0, 200)
 
 

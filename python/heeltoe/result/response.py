@@ -206,6 +206,9 @@ class Response(Shown):
     rotation = Of[str]("Geometry of a block: small, p-delta or finite.")
     friction_law = Of[dict[str, Any] | None]("What the friction law of a crack has come to; null of coefficients.")
     roughness = Of[dict[str, Any] | None]("What the asperities of a rough crack have come to; null of a flat one.")
+    drainage_by_motion = Of[list[float] | None](
+        "Share of the drains' work that each motion of a sequence finds; null where it stays."
+    )
     overturned_about = Of[str | None]("Corner about which a block has overturned.")
     cracks = Of[list[dict[str, Any]]]("What each of several cracks did, from the crest down.")
     governing_crack = Of[int]("Which of several cracks slips most, from the crest down.")

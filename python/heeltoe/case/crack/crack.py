@@ -69,8 +69,11 @@ class Crack(Fields):
     @property
     def apparent_friction(self) -> float:
         """Coefficient of friction along the mean plane before any slip; zero where a law says it."""
-        rough = self.roughness
-        return self.mu_static if rough is None else math.tan(math.atan(self.mu_static) + rough.angle)
+        if self.roughness is None:
+            return self.mu_static
+        # The tangent of the sum of both angles, by arithmetic alone: many cracks at once have arrays here.
+        slope = self.roughness.slope
+        return (self.mu_static + slope) / (1.0 - self.mu_static * slope)
 
     @property
     def mu_static(self) -> float:

@@ -23,9 +23,14 @@ class Roughness(Fields):
     crack. Without it nothing wears."""
 
     @property
+    def slope(self) -> float:
+        """Slope of the flanks before anything has worn them."""
+        return 2.0 * self.asperity_height / self.wave_length
+
+    @property
     def angle(self) -> float:
         """Angle of the flanks before anything has worn them [rad]."""
-        return math.atan(2.0 * self.asperity_height / self.wave_length)
+        return math.atan(self.slope)
 
     def worn(self, work: float) -> float:
         """Return the angle after this much plastic work [J/m^2]."""
