@@ -1,5 +1,7 @@
 """The cut through the section: hand values, awkward shapes, and integration strip by strip to compare."""
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import assume, given
