@@ -10,6 +10,7 @@ import pytest
 from heeltoe import InputError, flexible, read_case, rigid, run, statics
 from heeltoe.case.warnings import case_warnings
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.views.figures.all import all_figures
 from shared.dams import TYPICAL_SECTION
 
 ROUGH = {"asperity_height": "20 mm", "wave_length": "200 mm", "wear": "1e-5 m^2/J"}
@@ -109,3 +110,24 @@ def test_the_flexible_model_refuses_a_rough_crack():
 def test_what_is_no_sawtooth_that_a_block_climbs_is_warned_of(roughness, code):
     assert code in [notice.code for notice in case_warnings(typical(roughness))]
     assert code not in [notice.code for notice in case_warnings(typical())]
+
+
+def test_the_figure_of_asperities_shows_dilation_and_wear():
+    found = rigid(typical(), SHAKEN)
+    figures = all_figures(None, found)
+    assert "asperities" in figures
+    dilation, angle = (axes.lines[0].get_ydata() for axes in figures["asperities"].axes)
+    assert figures["asperities"].axes[0].get_ylabel().endswith("[m]")
+    assert max(dilation) == pytest.approx(found.histories["dilation_m"].max(), rel=1e-9)
+    assert angle[0] == pytest.approx(math.degrees(math.atan(0.2)), rel=1e-12)
+    assert (np.diff(angle) <= 0.0).all()
+    assert angle[-1] < angle[0]
+
+
+@pytest.mark.parametrize(("modulus", "more"), [(None, ", and with concrete.modulus"), ("20 GPa", "")])
+def test_a_block_on_a_rough_crack_says_how_its_dam_is_run(modulus, more):
+    # The flexible model refuses asperities, and --model auto takes the block.
+    case = typical(concrete={"density": "2650 kg/m^3", **({"modulus": modulus} if modulus else {})})
+    said = [str(notice) for notice in rigid(case, SHAKEN).warnings if notice.code == "rigid-unlike"]
+    assert len(said) == 1
+    assert f"its crack is rough): run it without crack.roughness, too{more}, and the dam is elastic" in said[0]

@@ -52,7 +52,7 @@ def omitted(case: Case, response: Response) -> tuple[Notice, ...]:
         damping=case.concrete.damping,
         friction=friction_at_rest(case, response),
         unlike=_unlike(case, response),
-        remedy="give concrete.modulus" if modulus is None else AS_ELASTIC,
+        remedy=_remedy(case),
     )
     swing = swing_of(case, response.motion, moduli)
     if swing is None:
@@ -136,6 +136,14 @@ def _likeness(dam: _Dam, swing: Swing, mean_period: float, place: int) -> Likene
     )
 
 
+def _remedy(case: Case) -> str:
+    """Say how the dam of a case is run as an elastic one."""
+    if case.crack.roughness is not None:
+        known = "run it without crack.roughness, too"
+        return known if case.concrete.modulus is not None else f"{known}, and with concrete.modulus"
+    return "give concrete.modulus" if case.concrete.modulus is None else AS_ELASTIC
+
+
 def _unlike(case: Case, response: Response) -> str | None:
     """Say what of a case or its run is not in the study at all."""
     reasons: dict[str, Any] = {
@@ -143,6 +151,7 @@ def _unlike(case: Case, response: Response) -> str | None:
         "the ground moves vertically, too": response.vertical is not None,
         "it has anchors": case.anchors,
         "its crack is inclined": case.crack.inclination,
+        "its crack is rough": case.crack.roughness is not None,
         "its uplift changes while it is shaken": case.uplift.during_shaking != "constant",
     }
     return next((why for why, there in reasons.items() if there), None)

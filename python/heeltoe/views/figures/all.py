@@ -23,7 +23,7 @@ from heeltoe.views.figures.histories import (
     response_figure,
     slip_by_mode_figure,
 )
-from heeltoe.views.figures.law import friction_figure, law_figure
+from heeltoe.views.figures.law import asperities_figure, friction_figure, law_figure
 from heeltoe.views.figures.panels import is_elastic
 from heeltoe.views.figures.path import path_figure
 from heeltoe.views.figures.spectrum import spectrum_figure
@@ -39,6 +39,7 @@ NAMES = (
     "response",
     "slip-by-mode",
     "friction",
+    "asperities",
     "accelerations",
     "forces",
     "energy",
@@ -153,6 +154,8 @@ def _drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]
         found["slip-by-mode"] = lambda: slip_by_mode_figure(response, units)
     if "friction_strength_n" in response.histories:
         found["friction"] = lambda: friction_figure(response, units)
+    if "dilation_m" in response.histories:
+        found["asperities"] = lambda: asperities_figure(response, units)
     if is_elastic(response):
         found["forces"] = lambda: force_figure(response, units)
     else:

@@ -1,4 +1,5 @@
-"""The curve of a friction law; what a crack with one bears and could bear, and how far it has slipped by then."""
+"""The curve of a friction law; what a crack with one bears and could bear, and how far it has slipped by then; how a
+rough crack dilates and wears."""
 
 from __future__ import annotations
 
@@ -58,4 +59,26 @@ def friction_figure(response: Response, units: str = "si") -> Figure:
     path.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, fontsize=8, borderaxespad=0.0)
     time_axis(path, response)
     figure.align_ylabels([forces, path])
+    return figure
+
+
+@styled
+def asperities_figure(response: Response, units: str = "si") -> Figure:
+    """Draw how far a rough crack dilates as it slips, and the angle that wear leaves its flanks."""
+    system = unit_system(units)
+    h = response.histories
+    time, angle = h["time_s"], np.degrees(h["asperity_angle_rad"])
+    figure, (dilation, flanks) = panels([1.2, 1.0], 1.9)
+    describe(figure, response)
+    scale = system.scale("displacement", largest(h["dilation_m"], h["slip_m"]))
+    dilation.plot(time, scale(h["dilation_m"]), color=COLOURS["heel"], linewidth=1.2, label="dilation")
+    dilation.plot(time, scale(h["slip_m"]), color=COLOURS["slip"], linewidth=1.2, label="slip, + downstream")
+    dilation.set_ylabel(f"dilation and slip\n[{scale.unit}]")
+    dilation.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, fontsize=8, borderaxespad=0.0)
+    flanks.plot(time, angle, color="#000000", linewidth=1.2)
+    # What hardly wears is a level line near its start, and not its last digits.
+    flanks.set_ylim(min(0.9 * float(angle[0]), float(angle.min())), 1.02 * float(angle[0]))
+    flanks.set_ylabel("angle of the flanks\n[degrees]")
+    time_axis(flanks, response)
+    figure.align_ylabels([dilation, flanks])
     return figure

@@ -86,6 +86,7 @@ _FIGURES = (
     "response",
     "slip-by-mode",
     "friction",
+    "asperities",
     "crack-level",
     "accelerations",
     "forces",

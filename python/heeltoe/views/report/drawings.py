@@ -21,6 +21,7 @@ CAPTIONS = {
     "response": "Ground acceleration, slip (positive downstream), rotation and openings if there are any, the mode.",
     "slip-by-mode": "Slip gathered in each mode of motion.",
     "friction": "Friction in the crack, what its law could bear at the moment, slip, and the way slipped to and fro.",
+    "asperities": "How far the rough crack dilates as it slips, and the angle that wear leaves its flanks.",
     "accelerations": "Acceleration of the ground, acceleration of the slip, and the forces at heel and toe.",
     "forces": "Forces across the crack.",
     "energy": "Where the energy put in by the earthquake goes.",
@@ -43,6 +44,7 @@ _SHARES = {
     "spectrum": 0.7,
     "slip-by-mode": 0.8,
     "friction": 0.9,
+    "asperities": 0.9,
     "energy": 0.8,
     "mesh": 0.55,
 }
