@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from heeltoe.case.crack.crack import Crack
 from heeltoe.mechanics.block import build_block
 from heeltoe.models.rigid.varying import varies
 from heeltoe.views.report.content import Block, Equation, Section, Symbol, paragraph
@@ -213,8 +214,7 @@ def _rigid(writer: _Writer, subject: Subject) -> None:
     else:
         writer.say(forces)
         writer.show("block")
-    writer.say(_ROTATION.get(case.analysis.rotation, ""), "Friction is Coulomb’s:")
-    writer.show("friction")
+    _friction(writer, subject)
     writer.say(
         "A corner $i$ that strikes leaves with Newton’s restitution $e$; $j$ is the other corner, which stays down "
         "if it can. Where that would create energy, $e$ is lowered for this one impact to the largest value that "
@@ -222,14 +222,38 @@ def _rigid(writer: _Writer, subject: Subject) -> None:
     )
     writer.show("impact")
     writer.say(
-        "Between events the motion is integrated with a method of order 8, to a relative error of 10⁻¹² a step, and "
-        "the next event is found on it."
+        "Between events the motion is "
+        + ("exact while the law is a straight line over the way slipped, else " if case.crack.law is not None else "")
+        + "integrated with a method of order 8, to a relative error of 10⁻¹² a step, and the next event is found on it."
         if integrated(subject)
         else "The ground acceleration is linear between samples, so that every motion is a cubic in time and the "
         "response is computed exactly from event to event, without a time step.",
         "The energy $E$ is checked by a ledger of the work done:",
     )
     writer.show("rigid energy")
+
+
+def _friction(writer: _Writer, subject: Subject) -> None:
+    case = subject.case
+    writer.say(_ROTATION.get(case.analysis.rotation, ""), "Friction is Coulomb’s:")
+    writer.show("friction")
+    if case.further_cracks:
+        writer.say(
+            "Each crack has a block of its own above it. The upper block moves on the lower one: slip and gaps of the "
+            "upper crack are their motion against each other, and its forces act on the lower block, too, reversed."
+        )
+    if case.crack.law is not None:
+        writer.say(
+            f"$μ_s$ and $μ_k$ are those of the law {case.crack.law.name} at the mean normal stress, the way slipped "
+            "and the speed of the moment; a bond adds its cohesion."
+        )
+    if case.crack.roughness is not None:
+        writer.say(
+            "The faces of the crack are a sawtooth (Patton 1966), whose flanks rise by the angle $i$; $φ$ is the angle "
+            "of friction along them. What the crack bears along its mean plane, climbing and coming down, and how $i$ "
+            "wears with the work $W$ of friction per area (Plesha 1987):"
+        )
+        writer.show("rough crack")
 
 
 def _decoupled(writer: _Writer, subject: Subject) -> None:
@@ -246,10 +270,21 @@ def _decoupled(writer: _Writer, subject: Subject) -> None:
     writer.show("crack motion")
 
 
+def _nodes(writer: _Writer, crack: Crack) -> None:
+    writer.say("At every node of the crack, with $b$ what the gap leaves:")
+    writer.show("signorini")
+    if crack.law is not None:
+        writer.say(f"$μ$ is that of the law {crack.law.name} at the node’s own stress, way and speed.")
+    if crack.kinks:
+        writer.say("Normal and tangent of a node are those of its piece of the crack, which is not straight.")
+
+
 def _flexible(writer: _Writer, subject: Subject) -> None:
     options, concrete = subject.case.flexible, subject.case.concrete
     bodies = (
-        "parts above and below the crack are linear elastic bodies"
+        "parts of the dam between its cracks are linear elastic bodies"
+        if subject.case.further_cracks
+        else "parts above and below the crack are linear elastic bodies"
         if subject.case.crack.elevation
         else ("dam is a linear elastic body, standing with its crack on a rigid plane,")
     )
@@ -278,8 +313,7 @@ def _flexible(writer: _Writer, subject: Subject) -> None:
             "Δ$V$ the exact change of the ground’s velocity in it:"
         )
         writer.show("step")
-        writer.say("At every node of the crack, with $b$ what the gap leaves:")
-        writer.show("signorini")
+        _nodes(writer, subject.case.crack)
     else:
         writer.say(
             f"Contact is by penalties, as in Zhu (2004): Newmark’s scheme with $γ$ = {options.newmark_gamma:g}, and "

@@ -50,6 +50,11 @@ EQUATIONS: dict[str, tuple[str, str]] = {
         "slides, &emsp;<i>N</i> = <i>N<sub>h</sub></i> + <i>N<sub>t</sub></i>, &emsp;<i>N<sub>h</sub></i>, "
         "<i>N<sub>t</sub></i> ≥ 0",
     ),
+    "rough crack": (
+        r"T = N tan(phi + i), quad T = N tan(phi - i), quad i = i_0 e^(-c W)",
+        "<i>T</i> = <i>N</i> tan(<i>φ</i> + <i>i</i>), &emsp;<i>T</i> = <i>N</i> tan(<i>φ</i> − <i>i</i>), "
+        "&emsp;<i>i</i> = <i>i</i><sub>0</sub> <i>e</i><sup>−<i>cW</i></sup>",
+    ),
     "impact": (
         r"M (v_2 - v_1) = n_i p_i + n_j p_j + t p_T, quad n_i dot v_2 = -e n_i dot v_1",
         "<i>M</i> (<i>v</i><sub>2</sub> − <i>v</i><sub>1</sub>) = <i>n<sub>i</sub> p<sub>i</sub></i> + "
