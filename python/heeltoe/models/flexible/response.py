@@ -59,7 +59,7 @@ class FlexibleResponse(Response):
 
     def at_crack(self, place: int) -> Self:
         """Return the response with numbers and histories of one of several cracks, from the crest down, in the place of
-        those of ``[crack]``; limits and what stands beside it are left out."""
+        those of ``[crack]``; its limits, its spread and what stands beside it are left out."""
         found = self.at_cracks[place]
         return replace(
             self,
@@ -71,6 +71,7 @@ class FlexibleResponse(Response):
             sequence=found.sequence,
             at_cracks=(),
             limits=(),
+            spread=None,
             beside=None,
         )
 

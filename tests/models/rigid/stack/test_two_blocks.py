@@ -109,7 +109,9 @@ def test_below_what_moves_them_nothing_moves():
 def test_the_spread_is_that_of_the_crack_asked_of():
     case = cracks(0.9, 0.8)
     found = shaken(case)
-    spread = with_spread(found, case, 3).spread
+    spread = with_spread(found, case, 3)
+    assert spread.others["crack-1"].spread is None
+    spread = spread.spread
     assert spread["failed"] == 0
     assert spread["residual_slips_m"][1] == pytest.approx(found.residual_slip_m, rel=1e-12)
     assert spread["residual_slips_m"][0] != spread["residual_slips_m"][2]

@@ -47,7 +47,7 @@ class StackResponse(Response):
 
     def at_crack(self, place: int) -> Self:
         """Return the response with numbers, histories and events of one of the cracks, from the crest down, in the
-        place of those of ``[crack]``; limits are left out."""
+        place of those of ``[crack]``; its limits and spread are left out."""
         found = self.at_cracks[place]
         return replace(
             self,
@@ -59,6 +59,7 @@ class StackResponse(Response):
             static=found.static,
             at_cracks=(),
             limits=(),
+            spread=None,
         )
 
     @property
