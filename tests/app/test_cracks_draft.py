@@ -5,15 +5,18 @@ from __future__ import annotations
 import pytest
 
 from heeltoe.app.case.begin import block, following, item
-from heeltoe.app.case.draft import back, draft_of, edit, fields_of
+from heeltoe.app.case.draft import back, draft_of, edit, fields_of, start
 from heeltoe.app.case.drawing import drawing
 from heeltoe.app.case.fields import blocks, field_of
 from heeltoe.app.case.handles import handles, moved
 from heeltoe.app.case.law import law
 from heeltoe.app.case.typed import typed
+from heeltoe.app.examples import example_path
 from heeltoe.app.open_case import begin
 from heeltoe.app.sessions import Session
+from heeltoe.app.studies.draft import choices
 from heeltoe.case.crack.law import LAW_FIELDS
+from heeltoe.case.read import read_fields
 from heeltoe.mechanics.law_curve import curve_of
 from shared.dams import example
 
@@ -126,6 +129,12 @@ def test_every_list_begins_with_something_sound(session):
         edit(session, {path: [item(session.case, "si", path)]})
         assert not draft_of(session).errors, path
         back(session)
+
+
+def test_a_study_begins_with_a_model_that_knows_the_crack(session):
+    assert choices(session)["usual"] == "rigid"
+    start(session, read_fields(example_path("stepped-crack")))
+    assert choices(session)["usual"] == "flexible"
 
 
 def test_every_block_begins_sound(session):

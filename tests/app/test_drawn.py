@@ -7,8 +7,10 @@ import re
 
 import numpy as np
 import pytest
+import shapely
 
 from heeltoe import decoupled
+from heeltoe.app.checks import checked
 from heeltoe.app.live import answer
 from heeltoe.app.meant import in_words_of_the_page
 from heeltoe.app.open_case import models_for
@@ -52,6 +54,52 @@ def test_a_sequence_and_a_law_are_told_beside_the_numbers():
     [[label, text]] = answer(case, {}, "rigid", "us")["facts"]
     assert label == "friction law"
     assert "0.8, before 1.2, under 119 psi" in text
+
+
+def test_a_rough_crack_is_told_beside_the_numbers():
+    told = answer(example("rough-crack"), {}, "rigid", "si")
+    [[label, text]] = told["facts"]
+    assert label == "rough crack"
+    assert "the flanks wore from 11.3 to 11.2 degrees" in text
+    # The elastic dam knows no asperities: it is not what is advised.
+    [advice] = [each["text"] for each in told["warnings"] if "and the dam is elastic" in each["text"]]
+    assert "give friction in the place of crack.roughness and give concrete.modulus" in advice
+
+
+def test_two_blocks_answer_and_move_one_on_the_other():
+    case = example("two-cracks")
+    told = answer(case, {}, "rigid", "si")
+    [table] = told["tables"]
+    assert [row[0] for row in table["rows"]] == ["90 m", "0 m, see above"]
+    assert [each["name"] for each in told["curves"]["cracks"]] == ["crack at 90 m"]
+    # The lower block is what stands between the cracks.
+    upper, lower = (shapely.Polygon(each["points"]) for each in told["dam"]["blocks"])
+    assert (upper.area, lower.area) == pytest.approx((80.0, case.outline.area - 80.0))
+
+
+@pytest.mark.parametrize(
+    ("name", "changes", "said"),
+    [
+        ("stepped-crack", {}, "straight cracks alone"),
+        ("two-cracks", {"further_cracks": [{"elevation": "50 m"}, {"elevation": "90 m"}]}, "two cracks at most"),
+        ("two-cracks", {"aftershocks": [{"file": "elcentro-1940-180-nga"}]}, "the aftershocks of this case beside"),
+        ("two-cracks", {"analysis.rotation": "finite"}, "the analysis.rotation of this case beside"),
+    ],
+)
+def test_what_a_block_does_not_know_is_no_error(name, changes, said):
+    case = example(name).with_(changes)
+    absent = answer(case, {}, "rigid", "si")["absent"]
+    assert said in absent
+    assert "run the elastic dam with its button" in absent
+    assert models_for(case)["models"] == ["flexible"]
+
+
+def test_static_checks_need_no_block():
+    case = example("two-cracks").with_({"aftershocks": [{"file": "elcentro-1940-180-nga"}]})
+    assert checked(case, {}, "si")["checks"]
+    assert checked(example("stepped-crack"), {}, "si")["error"]["problem"] == (
+        "the static check knows straight cracks alone"
+    )
 
 
 def test_what_knows_one_crack_alone_says_so():

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from heeltoe.app.actions import Asked, BadRequestError, Desk, Entry
 from heeltoe.app.answer import changes_of, start
 from heeltoe.app.meant import meant
 from heeltoe.case.model import Case
+
+if TYPE_CHECKING:
+    from heeltoe.models.statics.model import Statics
 
 _MODELS = ("rigid", "decoupled", "flexible")
 
@@ -29,22 +32,33 @@ async def spread(desk: Desk, asked: Asked) -> dict[str, Any]:
     return start(desk, "spread", spread_of, session.case, changes, model, session.units)
 
 
-def checked(case: Case, changes: Mapping[str, Any], units: str) -> dict[str, Any]:
-    """Return the static checks, with the slip that the rigid block has in the earthquake."""
-    from heeltoe.app.live import refused
+def _judged(case: Case) -> Statics:
+    """Return the static checks, with the slip of the rigid block where that knows the case."""
+    from heeltoe.app.live import ABSENT
     from heeltoe.errors import InputError
     from heeltoe.models.run import earthquake, live
     from heeltoe.models.statics.after import statics_after
     from heeltoe.models.statics.model import statics as judge
+
+    if case.motion is None:
+        return judge(case)
+    try:
+        return statics_after(case, live(case, "rigid", earthquake(case)))
+    except InputError as error:
+        if error.code not in ABSENT:
+            raise
+        return judge(case)
+
+
+def checked(case: Case, changes: Mapping[str, Any], units: str) -> dict[str, Any]:
+    """Return the static checks, with the slip that the rigid block has in the earthquake."""
+    from heeltoe.app.live import refused
+    from heeltoe.errors import InputError
     from heeltoe.views.words.statics import basis, check_rows, failed, verdict_of
 
     try:
         changed = case.with_(changes) if changes else case
-        found = (
-            judge(changed)
-            if changed.motion is None
-            else statics_after(changed, live(changed, "rigid", earthquake(changed)))
-        )
+        found = _judged(changed)
     except InputError as error:
         return refused(error)
     return {

@@ -10,6 +10,7 @@ import shapely
 from heeltoe.app.thinned import thinned
 from heeltoe.case.model import Case
 from heeltoe.models.flexible.response import FlexibleResponse
+from heeltoe.models.rigid.stack.response import StackResponse
 from heeltoe.result.response import Response
 from heeltoe.views.animation.page import packed
 
@@ -27,7 +28,8 @@ def dam(case: Case, response: Response) -> dict[str, Any] | None:
 
     if not response.summary or not response.histories:
         return None
-    cracks = response.histories_of_cracks if isinstance(response, FlexibleResponse) else (response.histories,)
+    several = isinstance(response, FlexibleResponse | StackResponse)
+    cracks = response.histories_of_cracks if several else (response.histories,)
     if len(cracks) != len(case.cracks):
         return None
     kept = thinned([each[name] for each in cracks for name in _COLUMNS], _BINS)

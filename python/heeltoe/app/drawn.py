@@ -20,7 +20,7 @@ from heeltoe.views.figures.panels import pieces
 from heeltoe.views.figures.style import shaken_by
 from heeltoe.views.words import cracks as crack_words
 from heeltoe.views.words import sequence as sequence_words
-from heeltoe.views.words.law import law_line
+from heeltoe.views.words.law import law_line, roughness_line
 
 # Stretches of a history of which each has its peaks drawn: as many as a large screen has room for.
 _BINS = 400
@@ -62,8 +62,9 @@ def _numbers(response: Response, units: str) -> list[dict[str, str]]:
 
 
 def _facts(response: Response, units: str) -> list[tuple[str, str]]:
-    law = response.summary.get("friction_law")
-    return [] if law is None else [("friction law", law_line(law, units))]
+    lines = {"friction_law": ("friction law", law_line), "roughness": ("rough crack", roughness_line)}
+    found = ((label, line, response.summary.get(key)) for key, (label, line) in lines.items())
+    return [(label, line(told, units)) for label, line, told in found if told is not None]
 
 
 def _tables(response: Response, units: str) -> Iterator[tuple[str, Sequence[str], list[list[str]]]]:

@@ -15,11 +15,18 @@ from heeltoe.models.run import cost_of, earthquake, live
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.beside import meaning
 
-_STRAIGHT = "This model knows straight cracks alone: run the elastic dam with its button."
-_ONE_CRACK = (
-    "This model knows one crack alone, since what is above one of several is no single block: run the elastic dam with "
-    "its button."
+#: What blocks do not know and the elastic dam may, by the codes of errors.
+_BESIDE = (
+    "This model does not know the {field} of this case beside further cracks: run the elastic dam with its button."
 )
+ABSENT = {
+    "kinks-straight": "This model knows straight cracks alone: run the elastic dam with its button.",
+    "several-cracks": "This model knows one crack alone, since what is above one of several is no single block: run "
+    "the elastic dam with its button.",
+    "two-cracks-most": "This model knows two cracks at most: run the elastic dam with its button.",
+    "one-crack-only": _BESIDE,
+    "one-crack-value": _BESIDE,
+}
 _KEPT: Kept[Earthquake] = Kept(16)
 
 
@@ -34,8 +41,8 @@ def answer(case: Case, changes: Mapping[str, Any], model: str, units: str) -> di
             return {"absent": "The decoupled chain needs the concrete's modulus, which this case does not give."}
         found = live(changed, model, _earthquake(changed))
     except InputError as error:
-        absent = {"several-cracks": _ONE_CRACK, "kinks-straight": _STRAIGHT}
-        return {"absent": absent[error.code]} if error.code in absent else refused(error)
+        absent = ABSENT.get(error.code)
+        return refused(error) if absent is None else {"absent": absent.format(field=error.field)}
     return drawn(found, units) | {"dam": dam(changed, found), "computed_s": perf_counter() - began}
 
 

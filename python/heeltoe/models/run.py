@@ -127,14 +127,20 @@ def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
 
 def _of_several(case: Case, model: str) -> tuple[tuple[str, ...], str]:
     """Return the model that knows several cracks, and kinks; the rigid one knows two cracks where it is asked for."""
-    if model == "rigid" and case.further_cracks:
-        check_stack(case)
-        return ("rigid",), _ASKED_FOR
     if model not in (AUTO, "flexible"):
-        one_crack(case, _KNOW_ONE.get(model, "the model"))
+        _check_cracks(case, model)
+        return (model,), _ASKED_FOR
     what = "several cracks, and its parts can vibrate as they do"
     why = f"the case has {what if case.further_cracks else 'a crack with kinks, which the flexible model alone knows'}"
     return ("flexible",), _ASKED_FOR if model == "flexible" else why
+
+
+def _check_cracks(case: Case, model: str) -> None:
+    """Refuse cracks that a model other than the flexible one does not know."""
+    if model == "rigid" and case.further_cracks:
+        check_stack(case)
+    else:
+        one_crack(case, _KNOW_ONE.get(model, "the model"))
 
 
 def cost_of(case: Case, model: str = AUTO, output_step: float | None = None, spread: int = 0) -> Cost | None:
@@ -196,12 +202,9 @@ def rigid(
     given; `rotation` is that of the ground about the middle of the crack, counter-clockwise [rad/s2].
     """
     expect(case, Case, "not-a-case", "case")
-    if case.further_cracks:
-        check_stack(case)
-        if rotation is not None:
-            one_crack(case, "a ground that turns")
-    else:
-        one_crack(case, _KNOW_ONE["rigid"])
+    _check_cracks(case, "rigid")
+    if rotation is not None:
+        one_crack(case, "a ground that turns")
     return _alone(_rigid(case, earthquake(case, motion, vertical, rotation), output_step), case)
 
 
@@ -249,7 +252,7 @@ def live(case: Case, model: str, shaking: Earthquake) -> Response:
     InputError
         As :func:`run`.
     """
-    one_crack(case, _KNOW_ONE[model])
+    _check_cracks(case, model)
     return _alone(_live(case, shaking) if model == "decoupled" else _rigid(case, shaking, None), case)
 
 

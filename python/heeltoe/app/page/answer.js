@@ -130,7 +130,7 @@ export function answerPage(talk) {
       .map((model) => ({ model, stale: Boolean(answers[model].stale), answer: answers[model] }));
     plot.hidden = key.hidden = shown.length === 0;
     const further = shown.flatMap(({ answer }) => answer.curves.cracks.map((/** @type {any} */ { name }) => name));
-    const text = further.length ? `Dotted: ${further.join(", ")}` : "";
+    const text = further.length ? `Dotted: ${[...new Set(further)].join(", ")}` : "";
     if (dotted.textContent !== text) dotted.textContent = text;
     clearTimeout(resting);
     if (shown.length && size.width) {

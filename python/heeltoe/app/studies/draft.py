@@ -12,6 +12,7 @@ from heeltoe.app.bundle import sent_files
 from heeltoe.app.case.draft import case_of, fields_in_force
 from heeltoe.app.case.fields import blocks, field_of, in_unit, unit_of
 from heeltoe.app.case.typed import typed
+from heeltoe.app.open_case import models_for
 from heeltoe.case.paths import value_of
 from heeltoe.errors import InputError
 from heeltoe.motion.records.catalog import MADE_TO_ORDER, available
@@ -47,6 +48,7 @@ def choices(session: Session) -> dict[str, Any]:
         "units": session.units,
         "records": _records(session),
         "elastic": case is not None and case.concrete.modulus is not None,
+        "usual": "rigid" if case is None else models_for(case)["models"][0],
         "own": (case is not None and case.motion is not None and case.motion.told()) or "",
     }
 

@@ -192,7 +192,7 @@ export class StudyForm {
 
   /** @param {Record<string, any>} given @param {boolean} anew Whether what it does not name is emptied. */
   write(given, anew = false) {
-    const models = given.models || ["rigid"];
+    const models = given.models || [this.choices.usual];
     for (const [name, input] of Object.entries(this.inputs)) {
       const [kind, ...rest] = name.split(".");
       if (input instanceof HTMLInputElement && input.type === "checkbox") {
