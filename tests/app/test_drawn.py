@@ -63,7 +63,7 @@ def test_a_rough_crack_is_told_beside_the_numbers():
     assert "the flanks wore from 11.3 to 11.2 degrees" in text
     # The elastic dam knows no asperities: it is not what is advised.
     [advice] = [each["text"] for each in told["warnings"] if "and the dam is elastic" in each["text"]]
-    assert "give friction in the place of crack.roughness and give concrete.modulus" in advice
+    assert "run it without crack.roughness, too, and with concrete.modulus" in advice
 
 
 def test_two_blocks_answer_and_move_one_on_the_other():

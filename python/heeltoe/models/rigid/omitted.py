@@ -64,13 +64,6 @@ def omitted(case: Case, response: Response) -> tuple[Notice, ...]:
     return _swings(dam, swing, moduli), like
 
 
-def _remedy(case: Case) -> str:
-    """Say how the dam becomes an elastic one."""
-    remedy = AS_ELASTIC if case.concrete.modulus is not None else "give concrete.modulus"
-    # The elastic dam knows no asperities.
-    return remedy if case.crack.roughness is None else f"give friction in the place of crack.roughness and {remedy}"
-
-
 def friction_at_rest(case: Case, response: Response) -> float:
     """Return the friction of the crack before any slip; by a law, under its static loads."""
     law = response.summary.get("friction_law")
@@ -158,6 +151,7 @@ def _unlike(case: Case, response: Response) -> str | None:
         "the ground moves vertically, too": response.vertical is not None,
         "it has anchors": case.anchors,
         "its crack is inclined": case.crack.inclination,
+        "it has several cracks": case.further_cracks,
         "its crack is rough": case.crack.roughness is not None,
         "its uplift changes while it is shaken": case.uplift.during_shaking != "constant",
     }
