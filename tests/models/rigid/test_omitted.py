@@ -106,8 +106,9 @@ def test_of_what_was_not_studied_it_says_so(changes, why):
     assert why in str(warning)
 
 
-def test_of_anchors_and_of_a_block_that_overturns_it_says_so_too():
+def test_of_anchors_of_several_cracks_and_of_a_block_that_overturns_it_says_so_too():
     assert "it has anchors" in str(said(rigid(example("anchored")), "rigid-unlike"))
+    assert "it has several cracks" in str(said(rigid(example("two-cracks")), "rigid-unlike"))
     response = rigid(example("slender", "concrete.modulus=1 GPa"))
     assert response.outcome == "overturned"
     assert "its block ended as overturned" in str(said(response, "rigid-unlike"))
