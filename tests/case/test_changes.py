@@ -88,3 +88,32 @@ def test_what_is_no_source_of_a_case_is_refused():
             read_case(source)
         assert refused.value.code == "case-source"
     assert isinstance(read_case(str(BASE)), Case)
+
+
+TWO = read_case(EXAMPLES / "two-cracks.toml")
+
+
+def test_what_stands_in_a_list_is_changed_by_its_place():
+    changed = TWO.with_("further_cracks[0].friction=0.5", {"further_cracks[0].elevation": "80 m"})
+    assert changed == TWO.with_({"further_cracks": [{"elevation": "80 m", "friction": 0.5}]})
+    # One coefficient goes where there are two.
+    pair = changed.with_("further_cracks[0].static_friction=0.6", "further_cracks[0].kinetic_friction=0.4")
+    assert pair.further_cracks[0].friction is None
+    assert pair.with_("further_cracks[0].friction=0.5") == changed
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ("further_cracks[1].friction=1", '"further_cracks" has 1, counted from 0'),
+        ("anchors[0].prestress=1", 'there is no list "anchors"'),
+        ("crack[0].friction=1", 'there is no list "crack"'),
+        ("further_cracks[0].fric=1", 'did you mean "friction"'),
+        ("further_cracks[x].friction=1", 'did you mean "further_cracks"'),
+        ("further_cracks[0].friction.sliding=1", '"friction" has no fields'),
+    ],
+)
+def test_a_place_that_is_not_there_is_said(change, said):
+    with pytest.raises(InputError, match="no such field") as found:
+        TWO.with_(change)
+    assert said in str(found.value)

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from heeltoe import overturning_map, read_case, run, run_study
+from heeltoe import overturning_map, read_case, run
 from heeltoe.errors import InputError
 from heeltoe.models.rigid.many import rigid_many
 from heeltoe.models.statics.joints import statics_of_sections
@@ -73,16 +73,11 @@ def test_models_that_know_one_crack_refuse_several(model, who):
         run(CASE, model)
 
 
-def test_studies_and_maps_refuse_several(tmp_path):
+def test_maps_and_tables_of_blocks_refuse_several():
     with pytest.raises(InputError, match="a map of overturning knows one crack"):
         overturning_map(CASE, count=2)
     with pytest.raises(InputError, match="the rigid model knows one crack"):
         rigid_many([CASE], [])
-    study = tmp_path / "study.toml"
-    case = CASE.base_directory / "two-cracks.toml"
-    study.write_text(f'case = "{case}"\nmodel = "flexible"\n[vary]\n"crack.friction" = [1.0, 1.2]\n')
-    with pytest.raises(InputError, match="a study knows one crack"):
-        run_study(study, tmp_path / "out")
 
 
 def test_static_checks_judge_every_crack_as_a_section():

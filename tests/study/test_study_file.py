@@ -99,6 +99,11 @@ REFUSED = {
         "more components",
     ),
     "a motion that varies": (changed(GRID, FRICTION, '"motion.pga" = ["0.1 g"]'), "vary.motion.pga", "[motions]"),
+    "an aftershock that varies": (
+        changed(GRID, FRICTION, '"aftershocks[0].pga" = ["0.1 g"]'),
+        "vary.aftershocks[0].pga",
+        "[motions]",
+    ),
     "a strength below zero": (changed(GRID, '"0.3 g", ', '"-0.3 g", '), "motions.scale.values[0]", "above 0"),
     "strengths that may be below zero": (
         changed(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import re
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
@@ -47,6 +48,10 @@ _REPLACES = {
     "crack.law.name": _COEFFICIENTS,
 }
 
+# One of a list, by its place; a few digits, since no list is longer.
+_ITEM = re.compile(r"(\w+)\[(\d{1,4})\]")
+_FURTHER = re.compile(r"further_cracks\[\d{1,4}\](?=\.)")
+
 
 def apply(fields: dict[str, Any], changes: Changes) -> None:
     """Change the fields of a case, as a file has them, in place.
@@ -59,16 +64,48 @@ def apply(fields: dict[str, Any], changes: Changes) -> None:
     split = list(_split_all(changes))
     _check_pair(fields, split)
     for path, value in split:
-        for other in (*_REPLACES.get(".".join(path), ()), *_of_others(path, value)):
+        for other in (*_replaced(".".join(path)), *_of_others(path, value)):
             _remove(fields, other.split("."))
     for path, value in split:
         block = fields
         for name in path[:-1]:
-            inner = block.setdefault(name, {})
+            inner = _inner(block, name, ".".join(path))
             if not isinstance(inner, dict):
                 raise InputError("unknown-field", ".".join(path), suggestion=f'"{name}" has no fields')
             block = inner
         block[path[-1]] = value
+
+
+def _inner(block: dict[str, Any], name: str, path: str) -> Any:
+    """Return the block of this name in another, which is made where it is not there, or one of a list of them."""
+    item = _ITEM.fullmatch(name)
+    if item is None:
+        return block.setdefault(name, {})
+    found = _found(block, name)
+    if found is None:
+        items = block.get(item[1])
+        count = len(items) if isinstance(items, list) else 0
+        has = f'"{item[1]}" has {count}, counted from 0' if count else f'there is no list "{item[1]}"'
+        raise InputError("unknown-field", path, suggestion=has)
+    return found
+
+
+def _found(block: dict[str, Any], name: str) -> Any:
+    """Return what is called so in a block, ``crack``, or so in a list of it, ``further_cracks[0]``; None without it."""
+    item = _ITEM.fullmatch(name)
+    if item is None:
+        return block.get(name)
+    items, place = block.get(item[1]), int(item[2])
+    return items[place] if isinstance(items, list) and place < len(items) else None
+
+
+def _replaced(path: str) -> tuple[str, ...]:
+    """Return what goes where a field is set; a further crack has its coefficients as the first one has."""
+    further = _FURTHER.match(path)
+    if further is None:
+        return _REPLACES.get(path, ())
+    others = _REPLACES.get(f"crack{path[further.end() :]}", ())
+    return tuple(other.replace("crack", further[0], 1) for other in others)
 
 
 def _check_pair(fields: dict[str, Any], split: Sequence[tuple[list[str], Any]]) -> None:
@@ -137,6 +174,6 @@ def _value(text: str) -> Any:
 def _remove(fields: dict[str, Any], path: Sequence[str]) -> None:
     block: Any = fields
     for name in path[:-1]:
-        block = block.get(name) if isinstance(block, dict) else None
+        block = _found(block, name) if isinstance(block, dict) else None
     if isinstance(block, dict):
         block.pop(path[-1], None)

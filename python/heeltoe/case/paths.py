@@ -19,8 +19,11 @@ def quantity_of(path: str) -> str | None:
     quantity, or that is not there."""
     schema = _schema()
     place: Mapping[str, Any] = schema
-    for name in path.split("."):
+    for part in path.split("."):
+        name, listed, _ = part.partition("[")
         place = next((each["properties"][name] for each in _meant(place, schema) if name in each["properties"]), {})
+        if listed:
+            place = next((each["items"] for each in _alternatives(place) if "items" in each), {})
     return next((str(each["quantity"]) for each in _alternatives(place) if "quantity" in each), None)
 
 
@@ -39,8 +42,11 @@ def bounds_of(path: str) -> tuple[tuple[str, float], ...]:
 def value_of(case: Case, path: str) -> Any:
     """Return what stands in a field of a case, quantities in SI units; None where its block is not there."""
     place: Any = case
-    for name in path.split("."):
+    for part in path.split("."):
+        name, _, number = part.removesuffix("]").partition("[")
         place = getattr(place, name, None)
+        if number:
+            place = dict(enumerate(place)).get(int(number)) if number.isdigit() and isinstance(place, tuple) else None
     return place
 
 

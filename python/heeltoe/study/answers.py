@@ -4,7 +4,7 @@ through the runs and holds none of them."""
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from heeltoe.arrays import Floats, Integers
 from heeltoe.result.contract import HEADLINES, JOINT_METER_M
+from heeltoe.study.cracks.columns import column_of, columns_of_cracks
 from heeltoe.study.order import quantiles
 from heeltoe.study.walk import SHAKEN, Stretch, Walk
 
@@ -29,8 +30,9 @@ PEAKS = ("peak_slip_downstream_m", "peak_slip_upstream_m")
 
 
 def summary(walk: Walk) -> list[dict[str, Any]]:
-    """Return for each model how its runs ended, how many slide at all, and how the headline numbers are distributed."""
-    keys, models = [each.key for each in HEADLINES], walk.models
+    """Return for each model how its runs ended, how many slide at all, and how the headline numbers are distributed;
+    of several cracks those of each under `cracks`, from the crest down."""
+    keys, models = [*(each.key for each in HEADLINES), *columns_of_cracks(walk.cracks)], walk.models
     places = len(models)
     total = np.zeros((places, len(keys)))
     known = np.zeros((places, len(keys)), dtype=np.int64)
@@ -56,6 +58,12 @@ def summary(walk: Walk) -> list[dict[str, Any]]:
                 far = float(fine[np.abs(fine).argmax()]) if fine.size else 0.0
                 largest[place, column] = max(largest[place, column], far, key=abs)
     below = _below(walk, keys).tolist()
+
+    def distributions(place: int) -> Iterator[tuple[str, dict[str, float | None]]]:
+        for column, key in enumerate(keys):
+            count = int(known[place, column])
+            yield key, _distribution(count, total[place, column], largest[place, column], below[place][column])
+
     return [
         {
             "model": name,
@@ -64,16 +72,20 @@ def summary(walk: Walk) -> list[dict[str, Any]]:
             "share_that_slides": float(slid[place] / outcomes[place].total()),
             "slid_off": int(off[place]),
             "dominant_mode": dict(zip(MODES, (most[place] / slid[place]).tolist(), strict=True)) if slid[place] else {},
-            **{
-                key: _distribution(
-                    int(known[place, column]), total[place, column], largest[place, column], below[place][column]
-                )
-                for column, key in enumerate(keys)
-            },
+            **_by_crack(dict(distributions(place)), walk.cracks),
         }
         for place, name in enumerate(models)
         if outcomes[place]
     ]
+
+
+def _by_crack(found: Mapping[str, Any], cracks: int) -> dict[str, Any]:
+    """Return distributions by name, with those of each of several cracks in a list."""
+    names = [each.key for each in HEADLINES]
+    own = {name: found[name] for name in names}
+    if cracks == 1:
+        return own
+    return own | {"cracks": [{name: found[column_of(place, name)] for name in names} for place in range(cracks)]}
 
 
 def sliding(runs: Stretch) -> NDArray[np.bool_]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from os import PathLike
 from pathlib import Path
@@ -259,7 +260,7 @@ class Study(Shown, Fields):
             if first == second:
                 yield InputError("study-correlation", f"correlation[{place}]", shown(first))
         for path in self.vary:
-            if path.split(".")[0] == "motion":
+            if re.split(r"[.\[]", path, maxsplit=1)[0] in ("motion", "aftershocks"):
                 yield InputError("study-motion-varies", f"vary.{path}")
 
 

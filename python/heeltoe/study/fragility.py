@@ -158,12 +158,15 @@ def counted(walk: Walk, asked: Mapping[str, Any]) -> dict[tuple[str, str, float]
     limits = [(limit, _number(value)) for limit, values in asked["limits"].items() for value in values]
     found = {(model, *each): Tally() for model in walk.models for each in limits}
     measure = walk.measure(asked["measure"], asked["period"])
-    columns = sorted({name for limit, _ in limits for name in LIMITED[limit]})
-    for runs in walk("model", "outcome", "event", *SHAKEN, *columns):
+    names = sorted({name for limit, _ in limits for name in LIMITED[limit]})
+    for runs in walk(
+        "model", "outcome", "event", *SHAKEN, *names, *(each for name in names for each in walk.of_cracks(name))
+    ):
         strength, model, event = runs.strength(measure), runs.model, runs.event
-        names, code = runs.words("outcome")
-        outcome = np.array(names)[code]
-        values = {name: runs.numbers(name) for name in columns}
+        words, code = runs.words("outcome")
+        outcome = np.array(words)[code]
+        # The crack that exceeds a limit first is the one that counts.
+        values = {name: runs.largest(name, *walk.of_cracks(name)) for name in names}
         for limit, value in limits:
             exceeds = exceeding(values, outcome, limit, value)
             for place, name in enumerate(walk.models):

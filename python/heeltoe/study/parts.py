@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from time import perf_counter
@@ -27,6 +27,8 @@ from heeltoe.models.rigid.varying import by_itself
 from heeltoe.models.rigid.walk import limits_of
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.contract import HEADLINES, LARGEST_ROTATION, TOO_FAR, headlines
+from heeltoe.study.cracks.columns import OfCrack, column_of, columns_of_cracks
+from heeltoe.study.cracks.two import at_two_cracks, run_two
 from heeltoe.study.plan import Plan, Runs
 
 #: What the case of a run refuses, as water above the crest: such a run has no result and is counted as this.
@@ -48,15 +50,15 @@ NUMBERS = (
 _WITH_RESULT = ("ok", "overturned")
 
 Words = NDArray[Any]
-#: What a kernel found, outcomes and headline numbers, of some runs.
-Ran = tuple[dict[str, Floats], Words, dict[str, Floats]]
+#: What a kernel found, outcomes, headline numbers and, of several cracks, those at each, of some runs.
+Ran = tuple[dict[str, Floats], Words, OfCrack, Sequence[OfCrack]]
 
 
 class Found:
     """Results of some runs, filled model by model."""
 
-    def __init__(self, count: int) -> None:
-        self.numbers = {name: np.full(count, np.nan) for name in NUMBERS}
+    def __init__(self, count: int, cracks: int) -> None:
+        self.numbers = {name: np.full(count, np.nan) for name in (*NUMBERS, *columns_of_cracks(cracks))}
         self.impacts = np.zeros(count, dtype=np.int64)
         self.slid_off = np.zeros(count, dtype=bool)
         self.outcome = np.full(count, REFUSED, dtype=object)
@@ -70,24 +72,34 @@ class Found:
         self.seconds[what] = self.seconds.get(what, 0.0) + perf_counter() - began
 
     def put(
-        self, rows: Integers, table: Mapping[str, Floats], outcome: Words, named: Mapping[str, Floats], width: Any
+        self,
+        rows: Integers,
+        table: Mapping[str, Floats],
+        outcome: Words,
+        told: OfCrack,
+        of_cracks: Sequence[OfCrack] = (),
     ) -> None:
-        """Put what a kernel found into some rows; `named` are the headline numbers, `width` that of the crack."""
+        """Put what a kernel found into some rows: at the crack asked of, and at each of several."""
         found = {
-            **named,
+            **told.named,
             **{f"{name}_m": table[name] for name in _SLIPS},
             **{f"{name}_s": table[name] for name in _TIMES},
             "largest_impact_velocity_m_s": table["largest_impact_velocity"],
             "end_time_s": table["end_time"],
             "energy_residual": table["energy_residual"],
+            **{column_of(k, key): values for k, each in enumerate(of_cracks) for key, values in each.named.items()},
         }
         fine = np.isin(outcome, _WITH_RESULT)
         for name, values in found.items():
             self.numbers[name][rows] = np.where(fine, values, np.nan)
-        peaks = np.maximum(named["peak_slip_downstream_m"], -named["peak_slip_upstream_m"])
-        self.slid_off[rows] = (fine | (outcome == TOO_FAR)) & (peaks > width)
+        off = np.any([_largest_slip(each.named) > each.width for each in (told, *of_cracks)], axis=0)
+        self.slid_off[rows] = (fine | (outcome == TOO_FAR)) & off
         self.impacts[rows] = np.where(fine, table["impacts"], 0.0).astype(np.int64)
         self.outcome[rows] = outcome
+
+
+def _largest_slip(named: Mapping[str, Floats]) -> Floats:
+    return np.maximum(named["peak_slip_downstream_m"], -named["peak_slip_upstream_m"])
 
 
 def run_part(plan: Plan, start: int, stop: int, threads: int = 1) -> pa.Table:
@@ -107,7 +119,7 @@ def run_part(plan: Plan, start: int, stop: int, threads: int = 1) -> pa.Table:
     Table
         Its metadata say, under :data:`SECONDS`, what took how long.
     """
-    found = Found(min(stop, plan.count) - start)
+    found = Found(min(stop, plan.count) - start, 1 + len(plan.case.further_cracks))
     with found.timed("sampling"):
         runs = plan.runs(start, stop)
     for place, model in enumerate(plan.study.model):
@@ -120,6 +132,9 @@ def run_part(plan: Plan, start: int, stop: int, threads: int = 1) -> pa.Table:
 
 
 def _rigid(plan: Plan, runs: Runs, rows: Integers, found: Found, threads: int) -> None:
+    if plan.case.further_cracks:
+        _two_blocks(plan, runs, rows, found, threads)
+        return
     samples, first, of_sample = np.unique(runs.sample[rows], return_index=True, return_inverse=True)
     values = {path: column[rows][first] for path, column in runs.values.items()}
     motions, which = np.unique(runs.motion[rows], return_inverse=True)
@@ -141,8 +156,26 @@ def _rigid(plan: Plan, runs: Runs, rows: Integers, found: Found, threads: int) -
     named = with_openings(headlines(table), plan.case, width)
     outcome = np.array(OUTCOMES, dtype=object)[table["outcome"].astype(np.int64)]
     if plan.case.analysis.rotation != "finite":
-        outcome = _not_too_far(table, outcome)
-    found.put(rows, table, outcome, named, width)
+        outcome = _not_too_far([table], outcome)
+    found.put(rows, table, outcome, OfCrack(named, width))
+
+
+def _two_blocks(plan: Plan, runs: Runs, rows: Integers, found: Found, threads: int) -> None:
+    samples, first, of_sample = np.unique(runs.sample[rows], return_index=True, return_inverse=True)
+    values = {path: column[rows][first] for path, column in runs.values.items()}
+    with found.timed("blocks"):
+        dams = list(_cases(plan, values, samples.size))
+    each = [(row, dams[sample]) for row, sample in zip(rows.tolist(), of_sample.tolist(), strict=True)]
+    there = [(row, case) for row, case in each if case is not None]
+    earthquakes = [plan.earthquakes[runs.motion[row]] for row, _ in there]
+    factors = [float(runs.factor[row]) for row, _ in there]
+    with found.timed("kernel"):
+        ran = run_two([case for _, case in there], earthquakes, factors, threads)
+    done = [(row, each) for (row, _), each in zip(there, ran, strict=True) if each is not None]
+    if done:
+        told, of_cracks, table = at_two_cracks(plan.case, [each for _, each in done])
+        outcome = np.array([each.outcome for _, each in done], dtype=object)
+        found.put(np.array([row for row, _ in done]), table, outcome, told, of_cracks)
 
 
 def _blocks(
@@ -174,17 +207,19 @@ def _cases(plan: Plan, values: Mapping[str, NDArray[Any]], count: int) -> Iterat
     axes = {axis.path: axis for axis in plan.axes}
     for place in range(count):
         changes: dict[str, Any] = {}
-        for path, column in values.items():
-            changes |= axes[path].changes(column[place])
+        for path, numbers in values.items():
+            changes |= axes[path].changes(numbers[place])
         try:
             yield plan.case.with_(changes) if changes else plan.case
         except InputError:
             yield None
 
 
-def _not_too_far(table: Mapping[str, Floats], outcome: Words) -> Words:
-    """Return the outcomes where rotations are taken for small: those that are not have no result."""
-    far = np.maximum(table["rotation_max"], -table["rotation_min"]) > LARGEST_ROTATION
+def _not_too_far(tables: Sequence[Mapping[str, Floats]], outcome: Words) -> Words:
+    """Return the outcomes where rotations at each crack are taken for small: those that are not have no result."""
+    far = np.any(
+        [np.maximum(each["rotation_max"], -each["rotation_min"]) > LARGEST_ROTATION for each in tables], axis=0
+    )
     return np.where((outcome == "ok") & far, TOO_FAR, outcome)
 
 
@@ -199,10 +234,10 @@ def _elastic(plan: Plan, runs: Runs, rows: Integers, found: Found, run: Callable
         for motion in np.unique(runs.motion[mine]).tolist():
             here = mine[runs.motion[mine] == motion]
             try:
-                table, outcome, named = run(case, motion, runs.factor[here])
+                ran = run(case, motion, runs.factor[here])
             except InputError:
                 continue
-            found.put(here, table, outcome, named, case.cut.crack_width)
+            found.put(here, *ran)
 
 
 def _flexible(plan: Plan, runs: Runs, rows: Integers, found: Found, threads: int) -> None:
@@ -216,21 +251,28 @@ def _flexible(plan: Plan, runs: Runs, rows: Integers, found: Found, threads: int
             dam = build_flexible_dam(case)
         halvings = plan.pilot.halvings if plan.pilot else 0
 
-        def shake(earthquake: Earthquake, scales: Floats) -> dict[str, Floats]:
+        def shake(earthquake: Earthquake, scales: Floats) -> tuple[dict[str, Floats], ...]:
             with found.timed("kernel"):
                 shaken = ShakenDam(case, dam, earthquake.shaking)
-                return shaken.run_scaled(shaken.first_step() / 2.0**halvings, scales, threads=threads)
+                return shaken.run_scaled_cracks(shaken.first_step() / 2.0**halvings, scales, threads=threads)
 
-        table = shake(plan.earthquakes[motion], scales)
-        moves = (table["outcome"] == DAM_OUTCOMES.index("ok")) & (table["final_state"] != DAM_STATES.index("rest"))
+        tables = shake(plan.earthquakes[motion], scales)
+        restless = np.any([table["final_state"] != DAM_STATES.index("rest") for table in tables], axis=0)
+        moves = (tables[0]["outcome"] == DAM_OUTCOMES.index("ok")) & restless
         if moves.any() and case.analysis.silence:
             longer = shake(plan.earthquakes[motion].silent(case.analysis.silence), scales[moves])
-            for name, values in longer.items():
-                table[name][moves] = values
-        outcome = np.array(DAM_OUTCOMES, dtype=object)[table["outcome"].astype(np.int64)]
+            for table, again in zip(tables, longer, strict=True):
+                for name, values in again.items():
+                    table[name][moves] = values
+        outcome = np.array(DAM_OUTCOMES, dtype=object)[tables[0]["outcome"].astype(np.int64)]
         if not dam.anchors and (not dam.start.stands or instability(build_block(case)) is not None):
             outcome[:] = "unstable"
-        return table, _not_too_far(table, outcome), headlines(table)
+        told = [
+            OfCrack(headlines(table), np.full(scales.size, section.crack_width))
+            for table, section in zip(tables, dam.sections, strict=True)
+        ]
+        outcome = _not_too_far(tables, outcome)
+        return tables[dam.asked], outcome, told[dam.asked], told if len(told) > 1 else ()
 
     _elastic(plan, runs, rows, found, run)
 
@@ -254,8 +296,9 @@ def _decoupled(plan: Plan, runs: Runs, rows: Integers, found: Found, threads: in
             table = run_rows(many, [shaken], replace(limits_of(case), silence=0.0), threads)
         outcome = np.array(OUTCOMES, dtype=object)[table["outcome"].astype(np.int64)]
         if case.analysis.rotation != "finite":
-            outcome = _not_too_far(table, outcome)
-        return table, outcome, with_openings(headlines(table), case, np.full(scales.size, block.width))
+            outcome = _not_too_far([table], outcome)
+        width = np.full(scales.size, block.width)
+        return table, outcome, OfCrack(with_openings(headlines(table), case, width), width), ()
 
     _elastic(plan, runs, rows, found, run)
 

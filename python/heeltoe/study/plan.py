@@ -13,7 +13,6 @@ from typing import Any
 import numpy as np
 
 from heeltoe.arrays import Floats, Integers
-from heeltoe.case.at_crack import one_crack
 from heeltoe.case.model import Case
 from heeltoe.case.paths import value_of
 from heeltoe.case.read import read_case
@@ -24,6 +23,7 @@ from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.intensity import MEASURES, intensity, spectral_acceleration
 from heeltoe.motion.measures import measures
 from heeltoe.study.axes import Axis, axis_of, beside, check_drawn, law_of
+from heeltoe.study.cracks.columns import check_cracks
 from heeltoe.study.file import Distribution, Scale, Study
 from heeltoe.study.motions import Shake, shakes_of
 from heeltoe.study.problems import Problems
@@ -279,7 +279,7 @@ def plan_of(study: Study) -> Plan:
         Naming the first thing that cannot be, with the others.
     """
     case = read_case(study.directory / study.case)
-    one_crack(case, "a study")
+    check_cracks(case, study.model)
     if study.title == "" and case.title:
         study = study.model_copy(update={"title": case.title})
     axes, problems = list[Axis](), Problems()

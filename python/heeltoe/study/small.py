@@ -26,6 +26,7 @@ from heeltoe.result.response import Response
 from heeltoe.result.write import build_info
 from heeltoe.shown import Shown
 from heeltoe.study.axes import Axis, even
+from heeltoe.study.cracks.columns import column_of
 from heeltoe.study.file import Distribution
 from heeltoe.study.samples import Samples
 from heeltoe.units.parse import DIMENSIONS
@@ -68,6 +69,11 @@ class SmallStudy(Shown):
         return self.responses[0].title
 
     @property
+    def cracks(self) -> int:
+        """How many cracks the dams have; none are told of where all of them have one."""
+        return max(len(each.summary.get("cracks", ())) for each in self.responses)
+
+    @property
     def ok(self) -> bool:
         """Whether all runs have a result to trust."""
         return all(each.ok for each in self.responses)
@@ -81,7 +87,7 @@ class SmallStudy(Shown):
         """Return the table: the varied fields, numbers by their JSON names (None without a result), the outcome."""
         paths = [each.path for each in self.axes]
         return [
-            {**dict(zip(paths, cell, strict=True)), **_numbers(response)}
+            {**dict(zip(paths, cell, strict=True)), **_numbers(response, self.cracks)}
             for cell, response in zip(self.cells, self.responses, strict=True)
         ]
 
@@ -216,7 +222,13 @@ def _beside(block: Response) -> float | None:
     return block.residual_slip_m if block.ok else None
 
 
-def _numbers(response: Response) -> dict[str, Any]:
+def _by_crack(found: Sequence[Mapping[str, Any]], count: int) -> dict[str, Any]:
+    """Return the headline numbers of each of several cracks; None where there is no result."""
+    told = [*found, *({} for _ in range(count - len(found)))]
+    return {column_of(place, each.key): crack.get(each.key) for place, crack in enumerate(told) for each in HEADLINES}
+
+
+def _numbers(response: Response, cracks: int) -> dict[str, Any]:
     found = response.summary if response.ok else {}
     by_mode = found.get("slip_by_mode_m", {})
     slips = [each.key for each in HEADLINES if each.kind == "slip"]
@@ -225,6 +237,7 @@ def _numbers(response: Response) -> dict[str, Any]:
         **{name: found.get(name) for name in slips},
         **{f"slip_{name}_m": by_mode.get(name) for name in _MODES},
         **{name: found.get(name) for name in (*others, "impacts")},
+        **_by_crack(found.get("cracks", ()), cracks),
         "largest_tension_pa": (found.get("tension") or {}).get("stress_pa"),
         **({} if response.beside is None else {"beside_residual_slip_m": _beside(response.beside)}),
         "limits_met": all(check.met for check in response.limits) if response.limits else None,

@@ -14,6 +14,7 @@ import pyarrow.parquet as pq
 from heeltoe.arrays import Floats, Integers
 from heeltoe.errors import InputError
 from heeltoe.motion.intensity import at_factor
+from heeltoe.study.cracks.columns import column_of
 from heeltoe.study.store import Store
 
 #: Runs that are looked at together; of so many times as many all are kept once they have been read.
@@ -59,6 +60,15 @@ class Walk:
     def models(self) -> list[str]:
         """The models, in the order of their places."""
         return list(self.told["study"]["model"])
+
+    @property
+    def cracks(self) -> int:
+        """How many cracks the dams have."""
+        return 1 + len(self.told["case"].get("further_cracks", ()))
+
+    def of_cracks(self, name: str) -> list[str]:
+        """Return the columns of a headline number at each of several cracks, from the crest down; none of one crack."""
+        return [column_of(place, name) for place in range(self.cracks)] if self.cracks > 1 else []
 
     def measure(self, name: str, period: str | float | None = None) -> str:
         """Return what a measure of strength is called among those that are known of the motions.
@@ -148,6 +158,10 @@ class Stretch:
     def numbers(self, name: str) -> Floats:
         """Return a column of numbers, (n,); not a number where a run has none."""
         return np.asarray(self.table[name].to_numpy(), dtype=np.float64)
+
+    def largest(self, *names: str) -> Floats:
+        """Return the largest of some columns of numbers, (n,), without signs."""
+        return np.asarray(np.max([np.abs(self.numbers(name)) for name in names], axis=0))
 
     def whole(self, name: str) -> Integers:
         """Return a column of whole numbers, (n,)."""

@@ -57,6 +57,7 @@ OF_OTHERS: dict[str, dict[str, str]] = {
         "summary[].slid_off": "How many slide off.",
         "summary[].dominant_mode": "Which mode of motion makes most of the slip, in shares of the runs that slide.",
         "summary[].dominant_mode.*": "Share of the runs that slide in which this mode makes most of the slip.",
+        "summary[].cracks": "The same at each of several cracks, from the crest down.",
         "summary[].*": "How this headline number is distributed.",
         "summary[].*.mean": "Mean of this headline number.",
         "summary[].*.largest": "Its largest value, sign apart.",

@@ -10,7 +10,7 @@ from heeltoe.study.answers import MODES
 from heeltoe.units.write import NOTHING, scaled
 from heeltoe.views.report.content import Block, Code, Inline, Section, Strong, Table, paragraph
 from heeltoe.views.words.numbers import Amount, in_one_unit
-from heeltoe.views.words.studies import TRAITS, ends_of, left_out, limit_of, limits_of, strength_scale
+from heeltoe.views.words.studies import ABOUT_CRACKS, TRAITS, ends_of, left_out, limit_of, limits_of, strength_scale
 
 if TYPE_CHECKING:
     from heeltoe.views.report.study import StudySubject
@@ -67,7 +67,11 @@ def results(subject: StudySubject) -> Section:
         ("that slide", *(_percent(each["share_that_slides"]) for each in summary)),
         ("that slide farther than the crack is long", *(f"{each['slid_off']:,}" for each in summary)),
         *(
-            (f"{labels[key]}: {what}", *(n(f"summary.{place}.{key}.{name}", _QUANTITIES[key]) for place in places))
+            (
+                f"{of}{labels[key]}: {what}",
+                *(n(f"summary.{place}.{at}{key}.{name}", _QUANTITIES[key]) for place in places),
+            )
+            for of, at in _of_cracks(subject.found.walk.cracks)
             for key in _SHOWN
             for name, what in _SHARES
         ),
@@ -77,11 +81,12 @@ def results(subject: StudySubject) -> Section:
             if any(each["dominant_mode"].get(mode) for each in summary)
         ),
     ]
+    cracks = f"; {ABOUT_CRACKS}" if subject.found.walk.cracks > 1 else ""
     return Section(
         "Results",
         (
             Table(head, tuple(ended), "How the runs ended.", align),
-            Table(head, tuple(rows), "How the numbers are distributed; slip positive downstream.", align),
+            Table(head, tuple(rows), f"How the numbers are distributed; slip positive downstream{cracks}.", align),
             *subject.figure("bands", "slips", "modes"),
         ),
     )
@@ -92,6 +97,11 @@ _QUANTITIES = {
     "opening_upstream_m": "displacement",
     "rocking_upstream_rad": "rotation",
 }
+
+
+def _of_cracks(count: int) -> list[tuple[str, str]]:
+    """Return what stands before the labels of the numbers of each crack, and before their names in a summary."""
+    return [(f"crack {k + 1}, ", f"cracks.{k}.") for k in range(count)] if count > 1 else [("", "")]
 
 
 def _share(each: dict[str, Any], mode: str) -> str:

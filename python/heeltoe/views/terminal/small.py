@@ -17,6 +17,7 @@ from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.result.verdict import advice
+from heeltoe.study.cracks.columns import column_of
 from heeltoe.study.small import SmallStudy
 from heeltoe.units.systems import INCH
 from heeltoe.views.terminal.common import print_title
@@ -72,6 +73,8 @@ def print_small(grid: SmallStudy, console: Console, units: str = "si") -> None:
         # What the simpler model says stands beside what the better one does.
         beside = (f"residual,\n{blocks.pop()}", "beside_residual_slip_m", 1.0, _length)
         slip = (_SLIP[0], beside, *_SLIP[1:])
+    several = [_of_crack(place) for place in range(grid.cracks)]
+    slip = (slip[0], *several, *slip[1:])
     whole = slip + _ROCKING
     groups = (
         [whole]
@@ -83,10 +86,16 @@ def print_small(grid: SmallStudy, console: Console, units: str = "si") -> None:
         console.print(_table(grid, columns, units))
     footer = f"slips and openings in {_UNITS[units]}, slip positive downstream; rotations in mrad"
     console.print(footer, style="dim")
+    if several:
+        console.print(escape("cracks count from the crest down; the other columns are of [crack]"), style="dim")
     for text in _remarks(grid, units):
         console.print(f"[yellow]warning[/yellow]  {escape(text)}")
     for text in _judged(grid):
         console.print(f"\n[bold]Verdict[/bold]  {text}")
+
+
+def _of_crack(place: int) -> _Column:
+    return f"crack {place + 1},\nresidual", column_of(place, "residual_slip_m"), 1.0, _length
 
 
 def _judged(grid: SmallStudy) -> list[str]:

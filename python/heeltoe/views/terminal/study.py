@@ -12,7 +12,7 @@ from heeltoe.study.run import Outlook, Progress
 from heeltoe.views.terminal.common import print_title, print_warnings, quiet_table
 from heeltoe.views.terminal.study_answers import print_compared, print_hangs_on
 from heeltoe.views.words.numbers import Amount, Cell, in_one_unit
-from heeltoe.views.words.studies import limits_of, strength_scale
+from heeltoe.views.words.studies import ABOUT_CRACKS, limits_of, strength_scale
 
 
 def duration(seconds: float) -> str:
@@ -70,6 +70,8 @@ def print_study(found: Opened, console: Console, units: str = "si") -> None:
     for cells in in_one_unit([(said[0][0], *(cell for _, cell in said)) for said in lines], units):
         table.add_row(*cells)
     console.print(table)
+    if found.walk.cracks > 1:
+        console.print(escape(ABOUT_CRACKS), style="dim", highlight=False)
     for each in found.summary:
         others = [f"{name} {count:,}" for name, count in each["outcomes"].items() if name != "ok"]
         if others:
@@ -104,11 +106,14 @@ def _lines(each: dict[str, Any]) -> list[tuple[str, Cell]]:
         ("without a result", f"{lost:,}"),
         ("that slide", f"{each['share_that_slides']:.1%}"),
     ]
-    for name, label in (("residual_slip_m", "residual slip"), ("opening_upstream_m", "opening, upstream face")):
-        values = each[name]
-        for key, what in (("50%", "half stay below"), ("84%", "84 % stay below"), ("95%", "95 % stay below")):
-            lines.append((f"{label}: {what}", Amount(values[key], zero="0")))
-        lines.append((f"{label}: largest", Amount(values["largest"], zero="0")))
+    # Of one crack the numbers stand by themselves.
+    for crack, numbers in enumerate(each.get("cracks", [each])):
+        of = f"crack {crack + 1}, " if "cracks" in each else ""
+        for name, label in (("residual_slip_m", "residual slip"), ("opening_upstream_m", "opening, upstream face")):
+            values = numbers[name]
+            for key, what in (("50%", "half stay below"), ("84%", "84 % stay below"), ("95%", "95 % stay below")):
+                lines.append((f"{of}{label}: {what}", Amount(values[key], zero="0")))
+            lines.append((f"{of}{label}: largest", Amount(values["largest"], zero="0")))
     modes = ("sliding", "slide_rocking", "drifting")
     for name in modes:
         share = each["dominant_mode"].get(name)

@@ -21,6 +21,11 @@ TRAITS = {
     "distance_m": "distance",
 }
 
+#: Where dams have several.
+ABOUT_CRACKS = (
+    "cracks count from the crest down; what names no crack is of [crack], and a limit is exceeded where any crack does"
+)
+
 
 def limit_of(limit: str, value: float, units: str = "si", of: str = "") -> str:
     """Write a limit with its amount; `of` stands between them."""

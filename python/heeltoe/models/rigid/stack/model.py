@@ -94,7 +94,7 @@ def run_two_blocks(case: Case, earthquake: Earthquake, output_step: float | None
     moments = moments_of(earthquake, output_step)
     blocks, run = walk_two_blocks(case, earthquake.shaking, moments)
     moments = moments[: run.cracks[0].mode.size]
-    outcome = _outcome(case, run)
+    outcome = outcome_of_two(case, run)
     started = outcome != "unstable"
     told = [_at_block(block, earthquake, moments, run, place) for place, block in enumerate(blocks)] if started else []
     first, alone = blocks[asked], run.cracks[1 - asked]
@@ -155,7 +155,8 @@ def _summary(told: list[AtBlock], asked: int) -> dict[str, Any]:
     return own | {"governing_crack": slips.index(max(slips)), "cracks": of_crack}
 
 
-def _outcome(case: Case, run: StackRun) -> str:
+def outcome_of_two(case: Case, run: StackRun) -> str:
+    """Return how a run of two blocks ended: neither may turn far from the ground."""
     found = outcome_of(case, run.cracks[0])
     turned = float(np.abs(run.tilts).max())
     return TOO_FAR if found == "ok" and turned > LARGEST_ROTATION else found

@@ -1,0 +1,1 @@
+"""Several cracks in a study."""
