@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from io import StringIO
 
 import numpy as np
@@ -166,3 +167,13 @@ def test_anchors_do_not_hide_the_heel():
     assert len(drawn) == 2
     for line in drawn:
         assert not line.get_transform().transform_path(line.get_path()).intersects_bbox(box, filled=False)
+
+
+def test_an_elastic_dam_that_still_swings_is_not_said_to_rest():
+    found = flexible(example("typical-base", *FAST))
+    time = found.histories["time_s"]
+    end = float(time[-1])
+    swung = found.histories["slip_m"] + 1e-3 * np.sin(2.0 * np.pi * time)
+    still = replace(found, histories={**found.histories, "slip_m": swung}, mode=("rest",) * len(found.mode))
+    assert shown_until(still) == end
+    assert "at rest" not in response_figure(still).axes[-1].get_xlabel()

@@ -8,7 +8,7 @@ from matplotlib.axes import Axes
 
 from heeltoe.motion.measures import husid_time
 from heeltoe.result.response import Response
-from heeltoe.result.rest import motion_end
+from heeltoe.result.rest import motion_end, rests_from
 from heeltoe.views.figures.panels import pieces
 
 # Up to where the ground shakes strongly: this share of its Arias intensity has come in (as in D5-75).
@@ -60,6 +60,9 @@ def shown_until(response: Response) -> float:
     """Return up to when [s] a run is worth drawing: until the strong shaking is over and the dam is at rest."""
     end = float(response.histories["time_s"][-1])
     happens = max((stop for kind, _, stop in pieces(response) if kind != "rest"), default=0.0)
+    if response.elastic:
+        # Its crack may have closed while it still swings: a kinked one on two of its pieces.
+        happens = max(happens, min(rests_from(response), end))
     for motion in (response.motion, response.vertical):
         if motion is not None and motion.pga > 0.0:
             happens = max(happens, husid_time(motion, _SHAKEN))
