@@ -14,7 +14,8 @@ from heeltoe.errors import InputError
 from heeltoe.geometry.axes import places
 from heeltoe.models.flexible.mesh.kinks import angles
 from heeltoe.models.flexible.reduced import build_flexible_dam
-from heeltoe.models.run import flexible
+from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.models.run import earthquake, flexible
 
 GRAVITY = 9.80665
 PULSES = [["0 s", "0 g"], ["0.15 s", "-0.6 g"], ["0.4 s", "0.5 g"], ["0.65 s", "-0.5 g"], ["0.8 s", "0 g"]]
@@ -168,3 +169,52 @@ def test_other_models_refuse_kinks_by_name(model):
 def test_static_checks_refuse_kinks_by_name():
     with pytest.raises(InputError, match=r"crack\.kinks: the static check knows straight cracks alone"):
         statics(dam(kinks=STEP))
+
+
+def corners_of(case: Case) -> list[list[float]]:
+    return [list(corner) for corner in case.section.vertices()]
+
+
+def with_corners(case: Case, corners: list[list[float]], **changes: object) -> Case:
+    polygon = [[f"{x!r} m", f"{z!r} m"] for x, z in corners]
+    return case.with_({"section": {**dict.fromkeys(case.section.model_fields_set), "polygon": polygon}, **changes})
+
+
+def test_a_mirrored_dam_slides_the_other_way():
+    case = dam(kinks=STEP)
+    width = case.cut.crack_width
+    changes = {
+        "crack.kinks": [[f"{width - 34.0!r} m", "1.5 m"], [f"{width - 30.0!r} m", "0 m"]],
+        "reservoir": None,
+        "tailwater": {"depth": "105 m"},
+        "motion.reverse": True,
+    }
+    image = with_corners(case, [[-x, z] for x, z in reversed(corners_of(case))], **changes)
+    one, other = flexible(case).histories, flexible(image).histories
+    assert abs(one["slip_m"]).max() > 0.05
+    np.testing.assert_allclose(other["slip_m"], -one["slip_m"], rtol=0.0, atol=1e-9)
+    np.testing.assert_allclose(other["gap_toe_m"], one["gap_heel_m"], rtol=0.0, atol=1e-9)
+
+
+def test_a_larger_dam_on_larger_steps_slides_as_much_farther():
+    # Four times the lengths and the modulus, twice the times.
+    case = dam(kinks=STEP).with_({"flexible.time_step": "0.2 ms"})
+    changes = {
+        "crack.elevation": "80 m",
+        "crack.kinks": [["120 m", "0 m"], ["136 m", "6 m"]],
+        "reservoir.depth": "420 m",
+        "concrete.modulus": "80 GPa",
+        "motion.points": [[f"{2.0 * float(time.split()[0])} s", size] for time, size in PULSES],
+        "motion.duration": "2 s",
+        "flexible.time_step": "0.4 ms",
+    }
+    larger = with_corners(case, [[4.0 * x, 4.0 * z] for x, z in corners_of(case)], **changes)
+    assert flexible(larger).residual_slip_m == pytest.approx(4.0 * flexible(case).residual_slip_m, rel=1e-9)
+
+
+def test_a_run_has_the_same_bits_with_any_number_of_threads():
+    case = dam(kinks=STEP)
+    found = ShakenDam(case, build_flexible_dam(case), earthquake(case).shaking)
+    one, two = (found.run_scaled(2e-4, np.array([0.9, 1.0, 1.1]), threads=threads) for threads in (1, 2))
+    assert one["slip"].tobytes() == two["slip"].tobytes()
+    assert one["slip"][1] == found.run(2e-4).summary["slip"]
