@@ -204,12 +204,13 @@ def _other_cracks(response: Response, units: str) -> str:
     if not cracks:
         return ""
     told = []
-    for crack in cracks:
+    for place, crack in enumerate(cracks):
         slip, opening = crack["residual_slip_m"], max(crack["opening_upstream_m"], crack["opening_downstream_m"])
         said = "does not slip" if abs(slip) < JOINT_METER_M else f"slips {length(abs(slip), units)} {_way(slip)}"
         opens = f" and opens up to {length(opening, units)}" if opening >= JOINT_METER_M else ""
-        told.append(f"that at {_level(crack['elevation_m'], units)} {said}{opens}")
-    return f"That is said of the crack of [crack]. Of all {len(cracks)} cracks, from the crest down, {', '.join(told)}."
+        which = "that" if place else "the crack"
+        told.append(f"{which} at {_level(crack['elevation_m'], units)} {said}{opens}")
+    return f"That is said of the crack of [crack]. From the crest down, {', '.join(told)}."
 
 
 def _rocking(response: Response, units: str) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from heeltoe.units.sentences import quantity
 from heeltoe.units.write import NOTHING
-from heeltoe.views.report.content import Block, Inline, Notes, Section, Strong, Table, glued, paragraph
+from heeltoe.views.report.content import Block, Code, Inline, Notes, Section, Strong, Table, glued, paragraph
 from heeltoe.views.report.subject import Subject
 from heeltoe.views.words.numbers import Value
 
@@ -38,6 +38,8 @@ _LEVELS = {
 }
 # Tables for each have so many columns at most; there are five load cases at most.
 _SHARES = "lrrrrr"
+# Where there are several.
+_OF_ONE = (" This is the crack of [crack]; ", Code("heeltoe statics"), " judges every crack as a section.")
 
 
 def static_checks(subject: Subject) -> Section | None:
@@ -56,6 +58,7 @@ def static_checks(subject: Subject) -> Section | None:
                 if found.slip_source
                 else ()
             ),
+            *(_OF_ONE if subject.case.further_cracks else ()),
         )
     ]
     if found.warnings:

@@ -31,7 +31,8 @@ def answer(subject: StudySubject) -> list[Block]:
             (amounts,) = in_one_unit(
                 [[Amount(slip[key], zero="0") for key in ("50%", "84%", "largest")]], subject.units
             )
-            said += f"; the residual slip, positive downstream, has the median {amounts[0]}, 84 % stay below "
+            of = " of [crack]" if subject.found.walk.cracks > 1 else ""
+            said += f"; the residual slip{of}, positive downstream, has the median {amounts[0]}, 84 % stay below "
             said += f"{amounts[1]}, and the farthest run ends at {amounts[2]}"
         said = f"{said}. " + " ".join(_exceeded(subject, each["model"]))
         found.append(paragraph(Strong(f"Answer, {each['model']} model. "), said.strip()))
@@ -49,7 +50,8 @@ def _exceeded(subject: StudySubject, model: str) -> list[str]:
             continue
         middle, ends = _median(each, subject.units)
         guess = "" if each["reached"] else ", which no motion here has"
-        said.append(f"Half of the dams exceed {what} at {_article(_named(each))} of {middle}{ends}{guess}.")
+        where = " at any crack" if subject.found.walk.cracks > 1 else ""
+        said.append(f"Half of the dams exceed {what}{where} at {_article(_named(each))} of {middle}{ends}{guess}.")
     return said
 
 

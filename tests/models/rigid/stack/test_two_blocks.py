@@ -95,7 +95,7 @@ def test_both_blocks_move_and_all_that_a_response_says_agrees():
     assert list(found.others) == ["crack-1"]
     assert found.others["crack-1"].residual_slip_m == upper["residual_slip_m"]
     assert found.histories_of_cracks[1] is found.at_cracks[1].histories
-    assert "Of all 2 cracks, from the crest down, that at 60 m slips" in found.to_json()["verdict"]
+    assert "From the crest down, the crack at 60 m slips" in found.to_json()["verdict"]
 
 
 def test_below_what_moves_them_nothing_moves():
