@@ -238,6 +238,6 @@ def test_a_crack_that_swings_on_moves_a_block_that_had_come_to_rest():
         by_hand = decoupled(case.with_(ENDS, "motion.duration=20s"), padded(motion, 20.0 - motion.duration))
         assert goes_on.residual_slip_m == pytest.approx(by_hand.residual_slip_m, rel=1e-9)
         moved.append(goes_on.residual_slip_m != ends.residual_slip_m)
-        if len(moved) == 6:
+        if len(moved) == 3:
             break
     assert any(moved)
