@@ -239,7 +239,8 @@ def _subtitle(response: Response) -> str:
     peak = response.motion.pga / response.gravity
     ending = "" if response.outcome == "ok" else f"; {response.outcome}"
     shaken = ", in which the motion of the crack shakes the part above" if response.model == "decoupled" else ""
-    return f"{plain(response.motion.name)}, peak {peak:.3g} g; {response.model} model{shaken}{ending}"
+    curves = "; curves of [crack]" if response.summary.get("cracks") else ""
+    return f"{plain(response.motion.name)}, peak {peak:.3g} g; {response.model} model{shaken}{ending}{curves}"
 
 
 def _traces(response: Response, within: NDArray[np.bool_], units: Units) -> tuple[Trace, ...]:
