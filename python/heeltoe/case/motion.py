@@ -88,5 +88,5 @@ class Motion(Source):
 class Aftershock(Motion):
     """A ground motion that the dam meets after another one, as that has left it."""
 
-    pause: TimeSpan = Field(default="10 s", validate_default=True)
-    """How long the ground stands still before it, so that the dam comes to rest."""
+    pause: Annotated[TimeSpan, Field(le=100.0)] = Field(default="10 s", validate_default=True)
+    """How long the ground stands still before it, so that the dam comes to rest; longer than 100 s changes nothing."""

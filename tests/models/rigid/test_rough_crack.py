@@ -272,7 +272,8 @@ def check_random(seed):
 
 
 def test_random_blocks_on_random_asperities_end():
-    ends = [check_random(seed) for seed in range(60)]
+    # In one step of 194 numbers overflow: its error is none, and no reason to take it.
+    ends = [check_random(seed) for seed in (*range(60), 194)]
     assert ends.count("ok") > 40
     assert not {"cycling", "paradox"} & set(ends)
 

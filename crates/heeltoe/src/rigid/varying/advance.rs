@@ -118,7 +118,8 @@ impl Varying<'_> {
                 trial.length *= 0.5;
                 continue;
             }
-            if error > 1.0 && at < trial.length && at > SHORTEST * self.time_scale {
+            let fine = error <= 1.0;
+            if !fine && at < trial.length && at > SHORTEST * self.time_scale {
                 // The step to the event meets what the longer one passed over between its stages.
                 trial.length = at;
                 continue;
@@ -144,8 +145,14 @@ impl Varying<'_> {
         let mut rates = |t: f64, y: &State| self.rates(y, &piece.after(t));
         let taken = step(&trial.start, &trial.rate, trial.length, &self.scale, &mut rates);
         let better = |error: f64| 0.9 * error.powf(-1.0 / 8.0);
-        if taken.error > 1.0 && trial.length > SHORTEST * self.time_scale {
-            trial.length *= better(taken.error).clamp(0.1, 0.9);
+        let fine = taken.error <= 1.0;
+        if !fine && trial.length > SHORTEST * self.time_scale {
+            // Where numbers overflow in a step that is far too long, its error is none.
+            trial.length *= if taken.error.is_finite() {
+                better(taken.error).clamp(0.1, 0.9)
+            } else {
+                0.1
+            };
             return false;
         }
         self.suggested = trial.length * better(taken.error.max(1e-12)).clamp(0.2, 5.0);
