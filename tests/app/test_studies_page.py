@@ -101,6 +101,7 @@ def test_a_folder_of_records_is_taken(studies, tmp_path):
     assert studies.is_disabled("text=Run the study")
 
 
+@pytest.mark.slow
 def test_a_study_is_found_again_cancelled_and_gone_on_with(context, address):
     page = context.new_page()
     page.goto(f"{address}#studies")

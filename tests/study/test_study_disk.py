@@ -28,6 +28,7 @@ def small_disk(tmp_path):
     subprocess.run(["umount", str(place)], check=True)
 
 
+@pytest.mark.slow
 def test_a_disk_that_fills(tmp_path, small_disk):
     disk, grow = small_disk
     file = study_file(tmp_path, DRAWN.replace("samples = 60", "samples = 12000"))

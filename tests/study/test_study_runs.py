@@ -108,6 +108,7 @@ def test_elastic_runs_are_those_by_hand(tmp_path):
         assert run["residual_slip_m"] == pytest.approx(response.residual_slip_m, rel=1e-4, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_the_same_bits_whatever_the_parts_and_whoever_runs_them(tmp_path):
     plan = plan_of(read_study(study_file(tmp_path, SMALL.format(model='["rigid", "flexible"]'), case=elastic())))
     whole = parts.run_part(plan, 0, plan.count, threads=0).to_pylist()
