@@ -84,7 +84,8 @@ def barton_bandis() -> Iterator[Row]:
     """Barton and Choubey: angle of friction 30 + JRC log10(JCS / stress) degrees, at most 70; its slip under a pulse.
 
     The angle is that of the strength which a run under the block's own weight reports; the slip is Newmark's under a
-    pulse of 3 g for 0.1 s with its tangent.
+    pulse of 3 g for 0.1 s with its tangent. Strengths and a tangent that a public program, GMisc, prints are for
+    JRC 10, JCS 30 MPa and 26 degrees: the run has the same ratio of JCS and stress, on which alone the angle depends.
     """
     for jrc, ratio, angle in ((20, 10.0, 50.0), (10, 100.0, 50.0), (10, 10.0, 40.0), (5, 100.0, 40.0), (0, 10.0, 30.0)):
         weight = 2400.0 * 9.80665
@@ -101,6 +102,34 @@ def barton_bandis() -> Iterator[Row]:
         bound = 70.0 if ratio > 1.0 else 30.0
         what = f"JRC {jrc}, JCS {ratio:g} times the stress: angle held at [degrees]"
         yield Row(what, bound, math.degrees(math.atan(friction)), 1e-12)
+    yield from _printed_barton()
+
+
+#: What GMisc prints for JRC 10, JCS 30 MPa and 26 degrees: normal stress and strength [MPa].
+_GMISC = ((0.01, 0.018), (0.03, 0.044), (0.05, 0.068), (0.1, 0.122), (0.744, 0.671))
+#: Rounding of three digits after the point.
+_THREE = 5.1e-4
+
+
+def _printed_barton() -> Iterator[Row]:
+    def printed(what: str, reference: float, ours: float, good: float) -> Row:
+        return Row(what, reference, ours, good, relative=False, remark="good for its printed digits", kind="program")
+
+    for stress, strength in _GMISC:
+        yield printed(f"GMisc: strength at {stress:g} MPa [MPa]", strength, _gmisc_strength(stress), _THREE)
+    stress, near = 0.744, 1e-4
+    above, below = _gmisc_strength(stress + near), _gmisc_strength(stress - near)
+    slope = (above - below) / (2.0 * near)
+    yield printed(f"GMisc: tangent at {stress} MPa [degrees]", 37.4, math.degrees(math.atan(slope)), 0.051)
+    yield printed("GMisc: cohesion of the tangent [MPa]", 0.102, 0.5 * (above + below) - stress * slope, _THREE)
+
+
+def _gmisc_strength(stress: float) -> float:
+    """Return the strength at a normal stress [MPa] by the friction which a run under another stress reports."""
+    wall = 30.0 / stress * 2400.0 * 9.80665
+    law = {"name": "barton-bandis", "jrc": 10, "jcs": f"{wall!r} Pa", "residual_angle": "26 deg"}
+    reported: float = rigid(_block({"law": law}, _pulse())).summary["friction_law"]["apparent_friction_before"]
+    return stress * reported
 
 
 #: Laws that are Coulomb's with one coefficient, 0.4.

@@ -67,7 +67,8 @@ CASES: dict[str, Declared] = {
     "barton-bandis": Declared(
         friction_laws.barton_bandis,
         ("rigid",),
-        f"{REFERENCES['law: barton-bandis']}; N. M. Newmark, Géotechnique 15 (1965), 139-160",
+        f"{REFERENCES['law: barton-bandis']}; N. M. Newmark, Géotechnique 15 (1965), 139-160; M. Garnier Villarreal, "
+        "GMisc 0.3.1, the example of Barton_Choubey in its manual (github.com/maxgav13/GMisc)",
         _INTEGRATED,
         _PULSE,
     ),
