@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import subprocess
+import sys
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from problems import STEP, G, el_centro
@@ -12,6 +14,8 @@ from push_and_sine import Attempt, error, ours
 #: Steps of the engines [s]; heeltoe samples the sine as finely.
 STEPS = (1e-2, 1e-3, 1e-4)
 TOLERANCES = (1e-6, 1e-10)
+#: Steps of Siconos for two blocks, and those that stand for its limit [s].
+BLOCK_STEPS, BLOCK_LIMIT = (1e-3, 1e-4), 2.5e-5
 YIELD, PEAK = 0.1, 0.4
 
 
@@ -85,6 +89,30 @@ def siconos() -> list[Solved]:
 
     name = "theta 0.7, Lemke"
     return [_elastic(peer_siconos.sliding_block(step, name, repetitions=1).slip, name, step) for step in (0.01, 0.001)]
+
+
+def siconos_blocks() -> list[Solved]:
+    """Rock and slide two blocks, one on the other, with Siconos."""
+    import peer_siconos
+
+    # The blocks are those of the tests.
+    sys.path.append(str(Path(__file__).parents[1] / "tests"))
+    from shared.stacks import STACKS, at_samples, pulse
+
+    found = []
+    for name, (stack, size) in STACKS.items():
+        time, ground = pulse(size, rest=1.5)
+        problem = stack.problem(time, ground)
+        *coarse, limit = (
+            at_samples(time, np.arange(round(time[-1] / step) + 1) * step, peer_siconos.two_blocks(problem, step))
+            for step in (*BLOCK_STEPS, BLOCK_LIMIT)
+        )
+        # The columns of Siconos are gaps and slips of corners; ours slip, heel and toe gap of each crack.
+        mine = float(np.abs(stack.exact(time, ground) - limit[:, [4, 0, 1, 6, 2, 3]]).max())
+        for step, seen in zip(BLOCK_STEPS, coarse, strict=True):
+            wrong = float(np.abs(seen - limit).max())
+            found.append(Solved(f"both {name}, Gauss-Seidel", f"{step:g} s", 1e3 * wrong, 1e3 * mine, "mm"))
+    return found
 
 
 def _elastic(slip: tuple[float, ...], settings: str, step: float) -> Solved:

@@ -117,7 +117,7 @@ def test_a_peer_that_is_not_installed_is_said_and_keeps_its_numbers(run, tmp_pat
     def absent():
         raise ImportError("No module named 'mujoco'")
 
-    mujoco = replace(peers.PEERS[0], solve=absent)
+    mujoco = replace(peers.PEERS[0], solve={"sliding both ways": absent})
     monkeypatch.setattr(peers, "PEERS", (mujoco, *peers.PEERS[1:]))
     monkeypatch.setattr(peers, "NUMBERS", tmp_path / "peers.csv")
     monkeypatch.setattr(peers, "PAGE", tmp_path / "page.md")

@@ -68,6 +68,14 @@ class Rectangles:
         blocks, place = self.numbers()
         return run_stack(blocks, place, shaking, np.asarray(moments, dtype=float))
 
+    def exact(self, time, ground):
+        """Return slip, heel gap and toe gap of the lower and of the upper crack at the samples of the motion."""
+        found = self.run(Shaking(time, ground), time)
+        assert all(crack.outcome == "ok" and crack.summary["impacts"] for crack in found.cracks)
+        assert all(crack.summary["energy_residual"] < 1e-14 for crack in found.cracks)
+        names = ("slip", "gap_heel", "gap_toe")
+        return np.column_stack([crack.histories[name] for crack in found.cracks for name in names])
+
     def contacts(self):
         """Return masses (6,), and rows of gaps (4, 6) and of slips (4, 6) at heel and toe of the lower and of the upper
         crack; each body moves by (right, up, counter-clockwise) at its centre."""
@@ -149,7 +157,20 @@ def _solved(delassus, free, bounced, mu, active, start):
     return push
 
 
+#: Both rock; both slide, rock and strike; both rock and bounce: the blocks and the peak of the ground [m/s2].
+STACKS = {
+    "rock": (Rectangles(), 5.5),
+    "slide": (Rectangles(friction=(0.45, 0.35)), 6.5),
+    "bounce": (Rectangles(restitution=(0.2, 0.3)), 5.5),
+}
+
+
 def pulse(size=5.0, frequency=1.0, rest=2.0, interval=0.005):
     """Return one sine wave of the ground and the silence after it: times and accelerations [m/s2]."""
     time = np.arange(round((1.0 / frequency + rest) / interval) + 1) * interval
     return time, np.where(time <= 1.0 / frequency, -size * np.sin(2.0 * np.pi * frequency * time), 0.0)
+
+
+def at_samples(time, moments, seen):
+    """Return what was seen at other moments at those of the motion, straight between."""
+    return np.column_stack([np.interp(time, moments, each) for each in seen.T])
