@@ -22,12 +22,12 @@ OF_INPUT: dict[str, tuple[Severity, str, str]] = {
     "law-range": (
         "caution",
         "crack.law",
-        "{field}: the static loads press the crack with {stress_pa:.3g MPa} on average, {why}",
+        "{field}: the static loads press the crack{where} with {stress_pa:.3g MPa} on average, {why}",
     ),
     "law-range-part": (
         "caution",
         "crack.law",
-        "{field}: the static loads press {share:.2g %} of the length of the crack with {why}",
+        "{field}: the static loads press {share:.2g %} of the length of the crack{where} with {why}",
     ),
     "law-by-mean": (
         "note",

@@ -20,7 +20,7 @@ from heeltoe.views.figures.panels import pieces
 from heeltoe.views.figures.style import shaken_by
 from heeltoe.views.words import cracks as crack_words
 from heeltoe.views.words import sequence as sequence_words
-from heeltoe.views.words.law import law_line, roughness_line
+from heeltoe.views.words.law import law_lines
 
 # Stretches of a history of which each has its peaks drawn: as many as a large screen has room for.
 _BINS = 400
@@ -45,7 +45,7 @@ def drawn(response: Response, units: str) -> dict[str, Any]:
         "curves": _curves(response, units),
         "ribbon": _ribbon(response),
         "slips": _slips(response, units),
-        "facts": _facts(response, units),
+        "facts": law_lines(response, units),
         "tables": [
             {"label": label, "columns": columns, "rows": rows} for label, columns, rows in _tables(response, units)
         ],
@@ -59,12 +59,6 @@ def _numbers(response: Response, units: str) -> list[dict[str, str]]:
         text = angle(value) if each.kind == "rotation" else length(value, units)
         numbers.append({"key": each.key, "label": each.full, "text": text if abs(value) >= each.least else "0"})
     return numbers
-
-
-def _facts(response: Response, units: str) -> list[tuple[str, str]]:
-    lines = {"friction_law": ("friction law", law_line), "roughness": ("rough crack", roughness_line)}
-    found = ((label, line, response.summary.get(key)) for key, (label, line) in lines.items())
-    return [(label, line(told, units)) for label, line, told in found if told is not None]
 
 
 def _tables(response: Response, units: str) -> Iterator[tuple[str, Sequence[str], list[list[str]]]]:

@@ -145,8 +145,6 @@ def many_cracks(case: Case) -> Iterator[InputError]:
     options = case.flexible
     if case.anchors:
         yield InputError("one-crack-only", "anchors", other=other)
-    if case.crack.law is not None:
-        yield InputError("one-crack-only", "crack.law", other=other)
     if case.crack.roughness is not None:
         yield InputError("one-crack-only", "crack.roughness", other=other)
     if case.uplift.during_shaking != "constant":

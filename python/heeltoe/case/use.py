@@ -41,6 +41,9 @@ READ_BY: dict[str, frozenset[str]] = {
     "crack.kinks": frozenset({"flexible"}),
     "further_cracks": frozenset({"rigid", "flexible", "statics"}),
     **dict.fromkeys((f"crack.law.{name}" for name in ("form", "slip", "speed", "surface")), _SHAKEN),
+    **dict.fromkeys(
+        (f"further_cracks.law.{name}" for name in ("form", "slip", "speed", "surface")), frozenset({"flexible"})
+    ),
     "reservoir.virtual_mass_rotates": _BLOCKS,
     "tailwater.virtual_mass_rotates": _BLOCKS,
     "reservoir.hydrodynamic": _BLOCKS | {"statics"},
@@ -113,7 +116,7 @@ def unused_fields(case: Case, models: Sequence[str]) -> tuple[Notice, ...]:
         who = f"{' and '.join(names)} {'makes' if len(names) == 1 and 'statics' not in models else 'make'}"
         said.append(Notice("fields-unused", readers=who, fields=", ".join(foreign)))
     for why, paths in _idle(case, models).items():
-        idle = [path for path in given if _plain(path) in paths and path not in foreign]
+        idle = [path for path in given if (path in paths or _plain(path) in paths) and path not in foreign]
         if idle:
             said.append(Notice("fields-idle", field=idle[0], fields=", ".join(idle), why=why))
     return tuple(said)
@@ -151,7 +154,11 @@ def readers(path: str) -> frozenset[str]:
 def _idle(case: Case, models: Sequence[str]) -> dict[str, tuple[str, ...]]:
     """Return fields that have no effect though models like these read them, by the reason why."""
     rules = [*_idle_water(case, models), *_idle_choices(case, models)]
-    return {why: paths for holds, why, paths in rules if holds}
+    found: dict[str, tuple[str, ...]] = {}
+    for holds, why, paths in rules:
+        if holds:
+            found[why] = found.get(why, ()) + paths
+    return found
 
 
 def _idle_water(case: Case, models: Sequence[str]) -> Iterator[Rule]:
@@ -227,20 +234,24 @@ def _idle_choices(case: Case, models: Sequence[str]) -> Iterator[Rule]:
         "statics.residual_friction is given" if slid else "nothing slides in these checks",
         ("crack.kinetic_friction", "further_cracks.kinetic_friction"),
     )
-    law = case.crack.law
-    yield (
-        set(models) == {"statics"} and law is not None and law.name == "speed weakening",
-        "a crack at rest does not slip",
-        ("crack.law.residual_friction",),
-    )
-    yield (
-        set(models) == {"statics"}
-        and law is not None
-        and law.name == "slip weakening"
-        and (not slid or choice.residual_friction is not None),
-        "statics.residual_friction is given" if slid else "nothing slides in these checks",
-        ("crack.law.residual_friction",),
-    )
+    laws = {
+        "crack": case.crack.law,
+        **{f"further_cracks[{place}]": crack.law for place, crack in enumerate(case.further_cracks)},
+    }
+    for crack, law in laws.items():
+        yield (
+            set(models) == {"statics"} and law is not None and law.name == "speed weakening",
+            "a crack at rest does not slip",
+            (f"{crack}.law.residual_friction",),
+        )
+        yield (
+            set(models) == {"statics"}
+            and law is not None
+            and law.name == "slip weakening"
+            and (not slid or choice.residual_friction is not None),
+            "statics.residual_friction is given" if slid else "nothing slides in these checks",
+            (f"{crack}.law.residual_friction",),
+        )
 
 
 def _stands_upright(case: Case, *, below: bool) -> bool:

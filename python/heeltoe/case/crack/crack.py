@@ -18,6 +18,9 @@ from heeltoe.errors import InputError, shown
 
 #: Angle of friction along the mean plane of a crack [rad] that asperities and friction may have together.
 STEEPEST_STRENGTH = math.radians(85.0)
+# Fields that say what friction a crack has.
+_COEFFICIENTS = ("friction", "static_friction", "kinetic_friction")
+_FRICTION = (*_COEFFICIENTS, "law")
 
 
 class Crack(Fields):
@@ -47,13 +50,7 @@ class Crack(Fields):
     @model_validator(mode="after")
     @gathered
     def _one_friction(self) -> Iterator[InputError]:
-        if self.law is None:
-            yield from _frictions_agree(self)
-            return
-        names = ("friction", "static_friction", "kinetic_friction")
-        yield from (
-            InputError("fields-conflict", name, other="law") for name in names if getattr(self, name) is not None
-        )
+        yield from _frictions_agree(self)
 
     @model_validator(mode="after")
     @gathered
@@ -96,7 +93,12 @@ class Crack(Fields):
 
 
 def _frictions_agree(crack: Crack | FurtherCrack) -> Iterator[InputError]:
-    """Walk what is wrong with the coefficients that a crack gives: one for both, or one of each."""
+    """Walk what is wrong with the friction that a crack gives: one coefficient for both, or one of each, or a law."""
+    if crack.law is not None:
+        for name in _COEFFICIENTS:
+            if getattr(crack, name) is not None:
+                yield InputError("fields-conflict", name, other="law")
+        return
     pair = {"static_friction": crack.static_friction, "kinetic_friction": crack.kinetic_friction}
     given = {name: value for name, value in pair.items() if value is not None}
     if crack.friction is not None and given:
@@ -122,6 +124,8 @@ class FurtherCrack(Fields):
     """Coefficient of friction at rest, where it differs from that of sliding."""
     kinetic_friction: FrictionCoefficient | None = None
     """Coefficient of friction while sliding."""
+    law: Law | None = None
+    """A friction law of its own, in place of the coefficients."""
     uplift: Literal["none", "uniform", "triangular"] | None = None
     """Pattern of the uplift in it, as `uplift.pattern` has it, where it is another one."""
     uplift_intensity: Annotated[DimensionlessNumber, Field(ge=0.0, le=10.0)] | None = None
@@ -129,16 +133,18 @@ class FurtherCrack(Fields):
 
     @model_validator(mode="after")
     @gathered
-    def _frictions(self) -> Iterator[InputError]:
-        if self.friction is not None or self.static_friction is not None or self.kinetic_friction is not None:
+    def _one_friction(self) -> Iterator[InputError]:
+        if self._given():
             yield from _frictions_agree(self)
 
     def beside(self, crack: Crack) -> Crack:
         """Return it as a crack of its own."""
-        names = ("friction", "static_friction", "kinetic_friction")
-        given = {name: getattr(self, name) for name in names}
-        own = given if any(value is not None for value in given.values()) else {}
+        own = {name: getattr(self, name) for name in _FRICTION} if self._given() else {}
         return crack.model_copy(update={"elevation": self.elevation, "inclination": self.inclination, **own})
+
+    def _given(self) -> bool:
+        """Whether it has a friction of its own."""
+        return any(getattr(self, name) is not None for name in _FRICTION)
 
     def wet(self, uplift: Uplift) -> Uplift:
         """Return the uplift in it."""

@@ -26,9 +26,8 @@ def kinks_alone(case: Case) -> Iterator[InputError]:
     for name in ("further_cracks", "anchors", "aftershocks"):
         if getattr(case, name):
             yield InputError("kinks-beside", name)
-    for name in ("law", "roughness"):
-        if getattr(case.crack, name) is not None:
-            yield InputError("kinks-beside", f"crack.{name}")
+    if case.crack.roughness is not None:
+        yield InputError("kinks-beside", "crack.roughness")
     if case.uplift.during_shaking != "constant":
         yield InputError("kinks-value", "uplift.during_shaking", shown(case.uplift.during_shaking))
     if case.flexible.contact == "idce":

@@ -27,7 +27,7 @@ def self_excitation(shaken: ShakenDam, run: DamRun) -> Growth | None:
     sliding = raw["time_sliding"] + raw["time_slide_rocking"]
     if sliding <= 0.0 or len(shaken.dam.lines) > 1:
         return None
-    rate, period = growth_of(shaken.dam, sliding_friction(shaken.case, shaken.dam))
+    rate, period = growth_of(shaken.dam, sliding_friction(shaken.case, 0, shaken.dam))
     found = Growth(rate, period, sliding, None)
     if not found.matters or run.outcome != "ok":
         return found

@@ -51,7 +51,7 @@ def running(case: Case, end: float, frame_step: float, step: float | None = None
     answers = sum(2.0 * part.nodes * part.modes for part in parts)
     steps = end / (step or case.flexible.time_step or _step_of(case))
     each = steps * (_STEP * len(parts) + _ANSWERED * answers + _FETCHED * answers**1.5)
-    if case.crack.law is not None:
+    if case.crack.law is not None or any(crack.law is not None for crack in case.further_cracks):
         each *= _BY_LAW
     frame = 16.0 + sum(part.modes + 6.0 * part.nodes for part in parts)
     frames = min(steps, end / frame_step) * frame * NUMBER * _COPIES

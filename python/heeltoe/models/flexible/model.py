@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
@@ -11,7 +12,7 @@ from heeltoe.mechanics.block import Block, build_block, static_state
 from heeltoe.models.flexible.cost import check_cost
 from heeltoe.models.flexible.excitation import self_excitation
 from heeltoe.models.flexible.expected import analysing, frame_step_of
-from heeltoe.models.flexible.law.worn import check_law, law_found, law_warnings, worn_of
+from heeltoe.models.flexible.law.worn import Worn, check_law, law_found, law_warnings, worn_of
 from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
 from heeltoe.models.flexible.refinement import Answer, answer
 from heeltoe.models.flexible.response import FlexibleResponse
@@ -33,6 +34,8 @@ from heeltoe.models.silence import until_rest
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.references import cited
 from heeltoe.result.rest import LAST_S, last_change, still_since
+from heeltoe.units.sentences import Sentence
+from heeltoe.warnings import Notice
 
 _SHORTEST_FRAME_STEP = 1e-3
 
@@ -73,7 +76,8 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
     growth = None if outcome == "unstable" else self_excitation(shaken, run)
     cracks, envelope = histories_of_cracks(case, dam, run), envelope_of(dam, run)
     history = cracks[dam.asked]
-    worn = worn_of(case, dam, run)
+    worn = [worn_of(alone, place, dam, run) for place, alone in enumerate(case.cracks)]
+    own = worn[dam.asked]
     tension = None if outcome == "unstable" else tension_of(found, envelope)
     return FlexibleResponse(
         model="flexible",
@@ -83,13 +87,13 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
         warnings=(
             *warnings_of(shaken, run, cracks, found.evidences, growth, block.sliding_safety_factor, outcome),
             *tension_warnings(tension),
-            *(() if worn is None else law_warnings(worn)),
+            *_about_the_laws(case, worn),
         ),
         summary=summary_of(shaken, run, evidence)
         | {
             "self_excitation": None if growth is None else growth.to_json(),
             "tension": tension,
-            "friction_law": None if worn is None else law_found(worn, run, dam.asked),
+            "friction_law": None if own is None else law_found(own, run, dam.asked),
             "penetration_m": penetration_of(run, history),
             **several_of(found, cracks),
         },
@@ -97,7 +101,7 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
         motion=earthquake.motion,
         vertical=earthquake.vertical,
         gravity=case.gravity,
-        histories=histories_of(shaken.shaking, run, dam.asked, law=worn is not None),
+        histories=histories_of(shaken.shaking, run, dam.asked, law=own is not None),
         mode=modes_of(run, dam.asked),
         event_log={},
         static=static_state(block),
@@ -156,6 +160,13 @@ def _references(case: Case, dam: FlexibleDam) -> tuple[str, ...]:
         keys.append(case.uplift.during_shaking)
     if case.concrete.tensile_strength is not None:
         keys.append("dynamic tension")
-    if case.crack.law is not None:
-        keys.append(f"law: {case.crack.law.name}")
-    return cited(*keys)
+    keys += [f"law: {alone.crack.law.name}" for alone in case.cracks if alone.crack.law is not None]
+    return cited(*dict.fromkeys(keys))
+
+
+def _about_the_laws(case: Case, worn: Sequence[Worn | None]) -> Iterator[Notice]:
+    """Say of each crack with a law where that is used beyond what it was made for."""
+    for alone, each in zip(case.cracks, worn, strict=True):
+        if each is not None:
+            where = Sentence.of(" at {at_m:g m}", at_m=alone.crack.elevation) if case.further_cracks else ""
+            yield from law_warnings(each, where)

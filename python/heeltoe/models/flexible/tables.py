@@ -12,6 +12,7 @@ from heeltoe.kernel.dam import DAM_STATES, DamRun
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.flexible.evidence import Evidence
 from heeltoe.models.flexible.history import CrackHistory, watched_nodes
+from heeltoe.models.flexible.law.worn import law_found, sliding_friction, worn_of
 from heeltoe.models.flexible.reduced import FlexibleDam, apart
 from heeltoe.models.flexible.refinement import Answer
 from heeltoe.models.flexible.response import AtCrack
@@ -198,7 +199,7 @@ def at_cracks(found: Answer, cracks: tuple[CrackHistory, ...]) -> tuple[AtCrack,
             AtCrack(
                 elevation=section.heel[1] - section.base_elevation,
                 summary=_summary(found, history, evidence),
-                histories=histories_of(shaken.shaking, run, place),
+                histories=histories_of(shaken.shaking, run, place, law=shaken.case.cracks[place].crack.law is not None),
                 mode=modes_of(run, place),
                 crack=history,
             )
@@ -208,10 +209,12 @@ def at_cracks(found: Answer, cracks: tuple[CrackHistory, ...]) -> tuple[AtCrack,
 
 def _summary(found: Answer, history: CrackHistory, evidence: Evidence | None) -> dict[str, Any]:
     dam, run, place = found.shaken.dam, found.run, history.place
-    raw = run.summaries[place]
+    raw, alone = run.summaries[place], found.shaken.case.cracks[place]
+    worn = worn_of(alone, place, dam, run)
     return {
         **crack_summary(dam, run, place, evidence),
-        "friction": dam.lines[place].friction[1],
+        "friction": sliding_friction(alone, place, dam),
+        **({} if worn is None else {"friction_law": law_found(worn, run, place)}),
         "crack_energy": {"friction_j": raw["crack_friction"], "impact_j": raw["crack_impact"]},
         "before_shaking": start_of(dam, place),
         "penetration_m": penetration_of(run, history),

@@ -48,7 +48,7 @@ def law_warnings(case: Case, block: Block) -> list[Notice]:
         return []
     stress = block.normal_force / block.width
     why = range_of(law, stress)
-    said = [] if why is None else [Notice("law-range", stress_pa=stress, why=why)]
+    said = [] if why is None else [Notice("law-range", stress_pa=stress, why=why, where="")]
     if law.name in ("barton-bandis", "lift joint"):
         said.append(Notice("law-by-mean", law=law.name))
     return said

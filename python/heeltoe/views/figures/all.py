@@ -119,10 +119,7 @@ def all_figures(case: Case | None, result: Response, units: str = "si") -> Figur
         from heeltoe.views.figures.section import section_figure
 
         drawings["section"] = lambda: section_figure(case, units)
-        if case.crack.law is not None:
-            from heeltoe.mechanics.law_curve import curve_of
-
-            drawings["law"] = lambda: law_figure(curve_of(case), units)
+        drawings |= _laws(case, units)
     beside = result.beside
     if beside is not None and has_pictures(result) and has_pictures(beside):
         from heeltoe.views.figures.beside import comparison_figure
@@ -135,6 +132,19 @@ def all_figures(case: Case | None, result: Response, units: str = "si") -> Figur
     if beside is not None:
         drawings |= {f"{beside.model}/{name}": draw for name, draw in _drawings(beside, units).items()}
     return Figures(drawings)
+
+
+def _laws(case: Case, units: str) -> dict[str, Callable[[], Figure]]:
+    """Return what draws the friction law of each crack that has one."""
+    from heeltoe.mechanics.law_curve import curve_of
+
+    found: dict[str, Callable[[], Figure]] = {}
+    if case.crack.law is not None:
+        found["law"] = lambda: law_figure(curve_of(case.cracks[case.asked]), units)
+    for place, alone in enumerate(case.cracks):
+        if place != case.asked and alone.crack.law is not None:
+            found[f"crack-{place + 1}/law"] = lambda alone=alone: law_figure(curve_of(alone), units)  # type: ignore[misc]
+    return found
 
 
 def has_pictures(response: Response) -> bool:

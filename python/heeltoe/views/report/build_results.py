@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
+from heeltoe.result.response import Response
 from heeltoe.units.sentences import written
 from heeltoe.views.report.content import Block, Inline, Section, Table, paragraph
 from heeltoe.views.report.subject import Subject
@@ -218,25 +222,37 @@ def _rough(subject: Subject) -> list[Block]:
 
 def _law(subject: Subject) -> list[Block]:
     """Return what a friction law is, looks like, and has come to, or a rough crack."""
-    law = subject.case.crack.law
-    if law is None:
+    alone = [each for each in subject.case.cracks if each.crack.law is not None]
+    if not alone:
         return _rough(subject)
-    blocks: list[Block] = [
-        paragraph(f"The friction of the crack goes by the law {law.name}; its figure shows what is borne.")
-    ]
+    several = bool(subject.case.further_cracks)
+    blocks: list[Block] = []
+    for each in alone:
+        at = written(" at {at_m:g m}", subject.units, at_m=each.crack.elevation) if several else ""
+        assert each.crack.law is not None
+        said = f"The friction of the crack{at} goes by the law {each.crack.law.name}; its figure shows what is borne."
+        blocks.append(paragraph(said))
     blocks += subject.figure("law")
     for run in subject.runs:
-        found = run.response.summary.get("friction_law")
-        if found is not None:
-            whose = "" if len(subject.runs) == 1 else f", {run.name}"
-            blocks.append(paragraph(f"What it has come to{whose}: {law_line(found, subject.units)}."))
+        whose = "" if len(subject.runs) == 1 else f", {run.name}"
+        for prefix, found in _laws_of(run.response):
+            at = written(" at {at_m:g m}", subject.units, at_m=found["elevation_m"]) if "elevation_m" in found else ""
+            law = found["friction_law"]
+            blocks.append(paragraph(f"What it has come to{at}{whose}: {law_line(law, subject.units)}."))
             rows = tuple(
-                (label, subject.numbers(f"{run.prefix}friction_law.{key}", quantity))
+                (label, subject.numbers(f"{run.prefix}{prefix}friction_law.{key}", quantity))
                 for label, key, quantity in _LAW
-                if key.split(".")[0] in found
+                if key.split(".")[0] in law
             )
-            blocks.append(Table(("", "value"), rows, f"The friction law{whose}.", "lr"))
+            blocks.append(Table(("", "value"), rows, f"The friction law{at}{whose}.", "lr"))
     return blocks
+
+
+def _laws_of(response: Response) -> list[tuple[str, Mapping[str, Any]]]:
+    """Return what says what laws have come to, of each of several cracks or of the only one, and where that stands."""
+    each: list[tuple[str, Mapping[str, Any]]]
+    each = [(f"cracks.{place}.", crack) for place, crack in enumerate(response.cracks)] or [("", response.summary)]
+    return [(prefix, found) for prefix, found in each if found.get("friction_law") is not None]
 
 
 def _sequence(subject: Subject) -> list[Block]:

@@ -26,7 +26,7 @@ from heeltoe.views.terminal.decoupled import crack_lines
 from heeltoe.views.terminal.elastic import elastic_lines
 from heeltoe.views.terminal.sequence import print_sequence
 from heeltoe.views.words import cracks
-from heeltoe.views.words.law import law_line, roughness_line
+from heeltoe.views.words.law import law_lines
 from heeltoe.views.words.motion import sampling
 from heeltoe.views.words.numbers import Amount, in_one_unit
 from heeltoe.views.words.sequence import part_lines
@@ -62,7 +62,7 @@ def print_head(response: Response, model: str, console: Console, units: str) -> 
     for label, motion in (("motion", response.motion), ("vertical motion", response.vertical)):
         if motion is not None:
             grid.add_row(label, escape(_motion_line(motion, response.gravity, units)))
-    for label, text in [*_static_lines(response), *_law_lines(response, units), *_basis_lines(response, units)]:
+    for label, text in [*_static_lines(response), *law_lines(response, units), *_basis_lines(response, units)]:
         grid.add_row(label, text)
     console.print(grid)
     console.print()
@@ -111,13 +111,6 @@ def _static_lines(response: Response) -> list[tuple[str, str]]:
             ranges = ", ".join(f"{each.varied} {each.way}" for each in both)
             lines.append(("  with vertical motion", ranges))
     return lines
-
-
-def _law_lines(response: Response, units: str) -> list[tuple[str, str]]:
-    """Return what a friction law or a rough crack has come to."""
-    law, rough = (response.summary.get(name) for name in ("friction_law", "roughness"))
-    lines = [] if law is None else [("friction law", law_line(law, units))]
-    return lines if rough is None else [*lines, ("rough crack", roughness_line(rough, units))]
 
 
 def _basis_lines(response: Response, units: str) -> list[tuple[str, str]]:

@@ -6,7 +6,24 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from heeltoe.result.response import Response
 from heeltoe.units.sentences import written
+
+
+def law_lines(response: Response, units: str) -> list[tuple[str, str]]:
+    """Return what friction laws and a rough crack have come to: labels, which tell several cracks apart, and words."""
+    cracks = [crack for crack in response.cracks if crack.get("friction_law") is not None]
+    own, rough = (response.summary.get(name) for name in ("friction_law", "roughness"))
+    lines = [
+        (
+            written("friction law at {at_m:g m}", units, at_m=crack["elevation_m"]),
+            law_line(crack["friction_law"], units),
+        )
+        for crack in cracks
+    ]
+    if not cracks and own is not None:
+        lines = [("friction law", law_line(own, units))]
+    return lines if rough is None else [*lines, ("rough crack", roughness_line(rough, units))]
 
 
 def roughness_line(found: Mapping[str, Any], units: str) -> str:

@@ -85,8 +85,8 @@ pub(super) struct Factors {
     of: Vec<Status>,
     /// Component of each unknown.
     unknowns: Vec<usize>,
-    /// Contacts that slip, and what times the normal impulse is their friction.
-    slips: Vec<(usize, f64)>,
+    /// Contacts that slip. Their friction goes by the problem, whose coefficients a law changes.
+    slips: Vec<usize>,
     lu: Vec<f64>,
     pivots: Vec<usize>,
     x: Vec<f64>,
@@ -164,10 +164,11 @@ impl Factors {
             p[k] += value;
         }
         let m = problem.h.len();
-        for &(contact, factor) in &self.slips {
-            p[contact] = factor * p[m + contact];
+        for &contact in &self.slips {
+            let sign = self.of[contact].sign();
+            p[contact] = -sign * problem.mu_slip[contact] * p[m + contact];
             if !problem.added.is_empty() {
-                p[contact] -= self.of[contact].sign() * problem.added(contact, true);
+                p[contact] -= sign * problem.added(contact, true);
             }
         }
     }
@@ -179,7 +180,7 @@ impl Factors {
             return;
         }
         let size = problem.b.len();
-        for &(contact, _) in &self.slips {
+        for &contact in &self.slips {
             let added = self.of[contact].sign() * problem.added(contact, true);
             let felt = &problem.g[contact * size..][..size];
             for (x, &k) in self.x.iter_mut().zip(&self.unknowns) {
@@ -265,8 +266,7 @@ impl Factors {
                 self.unknowns.push(contact);
             }
             if status.slips() {
-                self.slips
-                    .push((contact, -status.sign() * problem.mu_slip[contact]));
+                self.slips.push(contact);
             }
         }
         let closed = status.iter().enumerate().filter(|(_, status)| status.closed());
@@ -276,9 +276,10 @@ impl Factors {
         for &k in &self.unknowns {
             let column = &problem.g[k * size..][..size];
             let rows = self.unknowns.iter();
-            match slips.next_if(|(contact, _)| k == m + contact) {
+            match slips.next_if(|contact| k == m + **contact) {
                 None => self.lu.extend(rows.map(|&row| column[row])),
-                Some(&(contact, mu)) => {
+                Some(&contact) => {
+                    let mu = -status[contact].sign() * problem.mu_slip[contact];
                     let friction = &problem.g[contact * size..][..size];
                     self.lu
                         .extend(rows.map(|&row| fma::<W>(mu, friction[row], column[row])));

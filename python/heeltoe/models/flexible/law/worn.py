@@ -16,6 +16,7 @@ from heeltoe.kernel.dam import DamRun
 from heeltoe.kernel.friction import shear_stress
 from heeltoe.mechanics.friction import friction_of, law_of, range_of
 from heeltoe.models.flexible.reduced import FlexibleDam
+from heeltoe.units.sentences import Sentence
 from heeltoe.warnings import Notice
 
 #: A smaller part of a crack beyond the range of its law is not told.
@@ -36,10 +37,11 @@ def check_law(case: Case) -> None:
         raise InputError("law-penalty", "crack.law", f'"{case.crack.law.name}"')
 
 
-def sliding_friction(case: Case, dam: FlexibleDam) -> float:
-    """Return the coefficient with which the crack slips; by a law, what all slip leaves under the static loads."""
-    force = float(dam.crack_forces[dam.asked][1].sum())
-    return friction_of(case.crack, force, dam.section.crack_width)[1]
+def sliding_friction(alone: Case, place: int, dam: FlexibleDam) -> float:
+    """Return the coefficient with which a crack slips, of the case with it `alone`; by a law, what all slip leaves
+    under the static loads."""
+    force = float(dam.crack_forces[place][1].sum())
+    return friction_of(alone.crack, force, dam.sections[place].crack_width)[1]
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,19 +92,20 @@ class Worn:
         return whole, [float(each.min()), float(each.max())] if each.size else [whole, whole]
 
 
-def worn_of(case: Case, dam: FlexibleDam, run: DamRun) -> Worn | None:
-    """Return what the contacts of the crack have been through; None of constant coefficients."""
-    if case.crack.law is None:
+def worn_of(alone: Case, place: int, dam: FlexibleDam, run: DamRun) -> Worn | None:
+    """Return what the contacts of a crack have been through, of the case with it `alone`; None of constant
+    coefficients."""
+    if alone.crack.law is None:
         return None
     column = run.worked
-    # Ends that come in place of others are no more of the crack.
-    own = (column["crack"] == dam.asked) & (column["double"] == 0.0)
+    # Ends and corners that come in place of others are no more of the crack.
+    own = (column["crack"] == place) & (column["double"] == 0.0)
     length, force = column["length"][own], column["normal_force_before"][own]
     if not dam.start.stands:
         # There are no forces of a state in which nothing moves.
-        force = length * max(float(dam.crack_forces[dam.asked][1].sum()), 0.0) / length.sum()
+        force = length * max(float(dam.crack_forces[place][1].sum()), 0.0) / length.sum()
     names = ("path", "path_before", "bonded", "bonded_before")
-    return Worn(case.crack.law, length, np.maximum(force, 0.0) / length, *(column[name][own] for name in names))
+    return Worn(alone.crack.law, length, np.maximum(force, 0.0) / length, *(column[name][own] for name in names))
 
 
 def law_found(worn: Worn, run: DamRun, place: int) -> dict[str, Any]:
@@ -129,16 +132,18 @@ def law_found(worn: Worn, run: DamRun, place: int) -> dict[str, Any]:
     }
 
 
-def law_warnings(worn: Worn) -> list[Notice]:
+def law_warnings(worn: Worn, where: Sentence | str = "") -> list[Notice]:
     """Say where a friction law is used beyond what it was made for: under the mean of the static loads, or at more than
-    a twentieth of the crack."""
+    a twentieth of the crack; `where` tells it from other cracks."""
     mean = worn.mean(worn.stress)
     why = range_of(worn.law, mean)
     if why is not None:
-        return [Notice("law-range", stress_pa=mean, why=why)]
+        return [Notice("law-range", stress_pa=mean, why=why, where=where)]
     outside: dict[str, float] = {}
     for stress, length in zip(worn.stress[worn.pressed], worn.length[worn.pressed], strict=True):
         why = range_of(worn.law, float(stress))
         if why is not None:
             outside[why] = outside.get(why, 0.0) + float(length) / float(worn.length.sum())
-    return [Notice("law-range-part", share=share, why=why) for why, share in outside.items() if share > _PART]
+    return [
+        Notice("law-range-part", share=share, why=why, where=where) for why, share in outside.items() if share > _PART
+    ]
