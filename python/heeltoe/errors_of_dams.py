@@ -115,6 +115,10 @@ OF_DAMS: dict[str, tuple[str, str]] = {
     "rough-other": ("{value} does not go with crack.roughness", "choose another, or leave out crack.roughness"),
     "rough-model": ("is not known to {model}", "use the rigid model or the decoupled chain"),
     "law-unknown": ("{value} is no friction law", "give one of {names}, or a case, CASE.toml{near}"),
+    "law-stack": (
+        "{value} does not go with two rigid blocks",
+        "give coefficients of friction, or run the flexible model",
+    ),
     "law-twice": ("cannot stand beside the cohesion of crack.law", "keep one of them"),
     "uplift-option-foreign": (
         'does not belong to the pattern "{pattern}"',

@@ -136,10 +136,6 @@ def test_the_ledger_closes_and_a_step_holds_back():
         ({"crack.kinks": [["90 m", "1 m"]]}, "crack.kinks: 90 m is beyond the toe"),
         ({"crack.kinks": [["30 m", "0 m"], ["31 m", "5 m"]]}, "crack.kinks: the crack runs at 78.7 deg"),
         ({"crack.elevation": "0 m"}, "crack.kinks: there is nothing of the dam below the crack"),
-        (
-            {"crack.law": {"name": "cohesion", "cohesion": "0.1 MPa", "residual_friction": 0.8}},
-            "crack.law: does not go",
-        ),
         ({"crack.roughness": {"asperity_height": "5 cm", "wave_length": "1 m"}}, "crack.roughness: does not go with"),
         ({"anchors": [{"distance": "5 m", "prestress": "1 MN/m"}]}, "anchors: does not go with crack.kinks"),
         ({"further_cracks": [{"elevation": "60 m"}]}, "further_cracks: does not go with crack.kinks"),
@@ -149,7 +145,6 @@ def test_the_ledger_closes_and_a_step_holds_back():
     ],
 )
 def test_what_is_wrong_is_refused_by_name(changes, said):
-    changes = {name: None for name in ("crack.friction",) if "crack.law" in changes} | changes
     with pytest.raises(InputError, match=re.escape(said)):
         dam(kinks=STEP).with_(changes)
 

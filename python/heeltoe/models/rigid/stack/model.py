@@ -47,8 +47,11 @@ def _unfit(case: Case) -> Iterator[InputError]:
     for name in ("anchors", "aftershocks"):
         if getattr(case, name):
             yield InputError("one-crack-only", name, other=other)
-    if any(each.crack.law is not None for each in case.cracks):
+    if case.crack.law is not None:
         yield InputError("one-crack-only", "crack.law", other=other)
+    for place, crack in enumerate(case.further_cracks):
+        if crack.law is not None:
+            yield InputError("law-stack", f"further_cracks[{place}].law", shown(crack.law.name))
     if case.uplift.during_shaking != "constant":
         yield InputError("one-crack-value", "uplift.during_shaking", shown(case.uplift.during_shaking), other=other)
     if case.analysis.rotation != "small":
