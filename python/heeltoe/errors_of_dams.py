@@ -6,6 +6,10 @@ from __future__ import annotations
 OF_DAMS: dict[str, tuple[str, str]] = {
     "anchor-outside": ("{value} is beyond the toe: the crack is {width} wide", "give a distance from 0 m to {width}"),
     "anchor-form": ("is required and not there", "give distance, or head_x, head_elevation, foot_x and foot_elevation"),
+    "anchor-ends": (
+        "is a place on one crack, and there are further_cracks, which the anchor may cross as well",
+        "give head_x, head_elevation, foot_x and foot_elevation",
+    ),
     "anchor-flat": (
         "the line from its head to its foot is {value} off the normal of the crack",
         "let it cross the crack more steeply, up to {most}",

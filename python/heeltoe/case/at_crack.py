@@ -143,8 +143,12 @@ def many_cracks(case: Case) -> Iterator[InputError]:
         return
     other = "further_cracks"
     options = case.flexible
-    if case.anchors:
-        yield InputError("one-crack-only", "anchors", other=other)
+    for place, anchor in enumerate(case.anchors):
+        if anchor.distance is not None:
+            yield InputError("anchor-ends", f"anchors[{place}].distance")
+        for name in ("axial_stiffness", "shear_stiffness"):
+            if getattr(anchor, name):
+                yield InputError("one-crack-only", f"anchors[{place}].{name}", other=other)
     if case.crack.roughness is not None:
         yield InputError("one-crack-only", "crack.roughness", other=other)
     if case.uplift.during_shaking != "constant":

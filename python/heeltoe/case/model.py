@@ -353,8 +353,9 @@ def misfits(case: Case) -> Iterator[tuple[bool, Callable[[], InputError]]]:
         if anchor.distance is not None:
             far = partial(_beyond_toe, f"anchors[{place}].distance", anchor.distance, section.crack_width)
             yield anchor.distance > section.crack_width * (1.0 + ON_LINE), far
-        else:
-            yield too_flat(anchor, section), partial(flat, place, anchor, section)
+            continue
+        for each in case.cracks if case.further_cracks else (case,):
+            yield too_flat(anchor, each.cut), partial(flat, place, anchor, each.cut)
 
 
 def _outside(field: str, elevation: float, height: float) -> InputError:

@@ -88,8 +88,8 @@ def _about_the_anchors(case: Case) -> Iterator[Notice]:
     }
     for place, anchor in enumerate(case.anchors):
         field, number = f"anchors[{place}]", place + 1
-        found = crosses(anchor, section)
-        if found is not None and not found.there:
+        found = [crosses(anchor, each.cut) for each in case.cracks]
+        if all(each is not None and not each.there for each in found):
             yield Notice("anchor-misses", field=field, number=number)
             continue
         head, _ = anchor_line(anchor, section, 0.0)

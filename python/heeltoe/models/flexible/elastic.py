@@ -233,7 +233,8 @@ def _body(case: Case, mesh: BodyMesh, place: int) -> Body:
     if case.silt:
         loads["silt"] = silt_forces(mesh, case)
     if case.anchors:
-        loads["anchors"] = anchor_forces(mesh, case, above=above)
+        pulls = [anchor_forces(face, alone, above=up) for face, alone, up in _at_cracks(case, mesh, place)]
+        loads["anchors"] = np.sum(pulls, axis=0)
     following = np.zeros(mesh.nodes.size)
     for name, side in (("reservoir", case.reservoir), ("tailwater", case.tailwater), ("nappe", case.reservoir)):
         if name in loads and side is not None and side.follows_vertical_motion:

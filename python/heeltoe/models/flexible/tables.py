@@ -218,6 +218,7 @@ def _summary(found: Answer, history: CrackHistory, evidence: Evidence | None) ->
         "crack_energy": {"friction_j": raw["crack_friction"], "impact_j": raw["crack_impact"]},
         "before_shaking": start_of(dam, place),
         "penetration_m": penetration_of(run, history),
+        **({"anchors": anchors_of(alone, run)} if alone.anchors else {}),
         "evidence": None if evidence is None else evidence.to_json(),
     }
 

@@ -44,9 +44,8 @@ def check_stack(case: Case) -> None:
 
 def _unfit(case: Case) -> Iterator[InputError]:
     other = "further_cracks"
-    for name in ("anchors", "aftershocks"):
-        if getattr(case, name):
-            yield InputError("one-crack-only", name, other=other)
+    if case.aftershocks:
+        yield InputError("one-crack-only", "aftershocks", other=other)
     if case.crack.law is not None:
         yield InputError("one-crack-only", "crack.law", other=other)
     for place, crack in enumerate(case.further_cracks):
