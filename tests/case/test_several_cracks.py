@@ -39,11 +39,7 @@ def test_cracks_stand_from_the_crest_down_and_inherit_friction_and_uplift():
         ({"further_cracks": [{"elevation": "0 m"}]}, "further_cracks[0].elevation: the crack at 0 m meets or crosses"),
         ({"further_cracks": [{"elevation": "120 m"}]}, "further_cracks[0].elevation: at 120 m"),
         ({"further_cracks": [{"elevation": "90 m", "static_friction": 1.0}]}, "kinetic_friction: is required"),
-        ({"anchors": [{"distance": "5 m", "prestress": "1 MN/m"}]}, "anchors: does not go with further_cracks"),
-        (
-            {"crack.law": {"name": "cohesion", "cohesion": "0.1 MPa", "residual_friction": 0.8}},
-            "crack.law: does not go with further_cracks",
-        ),
+        ({"anchors": [{"distance": "5 m", "prestress": "1 MN/m"}]}, "anchors[0].distance: is a place on one crack"),
         ({"uplift.during_shaking": "zero while open"}, 'uplift.during_shaking: "zero while open" does not go with'),
         ({"flexible.damping": "thesis"}, 'flexible.damping: "thesis" does not go with further_cracks'),
         ({"flexible.virtual_mass": "thesis"}, 'flexible.virtual_mass: "thesis" does not go with further_cracks'),

@@ -72,7 +72,10 @@ def test_static_checks_of_each_section_know_the_anchor():
     [
         ({"distance": "5 m", "prestress": "1 MN/m"}, "anchors[0].distance: is a place on one crack"),
         (THROUGH | {"axial_stiffness": "10 MN/m/m"}, "anchors[0].axial_stiffness: does not go with further_cracks"),
-        (THROUGH | {"head_elevation": "90.5 m", "foot_elevation": "89.5 m"}, "anchors[0].foot_x: the line from its head"),
+        (
+            THROUGH | {"head_elevation": "90.5 m", "foot_elevation": "89.5 m"},
+            "anchors[0].foot_x: the line from its head",
+        ),
     ],
 )
 def test_what_cannot_be_used_is_refused_by_name(anchor, said):

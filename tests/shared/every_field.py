@@ -171,7 +171,7 @@ HELPED: dict[str, tuple[Fields, Any]] = {
     "statics.tensile_strength": ({"statics.bonded": 1.0, "statics.tensile_strength": "0.01 MPa"}, "0.05 MPa"),
 }
 JOINT = {"elevation": "10 m", "friction": 0.65, "bonded": 0.4, "cohesion": "0.4 MPa", "tensile_strength": "0.01 MPa"}
-# A joint that the usual loads would open.
+
 # A second crack above that of the base, with what knows one crack alone left out.
 SECOND = {"elevation": "18 m", "static_friction": 0.7, "kinetic_friction": 0.6}
 SECOND |= {"uplift": "triangular", "uplift_intensity": 0.5}
@@ -193,8 +193,19 @@ HELPED |= {
         0.5,
     ),
 }
+HELPED |= {
+    f"further_cracks[0].{path.removeprefix('crack.')}": (
+        SEVERAL | {"further_cracks": [{"elevation": "18 m", "law": changes["crack.law"], "uplift": "triangular"}]},
+        value,
+    )
+    for path, (changes, value) in HELPED.items()
+    if path.startswith("crack.law.")
+}
+HELPED["further_cracks[0].kinks"] = (
+    SEVERAL | {"flexible.elements_across_below": GONE},
+    [["5 m", "0.5 m"]],
+)
 _STRAIGHT_ALONE = (
-    "anchors",
     "aftershocks",
     "uplift.during_shaking",
     "uplift.opening",

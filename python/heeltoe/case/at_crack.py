@@ -9,6 +9,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
+import shapely
 
 from heeltoe.arrays import number
 from heeltoe.case.crack.kinks import straight_crack
@@ -143,12 +144,7 @@ def many_cracks(case: Case) -> Iterator[InputError]:
         return
     other = "further_cracks"
     options = case.flexible
-    for place, anchor in enumerate(case.anchors):
-        if anchor.distance is not None:
-            yield InputError("anchor-ends", f"anchors[{place}].distance")
-        for name in ("axial_stiffness", "shear_stiffness"):
-            if getattr(anchor, name):
-                yield InputError("one-crack-only", f"anchors[{place}].{name}", other=other)
+    yield from anchors_through_several(case)
     if case.crack.roughness is not None:
         yield InputError("one-crack-only", "crack.roughness", other=other)
     if case.uplift.during_shaking != "constant":
@@ -162,6 +158,16 @@ def many_cracks(case: Case) -> Iterator[InputError]:
             yield InputError("one-crack-only", f"flexible.{name}", other=other)
 
 
+def anchors_through_several(case: Case) -> Iterator[InputError]:
+    """Walk what of the anchors of a case does not go with several cracks, each of which they may cross."""
+    for place, anchor in enumerate(case.anchors):
+        if anchor.distance is not None:
+            yield InputError("anchor-ends", f"anchors[{place}].distance")
+        for name in ("axial_stiffness", "shear_stiffness"):
+            if getattr(anchor, name):
+                yield InputError("one-crack-only", f"anchors[{place}].{name}", other="further_cracks")
+
+
 def places_of(case: Case) -> tuple[tuple[Case, ...], int]:
     """Return the case with each of its cracks alone, from the crest down, and which of them is that of ``[crack]``.
 
@@ -172,20 +178,32 @@ def places_of(case: Case) -> tuple[tuple[Case, ...], int]:
     """
     if not case.further_cracks:
         return (case,), 0
-    alone = case.model_copy(update={"further_cracks": ()})
-    found = [(alone, "crack")]
-    for place, crack in enumerate(case.further_cracks):
-        update = {"crack": crack.beside(case.crack), "uplift": crack.wet(case.uplift)}
-        found.append((alone.model_copy(update=update), f"further_cracks[{place}]"))
-    found.sort(key=lambda each: -_cut(*each)[0])
+    found = sorted(each_alone(case), key=lambda each: -_cut(*each)[0])
     for (upper, above), (lower, below) in pairwise(found):
         least = _NEAREST * (upper.cut.crest_elevation - upper.cut.base_elevation)
-        if any(high - low < least for high, low in zip(_cut(upper, above), _cut(lower, below), strict=True)):
+        ends = zip(_cut(upper, above), _cut(lower, below), strict=True)
+        if any(high - low < least for high, low in ends) or _apart(upper, lower) < least:
             later = max(above, below, key=lambda name: (name != "crack", name))
             one, other = f"{upper.crack.elevation:g} m", f"{lower.crack.elevation:g} m"
             raise InputError("cracks-meet", f"{later}.elevation", one, other=other, least=f"{least:g} m")
     cases = tuple(each for each, _ in found)
     return cases, [name for _, name in found].index("crack")
+
+
+def each_alone(case: Case) -> Iterator[tuple[Case, str]]:
+    """Walk the cracks of a case: the case with each alone, and what the crack is called, that of ``[crack]`` first."""
+    alone = case.model_copy(update={"further_cracks": ()}) if case.further_cracks else case
+    yield alone, "crack"
+    for place, crack in enumerate(case.further_cracks):
+        update = {"crack": crack.beside(case.crack), "uplift": crack.wet(case.uplift)}
+        yield alone.model_copy(update=update), f"further_cracks[{place}]"
+
+
+def _apart(upper: Case, lower: Case) -> float:
+    """Return how far the lines of two cracks are apart, which may have kinks [m]."""
+    if not (upper.crack.kinks or lower.crack.kinks):
+        return math.inf
+    return float(shapely.distance(*(shapely.LineString(each.crack_line) for each in (upper, lower))))
 
 
 def _cut(case: Case, field: str) -> tuple[float, float]:

@@ -15,6 +15,7 @@ from heeltoe.arrays import Floats
 from heeltoe.case.at_crack import (
     AnchorAtCrack,
     anchor_at_crack,
+    each_alone,
     flat,
     many_cracks,
     places_of,
@@ -346,9 +347,10 @@ def misfits(case: Case) -> Iterator[tuple[bool, Callable[[], InputError]]]:
     if case.further_cracks:
         _ = case.cracks  # says so itself where they meet
     section = case.cut
-    wrong = kinks_misfit(case)
-    if wrong is not None:
-        yield True, partial(wrong.with_others, ())
+    for alone, crack in each_alone(case):
+        wrong = kinks_misfit(alone, crack)
+        if wrong is not None:
+            yield True, partial(wrong.with_others, ())
     for place, anchor in enumerate(case.anchors):
         if anchor.distance is not None:
             far = partial(_beyond_toe, f"anchors[{place}].distance", anchor.distance, section.crack_width)

@@ -39,6 +39,7 @@ READ_BY: dict[str, frozenset[str]] = {
     "crack.roughness": _BLOCKS | {"statics"},
     "crack.roughness.wear": _BLOCKS,
     "crack.kinks": frozenset({"flexible"}),
+    "further_cracks.kinks": frozenset({"flexible"}),
     "further_cracks": frozenset({"rigid", "flexible", "statics"}),
     **dict.fromkeys((f"crack.law.{name}" for name in ("form", "slip", "speed", "surface")), _SHAKEN),
     **dict.fromkeys(

@@ -64,7 +64,7 @@ def test_both_faces_follow_the_line():
     np.testing.assert_allclose(line[:, 1], np.interp(line[:, 0], *corners.T), rtol=0.0, atol=1e-9)
     for corner in corners:
         assert np.hypot(*(line - corner).T).min() < 1e-9
-    assert max(angles(upper, case)) == pytest.approx(math.atan2(1.5, 4.0))
+    assert max(angles(upper, upper.crack, case)) == pytest.approx(math.atan2(1.5, 4.0))
     total = sum(body.loads["weight"].sum() for body in built.bodies)
     assert total == pytest.approx(-case.concrete.density * GRAVITY * case.outline.area, rel=1e-9)
 
@@ -111,7 +111,7 @@ def test_a_step_without_friction_bears_the_push_by_its_face():
     push, weight = body.load[::2].sum(), body.load[1::2].sum()
     assert along.sum() == pytest.approx(-push, rel=1e-9)
     assert across.sum() == pytest.approx(-weight, rel=1e-9)
-    slope = np.array(angles(body.mesh, case))
+    slope = np.array(angles(body.mesh, body.mesh.crack, case))
     inner = np.flatnonzero(np.abs(np.diff(slope)) < 1e-9) + 1
     np.testing.assert_allclose(along[inner], -np.tan(slope[inner]) * across[inner], atol=1e-9 * abs(push))
 
@@ -137,8 +137,14 @@ def test_the_ledger_closes_and_a_step_holds_back():
         ({"crack.kinks": [["30 m", "0 m"], ["31 m", "5 m"]]}, "crack.kinks: the crack runs at 78.7 deg"),
         ({"crack.elevation": "0 m"}, "crack.kinks: there is nothing of the dam below the crack"),
         ({"crack.roughness": {"asperity_height": "5 cm", "wave_length": "1 m"}}, "crack.roughness: does not go with"),
-        ({"anchors": [{"distance": "5 m", "prestress": "1 MN/m"}]}, "anchors: does not go with crack.kinks"),
-        ({"further_cracks": [{"elevation": "60 m"}]}, "further_cracks: does not go with crack.kinks"),
+        (
+            {"further_cracks": [{"elevation": "60 m", "kinks": [["5 m", "0 m"], ["6 m", "6 m"]]}]},
+            "further_cracks[0].kinks: the crack runs at 80.5 deg",
+        ),
+        (
+            {"further_cracks": [{"elevation": "22 m", "kinks": [["20 m", "-3 m"]]}]},
+            "further_cracks[0].elevation: the crack at 22 m meets or crosses that at 20 m",
+        ),
         ({"uplift.during_shaking": "zero while open"}, 'uplift.during_shaking: "zero while open" does not go with'),
         ({"flexible.contact": "idce", "flexible.damping": "stiffness"}, 'flexible.contact: "idce" does not go with'),
         ({"flexible.elements_across_below": 4}, "flexible.elements_across_below: does not go with crack.kinks"),
@@ -213,3 +219,19 @@ def test_a_run_has_the_same_bits_with_any_number_of_threads():
     one, two = (found.run_scaled(2e-4, np.array([0.9, 1.0, 1.1]), threads=threads) for threads in (1, 2))
     assert one["slip"].tobytes() == two["slip"].tobytes()
     assert one["slip"][1] == found.run(2e-4).summary["slip"]
+
+
+def test_anchors_hold_a_crack_with_kinks_as_a_straight_one():
+    """By prestress and by what they gain as it opens and slips."""
+    width = dam().cut.crack_width
+    kinks = [[f"{width / 3!r} m", "1e-7 m"], [f"{width / 2!r} m", "0 m"]]
+    anchor = {
+        "distance": "20 m",
+        "prestress": "3 MN/m",
+        "axial_stiffness": "200 MN/m/m",
+        "shear_stiffness": "50 MN/m/m",
+    }
+    bare = slip_of(dam())
+    straight, other = (slip_of(dam(**crack).with_({"anchors": [anchor]})) for crack in ({}, {"kinks": kinks}))
+    assert abs(straight).max() < 0.85 * abs(bare).max()
+    np.testing.assert_allclose(other, straight, rtol=0.0, atol=2e-5 * abs(straight).max())

@@ -118,6 +118,8 @@ class FurtherCrack(Fields):
     """Height of the crack at the upstream face above the lowest point of the section."""
     inclination: Annotated[Angle, Field(ge=-STEEPEST, le=STEEPEST)] = Field(default="0 deg", validate_default=True)
     """Angle of the crack to the horizontal; positive where it rises downstream."""
+    kinks: tuple[tuple[Length, Length], ...] = ()
+    """Its corners, as `crack.kinks` has them; none of a straight crack."""
     friction: FrictionCoefficient | None = None
     """Coefficient of friction, at rest and sliding."""
     static_friction: FrictionCoefficient | None = None
@@ -140,7 +142,8 @@ class FurtherCrack(Fields):
     def beside(self, crack: Crack) -> Crack:
         """Return it as a crack of its own."""
         own = {name: getattr(self, name) for name in _FRICTION} if self._given() else {}
-        return crack.model_copy(update={"elevation": self.elevation, "inclination": self.inclination, **own})
+        place = {name: getattr(self, name) for name in ("elevation", "inclination", "kinks")}
+        return crack.model_copy(update=place | own)
 
     def _given(self) -> bool:
         """Whether it has a friction of its own."""

@@ -16,16 +16,14 @@ if TYPE_CHECKING:
 # Of a piece of the line, to the straight line from heel to toe and to the horizontal [rad]: on a steeper one a node
 # has no place that is told by its distance from the heel.
 _STEEPEST = math.radians(60.0)
-_FIELD = "crack.kinks"
 
 
 def kinks_alone(case: Case) -> Iterator[InputError]:
     """Walk what of a case does not go with a crack that is not straight."""
-    if not case.crack.kinks:
+    if not any_kinks(case):
         return
-    for name in ("further_cracks", "anchors", "aftershocks"):
-        if getattr(case, name):
-            yield InputError("kinks-beside", name)
+    if case.aftershocks:
+        yield InputError("kinks-beside", "aftershocks")
     if case.crack.roughness is not None:
         yield InputError("kinks-beside", "crack.roughness")
     if case.uplift.during_shaking != "constant":
@@ -37,26 +35,31 @@ def kinks_alone(case: Case) -> Iterator[InputError]:
             yield InputError("kinks-beside", f"flexible.{name}")
 
 
-def kinks_misfit(case: Case) -> InputError | None:
-    """Return what is wrong with the kinks of a crack in its section."""
-    section, kinks = case.cut, case.crack.kinks
+def any_kinks(case: Case) -> bool:
+    """Whether a crack of a case is not straight."""
+    return bool(case.crack.kinks or any(crack.kinks for crack in case.further_cracks))
+
+
+def kinks_misfit(alone: Case, crack: str) -> InputError | None:
+    """Return what is wrong with the kinks of a crack in its section, of the case with it `alone`."""
+    section, kinks, field = alone.cut, alone.crack.kinks, f"{crack}.kinks"
     if not kinks:
         return None
     distances = [distance for distance, _ in kinks]
     if distances[0] <= 0.0 or any(a >= b for a, b in pairwise(distances)):
-        return InputError("kinks-order", _FIELD, shown(distances))
+        return InputError("kinks-order", field, shown(distances))
     if distances[-1] >= section.crack_width:
-        return InputError("kinks-outside", _FIELD, f"{distances[-1]:g} m", width=f"{section.crack_width:g} m")
+        return InputError("kinks-outside", field, f"{distances[-1]:g} m", width=f"{section.crack_width:g} m")
     for (start, low), (end, high) in pairwise(corners(section, kinks)):
         angle = math.atan2(high - low, end - start)
         steepest = max(abs(angle), abs(angle + section.inclination))
         if steepest > _STEEPEST:
             most = f"{math.degrees(_STEEPEST):g} deg"
             return InputError(
-                "kinks-steep", _FIELD, f"{math.degrees(steepest):.3g} deg", start=f"{start:g} m", most=most
+                "kinks-steep", field, f"{math.degrees(steepest):.3g} deg", start=f"{start:g} m", most=most
             )
-    if case.outline.area - section.area <= 1e-9 * section.area:
-        return InputError("kinks-base", _FIELD)
+    if alone.outline.area - section.area <= 1e-9 * section.area:
+        return InputError("kinks-base", field)
     return None
 
 
@@ -73,5 +76,8 @@ def straight_crack(case: Case, model: str) -> None:
     InputError
         Then.
     """
-    if case.crack.kinks:
-        raise InputError("kinks-straight", _FIELD, model=model)
+    kinks = {"crack": case.crack.kinks}
+    kinks |= {f"further_cracks[{place}]": crack.kinks for place, crack in enumerate(case.further_cracks)}
+    for crack, found in kinks.items():
+        if found:
+            raise InputError("kinks-straight", f"{crack}.kinks", model=model)

@@ -221,7 +221,10 @@ def _lines(case: Case, bonded: BondedDam) -> tuple[CrackLine, ...]:
         lower = (0, 0) if below is None else (firsts[place + 1], below.mesh.faces[0].size)
         friction, law = (alone.crack.mu_static, alone.crack.mu_kinetic), alone.crack.law
         give = elastic_give(alone, alone.cut, force)
-        turned = angles(above, alone), [] if below is None else angles(below.mesh, alone)
+        turned = (
+            angles(above, above.faces[-1], alone),
+            [] if below is None else angles(below.mesh, below.mesh.faces[0], alone),
+        )
         found.append(CrackLine(upper, lower, friction, give, None if law is None else law_of(law), turned))
     return tuple(found)
 

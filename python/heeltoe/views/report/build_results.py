@@ -251,7 +251,9 @@ def _law(subject: Subject) -> list[Block]:
 def _laws_of(response: Response) -> list[tuple[str, Mapping[str, Any]]]:
     """Return what says what laws have come to, of each of several cracks or of the only one, and where that stands."""
     each: list[tuple[str, Mapping[str, Any]]]
-    each = [(f"cracks.{place}.", crack) for place, crack in enumerate(response.cracks)] or [("", response.summary)]
+    each = [(f"cracks.{place}.", crack) for place, crack in enumerate(response.summary.get("cracks", ()))] or [
+        ("", response.summary)
+    ]
     return [(prefix, found) for prefix, found in each if found.get("friction_law") is not None]
 
 

@@ -12,7 +12,7 @@ from heeltoe.units.sentences import written
 
 def law_lines(response: Response, units: str) -> list[tuple[str, str]]:
     """Return what friction laws and a rough crack have come to: labels, which tell several cracks apart, and words."""
-    cracks = [crack for crack in response.cracks if crack.get("friction_law") is not None]
+    cracks = [crack for crack in response.summary.get("cracks", ()) if crack.get("friction_law") is not None]
     own, rough = (response.summary.get(name) for name in ("friction_law", "roughness"))
     lines = [
         (

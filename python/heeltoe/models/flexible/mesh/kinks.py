@@ -1,8 +1,8 @@
 """A mesh whose crack is straight, drawn over to one with kinks.
 
 Corners of elements on the crack are shifted along it until every kink has one, and up or down onto its line; the rest
-follows by a share that falls to nothing at the distance of the crest or the base. Both parts have the same number of
-elements across, so that the nodes of both faces meet. Edges of elements remain straight."""
+follows by a share that falls to nothing at the distance of the crest, the base or the next crack. Both parts have the
+same number of elements across, so that the nodes of both faces meet. Edges of elements remain straight."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.arrays import Floats, Integers
 from heeltoe.case.crack.kinks import corners
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
@@ -23,42 +23,46 @@ _NO_ANGLE = 1e-9
 
 
 def kinked(mesh: DamMesh, case: Case) -> DamMesh:
-    """Return a mesh of two parts with the kinks of the case's crack.
+    """Return a mesh with the kinks of each crack.
 
     Raises
     ------
     InputError
         Where its elements cannot follow.
     """
-    if mesh.lower is None or not any(height for _, height in case.crack.kinks):
-        return mesh
-    upper, lower = (_drawn(part, case) for part in mesh.parts)
-    return DamMesh((upper,), lower)
+    parts = list(mesh.parts)
+    for place, alone in enumerate(case.cracks):
+        if any(height for _, height in alone.crack.kinks):
+            # Both parts that meet there; the mesh of the lower one has this crack first.
+            for part, face in ((place, -1), (place + 1, 0)):
+                parts[part] = _drawn(parts[part], parts[part].faces[face], alone)
+    return mesh if mesh.lower is None else DamMesh(tuple(parts[:-1]), parts[-1])
 
 
-def angles(mesh: BodyMesh, case: Case) -> list[float]:
-    """Return the angles of the segments of a crack face to the straight line from heel to toe [rad]; none where it is
-    straight."""
-    if not case.crack.kinks:
+def angles(mesh: BodyMesh, face: Integers, alone: Case) -> list[float]:
+    """Return the angles of the segments of a crack's face to the straight line from heel to toe [rad], of the case with
+    this crack `alone`; none where it is straight."""
+    if not alone.crack.kinks:
         return []
-    t, n = np.diff(places(mesh.nodes[mesh.crack], case.cut), axis=0).T
+    t, n = np.diff(places(mesh.nodes[face], alone.cut), axis=0).T
     found = np.arctan2(n, t)
     found[np.abs(found) < _NO_ANGLE] = 0.0
     return found.tolist() if found.any() else []
 
 
-def _drawn(mesh: BodyMesh, case: Case) -> BodyMesh:
-    section = case.cut
-    line = np.array(corners(section, case.crack.kinks))
-    width, across = section.crack_width, (mesh.crack.size - 1) // 2
+def _drawn(mesh: BodyMesh, face: Integers, alone: Case) -> BodyMesh:
+    section = alone.cut
+    line = np.array(corners(section, alone.crack.kinks))
+    width, across = section.crack_width, (face.size - 1) // 2
     even = np.linspace(0.0, width, across + 1)
     wanted = np.interp(even, width * np.array(_steps(line[:, 0] / width, across)) / across, line[:, 0])
     shift = np.column_stack([wanted - even, np.interp(wanted, line[:, 0], line[:, 1])])
     at = places(mesh.nodes, section)
     # Between the faces at the same distance from the crack, as a part of what is between them.
     up, down = (places(mesh.nodes[path], section) for path in (mesh.upstream, mesh.downstream))
-    far = min(abs(up[:, 1]).max(), abs(down[:, 1]).max())
-    left, right = (np.interp(abs(at[:, 1]), *_ordered(face)) for face in (up, down))
+    others = [abs(at[each, 1]).min() for each in mesh.faces if not np.array_equal(each, face)]
+    far = min(abs(up[:, 1]).max(), abs(down[:, 1]).max(), *others)
+    left, right = (np.interp(abs(at[:, 1]), *_ordered(side)) for side in (up, down))
     part = np.clip((at[:, 0] - left) / np.maximum(right - left, 1e-12 * width), 0.0, 1.0)
     share = np.clip(1.0 - abs(at[:, 1]) / far, 0.0, 1.0)
     moved = share[:, None] * np.column_stack([np.interp(part * width, even, each) for each in shift.T])
@@ -68,7 +72,7 @@ def _drawn(mesh: BodyMesh, case: Case) -> BodyMesh:
     try:
         check_elements(nodes, mesh.elements, "crack.kinks")
     except InputError:
-        raise InputError("kinks-mesh", "crack.kinks", f"{len(case.crack.kinks)}") from None
+        raise InputError("kinks-mesh", "crack.kinks", f"{len(alone.crack.kinks)}") from None
     return replace(mesh, nodes=nodes)
 
 

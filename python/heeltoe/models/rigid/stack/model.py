@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 
 from heeltoe.arrays import Floats
+from heeltoe.case.at_crack import anchors_through_several
+from heeltoe.case.crack.kinks import straight_crack
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError, shown
 from heeltoe.kernel.shaking import Shaking
@@ -37,6 +39,7 @@ def check_stack(case: Case) -> None:
     """
     if len(case.further_cracks) + 1 > CRACKS:
         raise InputError("two-cracks-most", "further_cracks", f"{len(case.further_cracks)} further cracks")
+    straight_crack(case, "a rigid block")
     problems = _unfit(case)
     for first in problems:
         raise first.with_others(problems)
@@ -44,6 +47,7 @@ def check_stack(case: Case) -> None:
 
 def _unfit(case: Case) -> Iterator[InputError]:
     other = "further_cracks"
+    yield from anchors_through_several(case)
     if case.aftershocks:
         yield InputError("one-crack-only", "aftershocks", other=other)
     if case.crack.law is not None:
