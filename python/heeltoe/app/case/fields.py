@@ -43,6 +43,8 @@ _CELLS = {
     "motion.points": ("Time", "Acceleration"),
     "crack.kinks": ("Distance from the heel", "Height above the line"),
     "crack.law.roughness_friction": ("Normal stress", "Coefficient"),
+    "further_cracks[].kinks": ("Distance from the heel", "Height above the line"),
+    "further_cracks[].law.roughness_friction": ("Normal stress", "Coefficient"),
 }
 # Motions, of which all have the same fields.
 _MOTIONS = re.compile(r"^(motion\.vertical|aftershocks\[\](\.vertical)?)")
