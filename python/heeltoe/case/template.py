@@ -19,8 +19,8 @@ title = {title}
 # on the crack, from the heel; or by their ends in the section, whatever the crack is: x, and elevation above the base
 # anchors = [{{ head_x = "3 m", head_elevation = "99 m", foot_x = "9 m", foot_elevation = "-9 m", \
 prestress = "2 MN/m" }}]
-# Cracks beside that of [crack], for the flexible model; they may have kinks and a law, too, and have friction and uplift
-# as there where they say none:
+# Cracks beside that of [crack], for the flexible model; they may have kinks and a law, too; friction and uplift are as
+# there where they say none:
 # further_cracks = [{{ elevation = "80 m", friction = 1.0, uplift = "triangular", uplift_intensity = 0.5 }}]
 # Motions after that of [motion], each meeting the dam as the one before has left it; what a motion has, and a pause:
 # aftershocks = [{{ file = "elcentro-1940-270-nga", pga = "0.2 g", pause = "10 s" }}]
