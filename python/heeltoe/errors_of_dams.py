@@ -75,6 +75,10 @@ OF_DAMS: dict[str, tuple[str, str]] = {
         "there is nothing of the dam below the crack that could have kinks",
         "give crack.elevation, and a section that goes down into the rock",
     ),
+    "kinks-leave": (
+        "the crack with the corners {value} leaves the dam between its heel and its toe",
+        "give corners that are in its concrete",
+    ),
     "kinks-mesh": ("elements cannot follow {value} kinks", "give more elements_across, fewer kinks or flatter ones"),
     "kinks-straight": (
         "{model} knows straight cracks alone",

@@ -23,6 +23,28 @@ OF_STATICS: dict[str, tuple[Severity, str, str]] = {
         "the usual loads open the crack by {length_m:.2f m}, and water follows; the critical accelerations keep the "
         "case's uplift, as the time histories do at the start",
     ),
+    "kinks-add": (
+        "caution",
+        "crack.kinks",
+        "{field}: sliding and critical accelerations count the friction on the straight line from heel to toe alone, "
+        "a factor of {along:.3f} under the usual loads; on its pieces, which rise at up to {angle_deg:.3g} degrees, "
+        "the crack would bear a factor of {factor:.3f} if nothing shears off. Stresses and openings are those on the "
+        "straight line",
+    ),
+    "kinks-lock": (
+        "caution",
+        "crack.kinks",
+        "{field}: sliding and critical accelerations count the friction on the straight line from heel to toe alone, "
+        "a factor of {along:.3f} under the usual loads; its pieces, which rise at up to {angle_deg:.3g} degrees, "
+        "would bear any push until something shears off. Stresses and openings are those on the straight line",
+    ),
+    "kinks-take": (
+        "caution",
+        "crack.kinks",
+        "{field}: {name}: the resultant acts where the crack falls, and its pieces bear a sliding factor of "
+        "{factor:.3f}, less than the {along:.3f} of friction on the straight line from heel to toe: the smaller one "
+        "counts. Stresses and openings are those on the straight line",
+    ),
     "flood-low": (
         "caution",
         "statics.flood_depth",

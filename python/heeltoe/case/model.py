@@ -25,7 +25,7 @@ from heeltoe.case.at_crack import (
 )
 from heeltoe.case.changes import apply
 from heeltoe.case.crack.crack import Crack, FurtherCrack
-from heeltoe.case.crack.kinks import kinks_alone, kinks_misfit
+from heeltoe.case.crack.kinks import climbs, kinks_alone, kinks_misfit
 from heeltoe.case.dam import Anchor, Concrete, Ice, Reservoir, Silt, Uplift, Water
 from heeltoe.case.fields import Fields
 from heeltoe.case.motion import Aftershock, Motion
@@ -38,7 +38,7 @@ from heeltoe.case.sentences import all_errors, gathered
 from heeltoe.case.sequence import with_motions_apart
 from heeltoe.errors import InputError
 from heeltoe.geometry.levels import cut_levels
-from heeltoe.geometry.section import ON_LINE, CutSection, cut, outline, outside
+from heeltoe.geometry.section import ON_LINE, CutSection, above_line, cut, outline, outside
 from heeltoe.plain import plain
 from heeltoe.shown import Shown
 
@@ -199,6 +199,17 @@ class Case(Shown, Fields):
             return cut_levels(self.outline, np.asarray(elevation), inclination)
         return cut(self.outline, elevation, inclination)
 
+    @cached_property
+    def above(self) -> CutSection:
+        """The same, measured above the crack as it is where that has kinks.
+
+        Raises
+        ------
+        InputError
+            Where the crack does not cut the section in two along one line.
+        """
+        return above_line(self.cut, self.crack_line) if climbs(self.crack.kinks) else self.cut
+
     @property
     def crack_line(self) -> Floats:
         """Corners of the crack from heel to toe (x, z), shape (k, 2) [m]."""
@@ -253,6 +264,7 @@ class Case(Shown, Fields):
 _MADE_OF = {
     "outline": {"section"},
     "cut": {"section", "crack"},
+    "above": {"section", "crack"},
     "cracks": set(Case.model_fields),
     "asked": {"section", "crack", "further_cracks"},
     "anchors_at_crack": {"section", "crack", "anchors"},

@@ -38,8 +38,8 @@ READ_BY: dict[str, frozenset[str]] = {
     "crack.restitution": _BLOCKS,
     "crack.roughness": _BLOCKS | {"statics"},
     "crack.roughness.wear": _BLOCKS,
-    "crack.kinks": frozenset({"flexible"}),
-    "further_cracks.kinks": frozenset({"flexible"}),
+    "crack.kinks": frozenset({"flexible", "statics"}),
+    "further_cracks.kinks": frozenset({"flexible", "statics"}),
     "further_cracks": frozenset({"rigid", "flexible", "statics"}),
     **dict.fromkeys((f"crack.law.{name}" for name in ("form", "slip", "speed", "surface")), _SHAKEN),
     **dict.fromkeys(

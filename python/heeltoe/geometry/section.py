@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
@@ -290,20 +290,14 @@ def measured(corners: Floats, faces: tuple[Floats, Floats], ends: tuple[float, f
     ends
         z of the lowest and of the highest point of the whole section [m].
     """
-    # Green's theorem, edge by edge and in that order, so that no row depends on the others; the inertia about the
-    # centroid, where nothing cancels.
-    x, z, cross = _around(corners, corners[0])
-    area = sum(cross) / 2.0
-    centroid = np.array([sum(cross * sums) for sums in (x[0] + x[1], z[0] + z[1])]) / (6.0 * area) + corners[0]
-    x, z, cross = _around(corners, centroid)
-    squares = x[0] * x[0] + x[0] * x[1] + x[1] * x[1] + z[0] * z[0] + z[0] * z[1] + z[1] * z[1]
+    area, centroid, inertia = _moments(corners)
     for array in (corners, *faces):
         array.flags.writeable = False
     return CutSection(
         polygon=corners,
-        area=number(area),
-        centroid=(number(centroid[0]), number(centroid[1])),
-        polar_inertia=number(sum(cross * squares) / 12.0),
+        area=area,
+        centroid=centroid,
+        polar_inertia=inertia,
         heel=(number(corners[0, 0]), number(corners[0, 1])),
         toe=(number(corners[1, 0]), number(corners[1, 1])),
         upstream_face=faces[0],
@@ -312,6 +306,27 @@ def measured(corners: Floats, faces: tuple[Floats, Floats], ends: tuple[float, f
         crest_elevation=ends[1],
         inclination=number(np.arctan2(*(corners[1] - corners[0])[::-1])),
     )
+
+
+def above_line(section: CutSection, line: Floats) -> CutSection:
+    """Return a part above a crack that is not straight: measured above its corners from heel to toe, shape (k, 2), with
+    the straight line between them as its crack."""
+    corners = np.vstack([line, section.polygon[2:]])
+    corners.flags.writeable = False
+    area, centroid, inertia = _moments(corners)
+    return replace(section, polygon=corners, area=area, centroid=centroid, polar_inertia=inertia)
+
+
+def _moments(corners: Floats) -> tuple[float, tuple[float, float], float]:
+    """Return area, centroid and polar second moment about it."""
+    # Green's theorem, edge by edge and in that order, so that no row depends on the others; the inertia about the
+    # centroid, where nothing cancels.
+    x, z, cross = _around(corners, corners[0])
+    area = sum(cross) / 2.0
+    centroid = np.array([sum(cross * sums) for sums in (x[0] + x[1], z[0] + z[1])]) / (6.0 * area) + corners[0]
+    x, z, cross = _around(corners, centroid)
+    squares = x[0] * x[0] + x[0] * x[1] + x[1] * x[1] + z[0] * z[0] + z[0] * z[1] + z[1] * z[1]
+    return number(area), (number(centroid[0]), number(centroid[1])), number(sum(cross * squares) / 12.0)
 
 
 def _around(corners: Floats, centre: Floats) -> tuple[tuple[Floats, Floats], tuple[Floats, Floats], Floats]:

@@ -219,7 +219,7 @@ def build_block(case: Case) -> Block:
         Where the crack does not cut the section in two.
     """
     expect(case, Case, "not-a-case", "case")
-    section = case.cut
+    section = case.above
     concrete = concrete_mass(case)
     offset = section.in_crack_frame(section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1])
     inertia = case.concrete.density * section.polar_inertia

@@ -10,6 +10,7 @@ from itertools import pairwise
 import numpy as np
 
 from heeltoe.arrays import Floats, larger, smaller, where
+from heeltoe.case.crack.kinks import climbs, corners
 from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
@@ -91,13 +92,13 @@ def static_forces(case: Case) -> tuple[Resultant, ...]:
 
 def concrete_mass(case: Case) -> float:
     """Return the mass of the concrete above the crack [kg/m]."""
-    return case.concrete.density * case.cut.area
+    return case.concrete.density * case.above.area
 
 
 def weight(case: Case) -> Resultant:
     """Return the weight of the concrete above the crack."""
     force = -concrete_mass(case) * case.gravity
-    section = case.cut
+    section = case.above
     x, z = section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1]
     return Resultant("weight", 0.0, force, force * x, force * z, force * x)
 
@@ -203,20 +204,44 @@ def _uplift_points(case: Case) -> list[tuple[float, float]]:
 
 
 def uplift(case: Case) -> Resultant:
-    """Return the force of the water in the crack, which is normal to it."""
-    force = moment = 0.0
-    for (x0, p0), (x1, p1) in pairwise(_uplift_points(case)):
+    """Return the force of the water in the crack, which is normal to it, or to each of its pieces."""
+    return in_crack(case, _uplift_points(case))
+
+
+def in_crack(case: Case, points: Iterable[tuple[float, float]]) -> Resultant:
+    """Return the force of water in the crack: `points` are distances from the heel along the straight line to the toe
+    [m] and pressures [Pa], straight in between."""
+    if climbs(case.crack.kinks):
+        return _on_pieces(case, tuple(points))
+    section, force, moment = case.cut, 0.0, 0.0
+    for (x0, p0), (x1, p1) in pairwise(points):
         force += (x1 - x0) * (p0 + p1) / 2.0
         moment += (x1 - x0) * _mean_product(x0, x1, p0, p1)
-    return in_crack(case.cut, force, moment)
-
-
-def in_crack(section: CutSection, force: float, moment: float) -> Resultant:
-    """Return the force of water in the crack, which is normal to it, of its size and its moment about the heel."""
     horizontal, vertical = section.from_crack_frame(0.0, force)
     # What is at a distance along the crack is downstream of the heel by its cosine.
     cosine, _ = section.from_crack_frame(1.0, 0.0)
     return Resultant("uplift", horizontal, vertical, moment, lift_moment=moment * cosine * cosine)
+
+
+def _on_pieces(case: Case, points: tuple[tuple[float, float], ...]) -> Resultant:
+    """Integrate piece by piece a pressure that is normal to a crack with kinks."""
+    section = case.cut
+    distances, heights = zip(*corners(section, case.crack.kinks), strict=True)
+    horizontal = vertical = moment = lifting = 0.0
+    for (start, p0), (end, p1) in pairwise(points):
+        cuts = [start, *(each for each in distances if start < each < end), end]
+        for t0, t1 in pairwise(cuts if end > start else ()):
+            q0, q1 = (float(np.interp(t, (start, end), (p0, p1))) for t in (t0, t1))
+            (x0, z0), (x1, z1) = (
+                section.from_crack_frame(t, float(np.interp(t, distances, heights))) for t in (t0, t1)
+            )
+            # The normal into the part above, as long as the piece.
+            mean = (q0 + q1) / 2.0
+            horizontal -= mean * (z1 - z0)
+            vertical += mean * (x1 - x0)
+            lifting += _mean_product(x0, x1, q0, q1) * (x1 - x0)
+            moment += _mean_product(x0, x1, q0, q1) * (x1 - x0) + _mean_product(z0, z1, q0, q1) * (z1 - z0)
+    return Resultant("uplift", horizontal, vertical, moment, lift_moment=lifting)
 
 
 def water_above_crack(case: Case, water: Water | None, *, toe: bool = False) -> float:

@@ -8,7 +8,7 @@ import re
 import numpy as np
 import pytest
 
-from heeltoe import run, statics
+from heeltoe import run
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.geometry.axes import places
@@ -165,11 +165,6 @@ def test_elements_that_cannot_follow_are_refused():
 def test_other_models_refuse_kinks_by_name(model):
     with pytest.raises(InputError, match=r"crack\.kinks: .* knows straight cracks alone"):
         run(dam(kinks=STEP), model=model)
-
-
-def test_static_checks_refuse_kinks_by_name():
-    with pytest.raises(InputError, match=r"crack\.kinks: the static check knows straight cracks alone"):
-        statics(dam(kinks=STEP))
 
 
 def corners_of(case: Case) -> list[list[float]]:

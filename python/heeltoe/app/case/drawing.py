@@ -49,7 +49,7 @@ def _shapes(case: Case, size: float) -> Iterator[tuple[str, list[Any]]]:
         yield "ice", _rings(cover - shapely.box(left - 3.0 * far, base - far, right + far, level - depth))
     yield "ground", _rings(shapely.box(left - far, base - size, right + far, base))
     yield "below", _rings(case.outline)
-    yield "above", [case.cut.polygon.tolist()]
+    yield "above", [case.above.polygon.tolist()]
     for crack in case.cracks:
         uplift = _uplift(crack, size)
         if uplift:

@@ -32,7 +32,7 @@ class Crack(Fields):
     """Angle of the crack to the horizontal; positive where it rises downstream."""
     kinks: tuple[tuple[Length, Length], ...] = ()
     """Corners of a crack that is not straight: [distance from the heel along the straight line from heel to toe, height
-    above that line]. The flexible model alone knows them."""
+    above that line]. Of the models the flexible one alone knows them."""
     friction: FrictionCoefficient | None = None
     """Coefficient of friction, at rest and sliding."""
     static_friction: FrictionCoefficient | None = None

@@ -7,8 +7,10 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+import shapely
+
 from heeltoe.errors import InputError, shown
-from heeltoe.geometry.section import CutSection
+from heeltoe.geometry.section import CutSection, on_line
 
 if TYPE_CHECKING:
     from heeltoe.case.model import Case
@@ -60,7 +62,14 @@ def kinks_misfit(alone: Case, crack: str) -> InputError | None:
             )
     if alone.outline.area - section.area <= 1e-9 * section.area:
         return InputError("kinks-base", field)
+    if not alone.outline.buffer(on_line(alone.outline)).covers(shapely.LineString(alone.crack_line)):
+        return InputError("kinks-leave", field, shown([list(kink) for kink in kinks]))
     return None
+
+
+def climbs(kinks: tuple[tuple[float, float], ...]) -> bool:
+    """Whether a crack with these kinks leaves the straight line from heel to toe."""
+    return any(height for _, height in kinks)
 
 
 def corners(section: CutSection, kinks: tuple[tuple[float, float], ...]) -> list[tuple[float, float]]:

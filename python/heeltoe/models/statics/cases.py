@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from heeltoe.case.crack.kinks import climbs
 from heeltoe.case.dam import Reservoir, Water
 from heeltoe.case.model import Case
 from heeltoe.mechanics.drains import drainage_left, with_drainage
@@ -90,7 +91,7 @@ def pseudo_static(case: Case, before: Solved) -> tuple[Solved, ...]:
                 sources_of(case) | sources_of_inertia(case, *ground),
                 peak_of(case.crack),
             )
-            tried.append(solve_case(given, case.cut, (*_dry(case), *_inertia(case, *ground)), contact, water))
+            tried.append(solve_case(given, case, (*_dry(case), *_inertia(case, *ground)), contact, water))
         found += governing(tried) if vertical else tried
     return tuple(found)
 
@@ -140,8 +141,11 @@ def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
     start, end = (0.0, width - size) if slip >= 0.0 else (size, width)
     contact = Contact(start, end, bonded_from=end)
     water = still_water(case, start, end)
-    given = Given("post-seismic", "post-earthquake", friction, 0.0, tuple(said), sources_of(case), law)
-    return solve_case(given, case.cut, _dry(case), contact, water)
+    matches = not size
+    if not matches and climbs(case.crack.kinks):
+        said.append(Sentence("after the slip the kinks of the two faces no longer match: they count for nothing"))
+    given = Given("post-seismic", "post-earthquake", friction, 0.0, tuple(said), sources_of(case), law, matches)
+    return solve_case(given, case, _dry(case), contact, water)
 
 
 def _contact(case: Case) -> Contact:
@@ -161,7 +165,7 @@ def _dry(case: Case) -> tuple[Resultant, ...]:
 def _inertia(case: Case, horizontal: float, vertical: float) -> tuple[Resultant, ...]:
     """Return the forces of a ground acceleration in g, downstream and upward."""
     weight = concrete_mass(case) * case.gravity
-    section = case.cut
+    section = case.above
     place = section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1]
     forces = [
         Resultant.at("inertia", (-weight * horizontal, -weight * vertical), place),
@@ -181,4 +185,4 @@ def _still(name: str, loads: Loads, case: Case, said: tuple[Sentence, ...]) -> S
     water = still_water(case, contact.start, contact.end)
     friction, cohesion = case.crack.apparent_friction, case.statics.cohesion
     given = Given(name, loads, friction, cohesion, said, sources_of(case), peak_of(case.crack))
-    return solve_case(given, case.cut, _dry(case), contact, water)
+    return solve_case(given, case, _dry(case), contact, water)

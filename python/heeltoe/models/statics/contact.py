@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 
 from heeltoe.arrays import Floats
 from heeltoe.mechanics.loads import Resultant
-from heeltoe.models.statics.water import StillWater, force_and_moment
+from heeltoe.models.statics.water import StillWater
 
 
 @dataclass(frozen=True)
@@ -119,7 +119,7 @@ class _State:
 
     def at(self, heel: float, toe: float) -> tuple[float, float, float]:
         """Return the normal force and the stresses at both ends of what is closed."""
-        uplift, lever = force_and_moment(self.water.pressure(heel, toe))
+        uplift, lever = self.water.act(self.water.pressure(heel, toe))
         low, high = self.contact.start + heel, self.contact.end - toe
         normal = -self.load.vertical - uplift
         turning = -(self.load.moment + lever) - normal * (low + high) / 2.0
@@ -175,10 +175,11 @@ class _State:
         places = [*self.water.places, contact.bonded_from, contact.bonded_to]
         lengths = [x - contact.start if side == "heel" else contact.end - x for x in places]
         bends = sorted({0.0, width, *(length for length in lengths if 0.0 < length < width)})
-        share = np.array([0.125, 0.375, 0.625, 0.875])
+        degree = self.water.degree
+        share = (np.arange(degree + 1) + 0.5) / (degree + 1)
         for low, high in pairwise(bends):
             values = [self.margin(float(low + s * (high - low)), side) for s in share]
-            turning = np.roots(np.polyder(np.polyfit(share, values, 3)))
+            turning = np.roots(np.polyder(np.polyfit(share, values, degree)))
             inside = sorted(float(t.real) for t in turning if abs(t.imag) < 1e-9 and 0.0 < t.real < 1.0)
             cuts = [low, *(low + t * (high - low) for t in inside), high]
             yield from pairwise(cuts)
@@ -186,7 +187,7 @@ class _State:
     def settled(self, outcome: str, heel: float, toe: float, iterations: int) -> Settled:
         """Return the state at an opening."""
         profile = self.water.pressure(heel, toe)
-        uplift, lever = force_and_moment(profile)
+        uplift, lever = self.water.act(profile)
         normal = -self.load.vertical - uplift
         stands = outcome == "stands"
         _, heel_stress, toe_stress = self.at(heel, toe) if stands else (0.0, None, None)

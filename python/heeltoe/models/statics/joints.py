@@ -137,7 +137,7 @@ def statics_of_sections(case: Case, judge: Callable[[Case], Statics] = statics) 
 
 
 def at_section(case: Case, section: StaticsSection, field: str = "statics.sections") -> Case:
-    """Return the case with its crack at a lift joint, which is level unless it is the crack itself.
+    """Return the case with its crack at a lift joint, which is level and straight unless it is the crack itself.
 
     Raises
     ------
@@ -146,7 +146,7 @@ def at_section(case: Case, section: StaticsSection, field: str = "statics.sectio
     """
     crack: dict[str, Any] = {"elevation": section.elevation}
     if section.elevation != case.crack.elevation:
-        crack["inclination"] = 0.0
+        crack |= {"inclination": 0.0, "kinks": ()}
     if section.friction is not None:
         crack |= {"friction": section.friction, "static_friction": None, "kinetic_friction": None, "law": None}
     choice = {

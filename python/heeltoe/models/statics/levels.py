@@ -51,6 +51,8 @@ def critical_water_levels(case: Case) -> dict[str, float | None]:
         def margin(depth: float) -> float:
             found = state(depth)
             strength = found.cohesive_force_n + found.friction * max(0.0, found.normal_force_n)
+            if found.sliding_factor is not None and found.pieces_bear == "less":
+                strength = found.sliding_factor * abs(found.shear_force_n)
             return strength - factor * max(0.0, found.shear_force_n)
 
         return margin

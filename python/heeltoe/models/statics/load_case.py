@@ -5,18 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict, dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from heeltoe.case.model import Case
 from heeltoe.geometry.pieces import Piece, pieces
-from heeltoe.geometry.section import CutSection
 from heeltoe.mechanics.block import ROUNDING_OF_FORCES, across_crack
 from heeltoe.mechanics.loads import Resultant, in_crack, total
 from heeltoe.models.statics.contact import Contact, Settled, settle
 from heeltoe.models.statics.criteria import Loads
+from heeltoe.models.statics.pieces import borne, pieces_between, steepest
 from heeltoe.models.statics.sheet import Sheet, sheet
-from heeltoe.models.statics.water import StillWater, force_and_moment
+from heeltoe.models.statics.water import StillWater
 from heeltoe.units.sentences import Sentence
 
 
@@ -43,7 +44,16 @@ class LoadCase:
     cohesive_force_n
         Cohesion on what is bonded, closed and in compression.
     sliding_factor
-        (cohesive force + friction times normal force) over shear force; None where nothing pushes.
+        (cohesive force + friction times normal force) over shear force; None where nothing pushes. Of a crack with
+        kinks that along the straight line from heel to toe, or that on its pieces where it is smaller.
+    pieces_bear
+        What the pieces of a crack with kinks bear: "more" or "less" than friction on that straight line, or "any push"
+        until they shear off; "" of a straight crack, where nothing pushes, and of faces that a slip has moved apart.
+    sliding_factor_on_pieces
+        That on them, where they bear more or less; None elsewhere.
+    steepest_rise_rad
+        Of the closed pieces, against the straight line, in the direction in which the block is pushed; zero where
+        `pieces_bear` is empty.
     overturning_factor, overturning_about
         Stabilising over overturning moments about the end of the contact that the forces push to; each force counts
         as a whole on the side to which it turns the block. None where nothing overturns.
@@ -108,6 +118,9 @@ class LoadCase:
     pressures: tuple[tuple[float, float], ...]
     governs: tuple[str, ...] | None = None
     pieces: tuple[Piece, ...] = ()
+    pieces_bear: str = ""
+    sliding_factor_on_pieces: float | None = None
+    steepest_rise_rad: float = 0.0
 
     def sheet(self, about: str = "heel") -> Sheet:
         """Return the forces one by one with arms, moments and sum about the "heel" or the "toe" of the contact."""
@@ -164,7 +177,8 @@ Borne = Callable[[float], tuple[float, float]]
 @dataclass(frozen=True)
 class Given:
     """What is known of a load case before it is solved: coefficient of friction, cohesion of the bonded part [Pa]; or
-    the law that says both by the mean normal stress [Pa] on what is in compression."""
+    the law that says both by the mean normal stress [Pa] on what is in compression; whether the faces of the crack
+    still match."""
 
     name: str
     loads: Loads
@@ -173,26 +187,35 @@ class Given:
     assumptions: tuple[Sentence, ...]
     sources: Mapping[str, Sentence] = field(default_factory=dict)
     law: Borne | None = None
+    matches: bool = True
 
 
-def solve_case(
-    given: Given, section: CutSection, forces: tuple[Resultant, ...], contact: Contact, water: StillWater
-) -> Solved:
+class _Sliding(NamedTuple):
+    """The sliding factor, and what of it is known of a crack with kinks; see :class:`LoadCase`."""
+
+    factor: float | None = None
+    bear: str = ""
+    on_pieces: float | None = None
+    rise: float = 0.0
+
+
+def solve_case(given: Given, case: Case, forces: tuple[Resultant, ...], contact: Contact, water: StillWater) -> Solved:
     """Find the state of the crack and the factors.
 
     Parameters
     ----------
     given
         What is known of the load case before.
-    section
-        The part above the crack.
+    case
+        The dam; its crack is looked at along the straight line from heel to toe.
     forces
         All but that of the water in the crack.
     contact, water
         Where the block can stand, and the water there.
     """
+    section = case.above
     settled = settle(contact, across_crack(total(given.name, forces), section), water)
-    forces = (*forces, in_crack(section, *force_and_moment(settled.profile)))
+    forces = (*forces, in_crack(case, settled.profile.tolist()))
     across = [across_crack(force, section) for force in forces]
     shear = math.fsum(force.horizontal for force in across)
     if abs(shear) <= ROUNDING_OF_FORCES * math.fsum(abs(force.horizontal) + abs(force.vertical) for force in across):
@@ -205,6 +228,7 @@ def solve_case(
         length = max(0.0, pressed[1] - pressed[0])
         friction, cohesion = given.law(max(0.0, settled.normal) / length if length else 0.0)
     cohesive = cohesion * max(0.0, bonded[1] - bonded[0])
+    sliding = _sliding(case, settled, (cohesive, friction), shear, closed if given.matches else None)
     about = "heel" if shear < 0.0 else "toe"
     down = -math.fsum(min(0.0, force.vertical) for force in across)
     up = math.fsum(max(0.0, force.vertical) for force in across)
@@ -217,7 +241,7 @@ def solve_case(
         shear_force_n=shear,
         friction=friction,
         cohesive_force_n=cohesive,
-        sliding_factor=(cohesive + friction * max(0.0, settled.normal)) / abs(shear) if shear else None,
+        sliding_factor=sliding.factor,
         overturning_factor=_overturning(across, contact.start if about == "heel" else contact.end, about),
         overturning_about=about,
         flotation_factor=down / up if up else None,
@@ -236,8 +260,46 @@ def solve_case(
         ends_m=(section.from_crack_frame(contact.start, 0.0), section.from_crack_frame(contact.end, 0.0)),
         pressures=tuple((float(x), float(p)) for x, p in settled.profile),
         pieces=pieces(section.polygon - np.array(section.heel)),
+        pieces_bear=sliding.bear,
+        sliding_factor_on_pieces=sliding.on_pieces,
+        steepest_rise_rad=sliding.rise,
     )
     return Solved(load_case, settled)
+
+
+def along_line(found: LoadCase) -> float | None:
+    """Return the sliding factor by friction along the straight line from heel to toe, whatever the pieces of a crack
+    with kinks bear; None where nothing pushes."""
+    return _along(found.cohesive_force_n, found.friction, found.normal_force_n, found.shear_force_n)
+
+
+def _along(cohesive: float, friction: float, normal: float, shear: float) -> float | None:
+    return (cohesive + friction * max(0.0, normal)) / abs(shear) if shear else None
+
+
+def _sliding(
+    case: Case,
+    settled: Settled,
+    strength: tuple[float, float],
+    shear: float,
+    closed: tuple[float, float] | None,
+) -> _Sliding:
+    """Return what cohesive force and coefficient of friction make of a force along the crack, which is closed between
+    two places; None where its faces do not match."""
+    cohesive, friction = strength
+    along = _along(cohesive, friction, settled.normal, shear)
+    if along is None:
+        return _Sliding()
+    pieces = [] if closed is None else pieces_between(case, *closed)
+    way = math.copysign(1.0, shear)
+    held = borne(pieces, friction, settled, way)
+    if held is None:
+        return _Sliding(along)
+    rise = steepest(pieces, way)
+    if math.isinf(held):
+        return _Sliding(along, "any push", None, rise)
+    on_pieces = (cohesive + held) / abs(shear)
+    return _Sliding(min(along, on_pieces), "less" if on_pieces < along else "more", on_pieces, rise)
 
 
 def _in_compression(closed: tuple[float, float], settled: Settled) -> tuple[float, float]:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from heeltoe.case.crack.kinks import straight_crack
 from heeltoe.case.model import Case
 from heeltoe.case.use import unused_fields
 from heeltoe.case.warnings import case_warnings
@@ -18,7 +18,7 @@ from heeltoe.models.statics.cases import flood, post_seismic, pseudo_static, usu
 from heeltoe.models.statics.checks import Check, check_case, fallen
 from heeltoe.models.statics.criteria import unread
 from heeltoe.models.statics.levels import critical_water_levels, highest_level
-from heeltoe.models.statics.load_case import LoadCase
+from heeltoe.models.statics.load_case import LoadCase, along_line
 from heeltoe.models.statics.own_criteria import Rules, rules_of
 from heeltoe.references import REFERENCES
 from heeltoe.result.write import build_info, critical_json
@@ -156,7 +156,6 @@ def statics(
         Where the crack does not cut the section in two.
     """
     expect(case, Case, "not-a-case", "case")
-    straight_crack(case, "the static check")
     section, choice, rules = case.cut, case.statics, rules_of(case)
     warnings = [*case_warnings(case), *unused_fields(case, ("statics", *beside)), *_unread(case, rules)]
     before = usual(case)
@@ -181,7 +180,7 @@ def statics(
             checks += check_case(after.load_case, case)
         if source == _UNKNOWN:
             warnings.append(Notice("slip-unknown"))
-    warnings += _said_of(case, before.load_case)
+    warnings += _said_of(case, cases)
     references = dict.fromkeys(check.source for check in checks if check.required is not None)
     if choice.seismic_coefficient is not None and water_above_crack(case, case.reservoir):
         references[REFERENCES["water"]] = None
@@ -207,9 +206,9 @@ def _peak(case: Case, usual: LoadCase) -> float:
     return case.crack.apparent_friction if case.crack.law is None else usual.friction
 
 
-def _said_of(case: Case, usual: LoadCase) -> list[Notice]:
-    """Return what is to be said of the choices beside the usual loads."""
-    choice, said = case.statics, []
+def _said_of(case: Case, cases: Sequence[LoadCase]) -> list[Notice]:
+    """Return what is to be said of the choices beside the load cases, the usual one first."""
+    choice, said, usual = case.statics, list(_of_pieces(cases)), cases[0]
     if usual.cracked_length_m:
         said.append(Notice("crack-opens-statically", length_m=usual.cracked_length_m))
     usual_depth = case.reservoir.depth if case.reservoir else 0.0
@@ -222,6 +221,20 @@ def _said_of(case: Case, usual: LoadCase) -> list[Notice]:
     if choice.sections:
         said.append(Notice("sections-apart", count=len(choice.sections)))
     return said
+
+
+def _of_pieces(cases: Sequence[LoadCase]) -> Iterator[Notice]:
+    """Say what the pieces of a crack with kinks would add under the usual loads to the friction that is counted, and
+    where they take from it."""
+    usual = cases[0]
+    along, angle = along_line(usual), math.degrees(usual.steepest_rise_rad)
+    if usual.pieces_bear == "any push":
+        yield Notice("kinks-lock", along=along, angle_deg=angle)
+    elif usual.pieces_bear == "more":
+        yield Notice("kinks-add", along=along, angle_deg=angle, factor=usual.sliding_factor_on_pieces)
+    for each in cases:
+        if each.pieces_bear == "less":
+            yield Notice("kinks-take", name=each.name, along=along_line(each), factor=each.sliding_factor)
 
 
 def _unread(case: Case, rules: Rules) -> tuple[Notice, ...]:

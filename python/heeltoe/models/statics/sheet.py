@@ -154,7 +154,7 @@ def sources_of(case: Case) -> dict[str, Sentence]:
     said = {
         "weight": Sentence.of(
             "{area_m2:.5g m²} of concrete of {density:.5g kg/m³}, at its centroid",
-            area_m2=case.cut.area,
+            area_m2=case.above.area,
             density=case.concrete.density,
         ),
         "weight of a piece": Sentence.of("concrete of {density:.5g kg/m³}", density=case.concrete.density),

@@ -8,15 +8,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from heeltoe.arrays import Floats
+from heeltoe.case.crack.kinks import climbs
 from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
-from heeltoe.mechanics.loads import uplift_profile, water_above_crack
+from heeltoe.mechanics.block import across_crack
+from heeltoe.mechanics.loads import in_crack, uplift_profile, water_above_crack
+
+# Of a polynomial that follows what is smooth between two bends closely enough to tell where it turns.
+_SMOOTH = 7
 
 
 def force_and_moment(profile: Floats) -> tuple[float, float]:
@@ -26,6 +32,12 @@ def force_and_moment(profile: Floats) -> tuple[float, float]:
     # Simpson's rule, exact for the product of two straight lines.
     lever = (x[:-1] * pressure[:-1] + 4.0 * middle * mean + x[1:] * pressure[1:]) / 6.0
     return float(length @ mean), float(length @ lever)
+
+
+def _on_pieces(case: Case, profile: Floats) -> tuple[float, float]:
+    """Return the same of a pressure that is normal to each piece of a crack with kinks."""
+    found = across_crack(in_crack(case, profile.tolist()), case.cut)
+    return found.vertical, found.moment
 
 
 def cut_out(profile: Floats, start: float, end: float) -> list[tuple[float, float]]:
@@ -50,11 +62,17 @@ class StillWater:
         counted from the ends of the contact.
     places
         Distances from the heel at which the profile bends or jumps [m]: on a length of opening between two of them,
-        force and moment are polynomials of it.
+        force and moment are polynomials of it, or on a crack with kinks smooth.
+    act
+        Gives the force of a profile across the crack, from heel to toe, and its moment about the heel.
+    degree
+        Of the polynomial that tells where what the tip bears turns, between two places.
     """
 
     pressure: Callable[[float, float], Floats]
     places: tuple[float, ...]
+    act: Callable[[Floats], tuple[float, float]] = force_and_moment
+    degree: int = 3
 
 
 def still_water(case: Case, start: float, end: float) -> StillWater:
@@ -100,7 +118,10 @@ def still_water(case: Case, start: float, end: float) -> StillWater:
 
     bends = [float(x) for x in base[:, 0]]
     bends += [x for water in (case.reservoir, case.tailwater) if math.isfinite(x := _surface(section, water))]
-    return StillWater(pressure, tuple(bends))
+    if not climbs(case.crack.kinks):
+        return StillWater(pressure, tuple(bends))
+    bends += [distance for distance, _ in case.crack.kinks]
+    return StillWater(pressure, tuple(bends), partial(_on_pieces, case), _SMOOTH)
 
 
 def water_in_earthquake(before: Floats, still: StillWater, opened: float, law: str) -> StillWater:
@@ -131,7 +152,8 @@ def water_in_earthquake(before: Floats, still: StillWater, opened: float, law: s
         points += [(low, 0.0), (high, 0.0)]
         return np.array(points + cut_out(before, high, float(before[-1, 0])))
 
-    return StillWater(pressure, (start + opened, *still.places, *(float(x) for x in before[:, 0])))
+    places = (start + opened, *still.places, *(float(x) for x in before[:, 0]))
+    return replace(still, pressure=pressure, places=places)
 
 
 def _level(section: CutSection, water: Water | None) -> float:

@@ -92,7 +92,7 @@ def corners(case: Case, size: float, *, below: float) -> tuple[Floats, Floats]:
 
 def draw_bodies(canvas: Canvas, case: Case) -> None:
     """Draw water, silt, ice and both parts of the dam on the ground."""
-    section, whole = case.cut, case.outline
+    section, whole = case.above, case.outline
     left, base, right, crest = whole.bounds
     far = 10.0 * max(right - left, crest - base)
     for water, side in ((case.reservoir, "left"), (case.tailwater, "right")):
@@ -147,7 +147,7 @@ def _draw_surface(canvas: Canvas, whole: shapely.Polygon, level: float, side: st
 
 def draw_crack(canvas: Canvas, case: Case, *, small: bool) -> None:
     """Draw the crack, its two ends and the centroid of what is above it."""
-    section, line = case.cut, case.crack_line
+    section, line = case.above, case.crack_line
     canvas.line(line, keep_off=True, color="white", linewidth=3.6, zorder=4.5)
     canvas.line(line, color=COLOURS["crack"], linewidth=2.0, zorder=4.6)
     if small:

@@ -70,7 +70,7 @@ def draw_forces(canvas: Canvas, case: Case, units: Units) -> None:
     most = max(sizes)
     scale = units.scale("force", most)
     per_force = _LONGEST * canvas.size / most
-    section = case.cut
+    section = case.above
     # The weight's arrow, which starts at the centroid, ends above the crack.
     _, above = section.in_crack_frame(*np.subtract(section.centroid, section.heel))
     per_force = min(per_force, 0.8 * above / sizes[0])

@@ -22,6 +22,7 @@ _CASES: tuple[tuple[str, str, str | None], ...] = (
     ("Coefficient of friction", "friction", None),
     ("Cohesive force", "cohesive_force_n", None),
     ("Sliding factor", "sliding_factor", None),
+    ("The same on the pieces of the crack", "sliding_factor_on_pieces", None),
     ("Overturning factor", "overturning_factor", None),
     ("Flotation factor", "flotation_factor", None),
     ("Resultant from the heel", "resultant_from_heel_m", "length"),
@@ -45,9 +46,6 @@ _OF_ONE = (" This is the crack of [crack]; ", Code("heeltoe statics"), " judges 
 def static_checks(subject: Subject) -> Section | None:
     """Return the section of the static checks; None where there are none."""
     found = subject.statics
-    if found is None and subject.case.crack.kinks:
-        left_out = "They are left out: they know straight cracks alone, and this one has kinks."
-        return Section("Static checks", (paragraph(left_out),))
     if found is None or not found.checks:
         return None
     blocks: list[Block] = [

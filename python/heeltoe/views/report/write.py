@@ -67,9 +67,7 @@ def build_report(
     from heeltoe.views.report.subject import Subject
     from heeltoe.views.words.numbers import Numbers
 
-    # The static checks know straight cracks alone.
-    judged = statics is None and not case.crack.kinks
-    found = statics_after(case, *reversed(result.responses)) if judged else statics
+    found = statics_after(case, *reversed(result.responses)) if statics is None else statics
     numbers = Numbers({**result.to_json(), **({} if found is None else {"statics": found.to_json()})}, units)
     drawn = all_figures(case, result, units) if figures is None else figures
     runs = tuple(run for run in reversed(result.responses) if has_pictures(run))
@@ -105,8 +103,7 @@ def write_report(
     directory
         Where; it is made if it is not there.
     statics
-        Result of :func:`heeltoe.statics`; computed with the residual slip of the result where it is not given. A report
-        of a crack with kinks has none.
+        Result of :func:`heeltoe.statics`; computed with the residual slip of the result where it is not given.
     units
         ``"si"`` or ``"us"``: of input, numbers, sentences and figures; those of the case where it is not given. The
         JSON stays SI.

@@ -27,6 +27,7 @@ _ROWS: tuple[tuple[str, str, Callable[[LoadCase], float | str | None]], ...] = (
     ("friction", "g", lambda found: found.friction),
     ("cohesion", "z.3f MN/m", lambda found: found.cohesive_force_n),
     ("sliding factor", "z.2f", lambda found: found.sliding_factor),
+    ("  on its pieces", "z.2f", lambda found: found.sliding_factor_on_pieces),
     ("overturning factor", "z.2f", lambda found: found.overturning_factor),
     ("  about the", "", lambda found: found.overturning_about),
     ("flotation factor", "z.2f", lambda found: found.flotation_factor),

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from heeltoe.models.statics.checks import Check
-from heeltoe.models.statics.load_case import LoadCase
+from heeltoe.models.statics.load_case import LoadCase, along_line
 from heeltoe.models.statics.sheet import ForceLine
 from heeltoe.units.systems import FOOT, INCH, KIP, POUND_FORCE
 from heeltoe.units.write import NOTHING
@@ -194,7 +194,7 @@ class _Steps:
 
     def all(self) -> tuple[Step, ...]:
         """Return all steps that the load case has."""
-        made = [*self._sums(), *self._position(), *self._stresses(), self._sliding(), self._overturning()]
+        made = [*self._sums(), *self._position(), *self._stresses(), *self._sliding(), self._overturning()]
         return (*made, self._flotation())
 
     def _judged(self, name: str) -> tuple[str, bool | None]:
@@ -295,17 +295,31 @@ class _Steps:
         text = f"{_say(value / self.to.stress, 5)} {self.stress}"
         return text if self.units != "us" else f"{text} = {_say(value / _PSI, 4)} psi"
 
-    def _sliding(self) -> Step:
+    def _sliding(self) -> list[Step]:
         found = self.found
         limit, met = self._judged("sliding factor")
         if found.sliding_factor is None:
-            return Step("sliding", "F = μ N / |T|", "T is zero", "none", limit, met)
+            return [Step("sliding", "F = μ N / |T|", "T is zero", "none", limit, met)]
         cohesive = found.cohesive_force_n / self.to.force
         held = f"{found.friction:g} · {_say(max(0.0, self.normal))}"
         formula, worked = "F = μ N / |T|", f"{held} / {_say(abs(self.shear))}"
         if cohesive:
             formula, worked = "F = (C + μ N) / |T|", f"({_say(cohesive)} + {held}) / {_say(abs(self.shear))}"
-        return Step("sliding", formula, worked, f"{found.sliding_factor:.4f}", limit, met)
+        if found.sliding_factor_on_pieces is None:
+            return [Step("sliding", formula, worked, f"{found.sliding_factor:.4f}", limit, met)]
+        borne = found.sliding_factor_on_pieces * abs(self.shear)
+        less = found.pieces_bear == "less"
+        judged, idle = (limit, met), ("", None)
+        by_pieces = ("F = T_p / |T|, T_p what they bear", f"{_say(borne)} / {_say(abs(self.shear))}")
+        return [
+            Step("sliding, straight line", formula, worked, f"{along_line(found):.4f}", *(idle if less else judged)),
+            Step(
+                "sliding, on its pieces",
+                *by_pieces,
+                f"{found.sliding_factor_on_pieces:.4f}",
+                *(judged if less else idle),
+            ),
+        ]
 
     def _overturning(self) -> Step:
         found = self.found

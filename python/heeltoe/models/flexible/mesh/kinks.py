@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from heeltoe.arrays import Floats, Integers
-from heeltoe.case.crack.kinks import corners
+from heeltoe.case.crack.kinks import climbs, corners
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
 from heeltoe.geometry.axes import in_x_and_z, places
@@ -32,7 +32,7 @@ def kinked(mesh: DamMesh, case: Case) -> DamMesh:
     """
     parts = list(mesh.parts)
     for place, alone in enumerate(case.cracks):
-        if any(height for _, height in alone.crack.kinks):
+        if climbs(alone.crack.kinks):
             # Both parts that meet there; the mesh of the lower one has this crack first.
             for part, face in ((place, -1), (place + 1, 0)):
                 parts[part] = _drawn(parts[part], parts[part].faces[face], alone)

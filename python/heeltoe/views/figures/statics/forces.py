@@ -61,7 +61,7 @@ def forces_figure(case: Case, found: LoadCase, units: str = "si") -> Figure:
         ``"si"`` or ``"us"``.
     """
     system = unit_system(units)
-    drawn, section = flooded(case) if found.name == "flood" else case, case.cut
+    drawn, section = flooded(case) if found.name == "flood" else case, case.above
     figure = Figure(figsize=(WIDTH, _HEIGHT))
     heading(figure, case.title or "Untitled case", f"{found.name}, crack at {_at(case, system)}")
     panel = _PANEL / _HEIGHT
@@ -79,7 +79,7 @@ def forces_figure(case: Case, found: LoadCase, units: str = "si") -> Figure:
     draw_bodies(canvas, drawn)
     _draw_arms(canvas, section, (heights, widths), system)
     _draw_pressures(canvas, drawn, found, system)
-    _draw_crack(canvas, section, found)
+    _draw_crack(canvas, case, found)
     _draw_arrows(canvas, section, found, arrows, system)
     stress = figure.add_axes((0.1, 0.42 / _HEIGHT, 0.87, panel - 0.05))
     draw_stresses(stress, found, system)
@@ -140,11 +140,12 @@ def _colour(name: str) -> str:
     return _EARTHQUAKE if first in ("inertia", "hydrodynamic") else FORCE_COLOURS.get(first, _WATER)
 
 
-def _draw_crack(canvas: Canvas, section: CutSection, found: LoadCase) -> None:
-    """Draw the crack, what of it is open in thick red, and the ends of the contact."""
+def _draw_crack(canvas: Canvas, case: Case, found: LoadCase) -> None:
+    """Draw the crack, what of it is open in thick red, on the straight line, and the ends of the contact."""
+    section = case.cut
     heel, along = np.array(section.heel), np.array(section.from_crack_frame(1.0, 0.0))
     start, end, open_ = found.contact_from_m, found.contact_to_m, found.cracked_length_m
-    canvas.line([section.heel, section.toe], keep_off=True, color="#000000", linewidth=1.4, zorder=4.6)
+    canvas.line(case.crack_line, keep_off=True, color="#000000", linewidth=1.4, zorder=4.6)
     gone = (start, start + open_) if found.cracked_from == "heel" else (end - open_, end)
     if open_:
         canvas.line([heel + each * along for each in gone], color=COLOURS["crack"], linewidth=3.5, zorder=4.7)
