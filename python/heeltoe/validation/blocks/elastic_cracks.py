@@ -98,7 +98,8 @@ def kinked_crack() -> Iterator[Row]:
 
     A block of 8 m x 3 m and 1000 GPa on teeth of 1 m slides where the push exceeds g tan(phi + i), and goes uphill as a
     point on a slope does; the rise of the push makes it spring by the elasticity of block and teeth. Below a dam of
-    110 m a step of 6 m without friction gives the water's push by the pressures normal to its pieces alone.
+    110 m a step of 6 m without friction gives the water's push by the pressures normal to its pieces alone. Teeth whose
+    friction weakens with the slip are climbed as a slope with that law is.
     """
     for degrees, friction in ((10.0, 0.3), (20.0, 0.2)):
         rise = math.radians(degrees)
@@ -113,6 +114,7 @@ def kinked_crack() -> Iterator[Row]:
         slip = 0.5 * uphill * 0.25**2 * math.cos(rise)
         why = "block and teeth spring as the push begins at once"
         yield Row(f"{kind}, 140 % of it: slip after 0.25 s [m]", slip, ours, 0.05, remark=why, digits=5)
+    yield _weakening_teeth()
     case = read_case(
         {
             "section": {"height": "110 m", "crest_width": "8 m", "base_width": "90 m"},
@@ -141,14 +143,28 @@ def kinked_crack() -> Iterator[Row]:
     yield Row(what, 0.0, off, 1e-9, relative=False, kind="condition")
 
 
-def _slabs(base: float, upper: float) -> Case:
-    """Return two dry stiff slabs of 16 m x 1 m and 16 m x 2 m, one on the other, under a pulse."""
+def _weakening_teeth() -> Row:
+    """Up a slope with mu = mu_p - (mu_p - mu_r) d / D the motion is d'' = a + k d: d = a / k (cosh(sqrt(k) t) - 1)."""
+    rise, peak, residual, over = math.radians(10.0), 0.4, 0.2, 0.2
+    push = 1.5 * _G * math.tan(math.atan(peak) + rise)
+    law = {"name": "slip weakening", "peak_friction": peak, "residual_friction": residual, "slip": f"{over} m"}
+    ours = float(flexible(_sawtooth(rise, peak, push).with_({"crack.law": law})).histories["slip_m"][-1])
+    pressed = _G * math.cos(rise) + push * math.sin(rise)
+    uphill, grows = push * math.cos(rise) - _G * math.sin(rise) - peak * pressed, (peak - residual) / over * pressed
+    slip = uphill / grows * (math.cosh(math.sqrt(grows) * 0.25) - 1.0) * math.cos(rise)
+    what = "teeth of 10 degrees, friction 0.4 to 0.2 over 0.2 m, 150 %: slip after 0.25 s [m]"
+    return Row(what, slip, ours, 0.03, remark="block and teeth spring as the push begins at once", digits=5)
+
+
+def _slabs(base: dict[str, Any], upper: dict[str, Any]) -> Case:
+    """Return two dry stiff slabs of 16 m x 1 m and 16 m x 2 m, one on the other, under a pulse; their cracks have a
+    coefficient of friction or a law."""
     return read_case(
         {
             "section": {"polygon": [["0 m", "0 m"], ["16 m", "0 m"], ["16 m", "3 m"], ["0 m", "3 m"]]},
             "concrete": {"density": "2500 kg/m^3", "modulus": "20000 GPa", "poisson": 0.2},
-            "crack": {"elevation": "0 m", "friction": base},
-            "further_cracks": [{"elevation": "2 m", "friction": upper}],
+            "crack": {"elevation": "0 m", **base},
+            "further_cracks": [{"elevation": "2 m", **upper}],
             "uplift": {"pattern": "none"},
             "motion": {"points": [["0 s", "0 g"], ["0.05 s", "-0.5 g"], ["0.25 s", "-0.5 g"], ["0.3 s", "0 g"]]},
             "flexible": {"elements_across": 4, "evidence": "none", "time_step": "0.05 ms"},
@@ -160,11 +176,12 @@ def several_cracks() -> Iterator[Row]:
     """An elastic dam cracked at two levels: stiff slabs are two rigid blocks; with its base bonded the neck is alone.
 
     Slabs of 1 m on 2 m and 16 m wide with 20 000 GPa, under 0.5 g for 0.25 s: friction 0.3 below and 0.2 above, and
-    with either crack bonded. The typical dam of 100 m has cracks at its base and at 90 m, 20 GPa and all modes, and
+    with either crack bonded; a friction law of the other is that of a block alone, and an anchor through both presses
+    both. The typical dam of 100 m has cracks at its base and at 90 m, 20 GPa and all modes, and
     five pulses: its base is bonded by a pressure that draws its faces together, which contact gives back.
     """
     for base, upper, kind in ((0.3, 0.2, "both slide"), (0.3, 5.0, "upper bonded"), (5.0, 0.2, "base bonded")):
-        case = _slabs(base, upper)
+        case = _slabs({"friction": base}, {"friction": upper})
         dam, blocks = flexible(case).summary["cracks"], rigid(case).summary["cracks"]
         for name, ours, reference in zip(("upper crack", "base"), dam, blocks, strict=True):
             slip, found = reference["residual_slip_m"], ours["residual_slip_m"]
@@ -177,7 +194,24 @@ def several_cracks() -> Iterator[Row]:
                 kind="own run",
                 digits=5,
             )
+    yield from _laws_of_slabs()
     yield from _bonded_base()
+
+
+def _laws_of_slabs() -> Iterator[Row]:
+    weak = {"law": {"name": "slip weakening", "peak_friction": 0.3, "residual_friction": 0.15, "slip": "50 mm"}}
+    bonded = {"friction": 5.0}
+    for place, case in enumerate((_slabs(bonded, weak), _slabs(weak, bonded))):
+        name = ("upper crack", "base")[place]
+        ours, block = flexible(case).summary["cracks"][place], rigid(case.cracks[place])
+        what = f"slabs, friction 0.3 to 0.15 over 50 mm, other crack bonded: slip of the {name} [m]"
+        yield Row(what, block.residual_slip_m, ours["residual_slip_m"], 2e-3, kind="own run", digits=5)
+    anchor = {"head_x": "8 m", "head_elevation": "3 m", "foot_x": "8 m", "foot_elevation": "-2 m"}
+    bare = _slabs({"friction": 0.3}, {"friction": 0.2})
+    held = bare.with_({"anchors": [anchor | {"prestress": "500 kN/m"}]})
+    forces = [[float(each[1].sum()) for each in build_flexible_dam(case).crack_forces] for case in (bare, held)]
+    for name, without, with_anchor in zip(("upper crack", "base"), *forces, strict=True):
+        yield Row(f"slabs, anchor of 500 kN/m: more force on the {name} [N/m]", 5e5, with_anchor - without, 1e-9)
 
 
 def _bonded_base() -> Iterator[Row]:

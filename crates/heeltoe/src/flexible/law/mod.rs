@@ -152,7 +152,9 @@ impl Laws {
             let Worked { contact, double, .. } = self.contacts[k];
             if let (Some(double), Status::Absent) = (double, status[contact]) {
                 let other = self.contacts.iter().find(|other| other.contact == double);
-                self.contacts[k].worn.path = other.map_or(0.0, |other| other.worn.path);
+                let there = other.map_or(0.0, |other| other.worn.path);
+                // What it has been through itself, before it left the other face, stays.
+                self.contacts[k].worn.path = self.contacts[k].worn.path.max(there);
             }
         }
         self.add_up();
