@@ -156,6 +156,12 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "friction and prestress alone do not hold the dam before the earthquake (sliding safety factor {factor:.3f}): "
         "it begins by sliding until its anchors hold it",
     ),
+    "steps-hold": (
+        "caution",
+        "crack.kinks",
+        "friction on the straight line from heel to toe alone does not hold the dam before the earthquake (sliding "
+        "safety factor {factor:.3f}): the steps of its crack do, as long as none shears off",
+    ),
     "slides-by-itself": (
         "grave",
         "",

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from heeltoe.arrays import Floats
+from heeltoe.case.crack.kinks import climbs
 from heeltoe.case.model import Case
 from heeltoe.errors import expect
 from heeltoe.geometry.section import CutSection
@@ -291,7 +292,8 @@ def instability(block: Block) -> Sentence | None:
         return Sentence("the water pressure below the dam is more than its weight: it floats")
     reasons = []
     factor = block.sliding_safety_factor
-    if factor is not None and factor < 1.0:
+    # The steps of a crack may hold what friction on the straight line from heel to toe does not.
+    if factor is not None and factor < 1.0 and not climbs(block.case.crack.kinks):
         text = "it slides under its static loads alone (sliding safety factor {factor:.3f})"
         reasons.append(Sentence.of(text, factor=factor))
     position = block.resultant_position

@@ -8,6 +8,7 @@ from dataclasses import replace
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
+from heeltoe.case.crack.kinks import climbs
 from heeltoe.case.model import Case
 from heeltoe.mechanics.drains import close_by_slip, drainage_left
 from heeltoe.motion.earthquake import Earthquake
@@ -24,6 +25,8 @@ _FASTEST = 1.0
 def follows_drains(case: Case, earthquake: Earthquake) -> bool:
     """Whether drains may close in a run of an elastic dam, and its uplift can change then."""
     there = bool(earthquake.shaking.begins) and close_by_slip(case) and not case.further_cracks
+    # On steps the water that rises pushes along the crack, too, which the kernel does not know.
+    there = there and not climbs(case.crack.kinks)
     return there and case.uplift.during_shaking == "constant" and case.flexible.contact == "coulomb"
 
 

@@ -188,7 +188,8 @@ def _elastic_end(response: Response, units: str) -> str:
     if comes_to_rest(response):
         return _rest_in_silence(response) or "It has come to rest in the end."
     factor = response.static["sliding_safety_factor"]
-    if factor is not None and factor < 1.0:
+    held = any(each.code == "steps-hold" for each in response.warnings)
+    if factor is not None and factor < 1.0 and not held:
         return "It slides away: its static loads alone move it, and nothing stops it."
     last = last_of(response)
     moved = length(last.change_m, units)

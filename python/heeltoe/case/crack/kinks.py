@@ -24,8 +24,6 @@ def kinks_alone(case: Case) -> Iterator[InputError]:
     """Walk what of a case does not go with a crack that is not straight."""
     if not any_kinks(case):
         return
-    if case.aftershocks:
-        yield InputError("kinks-beside", "aftershocks")
     if case.crack.roughness is not None:
         yield InputError("kinks-beside", "crack.roughness")
     if case.uplift.during_shaking != "constant":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
+from heeltoe.case.crack.kinks import climbs
 from heeltoe.case.model import Case
 from heeltoe.case.warnings import concrete_warnings
 from heeltoe.kernel.dam import DamRun
@@ -85,7 +86,7 @@ def warnings_of(
     return [
         # What does not stand has no result that evidence could be of.
         *(_about_the_evidences(evidences, dam) if outcome != "unstable" else ()),
-        *_about_the_start(dam, safety),
+        *_about_the_start(case, dam, safety),
         *_about_the_growth(growth, run.summary),
         *_about_the_mesh(dam),
         *_about_the_concrete(case, dam),
@@ -100,9 +101,10 @@ def _about_the_mesh(dam: FlexibleDam) -> Iterator[Notice]:
         yield Notice("outline-simplified", missed_m=missed)
 
 
-def _about_the_start(dam: FlexibleDam, safety: float | None) -> Iterator[Notice]:
+def _about_the_start(case: Case, dam: FlexibleDam, safety: float | None) -> Iterator[Notice]:
     if safety is not None and safety < 1.0:
-        yield Notice("anchors-hold" if dam.anchors else "slides-by-itself", factor=safety)
+        steps = climbs(case.crack.kinks) and dam.start.stands
+        yield Notice("anchors-hold" if dam.anchors else "steps-hold" if steps else "slides-by-itself", factor=safety)
     elif not (dam.start.stands or dam.anchors):
         yield Notice("no-rest")
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
 from heeltoe.arrays import Floats
@@ -20,7 +20,7 @@ class OfCrack(NamedTuple):
     width: Floats
 
 
-def check_cracks(case: Case, models: Iterable[str]) -> None:
+def check_cracks(case: Case, models: Collection[str]) -> None:
     """Refuse cracks that a study, or one of its models, does not know.
 
     Raises
@@ -28,7 +28,8 @@ def check_cracks(case: Case, models: Iterable[str]) -> None:
     InputError
         Then.
     """
-    straight_crack(case, "a study")
+    if set(models) != {"flexible"}:
+        straight_crack(case, "a study of blocks")
     if case.further_cracks and "decoupled" in models:
         one_crack(case, "the decoupled chain")
     if case.further_cracks and "rigid" in models:

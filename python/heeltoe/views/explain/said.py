@@ -54,7 +54,8 @@ OF_A_RUN: dict[str, str] = {
     "ground acceleration.",
     "static.critical_acceleration_per_vertical": "How critical accelerations change with an upward acceleration.",
     "static": "The state under the static loads, before the earthquake.",
-    "static.sliding_safety_factor": "Friction that there can be over the force along the crack.",
+    "static.sliding_safety_factor": "Friction that there can be over the force along the crack, or along the straight "
+    "line from heel to toe of one with kinks.",
     "static.resultant_from_heel_m": "Where the resultant of all forces meets the crack, from the heel.",
     "static.normal_force_n": "Force across the crack, uplift taken off.",
     "static.horizontal_force_n": "Force along the crack, positive downstream.",
