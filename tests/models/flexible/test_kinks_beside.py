@@ -42,7 +42,7 @@ depth = "105 m"
 elements_across = 4
 evidence = "none"
 [analysis]
-silence = "0 s"
+silence = "3 s"
 """
 STUDY = """
 case = "case.toml"
@@ -107,6 +107,7 @@ def test_a_dam_that_its_steps_hold_stands_before_the_earthquake():
 
 
 def test_each_run_of_a_study_is_the_one_by_hand(tmp_path):
+    """Swinging on through its silence too, where its crack has closed on two steps when the motion ends."""
     plan = plan_of(read_study(study_file(tmp_path, STUDY.format(model='"flexible"'), case=FILE)))
     table = parts.run_part(plan, 0, plan.count).to_pylist()
     assert len(table) == 4
