@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from heeltoe.case.crack.crack import Crack
 from heeltoe.mechanics.block import build_block
 from heeltoe.models.rigid.varying import varies
@@ -270,12 +272,14 @@ def _decoupled(writer: _Writer, subject: Subject) -> None:
     writer.show("crack motion")
 
 
-def _nodes(writer: _Writer, crack: Crack) -> None:
+def _nodes(writer: _Writer, cracks: Sequence[Crack]) -> None:
     writer.say("At every node of the crack, with $b$ what the gap leaves:")
     writer.show("signorini")
-    if crack.law is not None:
-        writer.say(f"$μ$ is that of the law {crack.law.name} at the node’s own stress, way and speed.")
-    if crack.kinks:
+    laws = sorted({crack.law.name for crack in cracks if crack.law is not None})
+    if laws:
+        which = f"the law {laws[0]}" if len(laws) == 1 else f"the crack’s law, {' or '.join(laws)},"
+        writer.say(f"$μ$ is that of {which} at the node’s own stress, way and speed.")
+    if any(crack.kinks for crack in cracks):
         writer.say("Normal and tangent of a node are those of its piece of the crack, which is not straight.")
 
 
@@ -313,7 +317,7 @@ def _flexible(writer: _Writer, subject: Subject) -> None:
             "Δ$V$ the exact change of the ground’s velocity in it:"
         )
         writer.show("step")
-        _nodes(writer, subject.case.crack)
+        _nodes(writer, [alone.crack for alone in subject.case.cracks])
     else:
         writer.say(
             f"Contact is by penalties, as in Zhu (2004): Newmark’s scheme with $γ$ = {options.newmark_gamma:g}, and "

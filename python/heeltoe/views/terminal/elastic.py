@@ -103,8 +103,9 @@ def _growth_line(found: Mapping[str, float | None], units: str) -> str:
 
 def _contact_line(response: FlexibleResponse) -> str:
     s = response.summary
-    law = s.get("friction_law")
-    how = _CONTACT[s["contact"]] if law is None else f"exact, with friction by {law['name']}"
+    found = (each.get("friction_law") for each in (s, *s.get("cracks", ())))
+    laws = " and ".join(sorted({law["name"] for law in found if law is not None}))
+    how = f"exact, with friction by {laws}" if laws else _CONTACT[s["contact"]]
     return (
         f"{s['contact']}: {how}; {s['contact_iterations_per_step']:.3g} iterations per step, "
         f"conditions met to {s['contact_residual']:.0e}"
