@@ -31,11 +31,11 @@ SCALES = np.array([0.99, 0.995, 1.0, 1.005, 1.01])
 
 def main() -> None:
     """Print a row for each mesh."""
-    print(f"| elements across | step | {' | '.join(LINES)} |")
-    print("| --- " * (2 + len(LINES)) + "|")
+    print(f"| elements across, step | {' | '.join(LINES)} |")
+    print("| --- " * (1 + len(LINES)) + "|")
     for across, step in MESHES:
-        told = (f"{mean:.0f} ± {half:.0f} mm" for mean, half in _row(across, step))
-        print(f"| {across} | {1e3 * step:g} ms | {' | '.join(told)} |", flush=True)
+        told = (f"{mean:.0f} ± {half:.0f}" for mean, half in _row(across, step))
+        print(f"| {across}, {1e3 * step:g} ms | {' | '.join(told)} |", flush=True)
 
 
 def slips(slope: float, friction: float, across: int, step: float) -> tuple[float, float]:
