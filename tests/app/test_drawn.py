@@ -97,9 +97,7 @@ def test_what_a_block_does_not_know_is_no_error(name, changes, said):
 def test_static_checks_need_no_block():
     case = example("two-cracks").with_({"aftershocks": [{"file": "elcentro-1940-180-nga"}]})
     assert checked(case, {}, "si")["checks"]
-    assert checked(example("stepped-crack"), {}, "si")["error"]["problem"] == (
-        "the static check knows straight cracks alone"
-    )
+    assert checked(example("stepped-crack"), {}, "si")["checks"]
 
 
 def test_what_knows_one_crack_alone_says_so():
