@@ -151,3 +151,27 @@ def test_a_law_tells_its_friction_and_what_cannot_be_run(case):
     case.click("#tab-answer")
     case.wait_for_selector(".card[data-details=rigid] >> text=apparent friction is 0.8, before 1")
     assert case.is_disabled("#slider-crack-friction")
+
+
+def test_a_further_crack_has_a_law_and_corners_of_its_own(case, picture):
+    choose_example(case, "two-cracks")
+    case.wait_for_selector("[data-handle='further crack 1']")
+    open_block(case, "further_cracks")
+    own = "#field-further-cracks-0-law"
+    assert not case.is_visible(f"{own}-jrc")
+    case.click(f"{own} >> text=Add friction law")
+    value_is(case, f"{own}-name", "slip weakening")
+    value_is(case, "#field-further-cracks-0-friction", "")
+    sound(case)
+    case.select_option(f"{own}-name", "barton-bandis")
+    value_is(case, f"{own}-jrc", "10")
+    assert not case.is_visible(f"{own}-slip")
+    case.fill(f"{own}-jrc", "8")
+    sound(case)
+    case.click("#field-further-cracks-0-kinks >> text=Add a row to kinks")
+    case.fill("#field-further-cracks-0-kinks-0-0-", "3")
+    case.fill("#field-further-cracks-0-kinks-0-1-", "0.4")
+    sound(case)
+    picture(case, "case-further-law")
+    case.click(f"{own} >> text=Remove friction law")
+    sound(case)

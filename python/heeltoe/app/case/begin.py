@@ -28,7 +28,8 @@ _PATTERNS: dict[str, dict[str, Any]] = {
     "drained": {"uplift.drain_position": 0.1, "uplift.drain_efficiency": 0.667},
 }
 _LAW = "crack.law"
-_COEFFICIENTS = ("crack.friction", "crack.static_friction", "crack.kinetic_friction")
+_OWN_COEFFICIENTS = ("friction", "static_friction", "kinetic_friction")
+_COEFFICIENTS = tuple(f"crack.{name}" for name in _OWN_COEFFICIENTS)
 
 
 def block(case: Case | None, units: str, path: str, *, there: bool) -> dict[str, Any]:
@@ -71,7 +72,27 @@ def following(changes: Mapping[str, Any], fields: Mapping[str, Any]) -> dict[str
         had = fields.get("crack", {}).get("law") if isinstance(fields.get("crack"), dict) else None
         found |= {_LAW: _named(law, had if isinstance(had, dict) else {})}
         del found["crack.law.name"]
+    if isinstance(found.get("further_cracks"), list):
+        before = fields.get("further_cracks")
+        had = before if isinstance(before, list) else []
+        found["further_cracks"] = [
+            _with_law(crack, had[place] if place < len(had) else None)
+            for place, crack in enumerate(found["further_cracks"])
+        ]
     return found
+
+
+def _with_law(crack: Any, before: Any) -> Any:
+    """Return a further crack with what belongs to a law that is put in, or chosen in place of another."""
+    law = crack.get("law") if isinstance(crack, dict) else None
+    if not isinstance(law, dict):
+        return crack
+    had = before.get("law") if isinstance(before, dict) else None
+    name = law.get("name", "slip weakening")
+    if name not in LAW_FIELDS or (isinstance(had, dict) and had.get("name") == name):
+        return crack
+    others = {key: value for key, value in crack.items() if key not in _OWN_COEFFICIENTS}
+    return others | {"law": _named(name, law)}
 
 
 def _named(law: str, had: Mapping[str, Any]) -> dict[str, Any]:
