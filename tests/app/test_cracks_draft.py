@@ -143,3 +143,27 @@ def test_every_block_begins_sound(session):
     for path in had:
         put(session, path, there=True)
         back(session)
+
+
+@pytest.mark.parametrize("units", ["si", "us"])
+def test_an_anchor_of_several_cracks_goes_through_all_of_them(units):
+    case = example("two-cracks")
+    held = case.with_({"anchors": [item(case, units, "anchors")]})
+    for alone in held.cracks:
+        (anchor,) = alone.anchors_at_crack
+        assert anchor.prestress == 1e6
+        assert anchor.distance == pytest.approx(4.0, rel=1e-3)
+
+
+def test_a_law_of_a_further_crack_begins_sound(session):
+    edit(session, {"further_cracks": [{"elevation": "60 m", "friction": 0.9}]})
+    for chosen, name in (({}, "slip weakening"), ({"name": "lift joint"}, "lift joint")):
+        put_in = {"further_cracks": [{"elevation": "60 m", "friction": 0.9, "law": chosen}]}
+        edit(session, following(put_in, fields_of(session)[0]))
+        assert not draft_of(session).errors
+        assert session.case.further_cracks[0].law.name == name
+        assert session.case.further_cracks[0].friction is None
+    # What is typed into it later stays as it is typed.
+    own = session.case.further_cracks[0].law.model_dump(mode="json", exclude_unset=True) | {"basic_friction": 0.65}
+    typed = {"further_cracks": [{"elevation": "60 m", "law": own}]}
+    assert following(typed, fields_of(session)[0]) == typed

@@ -6,8 +6,10 @@ from collections.abc import Mapping
 from itertools import pairwise
 from typing import Any
 
+import numpy as np
+
 from heeltoe.app.case.fields import field_of
-from heeltoe.app.case.handles import length_text
+from heeltoe.app.case.handles import corners_of, length_text
 from heeltoe.case.crack.law import LAW_FIELDS
 from heeltoe.case.model import Case
 from heeltoe.errors import InputError
@@ -45,6 +47,8 @@ def block(case: Case | None, units: str, path: str, *, there: bool) -> dict[str,
 
 def item(case: Case | None, units: str, path: str) -> dict[str, Any]:
     """Return what one more item of a list begins with."""
+    if path == "anchors" and case is not None and case.further_cracks:
+        return _through(case, units)
     if path == "anchors":
         return {"distance": f"1 {'ft' if units == 'us' else 'm'}", "prestress": "1 MN/m"}
     field = field_of(path)
@@ -52,6 +56,16 @@ def item(case: Case | None, units: str, path: str) -> dict[str, Any]:
         part = _between_cracks(case) if path == "further_cracks" else 0.5
         return {"elevation": length_text(case, units, part)}
     return dict(_BEGIN.get(path, {}))
+
+
+def _through(case: Case, units: str) -> dict[str, Any]:
+    """Return an anchor from the middle of the crest, upright into the rock: through all cracks."""
+    corners = np.array(corners_of(case, units))
+    x, z = (np.array([float(each.split()[0]) for each in column]) for column in corners.T)
+    unit, top, base = corners[0, 0].split()[1], float(z.max()), float(z.min())
+    middle = f"{x[z == top].mean():.4g} {unit}"
+    ends = {"head_x": middle, "head_elevation": f"{top - base:.6g} {unit}", "foot_x": middle}
+    return ends | {"foot_elevation": f"{-0.1 * (top - base):.4g} {unit}", "prestress": "1 MN/m"}
 
 
 def following(changes: Mapping[str, Any], fields: Mapping[str, Any]) -> dict[str, Any]:
