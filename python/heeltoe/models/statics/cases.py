@@ -143,7 +143,11 @@ def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
     water = still_water(case, start, end)
     matches = not size
     if not matches and climbs(case.crack.kinks):
-        said.append(Sentence("after the slip the kinks of the two faces no longer match: they count for nothing"))
+        text = (
+            "after the slip the two faces no longer match, and the block touches a few places of them: it is judged on the "
+            "straight line from heel to toe, and its kinks count for nothing"
+        )
+        said.append(Sentence(text))
     given = Given("post-seismic", "post-earthquake", friction, 0.0, tuple(said), sources_of(case), law, matches)
     return solve_case(given, case, _dry(case), contact, water)
 
