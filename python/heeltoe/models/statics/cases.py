@@ -144,8 +144,8 @@ def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
     matches = not size
     if not matches and climbs(case.crack.kinks):
         text = (
-            "after the slip the two faces no longer match, and the block touches a few places of them: it is judged on the "
-            "straight line from heel to toe, and its kinks count for nothing"
+            "after the slip the two faces no longer match, and the block touches a few places of them: it is judged on "
+            "the straight line from heel to toe, and its kinks count for nothing"
         )
         said.append(Sentence(text))
     given = Given("post-seismic", "post-earthquake", friction, 0.0, tuple(said), sources_of(case), law, matches)
