@@ -42,6 +42,7 @@ READ_BY: dict[str, frozenset[str]] = {
     "further_cracks.kinks": frozenset({"flexible", "statics"}),
     "further_cracks": frozenset({"rigid", "flexible", "statics"}),
     **dict.fromkeys((f"crack.law.{name}" for name in ("form", "slip", "speed", "surface")), _SHAKEN),
+    "further_cracks.law": frozenset({"flexible", "statics"}),
     **dict.fromkeys(
         (f"further_cracks.law.{name}" for name in ("form", "slip", "speed", "surface")), frozenset({"flexible"})
     ),

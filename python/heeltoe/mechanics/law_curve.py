@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -109,6 +109,25 @@ def curve_of(case: Case) -> LawCurve:
     """
     block = build_block(case)
     return _curve(case.crack, max(block.normal_force, 1.0) / block.width, case.title or "untitled case")
+
+
+def curves_of(case: Case) -> dict[str, LawCurve]:
+    """Return the curves of all cracks of a case that have a law: ``law`` is that of ``[crack]``, ``crack-1/law`` that of
+    the uppermost where it is another one. Without a law the curve is that of the coefficients of ``[crack]``.
+
+    Raises
+    ------
+    InputError
+        Where a crack does not cut the section in two.
+    """
+    found = {}
+    for place, alone in enumerate(case.cracks):
+        if alone.crack.law is not None:
+            curve = curve_of(alone)
+            at = f"crack at {alone.crack.elevation:g} m" if case.further_cracks else ""
+            title = ", ".join(each for each in (curve.title, at) if each)
+            found["law" if place == case.asked else f"crack-{place + 1}/law"] = replace(curve, title=title)
+    return found or {"law": curve_of(case)}
 
 
 def _curve(crack: Crack, stress: float, title: str) -> LawCurve:

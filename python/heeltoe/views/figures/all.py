@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -136,15 +137,11 @@ def all_figures(case: Case | None, result: Response, units: str = "si") -> Figur
 
 def _laws(case: Case, units: str) -> dict[str, Callable[[], Figure]]:
     """Return what draws the friction law of each crack that has one."""
-    from heeltoe.mechanics.law_curve import curve_of
+    if all(alone.crack.law is None for alone in case.cracks):
+        return {}
+    from heeltoe.mechanics.law_curve import curves_of
 
-    found: dict[str, Callable[[], Figure]] = {}
-    if case.crack.law is not None:
-        found["law"] = lambda: law_figure(curve_of(case.cracks[case.asked]), units)
-    for place, alone in enumerate(case.cracks):
-        if place != case.asked and alone.crack.law is not None:
-            found[f"crack-{place + 1}/law"] = lambda alone=alone: law_figure(curve_of(alone), units)  # type: ignore[misc]
-    return found
+    return {name: partial(law_figure, curve, units) for name, curve in curves_of(case).items()}
 
 
 def has_pictures(response: Response) -> bool:

@@ -136,11 +136,11 @@ def write_overturning(found: OverturningMap, directory: Path) -> list[Path]:
     return write_whole(write, directory, ())
 
 
-def write_law(found: LawCurve, directory: Path) -> list[Path]:
-    """Write the curve of a friction law as ``law.png`` and ``.svg``, both or none, and return their paths."""
+def write_law(found: Mapping[str, LawCurve], directory: Path) -> list[Path]:
+    """Write the curves of friction laws by their names as PNG and SVG, all or none, and return their paths."""
 
     def write(fresh: Path) -> None:
-        save_all({"law": law_figure(found)}, fresh)
+        save_all({name: law_figure(curve) for name, curve in found.items()}, fresh)
 
     return write_whole(write, directory, ())
 

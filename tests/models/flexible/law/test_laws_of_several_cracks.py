@@ -9,6 +9,7 @@ import pytest
 
 from heeltoe import InputError, read_case, rigid, statics_of_sections
 from heeltoe.case.use import unused_fields
+from heeltoe.mechanics.law_curve import curves_of
 from heeltoe.models.flexible.reduced import build_flexible_dam
 from heeltoe.models.flexible.shaken import ShakenDam
 from heeltoe.models.run import earthquake, flexible
@@ -137,3 +138,12 @@ def test_static_checks_judge_each_section_by_its_law():
     assert {at: case.friction for at, case in after.items()} == pytest.approx({90.0: 0.6, 0.0: 0.9})
     told = unused_fields(dam(0.9, SPEED, motion={"points": DAM["motion"]["points"]}), ("statics",))
     assert any("further_cracks[0].law.residual_friction" in str(each) for each in told)
+
+
+def test_each_law_of_a_case_is_drawn():
+    curves = curves_of(dam(WEAK, BARTON))
+    assert list(curves) == ["crack-1/law", "law"]
+    assert curves["crack-1/law"].title.endswith("crack at 90 m")
+    assert (curves["law"].over, curves["crack-1/law"].over) == ("slip path", "normal stress")
+    assert list(curves_of(dam(0.9, BARTON))) == ["crack-1/law"]
+    assert list(curves_of(dam(0.9, 0.8))) == ["law"]
