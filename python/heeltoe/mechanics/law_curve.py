@@ -112,8 +112,8 @@ def curve_of(case: Case) -> LawCurve:
 
 
 def curves_of(case: Case) -> dict[str, LawCurve]:
-    """Return the curves of all cracks of a case that have a law: ``law`` is that of ``[crack]``, ``crack-1/law`` that of
-    the uppermost where it is another one. Without a law the curve is that of the coefficients of ``[crack]``.
+    """Return the curves of all cracks of a case that have a law: ``law`` is that of ``[crack]``, ``crack-1/law`` that
+    of the uppermost where it is another one. Without a law the curve is that of the coefficients of ``[crack]``.
 
     Raises
     ------
