@@ -7,11 +7,17 @@ import pytest
 
 import heeltoe
 from heeltoe import read_case
+from heeltoe.case.written import case_text
 from heeltoe.mechanics.block import build_block
+from heeltoe.models.drained import with_drains
 from heeltoe.models.flexible.model import run_flexible
 from heeltoe.models.rigid.many import rigid_many
 from heeltoe.models.run import earthquake
+from heeltoe.study import parts
+from heeltoe.study.file import read_study
+from heeltoe.study.plan import plan_of
 from shared.dams import BASE, FAST
+from shared.studies import study_file
 
 POINTS = [["0 s", "0 g"], ["0.1 s", "0.9 g"], ["0.35 s", "-0.7 g"], ["0.5 s", "0 g"]]
 OTHER = [["0 s", "0 g"], ["0.15 s", "-0.8 g"], ["0.4 s", "0.6 g"], ["0.6 s", "0 g"]]
@@ -160,8 +166,30 @@ def test_an_elastic_dam_is_run_again_with_the_drains_that_are_left():
     # One that goes on longer in silence has slightly other steps.
     assert open_.sequence[0].slip_m == pytest.approx(found.sequence[0].slip_m, rel=0.01)
     assert abs(found.sequence[1].slip_m / open_.sequence[1].slip_m - 1.0) > 0.02
-    spread = heeltoe.with_spread(found, case, 3).spread["residual_slips_m"]
-    assert spread[1] == pytest.approx(found.residual_slip_m, rel=1e-9)
+    spread = heeltoe.with_spread(found, case, 3).spread
+    assert spread["residual_slips_m"][1] == pytest.approx(found.residual_slip_m, rel=1e-9)
+    # Each of its runs finds the drains that its own slips leave.
+    ground = earthquake(case)
+    motion = replace(ground.motion, acceleration=spread["scales"][2] * ground.motion.acceleration)
+    stronger = with_drains(case, replace(ground, motion=motion), run_flexible)
+    assert stronger.summary["drainage_by_motion"][2] < shares[2]
+    assert spread["residual_slips_m"][2] == pytest.approx(stronger.residual_slip_m, rel=1e-4)
+
+
+def test_a_study_of_elastic_dams_follows_the_drains_of_each_run(tmp_path):
+    # Silence that ends elsewhere makes the steps of an elastic dam a ten-thousandth longer or shorter.
+    case = elastic(POINTS, "statics.drain_diameter=2 m").with_("analysis.silence=0 s")
+    fields = case.model_dump(mode="json", exclude_unset=True)
+    text = 'case = "case.toml"\nmodel = "flexible"\n[vary]\n"crack.friction" = [0.9, 1.0]\n'
+    plan = plan_of(read_study(study_file(tmp_path, text, case=case_text(fields))))
+    found = parts.run_part(plan, 0, plan.count).to_pylist()
+    assert len(found) == 2
+    for row in found:
+        by_hand = heeltoe.flexible(case.with_({"crack.friction": row["crack.friction"]}))
+        assert by_hand.summary["drainage_by_motion"][2] < 0.95
+        assert row["residual_slip_m"] == pytest.approx(by_hand.residual_slip_m, rel=1e-9)
+    again = parts.run_part(plan, 0, plan.count, threads=2).to_pylist()
+    assert [row["residual_slip_m"] for row in again] == [row["residual_slip_m"] for row in found]
 
 
 def test_water_that_follows_the_opening_keeps_its_drains_and_says_so():

@@ -243,6 +243,7 @@ def _elastic(plan: Plan, runs: Runs, rows: Integers, found: Found, run: Callable
 
 def _flexible(plan: Plan, runs: Runs, rows: Integers, found: Found, threads: int) -> None:
     from heeltoe.kernel.dam import DAM_OUTCOMES, DAM_STATES
+    from heeltoe.models.drained import follows_drains, run_drained
     from heeltoe.models.flexible.reduced import build_flexible_dam
     from heeltoe.models.flexible.shaken import ShakenDam
 
@@ -255,7 +256,10 @@ def _flexible(plan: Plan, runs: Runs, rows: Integers, found: Found, threads: int
         def shake(earthquake: Earthquake, scales: Floats) -> tuple[dict[str, Floats], ...]:
             with found.timed("kernel"):
                 shaken = ShakenDam(case, dam, earthquake.shaking)
-                return shaken.run_scaled_cracks(shaken.first_step() / 2.0**halvings, scales, threads=threads)
+                step = shaken.first_step() / 2.0**halvings
+                if follows_drains(case, earthquake):
+                    return (run_drained(shaken, earthquake.motion.parts, step, scales, threads),)
+                return shaken.run_scaled_cracks(step, scales, threads=threads)
 
         # A dam that swings on two of its steps does not show in the state of its crack: it always has its silence.
         steps = any_kinks(case)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -19,13 +19,14 @@ from heeltoe.kernel.dam import DAM_OUTCOMES
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.models.decoupled.response import DecoupledResponse
-from heeltoe.models.drained import schedule
+from heeltoe.models.drained import follows_drains, run_drained
 from heeltoe.models.flexible.response import FlexibleResponse
 from heeltoe.models.rigid.stack.model import walk_two_blocks
 from heeltoe.models.rigid.tables import with_openings
 from heeltoe.models.rigid.varying import by_itself
 from heeltoe.models.rigid.walk import limits_of, walk
 from heeltoe.models.run import earthquake
+from heeltoe.motion.ground_motion import Part
 from heeltoe.result.contract import HEADLINES, JOINT_METER_M, LARGEST_ROTATION, headlines
 from heeltoe.result.response import Response
 from heeltoe.warnings import Notice
@@ -99,10 +100,10 @@ def with_spread(response: R, case: Case, runs: int = RUNS, *, progress: Progress
         from heeltoe.models.flexible.shaken import ShakenDam
 
         step = _step(response)
-        shares = response.summary.get("drainage_by_motion") or ()
-        ground = replace(ground, drainage=schedule(response.motion.parts, shares))
         shaken = ShakenDam(case, response.crack.dam, ground.shaking)
-        found, good = _flexible(shaken, scales, step, progress)
+        # With drains that slip closes, each run finds those that its own slips leave.
+        parts = ground.motion.parts if follows_drains(case, ground) else None
+        found, good = _flexible(shaken, parts, scales, step, progress)
     elif isinstance(response, DecoupledResponse):
         from heeltoe.models.decoupled.model import crack_earthquake
 
@@ -160,17 +161,22 @@ def _walked(case: Case, block: Block, shaking: Shaking, scales: Floats, progress
     return {name: np.array([row[name] for row in rows]) for name in rows[0]}
 
 
-def _flexible(shaken: ShakenDam, scales: Floats, step: float, progress: Progress | None) -> _Found:
-    """Return the headline numbers of an elastic dam, and which of the runs have a result."""
-    if progress is None:
+def _flexible(
+    shaken: ShakenDam, parts: Sequence[Part] | None, scales: Floats, step: float, progress: Progress | None
+) -> _Found:
+    """Return the headline numbers of an elastic dam, and which of the runs have a result; `parts` are the motions of a
+    sequence between which its drains close."""
+    if parts is not None:
+        rows = run_drained(shaken, parts, step, scales)
+    elif progress is None:
         rows = shaken.run_scaled(step, scales)
     else:
         # In parts of one run for each core, so that there is something to tell.
-        cores, parts = os.cpu_count() or 1, []
+        cores, some = os.cpu_count() or 1, []
         for start in range(0, scales.size, cores):
             progress(start, scales.size)
-            parts.append(shaken.run_scaled(step, scales[start : start + cores]))
-        rows = {name: np.concatenate([part[name] for part in parts]) for name in parts[0]}
+            some.append(shaken.run_scaled(step, scales[start : start + cores]))
+        rows = {name: np.concatenate([part[name] for part in some]) for name in some[0]}
     return headlines(rows), (rows["outcome"] == DAM_OUTCOMES.index("ok")) & _small(rows)
 
 

@@ -78,9 +78,11 @@ class ShakenDam:
         followed, _ = longest_step(self.dam, self.case.flexible.theta, step)
         return step <= min(followed, period / _TOO_FEW_STEPS, self.shaking.end / 2.0)
 
-    def run(self, step: float, frame_step: float | None = None, ending: Ending | None = None) -> DamRun:
-        """Run at about this step, made to fit the duration [s]; with frames about every `frame_step`, and with them
-        the extremes of the stresses."""
+    def run(
+        self, step: float, frame_step: float | None = None, ending: Ending | None = None, factor: float = 1.0
+    ) -> DamRun:
+        """Run at about this step, made to fit the duration [s], with so many times the ground motion; with frames about
+        every `frame_step`, and with them the extremes of the stresses."""
         count, step = self._steps(step)
         stride, stresses = 0, None
         if frame_step is not None:
@@ -88,7 +90,7 @@ class ShakenDam:
             often = max(1, round(min(_STRESS_STEP, frame_step) / step))
             stresses = StressRows(in_bodies(self.dam.stress_places), often)
         return self._shaken_dam.run(
-            self._ground(count),
+            factor * self._ground(count),
             step,
             self.case.flexible.theta,
             stride=stride,
