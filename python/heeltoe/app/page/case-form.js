@@ -76,6 +76,8 @@ export class CaseForm {
     for (const field of block.fields) body.append(this.field(field));
     if (block.path === "crack.law") body.append(this.law.root);
     const list = block.fields[0]?.path === block.path;
+    // What the list is for stands in the summary.
+    if (list) body.querySelector(".field > .meaning")?.remove();
     const state = element("span", { class: "state" });
     const toggle = element("button", { type: "button", onclick: () => this.toggle(block) });
     const root = element(
