@@ -12,7 +12,7 @@ export PYO3_PYTHON := $(abspath $(BIN)/python)
 WASM := wasm32-unknown-unknown
 ELAPSED = echo "$@: done in $$(( $$(date +%s) - $$(cat $(VENV)/.started) )) s"
 
-.PHONY: demo test test-slow test-pythons audit browser lint format validate book peers bench docs wheel try-wheel clean help check
+.PHONY: demo test test-slow test-pythons audit browser lint sizes format validate book peers bench docs wheel try-wheel clean help check
 .DEFAULT_GOAL := help
 
 help:
@@ -23,6 +23,7 @@ help:
 	@echo "make audit      known weaknesses of all that is installed or built from; needs a network"
 	@echo "make browser    install the browser that the tests of the app need; Debian's, needs a network"
 	@echo "make lint       formatting, lints, types and directions of imports"
+	@echo "make sizes      what is large: a report, never an error"
 	@echo "make validate   the reference cases as tables"
 	@echo "make book       the validation book, docs/validation, from the reference cases (CASE=table-7.1 for one)"
 	@echo "make peers      independent codes on problems of known answer; their page of the book (PEER=MuJoCo for one)"
@@ -96,6 +97,10 @@ lint: check $(VENV)/.built
 	$(BIN)/ruff check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports --no-logo --no-cache
+	@$(MAKE) --no-print-directory sizes
+
+sizes: check $(VENV)/.packages
+	@$(BIN)/python .ci/sizes.py
 
 validate: check $(VENV)/.built
 	$(BIN)/heeltoe validate
@@ -144,4 +149,4 @@ format:
 	$(BIN)/ruff check --fix .
 
 clean:
-	rm -rf $(VENV) target out docs/_build docs/generated python/heeltoe/*.so
+	rm -rf $(VENV) target out docs/_build docs/generated python/heeltoe/kernel/*.so

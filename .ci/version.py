@@ -33,10 +33,10 @@ def problems(root: Path, tag: str | None = None) -> list[str]:
         found.append(f"CHANGELOG.md has no heading for {version}")
     if tag is not None and tag != f"v{version}":
         found.append(f"the tag is {tag}, the version {version}")
-    if tag is not None and heading is not None:
-        date = re.search(r"^date-released: (\S+)$", texts["CITATION.cff"], re.MULTILINE)
-        if date is None or heading[1] != date[1]:
-            found.append(f"CHANGELOG.md dates {version} {heading[1]}, CITATION.cff {date[1] if date else 'nothing'}")
+    date = re.search(r"^date-released: (\S+)$", texts["CITATION.cff"], re.MULTILINE)
+    cited = date[1] if date else "unreleased"
+    if heading is not None and (heading[1] != cited or (tag is not None and date is None)):
+        found.append(f"CHANGELOG.md dates {version} {heading[1]}, CITATION.cff {cited}; a tag needs a day in both")
     return found
 
 

@@ -15,9 +15,9 @@ from measure import Timing, heading, repeat, require, seconds, table, timed
 
 from heeltoe import Case, GroundMotion, InputError, read_case, read_record
 from heeltoe.kernel.build import PROFILE
-from heeltoe.models.flexible import bonded
-from heeltoe.models.flexible import reduced as flexible_parts
-from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.models.flexible.body import bonded
+from heeltoe.models.flexible.body import reduced as flexible_parts
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.run import earthquake
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.records.catalog import find
@@ -99,14 +99,14 @@ def row(problem: Problem, peak: float) -> list[str]:
     dam = flexible_parts.build_flexible_dam(case)
     shaken = ShakenDam(case, dam, Earthquake(shaking, None, DURATION).shaking)
     raw = shaken.run(problem.step).summary
-    require(raw["steps"] == round(DURATION / problem.step) and raw["slip"] > 1e-3, "the dam did not slide")
+    require(raw.steps == round(DURATION / problem.step) and raw.slip > 1e-3, "the dam did not slide")
     ours = least(repeat(lambda: shaken.run(problem.step), 7))
     # On one core, to be compared with that one run.
     count, step = shaken._steps(problem.step)
     scales = np.repeat(np.linspace(0.98, 1.02, ABREAST)[:, None], 2, axis=1)
     ground, theta = shaken._ground(count), case.flexible.theta
     several = least(repeat(lambda: dam.kernel.run_many(ground, step, theta, scales, threads=1), 3)) / ABREAST
-    per_step = ours / raw["steps"]
+    per_step = ours / raw.steps
     rate = operations(dam) / per_step
     return [
         problem.name,
@@ -117,19 +117,19 @@ def row(problem: Problem, peak: float) -> list[str]:
         seconds(ours),
         seconds(several),
         seconds(per_step),
-        f"{raw['iterations'] / raw['steps']:.2f}",
+        f"{raw.iterations / raw.steps:.2f}",
         f"{rate / 1e9:.1f} G/s",
         f"{rate / peak:.0%}",
-        f"{1e3 * raw['slip']:.1f} mm",
+        f"{1e3 * raw.slip:.1f} mm",
     ]
 
 
 def several_cracks(name: str, changes: tuple[str, ...]) -> list[str]:
     """Measure a dam with two cracks beside those that have one of them, in turn and at the same step."""
     case = read_case(EXAMPLES / "two-cracks.toml", ("motion.duration=12s", "analysis.silence=0s", *changes))
-    cases = (case, *case.cracks)
+    cases = (case, *case.single_crack_cases)
     dams = [ShakenDam(each, flexible_parts.build_flexible_dam(each), earthquake(each).shaking) for each in cases]
-    slips = [[crack["slip"] for crack in dam.run(HEIGHT_STEP).summaries] for dam in dams]
+    slips = [[crack.slip for crack in dam.run(HEIGHT_STEP).summaries] for dam in dams]
     require(min(abs(slip) for each in slips for slip in each) > 1e-3, "a crack did not slide")
     times = np.array([[repeat(lambda dam=dam: dam.run(HEIGHT_STEP), 1).cpu[0] for dam in dams] for _ in range(7)])
     both, *alone = times.min(axis=0) / round(cases[0].motion.duration / HEIGHT_STEP)
@@ -168,7 +168,7 @@ def beside(cases: dict[str, Case], step: float) -> list[list[str]]:
     dams = [
         ShakenDam(each, flexible_parts.build_flexible_dam(each), earthquake(each).shaking) for each in cases.values()
     ]
-    slips = [dam.run(step).summary["slip"] for dam in dams]
+    slips = [dam.run(step).summary.slip for dam in dams]
     require(min(map(abs, slips)) > 1e-3, "a crack did not slide")
     times = np.array([[repeat(lambda dam=dam: dam.run(step), 1).cpu[0] for dam in dams] for _ in range(7)])
     each = times.min(axis=0) / round(next(iter(cases.values())).motion.duration / step)

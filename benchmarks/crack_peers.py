@@ -27,7 +27,7 @@ from push_and_sine import (
 
 from heeltoe import GroundMotion, build_flexible_dam, read_case
 from heeltoe.kernel.build import PROFILE
-from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.motion.earthquake import Earthquake
 
 COLUMNS = ["program", "settings", "step", "largest error", "relative", "time per run", "times ours at no larger error"]
@@ -69,7 +69,7 @@ def ours(across: int) -> list[Attempt]:
     """Slide the block at all of our steps."""
     shaken, attempts = our_block(across), []
     for step in OUR_STEPS:
-        slip = shaken.run(step, INTERVAL).frames["slip"][1:]
+        slip = shaken.run(step, INTERVAL).frames.slip[1:]
         timing = repeat(lambda step=step: shaken.run(step), 3)
         attempts.append(Attempt("heeltoe", f"{across} across, 8-node, exact contact", step, error(slip), timing))
     return attempts

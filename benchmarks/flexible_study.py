@@ -21,12 +21,12 @@ from measure import Skipped, heading, require, seconds, table
 
 from heeltoe import flexible, read_case, read_study, run_study
 from heeltoe.kernel.build import PROFILE
-from heeltoe.kernel.dam import CrackedDam
-from heeltoe.models.flexible import bonded, reduced
-from heeltoe.study.opened import Opened
-from heeltoe.study.parts import run_part
-from heeltoe.study.plan import Pilot, Plan, plan_of
-from heeltoe.study.run import Outlook
+from heeltoe.models.flexible.body import bonded, reduced
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
+from heeltoe.study.answers.study_results import Opened
+from heeltoe.study.plan.plan import Pilot, Plan, plan_of
+from heeltoe.study.run.batches import run_part
+from heeltoe.study.run.run import Outlook
 
 EXAMPLE = Path(__file__).parent.parent / "examples" / "typical-base.toml"
 #: Dams and strengths: with 42 motions 504 runs.
@@ -95,7 +95,7 @@ def alone(found: Opened, plan: Plan) -> Alone:
         require(bool(same), "a run of the study is not the one made alone")
 
     spent: dict[str, list[float]] = {}
-    with counted(CrackedDam, "run", spent, "kernel"), counted(reduced, "_build", spent, "set-up"):
+    with counted(ShakenDam, "run", spent, "kernel"), counted(reduced, "_build", spent, "set-up"):
         make(every[0])  # what is loaded at first use is not counted
         spent.clear()
         began = time.process_time()

@@ -36,7 +36,7 @@ def _block(yield_g: float) -> Floats:
 
 def our_slip(motion: GroundMotion, yield_g: float) -> Floats:
     """Return our slip at every sample of a record [m]."""
-    return run_block(_block(yield_g), Shaking(motion.time, -motion.acceleration), motion.time).histories["slip"]
+    return run_block(_block(yield_g), Shaking(motion.time, -motion.acceleration), motion.time).histories.slip
 
 
 def _ours(motion: GroundMotion, yield_g: float, exact: Floats) -> tuple[list[list[str]], float, float]:
@@ -50,8 +50,8 @@ def _ours(motion: GroundMotion, yield_g: float, exact: Floats) -> tuple[list[lis
     reverse = [motion.reversed()]
     run = solve()
     end = run.summary
-    require(end["slip_stops"] > 0 and end["slip_min"] == 0.0 and end["slip_sliding"] == end["slip"], "no one-way slip")
-    wrong = float(np.abs(run.histories["slip"] - exact).max())
+    require(end.slip_stops > 0 and end.slip_min == 0.0 and end.slip_sliding == end.slip, "no one-way slip")
+    wrong = float(np.abs(run.histories.slip - exact).max())
     alone = repeat(solve)
     many = repeat(lambda: rigid_many(blocks, reverse, limits=LIMITS, threads=1))
     start = [f"{yield_g:g}", f"{1e3 * exact[-1]:.2f} mm", "heeltoe", f"{STEP:g} s", f"{1e3 * wrong:.1g} mm"]

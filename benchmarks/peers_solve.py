@@ -120,7 +120,7 @@ def _elastic(slip: tuple[float, ...], settings: str, step: float) -> Solved:
 
     shaken = crack_peers.our_block(16)
     # Ours at its own quickest step among those that hold the limit.
-    mine = error(shaken.run(1e-3, crack_peers.INTERVAL).frames["slip"][1:])
+    mine = error(shaken.run(1e-3, crack_peers.INTERVAL).frames.slip[1:])
     return Solved(settings, f"{step:g} s", 1e3 * error(np.array(slip)), 1e3 * mine, "mm")
 
 

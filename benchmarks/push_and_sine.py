@@ -70,9 +70,9 @@ def ours(step: float) -> Attempt:
 
     run = solve()
     end = run.summary
-    if end["slip_stops"] == 0 or end["slip_sliding"] != end["slip"]:
+    if end.slip_stops == 0 or end.slip_sliding != end.slip:
         raise NothingMeasured("the block did not slide and stop")
-    return Attempt("heeltoe", "sine sampled", step, error(run.histories["slip"]), repeat(solve))
+    return Attempt("heeltoe", "sine sampled", step, error(run.histories.slip), repeat(solve))
 
 
 def rows(our_attempts: list[Attempt], attempts: list[Attempt]) -> list[list[str]]:

@@ -157,8 +157,8 @@ def ours_peak(case: Case, block: Block, time: Floats, ground: Floats) -> tuple[f
     run = walk(case, block, Shaking(time, ground))
     found = run.summary
     require(run.outcome == "ok", "the block did not stand")
-    require(found["impacts"] > 10, "the block hardly rocked")
-    return (math.asin(max(found["largest_gap_heel"], found["largest_gap_toe"]) / WIDTH),)
+    require(found.impacts > 10, "the block hardly rocked")
+    return (math.asin(max(found.largest_gap_heel, found.largest_gap_toe) / WIDTH),)
 
 
 def rows(reference: tuple[float, ...], ours: Solve, theirs: Callable[[float], tuple[float, ...]]) -> list[list[str]]:
@@ -189,7 +189,7 @@ def walks() -> list[list[str]]:
             def run(case: Case = case, block: Block = block, shaking: Shaking = shaking) -> BlockRun:
                 return walk(case, block, shaking)
 
-            slips.append(run().summary["slip"])
+            slips.append(run().summary.slip)
             times.append(repeat(run))
         require(slips[0] > 1e-3, "the dam did not slide")
         ratio = f"{times[1].median / times[0].median:.0f}"

@@ -20,6 +20,7 @@ from measure import NothingMeasured, Skipped
 PARTS = {
     "rigid_ensemble": "Rigid ensemble",
     "study_million": "A million runs",
+    "friction_laws": "Friction laws",
     "rigid_peers": "Rigid peers",
     "rocking_peers": "Rotations of any size",
     "spectra_peers": "Response spectra",

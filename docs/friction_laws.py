@@ -1,4 +1,4 @@
-"""Print the table of docs/friction.md, of what each law does to the typical dam: `python docs/friction_laws.py`."""
+"""Print the table of docs/friction.md, the effect of each law on the typical dam: `python docs/friction_laws.py`."""
 
 from __future__ import annotations
 
@@ -51,12 +51,12 @@ def main() -> None:
         block, dam = rigid(case), flexible(case)
         law = block.friction_law
         mu = case.crack.mu_static
-        both = (mu, mu) if law is None else (law["apparent_friction_before"], law["apparent_friction_after"])
-        slips = f"{told(block)} | {told(dam)} ± {1e3 * dam.evidence['residual_slip_m']['uncertainty']:.0f} mm"
-        print(f"| {name} | {both[0]:.2f}, {both[1]:.2f} | {slips} |")
+        frictions = (mu, mu) if law is None else (law["apparent_friction_before"], law["apparent_friction_after"])
+        slips = f"{slip_text(block)} | {slip_text(dam)} ± {1e3 * dam.evidence['residual_slip_m']['uncertainty']:.0f} mm"
+        print(f"| {name} | {frictions[0]:.2f}, {frictions[1]:.2f} | {slips} |")
 
 
-def told(response: Response) -> str:
+def slip_text(response: Response) -> str:
     """Return a residual slip in words."""
     if abs(response.residual_slip_m) > response.crack_width_m:
         return "slides off"

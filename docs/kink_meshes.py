@@ -1,4 +1,4 @@
-"""Print the table of docs/crack-line.md, of how cracks with a step converge: `python docs/kink_meshes.py`."""
+"""Print the table of docs/kinks.md on the convergence of cracks with a step: `python docs/kink_meshes.py`."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ import numpy as np
 
 from heeltoe import read_case
 from heeltoe.case.model import Case
-from heeltoe.models.flexible.reduced import build_flexible_dam
-from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.run import earthquake
 
 CASE = Path(__file__).parent.parent / "examples" / "stepped-crack.toml"
-#: Slope of the step [degrees], 0 without one, and friction; the example's own step is 1.5 m high and 3 m long.
+#: Slope of the step [degrees], 0 without a step, and friction; the step of the example is 1.5 m high and 3 m long.
 LINES = {
     "straight, 0.9": (0.0, 0.9),
     "10°, 0.8": (10.0, 0.8),
@@ -34,15 +34,15 @@ def main() -> None:
     print(f"| elements across, step | {' | '.join(LINES)} |")
     print("| --- " * (1 + len(LINES)) + "|")
     for across, step in MESHES:
-        told = (f"{mean:.0f} ± {half:.0f}" for mean, half in _row(across, step))
-        print(f"| {across}, {1e3 * step:g} ms | {' | '.join(told)} |", flush=True)
+        cells = (f"{mean:.0f} ± {half:.0f}" for mean, half in _row(across, step))
+        print(f"| {across}, {1e3 * step:g} ms | {' | '.join(cells)} |", flush=True)
 
 
 def slips(slope: float, friction: float, across: int, step: float) -> tuple[float, float]:
     """Return the mean slip of five runs at the end of the motion and half of their range [mm]."""
     case = _case(slope, friction, across)
-    found = ShakenDam(case, build_flexible_dam(case), earthquake(case).shaking).run_scaled(step, SCALES)["slip"]
-    return 1e3 * float(found.mean()), 500.0 * float(np.ptp(found))
+    ends = ShakenDam(case, build_flexible_dam(case), earthquake(case).shaking).run_scaled(step, SCALES)["slip"]
+    return 1e3 * float(ends.mean()), 500.0 * float(np.ptp(ends))
 
 
 def _case(slope: float, friction: float, across: int) -> Case:

@@ -1,4 +1,4 @@
-"""Make the figures of the documentation from the examples; run from anywhere."""
+"""Make the figures of the documentation from the examples, from any directory: `python docs/make_figures.py`."""
 
 from pathlib import Path
 
@@ -6,8 +6,8 @@ from matplotlib import rc_context
 from matplotlib.figure import Figure
 
 from heeltoe import decoupled, read_case, rigid
-from heeltoe.study.overturning import overturning_map
-from heeltoe.study.small import parse_axes, run_small
+from heeltoe.study.small.overturning import overturning_map
+from heeltoe.study.small.run_table import parse_axes, run_small
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.histories import response_figure
 from heeltoe.views.figures.overturning import overturning_figure
@@ -25,7 +25,7 @@ def koyna_top() -> Figure:
 
 
 def real_cracks() -> Figure:
-    """Return the slip of the typical dam's block by what friction is taken for."""
+    """Return the slip of the typical dam's block with different friction."""
     laws = {
         "constant 1.2": {"crack.friction": 1.2},
         "constant 0.8": {"crack.friction": 0.8},
@@ -43,8 +43,8 @@ def real_cracks() -> Figure:
         figure = Figure(figsize=(7.0, 4.0), layout="constrained")
         axes = figure.subplots()
         for (name, law), dash in zip(laws.items(), ("-", "-", "--", ":", "-."), strict=True):
-            found = rigid(read_case(EXAMPLES / "typical-base.toml", law)).histories
-            axes.plot(found["time_s"], 1e3 * found["slip_m"], linestyle=dash, linewidth=1.5, label=name)
+            histories = rigid(read_case(EXAMPLES / "typical-base.toml", law)).histories
+            axes.plot(histories["time_s"], 1e3 * histories["slip_m"], linestyle=dash, linewidth=1.5, label=name)
         axes.set_xlabel("time [s]")
         axes.set_ylabel("slip of the block [mm]")
         axes.legend(loc="upper left")

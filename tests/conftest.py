@@ -15,10 +15,10 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 import heeltoe
-from heeltoe.errors import CATALOGUE as ERRORS
-from heeltoe.errors import InputError
-from heeltoe.warnings import CATALOGUE as WARNINGS
-from heeltoe.warnings import Notice
+from heeltoe.errors.error import CATALOGUE as ERRORS
+from heeltoe.errors.error import InputError
+from heeltoe.warnings.notice import CATALOGUE as WARNINGS
+from heeltoe.warnings.notice import Notice
 from shared.dams import FAST, ROOT, SHORT, example
 
 # Not tests themselves, but what they assert with.
@@ -118,7 +118,7 @@ def records() -> Path:
 @pytest.fixture(scope="session")
 def typical_both() -> heeltoe.Response:
     """The typical dam as a rigid block and as an elastic dam, for 3 s."""
-    return heeltoe.run(example("typical-base", *FAST), "both")
+    return heeltoe.run(example("typical-base", *FAST, "motion.sign=recorded"), "both")
 
 
 @pytest.fixture(scope="session")
@@ -139,7 +139,7 @@ def typical_written(typical_both, tmp_path_factory) -> tuple[Path, list[Path]]:
 @pytest.fixture(scope="session")
 def koyna_both() -> heeltoe.Response:
     """Koyna by the decoupled chain and by the flexible model, for 4 s."""
-    return heeltoe.run(example("koyna", *SHORT, "flexible.evidence=none"), "decoupled,flexible")
+    return heeltoe.run(example("koyna", *SHORT, "flexible.evidence=none", "motion.sign=recorded"), "decoupled,flexible")
 
 
 @pytest.fixture(scope="session")
@@ -151,7 +151,7 @@ def koyna(koyna_both) -> heeltoe.Response:
 @pytest.fixture
 def no_figures(monkeypatch):
     """Leave out figures, which take most of the time, where words and numbers alone are looked at."""
-    monkeypatch.setattr("heeltoe.views.report.drawings.drawings", lambda figures: {})
+    monkeypatch.setattr("heeltoe.views.content.drawings.drawings", lambda figures: {})
     monkeypatch.setattr("heeltoe.views.files.write.save_all", lambda figures, directory: [])
 
 

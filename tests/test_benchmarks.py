@@ -1,5 +1,7 @@
 """The benchmarks renew the section they have measured and leave the others alone."""
 
+import ast
+import importlib
 import subprocess
 import sys
 from dataclasses import replace
@@ -138,3 +140,20 @@ def test_an_independent_code_that_all_have_is_run_anew(run):
     assert float(loose["error"]) < 1e-5
     assert float(strict["error"]) < 1e-8
     assert float(strict["heeltoe"]) < 1e-11
+
+
+@pytest.mark.parametrize("path", sorted(FOLDER.glob("*.py")), ids=lambda path: path.stem)
+def test_what_a_benchmark_takes_from_the_package_is_there(path):
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "heeltoe":
+            home = importlib.import_module(node.module)
+            for name in node.names:
+                if not hasattr(home, name.name):
+                    importlib.import_module(f"{node.module}.{name.name}")
+
+
+def test_the_page_of_real_cracks_has_the_costs_that_were_measured(run):
+    laws = importlib.import_module("friction_laws")
+    text = laws.PAGE.read_text(encoding="utf-8")
+    assert laws.page(text, laws.RESULTS.read_text(encoding="utf-8")) == text
+    assert text.count("| constant, 0.9 |") == 1

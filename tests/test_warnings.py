@@ -9,7 +9,7 @@ from string import Formatter
 import pytest
 
 from heeltoe.units.sentences import UNITS
-from heeltoe.warnings import CATALOGUE, Notice
+from heeltoe.warnings.notice import CATALOGUE, Notice
 
 # Endings of the names of quantities, the longest first, and the kinds of quantity that they are.
 ENDINGS = {

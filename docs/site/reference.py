@@ -11,6 +11,7 @@ from typing import Any
 import typer
 
 import heeltoe
+from heeltoe.case.combinations import FEATURES, RULES, USERS
 from heeltoe.cli.main import app
 from heeltoe.views.explain.find import everything
 from heeltoe.views.explain.meaning import Meaning
@@ -40,6 +41,7 @@ def write_reference(place: Path) -> None:
     """Write the pages into a directory."""
     for name, (title, kinds, said) in PAGES.items():
         (place / f"{name}.md").write_text("\n".join(_page(title, kinds, said)), encoding="utf-8")
+    (place / "combinations.md").write_text("\n".join(combinations()), encoding="utf-8")
     (place / "commands.md").write_text("\n".join(_commands()), encoding="utf-8")
     (place / "python.md").write_text("\n".join(_python()), encoding="utf-8")
 
@@ -103,6 +105,27 @@ def _text(text: str) -> str:
     """Return a text in which stars and brackets are themselves."""
     pieces = re.split(r"(`[^`]*`)", text)
     return "".join(each if each.startswith("`") else re.sub(r"([*\[\]<>_])", r"\\\1", each) for each in pieces)
+
+
+def combinations() -> Iterator[str]:
+    """Walk the page of what goes with what, from the table that the checks read."""
+    yield from (
+        "# What goes with what",
+        "",
+        "A case that has both is refused, with the field and the remedy; or it runs, and a warning says what is left",
+        "out. Whatever is not listed here goes together. [Fields of a case](case.md) say which models read them.",
+        "",
+        "| feature | not with | in | verdict | reason |",
+        "| --- | --- | --- | --- | --- |",
+    )
+    for rule in RULES:
+        users = ", ".join(USERS[user] for user in rule.users) or "everything"
+        cells = (rule.feature, rule.other or "(alone)", users, rule.verdict, rule.reason)
+        yield f"| {' | '.join(map(_text, cells))} |"
+    yield from ("", "## Fields of these features", "")
+    for feature in FEATURES.values():
+        fields = ", ".join(f"`{field}`" for field in feature.fields)
+        yield from (f"{feature.name}", f": {fields}. Without it: {_text(feature.removal)}.", "")
 
 
 def _commands() -> Iterator[str]:

@@ -5,46 +5,46 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from heeltoe.near import near
-from heeltoe.shown import hand_in
+from heeltoe.base.display import hand_in
+from heeltoe.errors.suggestion import near
 
 # Where each public name is at home; type checkers read the same below, and tests/test_names.py compares.
 _HOME = {
     "Block": "mechanics.block",
     "Case": "case.model",
-    "DamPeriods": "models.flexible.periods",
-    "FlexibleDam": "models.flexible.reduced",
+    "DamPeriods": "models.flexible.body.periods",
+    "FlexibleDam": "models.flexible.body.reduced",
     "GroundMotion": "motion.ground_motion",
-    "HeeltoeError": "errors",
-    "InputError": "errors",
+    "HeeltoeError": "errors.error",
+    "InputError": "errors.error",
     "Response": "result.response",
     "Statics": "models.statics.model",
     "animate": "views.animation.write",
     "asce_7": "motion.targets",
     "build_block": "mechanics.block",
-    "build_flexible_dam": "models.flexible.reduced",
-    "dam_periods": "models.flexible.periods",
+    "build_flexible_dam": "models.flexible.body.reduced",
+    "dam_periods": "models.flexible.body.periods",
     "decoupled": "models.run",
     "en_1998": "motion.targets",
     "flexible": "models.run",
     "match": "motion.matching",
-    "open_study": "study.opened",
-    "overturning_map": "study.overturning",
+    "open_study": "study.answers.study_results",
+    "overturning_map": "study.small.overturning",
     "read_case": "case.read",
     "read_channels": "motion.records",
     "read_record": "motion.records",
-    "read_study": "study.file",
+    "read_study": "study.plan.file",
     "response_spectrum": "motion.spectrum",
     "rigid": "models.run",
     "rigid_many": "models.rigid.many",
     "run": "models.run",
-    "run_study": "study.run",
+    "run_study": "study.run.run",
     "statics": "models.statics.model",
     "statics_of_sections": "models.statics.joints",
     "stochastic_motion": "motion.stochastic",
     "synthetic": "motion.scenario",
     "verdict": "result.verdict",
-    "with_spread": "study.spread",
+    "with_spread": "study.small.spread",
     "write_report": "views.report.write",
 }
 
@@ -53,14 +53,14 @@ __all__ = sorted(_HOME)
 if TYPE_CHECKING:
     from heeltoe.case.model import Case as Case
     from heeltoe.case.read import read_case as read_case
-    from heeltoe.errors import HeeltoeError as HeeltoeError
-    from heeltoe.errors import InputError as InputError
+    from heeltoe.errors.error import HeeltoeError as HeeltoeError
+    from heeltoe.errors.error import InputError as InputError
     from heeltoe.mechanics.block import Block as Block
     from heeltoe.mechanics.block import build_block as build_block
-    from heeltoe.models.flexible.periods import DamPeriods as DamPeriods
-    from heeltoe.models.flexible.periods import dam_periods as dam_periods
-    from heeltoe.models.flexible.reduced import FlexibleDam as FlexibleDam
-    from heeltoe.models.flexible.reduced import build_flexible_dam as build_flexible_dam
+    from heeltoe.models.flexible.body.periods import DamPeriods as DamPeriods
+    from heeltoe.models.flexible.body.periods import dam_periods as dam_periods
+    from heeltoe.models.flexible.body.reduced import FlexibleDam as FlexibleDam
+    from heeltoe.models.flexible.body.reduced import build_flexible_dam as build_flexible_dam
     from heeltoe.models.rigid.many import rigid_many as rigid_many
     from heeltoe.models.run import decoupled as decoupled
     from heeltoe.models.run import flexible as flexible
@@ -80,11 +80,11 @@ if TYPE_CHECKING:
     from heeltoe.motion.targets import en_1998 as en_1998
     from heeltoe.result.response import Response as Response
     from heeltoe.result.verdict import verdict as verdict
-    from heeltoe.study.file import read_study as read_study
-    from heeltoe.study.opened import open_study as open_study
-    from heeltoe.study.overturning import overturning_map as overturning_map
-    from heeltoe.study.run import run_study as run_study
-    from heeltoe.study.spread import with_spread as with_spread
+    from heeltoe.study.answers.study_results import open_study as open_study
+    from heeltoe.study.plan.file import read_study as read_study
+    from heeltoe.study.run.run import run_study as run_study
+    from heeltoe.study.small.overturning import overturning_map as overturning_map
+    from heeltoe.study.small.spread import with_spread as with_spread
     from heeltoe.views.animation.write import animate as animate
     from heeltoe.views.report.write import write_report as write_report
 

@@ -27,7 +27,7 @@ def settled(page) -> None:
 def test_opens_with_the_typical_dam(page, picture):
     page.wait_for_selector(f"{RIGID} .verdict")
     settled(page)
-    assert "the dam slides 171.0 mm downstream" in page.inner_text(RIGID)
+    assert "the dam slides 267.4 mm downstream" in page.inner_text(RIGID)
     assert "at the base" in page.inner_text(".card[data-model=decoupled]")
     assert not page.is_visible(".card[data-model=flexible]")
     picture(page, "answer")

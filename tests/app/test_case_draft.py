@@ -8,15 +8,14 @@ import pytest
 
 from heeltoe.app.case.draft import back, case_of, draft_of, edit, fields_in_force, fields_of, start
 from heeltoe.app.case.drawing import drawing
-from heeltoe.app.case.fields import blocks, field_of, form
+from heeltoe.app.case.fields import blocks, field_of, form, typed
 from heeltoe.app.case.handles import corners_of, handles, length_text, moved, told
-from heeltoe.app.case.typed import typed
 from heeltoe.app.open_case import begin
 from heeltoe.app.sessions import Session, Sessions
 from heeltoe.app.settings import Settings
 from heeltoe.case.read import read_case, read_fields
-from heeltoe.case.written import case_text
-from heeltoe.errors import InputError
+from heeltoe.case.toml_writer import case_text
+from heeltoe.errors.error import InputError
 from shared.dams import ALL_EXAMPLES, PLAIN, example
 
 
@@ -168,7 +167,10 @@ def test_what_json_cannot_say_becomes_text(session, tmp_path):
 def test_what_is_written_is_what_was_read(path, tmp_path):
     file = tmp_path / path.name
     file.write_text(case_text(read_fields(path)), encoding="utf-8")
-    assert read_case(file).based_in(path.parent) == read_case(path)
+    written, case = read_case(file), read_case(path)
+    cracks = {"crack", "further_cracks"}
+    assert written.model_dump(exclude=cracks) == case.model_dump(exclude=cracks)
+    assert written.cracks == case.cracks
 
 
 def test_odd_texts_are_written():

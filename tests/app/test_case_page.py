@@ -152,7 +152,7 @@ def test_a_file_is_opened_and_saved(case, tmp_path):
     case.set_input_files("#case-file", path)
     wait_for(case, ".problems", "crak")
     assert "has not been sent" in case.text_content("#field-motion-file-wrong")
-    case.click("text=Take it away")
+    case.click("text=Remove it")
     case.click("[data-block=motion] summary")
     case.fill("#field-motion-file", "elcentro-1940-180-nga")
     case.wait_for_function("() => document.querySelector('.problems').textContent === ''")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from heeltoe.case.written import case_text
+from heeltoe.case.toml_writer import case_text
 from shared.dams import FAST, example
 
 pytest.importorskip("playwright")

@@ -26,7 +26,7 @@ def test_an_address_in_use_is_told():
         taken.listen()
         said = command("app", "--port", str(taken.getsockname()[1]), "--no-browser")
     assert said.returncode == 2
-    assert "--port: 127.0.0.1:" in said.stderr
+    assert "--port: the app cannot listen at 127.0.0.1:" in said.stderr
 
 
 def test_a_missing_package_is_told(monkeypatch):

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from heeltoe.app.case.begin import block, following, item
+from heeltoe.app.case.defaults import block, following, item
 from heeltoe.app.case.draft import back, draft_of, edit, fields_of, start
 from heeltoe.app.case.drawing import drawing
-from heeltoe.app.case.fields import blocks, field_of
+from heeltoe.app.case.fields import blocks, field_of, typed
 from heeltoe.app.case.handles import handles, moved
 from heeltoe.app.case.law import law
-from heeltoe.app.case.typed import typed
-from heeltoe.app.examples import example_path
-from heeltoe.app.open_case import begin
+from heeltoe.app.open_case import begin, example_path
 from heeltoe.app.sessions import Session
 from heeltoe.app.studies.draft import choices
 from heeltoe.case.crack.law import LAW_FIELDS
@@ -149,7 +147,7 @@ def test_every_block_begins_sound(session):
 def test_an_anchor_of_several_cracks_goes_through_all_of_them(units):
     case = example("two-cracks")
     held = case.with_({"anchors": [item(case, units, "anchors")]})
-    for alone in held.cracks:
+    for alone in held.single_crack_cases:
         (anchor,) = alone.anchors_at_crack
         assert anchor.prestress == 1e6
         assert anchor.distance == pytest.approx(4.0, rel=1e-3)

@@ -7,7 +7,7 @@ import pytest
 
 pytest.importorskip("playwright")
 
-from heeltoe.app.examples import example_path
+from heeltoe.app.open_case import example_path
 from heeltoe.case.read import read_case
 from heeltoe.models.run import earthquake, live
 
@@ -44,3 +44,58 @@ def test_after_a_drag_the_plot_is_the_answer(page, tmp_path):
     np.testing.assert_allclose(slip, expected, atol=1e-3 * np.abs(expected).max())
     # No peak is lost between the moments that are drawn.
     assert np.abs(slip).max() == pytest.approx(1000.0 * np.abs(found["slip_m"]).max(), rel=1e-6)
+
+
+_SLIDERS = """() => [...document.querySelectorAll("input[type=range][id^=slider-]")]
+  .filter((each) => each.offsetParent).map(({ id }) => id)"""
+_PULL = """async ([id, way]) => {
+  const slider = document.getElementById(id);
+  const [low, high] = [Number(slider.min), Number(slider.max)];
+  const begin = Number(slider.value);
+  const end = way > 0 ? begin + 0.4 * (high - begin) : begin - 0.4 * (begin - low);
+  for (let k = 1; k <= 8; k += 1) {
+    slider.value = String(begin + (end - begin) * k / 8);
+    slider.dispatchEvent(new Event("input", { bubbles: true }));
+    await new Promise((go) => setTimeout(go, 50));
+  }
+}"""
+_AT_REST = """() => !document.querySelector("#page-answer .plot.quick, .card.stale:not([hidden])")"""
+_OUTSIDE = """() => {
+  const plot = document.querySelector("#page-answer .plot");
+  const found = [];
+  for (const { name, x, y, yaxis } of plot.data) {
+    const axis = plot._fullLayout[(yaxis || "y").replace("y", "yaxis")];
+    if (axis.type === "category") continue;
+    const [low, high] = axis.range;
+    const values = [...y].filter((each) => each !== null);
+    const [least, most] = [values.reduce((a, b) => Math.min(a, b), 0), values.reduce((a, b) => Math.max(a, b), 0)];
+    // Nor may an axis be so long that the curve is a line along zero.
+    const flat = most - least > 0 && high - low > 20 * (most - least) && yaxis === "y2";
+    if (least < low || most > high || flat) found.push([name, yaxis, least, most, low, high]);
+  }
+  return found;
+}"""
+
+
+@pytest.mark.slow
+def test_every_slider_up_and_down_leaves_the_curves_inside_the_axes(page):
+    page.wait_for_selector(".plot .main-svg")
+    page.wait_for_timeout(500)
+    sliders = page.evaluate(_SLIDERS)
+    assert len(sliders) > 3
+    for name in sliders:
+        for way in (-1, 1, 1, -1):
+            page.evaluate(_PULL, [name, way])
+            page.wait_for_timeout(1000)
+            page.wait_for_function(_AT_REST)
+            assert page.evaluate(_OUTSIDE) == [], (name, way)
+
+
+def test_an_upward_drag_keeps_the_slip_inside_the_axes(page):
+    page.wait_for_selector(".plot .main-svg")
+    page.wait_for_timeout(500)
+    for way in (-1, -1, 1):
+        page.evaluate(_PULL, ["slider-crack-friction", way])
+        page.wait_for_timeout(1000)
+        page.wait_for_function(_AT_REST)
+        assert page.evaluate(_OUTSIDE) == [], way

@@ -14,10 +14,10 @@ pytest.importorskip("starlette")
 
 from starlette.testclient import TestClient
 
-from heeltoe.app.examples import example_path
+from heeltoe.app.open_case import example_path
 from heeltoe.app.server import application
 from heeltoe.app.settings import Settings
-from heeltoe.app.uploads import upload_path
+from heeltoe.app.transfers import upload_path
 
 PORT = 8642
 HOME = f"http://127.0.0.1:{PORT}"

@@ -65,7 +65,7 @@ def test_a_conversation_says_where_it_comes_from(ask):
 
 
 def test_every_answer_says_what_a_browser_may_do_with_it(ask):
-    for path in ("/", "/page/main.js", "/plotly.js", "/nothing"):
+    for path in ("/", "/page/main.js", "/plotly.js", "/scene.js", "/nothing"):
         policy = ask.get(path).headers["content-security-policy"]
         assert "script-src 'self';" in policy
         assert "default-src 'self'" in policy

@@ -1,4 +1,4 @@
-"""The page "Studies" in a browser: define, look, run, cancel, go on, come back, take away."""
+"""The page "Studies" in a browser: define, look, run, cancel, continue, come back, export."""
 
 from __future__ import annotations
 
@@ -23,6 +23,7 @@ def studies(page):
 
 def small(page) -> None:
     """Ask for three runs."""
+    page.uncheck("text=each motion both ways round")
     page.fill("[data-field='vary.crack.friction['] input", "0.9, 1.0, 1.1")
     page.click("text=Remove >> nth=1")
     page.wait_for_function("() => /^3 runs/.test(document.querySelector('.outlook').textContent)")
@@ -47,7 +48,7 @@ def saved(page, label: str) -> bytes:
     return waiting.value.path().read_bytes()
 
 
-def test_a_study_is_counted_run_taken_away_and_looked_at(studies, places, picture, heard_well):
+def test_a_study_is_counted_run_exported_and_looked_at(studies, places, picture, heard_well):
     picture(studies, "studies-form")
     small(studies)
     ran(studies)
@@ -77,7 +78,7 @@ def test_what_is_wrong_is_said_at_its_field(studies):
     studies.fill("#study-samples", "3")
     studies.wait_for_selector("[data-field=samples] >> text=give 2 or 4")
     studies.fill("#study-samples", "9999999999")
-    studies.wait_for_selector("text=/too many|no power/")
+    studies.wait_for_selector("text=/too many|not a power/")
     studies.click("button:text-is('Fragility')")
     studies.fill("#study-correlation", "crack.friction, nothing, 0.4")
     studies.wait_for_selector("[data-field=correlation] .wrong:not(:empty)")

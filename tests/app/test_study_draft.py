@@ -8,12 +8,12 @@ import tomllib
 import numpy as np
 import pytest
 
-from heeltoe.app.actions import BadRequestError
+from heeltoe.app.desk import BadRequestError
 from heeltoe.app.open_case import begin
 from heeltoe.app.sessions import Session
 from heeltoe.app.studies.draft import choices, study_asked
 from heeltoe.app.studies.work import look
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 
 EVIL = "../../evil <script>'\".dat"
 FORM = {"models": ["rigid"], "method": "grid", "source": "case", "vary": []}
@@ -36,6 +36,8 @@ def test_a_record_that_was_sent_goes_with_the_study_under_a_harmless_name(sessio
     form |= {"scale.measure": "pga", "scale.values": "0.1 g, 0.2 g"}
     told = look(study_asked(form, session), session.folder / "study-1", 100)
     assert "2 runs" in told["outlook"]
+    both = look(study_asked({**form, "both_signs": True}, session), session.folder / "study-0", 100)
+    assert "4 runs" in both["outlook"]
     files = {path.name for path in (session.folder / "study-1").iterdir()}
     assert files == {"case.toml", "study.toml", "evil-script-.dat"}
     assert {path.name for path in tmp_path.iterdir()} == {"tab"}

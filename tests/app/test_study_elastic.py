@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import json
+import signal
+import subprocess
+import sys
 import time
 
 import pytest
@@ -16,7 +20,7 @@ from heeltoe.app.settings import Settings
 psutil = pytest.importorskip("psutil")
 
 HOME = "http://127.0.0.1:8642"
-COARSE = {"flexible.elements_across": "2", "flexible.evidence": "none"}
+COARSE = {"flexible.elements_across": "2", "flexible.evidence": "none", "motion.sign": "recorded"}
 FRICTION = {"path": "crack.friction", "kind": "list", "values": ", ".join(f"{0.6 + 0.02 * k:.2f}" for k in range(30))}
 STUDY = {"models": ["flexible"], "method": "grid", "source": "case", "vary": [FRICTION]}
 
@@ -68,3 +72,32 @@ def test_a_study_of_elastic_dams_is_cancelled_and_gone_on_with(tmp_path, capfd):
         assert ended["state"] == "done", ended["said"]
         tab.send_json({"do": "study answers", "number": number})
         assert heard(lambda told: told["of"] == "study answers")["complete"]
+
+
+@pytest.mark.slow
+def test_ctrl_c_ends_a_study_and_all_its_processes():
+    client = pytest.importorskip("websockets.sync.client")
+    words = [sys.executable, "-m", "heeltoe", "app", "--no-browser", "--port", "0"]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as app:
+        try:
+            home = app.stdout.readline().split()[3].rstrip("/")
+            with client.connect(f"{home.replace('http', 'ws')}/talk", origin=home) as tab:
+
+                def hear(fits):
+                    while not fits(told := json.loads(tab.recv(timeout=60))):
+                        assert told["of"] not in ("bad request", "refused", "study refused"), told
+
+                tab.send(json.dumps({"do": "flexible", "values": {}}))
+                tab.send(json.dumps({"do": "edit case", "changes": COARSE}))
+                tab.send(json.dumps({"do": "study run", "study": STUDY}))
+                hear(lambda told: told["of"] == "job" and "of 30 runs" in told["said"])
+                begun = psutil.Process(app.pid).children(recursive=True)
+                assert len(begun) > 4
+                began = time.monotonic()
+                app.send_signal(signal.SIGINT)
+                assert app.wait(30) == 0
+            assert time.monotonic() - began < 15.0
+            _, alive = psutil.wait_procs(begun, timeout=5.0)
+            assert not alive
+        finally:
+            app.kill()

@@ -113,6 +113,7 @@ def make_study(page) -> None:
     page.click("#tab-studies")
     page.fill("[data-field='vary.crack.friction['] input", "0.9, 1.0, 1.1")
     page.locator("#page-studies button:text-is('Remove')").nth(1).click()
+    page.uncheck("text=each motion both ways round")
     page.wait_for_function("() => /^3 runs/.test(document.querySelector('.outlook').textContent)")
     page.click("text=Run the study")
     page.wait_for_selector(".document figure img", timeout=LONG_MS)
@@ -120,8 +121,8 @@ def make_study(page) -> None:
 
 def download_report(page) -> bytes:
     """Make the report of the rigid block and fetch it."""
-    page.click("#tab-take-away")
-    page.select_option("#away-model", "rigid")
+    page.click("#tab-export")
+    page.select_option("#export-model", "rigid")
     page.check("text=animation")
     page.click("text=Make the files")
     button = page.wait_for_selector("[aria-label='Download report.pdf']", timeout=LONG_MS)
@@ -152,7 +153,7 @@ def test_from_an_example_to_the_report(page, address, picture):
     make_study(page)
     picture(page, "path-4-studies")
     assert download_report(page).startswith(b"%PDF")
-    picture(page, "path-5-take-away")
+    picture(page, "path-5-export")
 
     page.reload()
     page.click("#tab-answer")
@@ -184,7 +185,7 @@ def test_a_title_with_script_stays_text_on_every_page(page):
     page.wait_for_selector(DEPTH)
     page.fill("#field-title", HOSTILE)
     page.wait_for_function("() => document.querySelector('#case-title').textContent.includes('onerror')")
-    for tab in ("case", "motion", "answer", "studies", "take-away"):
+    for tab in ("case", "motion", "answer", "studies", "export"):
         page.click(f"#tab-{tab}")
         page.wait_for_selector(f"#page-{tab}", state="visible")
         assert page.inner_text("#case-title") == HOSTILE

@@ -10,7 +10,7 @@ from heeltoe import InputError, read_case, run
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.processing import band_pass
 from heeltoe.motion.spectrum import response_spectrum
-from heeltoe.study.small import parse_axes, run_small
+from heeltoe.study.small.run_table import parse_axes, run_small
 from shared.cases import refusal
 from shared.dams import example
 

@@ -8,12 +8,14 @@ import time
 
 import pytest
 
-from heeltoe import _kernel, run
+from heeltoe import run
+from heeltoe.base.atomic_files import write_text
 from heeltoe.cli import main as command
-from heeltoe.models.flexible.reduced import build_flexible_dam
-from heeltoe.models.flexible.shaken import ShakenDam
-from heeltoe.models.flexible.trials import Trials
-from heeltoe.whole import write_text
+from heeltoe.kernel import _kernel
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
+from heeltoe.models.flexible.evidence.trials import Trials
+from heeltoe.models.flexible.model import Rested
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from shared.dams import BLOCK, example
 
 
@@ -30,11 +32,11 @@ def test_runs_with_evidence_end_at_once_and_say_how_far_they_have_come(monkeypat
         raise KeyboardInterrupt
 
     monkeypatch.setattr(Trials, "prepare", alarmed)
-    case = example("typical-base", "motion.duration=400s", "analysis.silence=0s")
+    case = example("typical-base", "motion.duration=400s", "analysis.silence=0s", "motion.sign=recorded")
 
     def without(run, reach, through, most):
         """Leave out the run that shows whether the dam comes to rest."""
-        return through, ShakenDam(case, build_flexible_dam(case), through.shaking), None
+        return Rested(through, ShakenDam(case, build_flexible_dam(case), through.shaking), None, "ok", None)
 
     monkeypatch.setattr("heeltoe.models.flexible.model.until_rest", without)
     before = signal.signal(signal.SIGALRM, handler)
@@ -92,6 +94,4 @@ def test_too_little_memory_is_one_line(error, monkeypatch, capsys):
     with pytest.raises(SystemExit) as ended:
         command.main()
     assert ended.value.code == 3
-    assert capsys.readouterr().err == (
-        "heeltoe: there is not enough memory for this; give the program more, or ask for less\n"
-    )
+    assert capsys.readouterr().err == ("heeltoe: not enough memory; provide more memory, or request a smaller run\n")

@@ -13,7 +13,7 @@ from pydantic import WithJsonSchema
 from pydantic.fields import FieldInfo
 
 from heeltoe import read_case
-from heeltoe.case.use import READ_BY
+from heeltoe.case.field_usage import READ_BY
 from heeltoe.units.parse import DIMENSIONS
 from shared.attacked import Attack
 from shared.every_field import Fields, leaves, pair, put
@@ -80,7 +80,7 @@ def readers(path: str) -> list[str]:
 
 def some(number: int, path: str, model: str) -> bool:
     """Whether one of some values is for a model that reads its field."""
-    return number % 61 == 0 and model in readers(path)
+    return number % 97 == 0 and model in readers(path)
 
 
 def in_turn(number: int, path: str, model: str) -> bool:

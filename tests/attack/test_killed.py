@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from heeltoe.whole import LISTED, READY, files, settle
+from heeltoe.base.atomic_files import LISTED, READY, files, settle
 from shared.dams import BLOCK
 
 KILLS = 30

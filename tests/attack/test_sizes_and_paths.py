@@ -8,10 +8,10 @@ import pytest
 
 from heeltoe import GroundMotion, InputError, rigid
 from heeltoe.cli.common import as_given
+from heeltoe.errors.sanitize import plain
 from heeltoe.models.flexible.mesh.file import _read
 from heeltoe.motion.processing import taper
 from heeltoe.motion.records import read_text
-from heeltoe.plain import plain
 from shared.cases import dam, refusal
 from shared.command import command, process
 from shared.dams import BLOCK, EXAMPLES, example
@@ -86,7 +86,7 @@ def test_options_and_commands_that_there_are_not_are_refused_in_one_line(argumen
     said = command(*arguments)
     assert (said.returncode, said.stdout, said.stderr.count("\n")) == (2, "", 1)
     assert said.stderr.startswith("heeltoe: ")
-    assert "--help` says what can be given" in said.stderr
+    assert "--help` lists the options" in said.stderr
 
 
 def test_halves_of_letters_are_refused():

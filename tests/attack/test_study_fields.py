@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from heeltoe.study.file import Distribution, Study
+from heeltoe.study.plan.file import Distribution, Study
 from shared.attacked import Attack
 from shared.every_field import Fields, leaves
 from shared.hostile import values

@@ -5,7 +5,7 @@ import pickle
 import pytest
 
 from heeltoe.case.read import read_case
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from shared.cases import dam, write
 from shared.command import command
 

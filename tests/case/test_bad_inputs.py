@@ -154,7 +154,7 @@ ARGUMENTS = {
     "decoupled at the base": (["run", "case.toml", "--model", "decoupled"], ["crack.elevation"]),
     "units of nowhere": (["run", "case.toml", "--units", "cgs", "--out", "o"], ["--units", "si or us"]),
     "out in a place of the system": (["run", "case.toml", "--out", "/proc/heeltoe"], ["/proc/heeltoe", "written"]),
-    "new over an old one": (["new", "case"], ["case.toml", "there already"]),
+    "new over an old one": (["new", "case"], ["case.toml", "already exists"]),
     "figure without an ending": (["motion", "quake.txt", "--figure", "x.doc"], ["--figure", "x.doc", ".png"]),
     "new in no directory": (["new", "no/where"], ["no"]),
 }

@@ -9,7 +9,7 @@ import pytest
 
 from heeltoe.case.read import case_schema, read_case
 from heeltoe.case.warnings import case_warnings
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.units.parse import Acceleration
 from shared.cases import DAM, dam, write
 from shared.dams import EXAMPLES as DIRECTORY
@@ -165,8 +165,8 @@ def test_case_cannot_be_changed():
         ({"crack": {"friction": 1.0, "elevation": "96 m"}}, "reservoir: it ends below the crack"),
         ({"silt": {"depth": "96 m"}}, "silt is higher than the water"),
         # 85 and 120 lb/ft^3, the fluids of USBR for silt and water together.
-        ({"silt": {"depth": "20 m", "horizontal_density": "85 lb/ft^3"}}, "as if the water were in them"),
-        ({"silt": {"depth": "20 m", "vertical_density": "120 lb/ft^3"}}, "as if the water were in them"),
+        ({"silt": {"depth": "20 m", "horizontal_density": "85 lb/ft^3"}}, "seem to include the water"),
+        ({"silt": {"depth": "20 m", "vertical_density": "120 lb/ft^3"}}, "seem to include the water"),
     ],
 )
 def test_warnings(changes, words):
@@ -212,4 +212,6 @@ def test_schema_describes_every_field():
         for name, field in block["properties"].items():
             assert field.get("description"), name
     assert schema["$defs"]["Concrete"]["properties"]["density"]["default"] == "2400 kg/m^3"
-    assert schema["required"] == ["section", "crack"]
+    assert schema["required"] == ["section"]
+    assert schema["oneOf"] == [{"required": ["cracks"]}, {"required": ["crack"]}]
+    assert schema["properties"]["cracks"]["items"]["$ref"] == schema["properties"]["crack"]["$ref"]

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from shared.cases import DAM, dam, refusal, write
 from shared.dams import PULSE, polygon
 
@@ -19,7 +19,7 @@ REFUSED = [
         dam(crack=CRACK | {"colour": "red"}),
         "crack.colour: no such field; "
         "the fields here are elevation, inclination, kinks, friction, static_friction, kinetic_friction, law, "
-        "roughness, restitution",
+        "restitution, uplift, uplift_intensity, roughness",
     ),
     (
         dam(motion=FILE | {"vertical": {"file": "a", "revers": True}}),
@@ -27,7 +27,7 @@ REFUSED = [
     ),
     (
         dam(anchors=[{"prestress": "1 MN/m"}]),
-        "anchors[0].distance: is required and not there; "
+        "anchors[0].distance: is required but missing; "
         "give distance, or head_x, head_elevation, foot_x and foot_elevation",
     ),
     (
@@ -104,8 +104,8 @@ REFUSED = [
         dam(crack={"friction": 1.0, "inclination": "5 %"}),
         'crack.inclination: "5 %" is not an angle; write for example "5 deg"',
     ),
-    (dam(crack=None), "crack: is required and not there; add for example [crack]"),
-    (dam(reservoir={}), 'reservoir.depth: is required and not there; add for example depth = "100 m"'),
+    (dam(crack=None), "crack: is required but missing; add for example [crack]"),
+    (dam(reservoir={}), 'reservoir.depth: is required but missing; add for example depth = "100 m"'),
     (dam(crack=5), "crack: 5 is of the wrong type; give a block of fields"),
     (dam(title=5), "title: 5 is of the wrong type; give a text in quotes"),
     (dam(motion=FILE | {"reverse": "yes"}), 'motion.reverse: "yes" is of the wrong type; give true or false'),
@@ -129,7 +129,7 @@ REFUSED = [
     (dam(reservoir={"depth": 95}), 'reservoir.depth: 95 has no unit; write for example "95 m"'),
     (
         dam(reservoir={"depth": "95 furlings"}),
-        'reservoir.depth: "95 furlings" has a unit that is not known, "furlings"; write for example "100 m"',
+        'reservoir.depth: "95 furlings" has the unknown unit "furlings"; write for example "100 m"',
     ),
     (
         dam(concrete={"density": "24 kN/m^3"}),
@@ -164,12 +164,12 @@ REFUSED = [
     ),
     (
         dam(section={"height": "100 m", "crest_width": "8 m"}),
-        "section.base_width: is required and not there; "
+        "section.base_width: is required but missing; "
         "give height, crest_width, base_width; or slopes, a polygon or a file",
     ),
     (
         dam(section={"height": "1 m", "crest_width": "1 m", "base_width": "1 m", "neck_width": "1 m"}),
-        "section.neck_height: is required and not there; "
+        "section.neck_height: is required but missing; "
         "give height, crest_width, base_width, neck_height, neck_width; or slopes, a polygon or a file",
     ),
     (
@@ -187,7 +187,7 @@ REFUSED = [
     ),
     (
         dam(section=polygon([(0, 0), (1, 0), (0, "1e300")])),
-        "section.polygon: 1e+300 m is no size of a dam; give a section of 1 mm to 10 km",
+        "section.polygon: 1e+300 m is not the size of a dam; give a section of 1 mm to 10 km",
     ),
     (
         dam(crack=CRACK | {"elevation": "100 m"}),
@@ -206,12 +206,18 @@ REFUSED = [
         "crack.elevation: the section has no width at 0 m; give an elevation where it has one",
     ),
     (
+        dam(crack=CRACK | {"inclination": "-5 deg"}),
+        "crack.elevation: the crack starts at the base and falls downstream by 5 degrees, out of the section; "
+        "an inclined crack that falls needs an elevation above the base, because its toe lies below its heel; "
+        "or give crack.inclination of 0 deg or more",
+    ),
+    (
         dam(crack={}),
-        "crack.friction: is required and not there; give friction, or both static_friction and kinetic_friction",
+        "crack.friction: is required but missing; give friction, or both static_friction and kinetic_friction",
     ),
     (
         dam(crack={"kinetic_friction": 1.0}),
-        "crack.static_friction: is required and not there; give friction, or both static_friction and kinetic_friction",
+        "crack.static_friction: is required but missing; give friction, or both static_friction and kinetic_friction",
     ),
     (
         dam(crack={"friction": 1.0, "static_friction": 1.0}),
@@ -287,7 +293,7 @@ REFUSED = [
     ({1: 2} | DAM, "[1]: 1 cannot be used (Keys should be strings); see the documentation of the case file"),
     (
         {"crack": {"friction": 1, "elevation": 1}},
-        "section: is required and not there; add for example [section]",
+        "section: is required but missing; add for example [section]",
     ),
 ]
 
@@ -307,7 +313,7 @@ FILES = [
     (b'{"a":' * 100_000, "case-file-syntax", "is not valid JSON: "),
     ('title = "x"'.encode("utf-16"), "case-file-encoding", "is not UTF-8 text; save it as UTF-8"),
     ('title = "Zürich"'.encode("latin-1"), "case-file-encoding", "is not UTF-8 text; save it as UTF-8"),
-    (b"", "missing-field", "section: is required and not there; "),
+    (b"", "missing-field", "section: is required but missing; "),
     (b"0.1 0.2 0.3\n", "case-file-syntax", "is not valid TOML: "),
 ]
 
@@ -332,7 +338,7 @@ def test_refused_paths(tmp_path):
 @pytest.mark.parametrize("override", ["crack.friction", "=1", "crack..friction=1", ".=", ""])
 def test_refused_overrides(override):
     with pytest.raises(
-        InputError, match=r"^--set: .* sets nothing; write PATH=VALUE, for example crack\.friction=1\.0$"
+        InputError, match=r"^--set: .* does not set a field; write PATH=VALUE, for example crack\.friction=1\.0$"
     ):
         read_case(DAM, [override])
 
@@ -342,6 +348,9 @@ def test_refused_overrides(override):
     [
         ("crack.fricton=1", 'crack.fricton: no such field; did you mean "friction"?'),
         ("title.x=1", 'title.x: no such field; "title" has no fields'),
+        ("motion.pga=35", 'motion.pga: 35 has no unit; write for example "0.35 g" or "35 %g"'),
+        ("motion.pga=0.35", 'motion.pga: 0.35 has no unit; write for example "0.35 g"'),
+        ("motion.pga=3500", 'motion.pga: 3500 has no unit; write for example "0.4 g"'),
         ("reservoir.depth=95", 'reservoir.depth: 95 has no unit; write for example "95 m"'),
         ("crack.friction=nan", "crack.friction: NaN is not a finite number; write for example 1.0"),
         (

@@ -53,6 +53,7 @@ def test_a_change_is_checked_as_a_file_is():
         ("crack.frictoin=1.2", "unknown-field", 'did you mean "friction"?'),
         ({"reservoir": {"depht": "3 m"}}, "unknown-field", 'did you mean "depth"?'),
         ({"reservoir.depth": 95}, "unit-missing", '"95 m"'),
+        ({"gravity": 9.81}, "unit-missing", '"9.81 m/s^2"'),
         ({"reservoir.depth": "220 m"}, "water-above-crest", "twice the height of the dam"),
         ("crack.friction", "override-form", "PATH=VALUE"),
         ({"": 1}, "override-form", "PATH=VALUE"),
@@ -84,7 +85,7 @@ def test_a_dictionary_that_changes_a_case_is_not_changed_itself():
 
 def test_what_is_no_source_of_a_case_is_refused():
     for source in (read_case(DAM), 3, None):
-        with pytest.raises(InputError, match="no case file, nor the fields of one") as refused:
+        with pytest.raises(InputError, match="neither a case file nor the fields of one") as refused:
             read_case(source)
         assert refused.value.code == "case-source"
     assert isinstance(read_case(str(BASE)), Case)

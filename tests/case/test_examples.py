@@ -21,7 +21,7 @@ def test_nothing_of_the_users_is_touched(tmp_path):
     said = command("examples", cwd=tmp_path)
     assert (said.returncode, said.stderr) == (
         2,
-        "heeltoe: examples: is there already; give another name, or remove it first\n",
+        "heeltoe: examples: already exists; give another name, or remove it first\n",
     )
     assert list((tmp_path / "examples").iterdir()) == []
     assert command("examples", "elsewhere", cwd=tmp_path).returncode == 0

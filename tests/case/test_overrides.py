@@ -6,7 +6,7 @@ import pytest
 
 from heeltoe import InputError, read_case, rigid
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.study.small import parse_axes, run_small
+from heeltoe.study.small.run_table import parse_axes, run_small
 from shared.cases import DAM, dam, refusal, write
 from shared.dams import BLOCK, PULSE
 
@@ -26,7 +26,9 @@ def test_a_pattern_that_is_there_already_keeps_its_options():
     assert [each.outcome for each in found.responses] == ["ok"] * 3
 
 
-@pytest.mark.parametrize("change", ["motion.file=b.txt", 'motion.points=[["0 s", "0 g"], ["1 s", "0.1 g"]]'])
+@pytest.mark.parametrize(
+    "change", ["motion.file=elcentro-1940-180-nga", 'motion.points=[["0 s", "0 g"], ["1 s", "0.1 g"]]']
+)
 def test_another_motion_is_refused_beside_the_vertical_one_of_the_case(change):
     error = refusal(PAIR, [change])
     assert error.code == "vertical-of-another"
@@ -35,6 +37,11 @@ def test_another_motion_is_refused_beside_the_vertical_one_of_the_case(change):
     assert read_case(PAIR, [change, "motion.vertical=none"]).motion.vertical is None
     whole = read_case(PAIR, [change, "motion.vertical.file=b-up.txt"]).motion
     assert (whole.vertical.file, whole.vertical.unit) == ("b-up.txt", None)
+
+
+def test_a_missing_file_is_named_before_the_vertical_one():
+    assert refusal(PAIR, ["motion.file=b.txt"]).code == "record-not-found"
+    assert refusal(PAIR, ["motion.file=synthetic:M6.5,20km,seed=1"]).code == "vertical-of-another"
 
 
 def test_what_is_no_other_motion_is_not_refused():

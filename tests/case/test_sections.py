@@ -185,7 +185,7 @@ def test_a_case_keeps_its_corners_when_it_changes(tmp_path):
 
 def test_without_the_package(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "ezdxf.filemanagement", None)
-    with pytest.raises(InputError, match=r"pip install heeltoe\[drawing\]"):
+    with pytest.raises(InputError, match=r"pip install ezdxf"):
         read(tmp_path / "a.dxf", drawing(CORNERS))
 
 

@@ -7,7 +7,7 @@ import re
 import pytest
 
 from heeltoe import overturning_map, read_case, run
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.models.rigid.many import rigid_many
 from heeltoe.models.statics.joints import statics_of_sections
 from shared.dams import example
@@ -25,12 +25,12 @@ def test_cracks_stand_from_the_crest_down_and_inherit_friction_and_uplift():
             ],
         }
     )
-    assert [each.crack.elevation for each in case.cracks] == [90.0, 40.0, 0.0]
+    assert [each.crack.elevation for each in case.single_crack_cases] == [90.0, 40.0, 0.0]
     assert case.asked == 1
-    assert [each.crack.mu_kinetic for each in case.cracks] == [0.8, 1.2, 1.2]
-    assert [each.uplift.pattern for each in case.cracks] == ["triangular", "triangular", "uniform"]
-    assert [each.uplift.intensity for each in case.cracks] == [0.5, 1.0, 1.0]
-    assert all(not each.further_cracks for each in case.cracks)
+    assert [each.crack.mu_kinetic for each in case.single_crack_cases] == [0.8, 1.2, 1.2]
+    assert [each.uplift.pattern for each in case.single_crack_cases] == ["triangular", "triangular", "uniform"]
+    assert [each.uplift.intensity for each in case.single_crack_cases] == [0.5, 1.0, 1.0]
+    assert all(not each.further_cracks for each in case.single_crack_cases)
 
 
 @pytest.mark.parametrize(
@@ -39,12 +39,30 @@ def test_cracks_stand_from_the_crest_down_and_inherit_friction_and_uplift():
         ({"further_cracks": [{"elevation": "0 m"}]}, "further_cracks[0].elevation: the crack at 0 m meets or crosses"),
         ({"further_cracks": [{"elevation": "120 m"}]}, "further_cracks[0].elevation: at 120 m"),
         ({"further_cracks": [{"elevation": "90 m", "static_friction": 1.0}]}, "kinetic_friction: is required"),
-        ({"anchors": [{"distance": "5 m", "prestress": "1 MN/m"}]}, "anchors[0].distance: is a place on one crack"),
-        ({"uplift.during_shaking": "zero while open"}, 'uplift.during_shaking: "zero while open" does not go with'),
-        ({"flexible.damping": "thesis"}, 'flexible.damping: "thesis" does not go with further_cracks'),
-        ({"flexible.virtual_mass": "thesis"}, 'flexible.virtual_mass: "thesis" does not go with further_cracks'),
-        ({"flexible.contact": "idce", "flexible.damping": "stiffness"}, 'flexible.contact: "idce" does not go with'),
-        ({"flexible.mesh_above": "a.msh"}, "flexible.mesh_above: does not go with further_cracks"),
+        (
+            {"anchors": [{"distance": "5 m", "prestress": "1 MN/m"}]},
+            "anchors[0].distance: an anchor placed on one crack cannot be combined with",
+        ),
+        (
+            {"uplift.during_shaking": "zero while open"},
+            'uplift.during_shaking: uplift that changes during shaking ("zero while open") cannot',
+        ),
+        (
+            {"flexible.damping": "thesis"},
+            'flexible.damping: options of the thesis ("thesis") cannot be combined with several cracks',
+        ),
+        (
+            {"flexible.virtual_mass": "thesis"},
+            'flexible.virtual_mass: options of the thesis ("thesis") cannot be combined with several cracks',
+        ),
+        (
+            {"flexible.contact": "idce", "flexible.damping": "stiffness"},
+            'flexible.contact: penalty contact ("idce") cannot be',
+        ),
+        (
+            {"flexible.mesh_above": "a.msh"},
+            "flexible.mesh_above: meshes from files cannot be combined with several cracks",
+        ),
     ],
 )
 def test_what_does_not_go_together_is_refused_by_name(changes, said):
@@ -65,21 +83,23 @@ def test_inclined_cracks_that_cross_are_refused():
     ],
 )
 def test_models_that_know_one_crack_refuse_several(model, who):
-    with pytest.raises(InputError, match=f"further_cracks: {who} knows one crack alone.*run the flexible model"):
+    with pytest.raises(
+        InputError, match=f"further_cracks: {who} does not support several cracks.*run the flexible model"
+    ):
         run(CASE, model)
 
 
 def test_maps_and_tables_of_blocks_refuse_several():
-    with pytest.raises(InputError, match="a map of overturning knows one crack"):
+    with pytest.raises(InputError, match="a map of overturning does not support several cracks"):
         overturning_map(CASE, count=2)
-    with pytest.raises(InputError, match="the rigid model knows one crack"):
+    with pytest.raises(InputError, match="a table of blocks does not support several cracks"):
         rigid_many([CASE], [])
 
 
 def test_static_checks_judge_every_crack_as_a_section():
     found = statics_of_sections(CASE)
     assert [each.elevation_m for each in found.joints] == [90.0, 0.0]
-    for joint, case in zip(found.joints, CASE.cracks, strict=True):
+    for joint, case in zip(found.joints, CASE.single_crack_cases, strict=True):
         assert joint.statics.to_json()["cases"] == statics_of_sections(case).joints[0].statics.to_json()["cases"]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from heeltoe import read_case, rigid, run, statics
-from heeltoe.case.use import unused_fields
+from heeltoe.case.field_usage import unused_fields
 from heeltoe.models.statics.criteria import CRITERIA, unread
 from shared.cases import dam
 from shared.dams import FAST, PULSE, TYPICAL_SECTION, example
@@ -21,12 +21,12 @@ def said(fields, *models):
 def test_fields_of_other_models_are_told_in_one_line():
     fields = dam(concrete={"modulus": "20 GPa", "damping": 0.03}, flexible={"modes": 20, "mesh_above": "nowhere.msh"})
     assert said(fields, "rigid") == [
-        "the rigid model makes no use of concrete.modulus, concrete.damping, flexible.mesh_above, flexible.modes"
+        "no effect in the rigid model: concrete.modulus, concrete.damping, flexible.mesh_above, flexible.modes"
     ]
-    assert said(fields, "decoupled") == ["the decoupled chain makes no use of flexible.modes"]
+    assert said(fields, "decoupled") == ["no effect in the decoupled chain: flexible.modes"]
     assert said(fields, "flexible") == said(fields, "rigid", "flexible") == []
     anchored = dam(anchors=[{"distance": "5 m", "prestress": "1 MN/m", "capacity": "2 MN/m"}], motion=None)
-    assert said(anchored, "statics") == ["the static checks make no use of anchors[0].capacity"]
+    assert said(anchored, "statics") == ["no effect in the static checks: anchors[0].capacity"]
 
 
 def test_defaults_are_not_told():
@@ -36,9 +36,9 @@ def test_defaults_are_not_told():
 def test_what_a_reader_expects_to_matter_is_told_by_itself():
     fields = dam(crack={"friction": 1.0, "restitution": 0.3}, analysis={"rotation": "finite", "event_limit": 10})
     first, second, third = said(fields, "flexible")
-    assert first.startswith('analysis.rotation = "finite" has no say in the flexible model')
-    assert second.startswith("crack.restitution = 0.3 has no say in the flexible model")
-    assert third == "the flexible model makes no use of analysis.event_limit"
+    assert first.startswith('analysis.rotation = "finite" has no effect in the flexible model')
+    assert second.startswith("crack.restitution = 0.3 has no effect in the flexible model")
+    assert third == "no effect in the flexible model: analysis.event_limit"
     # Beside a block it is read; but the better of the two knows nothing of large rotations.
     (both,) = said(fields, "rigid", "flexible")
     assert both == first
@@ -163,7 +163,7 @@ def test_checks_after_a_run_count_what_the_run_reads():
     (alone,) = (each for each in statics(case).warnings if each.code == "fields-unused")
     assert "motion.file" in str(alone)
     (beside,) = (each for each in statics(case, 0.1, beside=("rigid",)).warnings if each.code == "fields-unused")
-    assert str(beside).startswith("the rigid model and the static checks make no use of concrete.modulus")
+    assert str(beside).startswith("no effect in the rigid model and the static checks: concrete.modulus")
     assert "motion" not in str(beside)
 
 
@@ -180,7 +180,7 @@ def test_pressures_that_an_elastic_dam_does_not_have_are_told():
         given = dam(reservoir={"depth": "80 m", "hydrodynamic": value})
         return [str(each) for each in unused_fields(read_case(given), models) if "hydrodynamic" in str(each)]
 
-    said = ['reservoir.hydrodynamic = "zangar" has no say in how the elastic dam moves']
+    said = ['reservoir.hydrodynamic = "zangar" has no effect on the motion of the elastic dam']
     for models in (("flexible",), ("rigid", "flexible")):
         assert [each.partition(",")[0] for each in told("zangar", *models)] == said
         assert told("westergaard", *models) == []

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from heeltoe import InputError, read_record
-from heeltoe.motion.target_names import target_of
+from heeltoe.motion.targets import target_of
 from shared.command import command
 from shared.record_samples import GAL, knet
 from shared.records_of_the_world import esm
@@ -38,7 +38,7 @@ def test_three_components_in_one_go(records):
 
 @pytest.mark.parametrize(("units", "pgd", "speed"), [("si", "m", "m/s"), ("us", "in", "ft/s")])
 def test_components_stand_side_by_side_in_one_unit(units, pgd, speed, records):
-    run = command("motion", "a.asc", "b.asc", "c.asc", "--units", units, "--no-figure", cwd=records)
+    run = command("motion", "a.asc", "b.asc", "c.asc", "--units", units, "--no-figure", "--details", cwd=records)
     lines = {line[:22].strip(): line[22:] for line in run.stdout.splitlines()}
     assert lines["component"].split() == ["HNE", "HNN", "HNZ"]
     for label, unit in (("PGV", speed), ("PGD", pgd), ("Arias intensity", speed)):
@@ -47,7 +47,7 @@ def test_components_stand_side_by_side_in_one_unit(units, pgd, speed, records):
         share = 0.49 if label == "Arias intensity" else 0.7
         assert float(numbers[1]) == pytest.approx(share * float(numbers[0]), rel=2e-3)
     # Four are printed one below the other.
-    run = command("motion", *["a.asc"] * 4, "--no-figure", cwd=records)
+    run = command("motion", *["a.asc"] * 4, "--no-figure", "--details", cwd=records)
     assert run.stdout.count("significant duration") == 4
 
 
@@ -88,7 +88,7 @@ def test_a_table_without_a_unit_or_rows(tmp_path):
     with pytest.raises(InputError, match="does not state the unit of its accelerations"):
         target_of(str(tmp_path / "a.txt"), "--match")
     (tmp_path / "b.txt").write_text("# Sa [g], units: g\n")
-    with pytest.raises(InputError, match="is no table of a spectrum"):
+    with pytest.raises(InputError, match="is not a table of a spectrum"):
         target_of(str(tmp_path / "b.txt"), "--match")
 
 

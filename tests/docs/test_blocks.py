@@ -8,7 +8,7 @@ import pytest
 
 import heeltoe
 from heeltoe import read_case
-from heeltoe.study.file import Study
+from heeltoe.study.plan.file import Study
 from shared.dams import FAST, ROOT
 from shared.pages import blocks
 

@@ -9,12 +9,7 @@ import pytest
 from heeltoe.views.explain.find import everything
 from heeltoe.views.explain.pages import pages
 from shared.dams import ROOT
-from shared.pages import PAGES, headings
-
-
-def equations(page: str) -> set[str]:
-    """Return the numbers of the equations of a page, which stand in indented blocks."""
-    return set(re.findall(r"^ {4,}\((\d+[a-z]?)\) ", PAGES[page], re.MULTILINE))
+from shared.pages import PAGES, equations, headings
 
 
 @pytest.mark.parametrize("place", sorted(pages()))

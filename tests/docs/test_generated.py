@@ -1,4 +1,4 @@
-"""What README and paper show of results is what the commands beside it make."""
+"""README, docs and paper show the results of the commands beside them, and figures that were measured."""
 
 from __future__ import annotations
 
@@ -16,7 +16,16 @@ RESULTS = (ROOT / "benchmarks" / "results.md").read_text(encoding="utf-8")
 SHORT = runpy.run_path(str(ROOT / "benchmarks" / "short.py"))
 
 
-@pytest.mark.parametrize("page", ["README.md", "paper.md"])
+FIRST_RUN = runpy.run_path(str(ROOT / "docs" / "first_run.py"))
+
+
+def test_the_verdict_of_the_readme_is_that_of_its_command():
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert f"heeltoe run {FIRST_RUN['CASE']}" in text
+    assert FIRST_RUN["renewed"](text, FIRST_RUN["verdict"]()) == text, "run: python docs/first_run.py"
+
+
+@pytest.mark.parametrize("page", ["docs/other-programs.md", "paper.md"])
 def test_the_table_of_speed_is_that_of_the_results(page):
     text = (ROOT / page).read_text(encoding="utf-8")
     assert SHORT["renewed"](text, RESULTS) == text, "run: python benchmarks/short.py"
@@ -29,12 +38,28 @@ def test_a_result_that_changes_changes_the_table():
         SHORT["table"](RESULTS.replace("| PyBullet |", "| Bullet |"))
 
 
-def test_times_in_the_paper_are_measured():
-    text = (ROOT / "paper.md").read_text(encoding="utf-8")
-    text = "".join(re.split(f"{SHORT['BEGINS']}.*{SHORT['ENDS']}", text, flags=re.DOTALL))
-    times = re.findall(r"\d[\d.]* (?:µs|ms|s)\b", text)
-    assert times
-    assert [time for time in times if time not in RESULTS] == []
+def figures(page: str) -> set[str]:
+    """Return the measured figures of a page outside its tables: times, memory, ratios; of a section Results if any."""
+    text = (ROOT / page).read_text(encoding="utf-8")
+    text = re.sub(f"{SHORT['BEGINS']}.*?{SHORT['ENDS']}", "", text, flags=re.DOTALL)
+    text = text.split("\n## Results\n")[-1].split("\n## ")[0] if "\n## Results\n" in text else text
+    text = re.sub(r"^```.*?^```$|^ {4}.*?$|^\|.*?$", "", text, flags=re.DOTALL | re.MULTILINE)
+    text = " ".join(text.split())
+    units = re.findall(r"(?<![\w.,])(\d[\d.,]* (?:µs|ms|s|MB))(?!\w)", text)
+    ratios = re.findall(r"(?<![\w.,])(?:(\d[\d.,]*) (?:to|and) )?(\d[\d.,]*) times", text)
+    return {*units, *(number for pair in ratios for number in pair if number)}
+
+
+@pytest.mark.parametrize("page", ["README.md", "paper.md", "benchmarks/README.md"])
+def test_figures_are_those_of_the_results(page):
+    known = RESULTS + SHORT["table"](RESULTS)
+    missing = [figure for figure in figures(page) if not re.search(rf"(?<![\d.,]){re.escape(figure)}(?![\d,])", known)]
+    assert missing == []
+
+
+def test_there_are_figures_to_compare():
+    assert figures("paper.md")
+    assert {"46.1 ms", "677", "2,321", "3,555", "496 MB"} <= figures("benchmarks/README.md")
 
 
 def test_sources_of_the_paper_are_there():

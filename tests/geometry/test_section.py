@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.geometry.section import cut, outline
 from shared.dams import TYPICAL
 from shared.outlines import by_strips, dams, make

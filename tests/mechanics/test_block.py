@@ -68,11 +68,11 @@ def test_critical_accelerations_are_where_the_kernel_starts_to_move():
             for factor, moves in ((0.9999, False), (1.0001, True)):
                 ground = np.full(2, sign * factor * limit)
                 run = run_block(block.parameters(), Shaking(np.array([0.0, 0.1]), ground), np.empty(0))
-                slip = run.summary["slip"]
-                rotation = run.summary["rotation_min" if way == "downstream" else "rotation_max"]
+                slip = run.summary.slip
+                rotation = run.summary.rotation_min if way == "downstream" else run.summary.rotation_max
                 moved = slip if kind == "sliding" else rotation
                 assert (moved != 0.0) == moves, (kind, way, factor)
-                assert (run.events["time"].size > 0) == moves
+                assert (run.events.time.size > 0) == moves
                 if moves and kind == "sliding":
                     assert np.sign(slip) == -sign
 

@@ -8,11 +8,11 @@ import pytest
 from heeltoe import flexible, read_case, rigid
 from heeltoe.kernel.block import VARYING
 from heeltoe.mechanics.block import build_block
+from heeltoe.mechanics.references import REFERENCES
 from heeltoe.mechanics.virtual_water import slope_factor, virtual_mass
 from heeltoe.models.decoupled.chain import attached_mass
 from heeltoe.models.rigid.varying import varying
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.references import REFERENCES
 from shared.outlines import make
 from shared.potential_flow import leaning, push
 

@@ -9,7 +9,7 @@ import pytest
 
 from heeltoe import InputError, flexible, read_case, rigid, statics_of_sections
 from heeltoe.mechanics.loads import prestress
-from heeltoe.models.flexible.reduced import build_flexible_dam
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from shared.two_cracks import DAM
 
 #: From the crest through both cracks into the rock.
@@ -26,7 +26,10 @@ def dam(*anchors, **blocks):
 def test_each_crack_is_pressed_by_the_anchors_that_cross_it():
     bare, case = dam(), dam(THROUGH, ABOVE)
     for place, count in ((0, 2), (1, 1)):
-        alone, pulls = case.cracks[place], [anchor.prestress for anchor in case.cracks[place].anchors_at_crack]
+        alone, pulls = (
+            case.single_crack_cases[place],
+            [anchor.prestress for anchor in case.single_crack_cases[place].anchors_at_crack],
+        )
         assert sum(pull > 0.0 for pull in pulls) == count
         pull = prestress(alone)
         with_anchors, without = (build_flexible_dam(each).crack_forces[place].sum(axis=1) for each in (case, bare))
@@ -51,7 +54,7 @@ def test_anchors_hold_back_both_models():
 def test_two_rigid_blocks_stand_as_one_where_nothing_slides():
     """The anchor pulls both blocks together: the forces at the base are those of the whole block."""
     case = dam(THROUGH)
-    whole = rigid(case.cracks[1]).static
+    whole = rigid(case.single_crack_cases[1]).static
     two = rigid(case).static
     assert two["normal_force_n"] == pytest.approx(whole["normal_force_n"], rel=1e-12)
     assert two["resultant_from_heel_m"] == pytest.approx(whole["resultant_from_heel_m"], rel=1e-12)
@@ -70,8 +73,11 @@ def test_static_checks_of_each_section_know_the_anchor():
 @pytest.mark.parametrize(
     ("anchor", "said"),
     [
-        ({"distance": "5 m", "prestress": "1 MN/m"}, "anchors[0].distance: is a place on one crack"),
-        (THROUGH | {"axial_stiffness": "10 MN/m/m"}, "anchors[0].axial_stiffness: does not go with further_cracks"),
+        ({"distance": "5 m", "prestress": "1 MN/m"}, "anchors[0].distance: an anchor placed on one crack cannot"),
+        (
+            THROUGH | {"axial_stiffness": "10 MN/m/m"},
+            "anchors[0].axial_stiffness: an anchor with stiffness cannot be combined",
+        ),
         (
             THROUGH | {"head_elevation": "90.5 m", "foot_elevation": "89.5 m"},
             "anchors[0].foot_x: the line from its head",

@@ -13,6 +13,7 @@ from heeltoe.result.contract import HEADLINES
 from heeltoe.result.write import json_text
 from heeltoe.units.sentences import Sentence
 from shared.dams import BASE, FAST, example
+from shared.responses import with_numbers
 
 
 @pytest.fixture
@@ -23,7 +24,7 @@ def both(typical_both) -> Response:
 def saying(response: Response, **values: float) -> Response:
     """The same with some headline numbers, and nothing in all others."""
     nothing = {each.key: 0.0 for each in HEADLINES}
-    return replace(response, summary={**response.summary, **nothing, **values})
+    return with_numbers(response, **(nothing | values))
 
 
 def slipping(both: Response, block: float, dam: float, **more: float) -> Response:
@@ -121,12 +122,7 @@ def test_a_case_without_motion():
 
 
 def test_a_state_that_is_not_finite_is_null_in_json(both):
-    blown = replace(
-        both,
-        outcome="blown up",
-        advice=Sentence("x"),
-        summary={**both.summary, "residual_slip_m": np.inf},
-    )
+    blown = replace(with_numbers(both, residual_slip_m=np.inf), outcome="blown up", advice=Sentence("x"))
     data = json.loads(json_text(blown.to_json()), parse_constant=pytest.fail)
     assert data["residual_slip_m"] is None
     assert data["beside"]["residual_slip_m"] is not None

@@ -79,4 +79,6 @@ def test_nothing_of_an_interruption_stays():
     interrupted(one)
     again = run_block(BLOCK, short, TIME[:20].copy())
     assert first.summary == again.summary
-    assert all(np.array_equal(first.histories[name], again.histories[name]) for name in first.histories)
+    assert all(
+        np.array_equal(column, getattr(again.histories, name)) for name, column in first.histories.by_name().items()
+    )

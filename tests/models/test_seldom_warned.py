@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
 import heeltoe
+from heeltoe import run
 from heeltoe.case.warnings import case_warnings
 from heeltoe.models.decoupled import model as decoupled
 from heeltoe.models.flexible import warnings as flexible
-from heeltoe.models.flexible.evidence import Evidence, Worth
+from heeltoe.models.flexible.evidence.evidence import Evidence, Worth
 from heeltoe.models.rigid.walk import walk
 from heeltoe.models.rigid.warnings import warnings_of
 from heeltoe.models.run import earthquake
@@ -40,7 +42,8 @@ def test_impacts_of_a_rigid_block():
     run = walk(case, block, earthquake(case).shaking)
     both = {"restitution-lowered", "paradox-jammed"}
     assert not both & codes(warnings_of(case, block, run))
-    changed = replace(run, summary={**run.summary, "energy_limited_impacts": 2.0, "jams": 1.0})
+    summary = SimpleNamespace(**{**run.summary.by_name(), "energy_limited_impacts": 2.0, "jams": 1.0})
+    changed = SimpleNamespace(summary=summary, outcome=run.outcome, exact=run.exact, anchors=run.anchors)
     said = {each.code: str(each) for each in warnings_of(case, block, changed)}
     assert both <= set(said)
     assert said["restitution-lowered"].startswith("2 ")
@@ -65,6 +68,7 @@ def test_what_moves_the_slip_of_an_elastic_dam(moved, mean, failed, said):
         other_step=2e-4,
         across=8,
         other_across=4,
+        third_across=None,
         failed=failed,
         slips=(0.1, 0.1),
         runs=8,
@@ -82,6 +86,8 @@ def test_too_few_modes(typical_both, error, warned):
 
 @pytest.mark.parametrize("warned", [False, True])
 def test_sampling_of_the_motion_at_the_crack(warned):
-    change = decoupled._change(0.1, 0.2 if warned else 0.1, 0.01)
-    said = decoupled._warnings({"convergence": {"step_s": 0.005, **change}})
+    coarser = 0.2 if warned else 0.1
+    level = run(example("koyna-top", "motion.duration=1s"), "decoupled").crack_level
+    convergence = replace(level.convergence, coarser_residual_slip_m=coarser, change=decoupled._change(0.1, coarser))
+    said = decoupled._warnings(replace(level, convergence=convergence))
     assert codes(said) == ({"sampling-matters"} if warned else set())

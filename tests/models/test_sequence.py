@@ -7,7 +7,6 @@ import pytest
 
 import heeltoe
 from heeltoe import InputError, read_case
-from heeltoe.case.sequence import turned_round
 from shared.command import command
 from shared.dams import BASE, FAST
 from shared.every_field import PULSE
@@ -48,10 +47,10 @@ def test_the_mirrored_sequence_slides_as_the_others_did():
     """All motions turned round, --reverse turns them back."""
     given = [{"points": OTHER, "pause": "2 s", "reverse": True}, {"points": POINTS}]
     turned = sequence("motion.reverse=true", aftershocks=given)
-    assert turned.with_(turned_round(turned)) == sequence().with_("motion.reverse=false").with_(
+    assert turned.with_(turned.reversal()) == sequence().with_("motion.reverse=false").with_(
         {"aftershocks": [{"points": OTHER, "pause": "2 s", "reverse": False}, {"points": POINTS, "reverse": True}]}
     )
-    assert turned_round(read_case(BASE).model_copy(update={"motion": None})) == {}
+    assert read_case(BASE).model_copy(update={"motion": None}).reversal() == {}
 
 
 def test_an_elastic_dam_goes_through_all_of_it():
@@ -134,7 +133,7 @@ def test_the_table_is_in_terminal_and_report(tmp_path):
     fields = sequence().model_dump(mode="json", exclude_unset=True)
     place = tmp_path / "case.json"
     place.write_text(json.dumps(fields))
-    told = command("run", str(place), "--model", "rigid")
+    told = command("run", str(place), "--model", "rigid", "--details")
     assert "static checks" in " ".join(told.stdout.split())
     assert "2 (2.5 s)" in told.stdout
 
@@ -146,7 +145,7 @@ def test_a_study_runs_the_sequence_of_its_case_or_motions_of_its_own(tmp_path):
     (tmp_path / "study.toml").write_text(study)
     told = command("study", str(tmp_path / "study.toml"), "--json", "-", "--out", str(tmp_path / "out"))
     assert told.returncode == 0, told.stderr
-    (tmp_path / "other.toml").write_text(f'{study}[motions]\nfiles = ["elcentro-1940-180-nga"]\n')
+    (tmp_path / "other.toml").write_text(f'{study}[motions]\nboth_signs = false\nfiles = ["elcentro-1940-180-nga"]\n')
     refused = command("study", str(tmp_path / "other.toml"), "--out", str(tmp_path / "out2"))
     assert refused.returncode == 2
-    assert "leave [motions] out, or the aftershocks" in refused.stderr
+    assert "leave [motions] out, or remove the aftershocks" in refused.stderr

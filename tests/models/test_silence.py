@@ -20,10 +20,10 @@ from heeltoe import (
     with_spread,
 )
 from heeltoe.kernel.block import Limits
-from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.rest import rests_from
-from heeltoe.warnings import Notice
+from heeltoe.warnings.notice import Notice
 from shared.dams import BASE, COARSE, ENDS, HEIGHT, SLENDER, example
 
 # The ground motion stops while the block slides.
@@ -52,13 +52,26 @@ def codes(response) -> list[str]:
 
 def same(one, other) -> bool:
     """Whether two runs are the same to the last bit, but for what they warn of and which motion they name."""
-    said = [each.to_json() for each in (one, other)]
-    for each in said:
-        for name in ("warnings", "motion", "silence_s", "verdict", "chosen"):
-            each.pop(name)
-        # It holds the spectrum of the ground, which swings on in zeros.
-        each.pop("crack_level", None)
-    return said[0] == said[1]
+    return numbers(one) == numbers(other)
+
+
+def numbers(response):
+    """Return what a run is, but for what it warns of and which motion it names."""
+    found = response.to_json()
+    for name in ("warnings", "motion", "silence_s", "verdict", "chosen"):
+        found.pop(name)
+    # It holds the spectrum of the ground, which swings on in zeros.
+    found.pop("crack_level", None)
+    return found
+
+
+def approximately(summary):
+    """The same numbers but for rounding."""
+    if isinstance(summary, dict):
+        return {name: approximately(value) for name, value in summary.items()}
+    if isinstance(summary, list | tuple):
+        return [approximately(value) for value in summary]
+    return pytest.approx(summary, rel=1e-6, abs=1e-9) if isinstance(summary, float) else summary
 
 
 @pytest.mark.parametrize("model", MODELS)
@@ -68,7 +81,9 @@ def test_a_dam_that_still_slides_when_the_record_ends_goes_on_as_with_zeros_behi
     assert found.silence_s > 0.0
     assert found.end_time_s == pytest.approx(2.1 + found.silence_s)
     longer = read_case(path, [*changes, ENDS, f"motion.duration={2.1 + found.silence_s!r}s"])
-    assert same(found, function(longer, padded(found.motion, found.silence_s)))
+    again = function(longer, padded(found.motion, found.silence_s))
+    # The steps of an elastic dam differ in their last digit, as its record is longer.
+    assert same(found, again) or (model == "flexible" and numbers(again) == approximately(numbers(found)))
     cut = function(read_case(path, [*changes, ENDS]))
     assert cut.silence_s == 0.0
     assert abs(cut.residual_slip_m) < 0.97 * abs(found.residual_slip_m)
@@ -118,9 +133,9 @@ def test_a_dam_at_rest_costs_one_run(monkeypatch):
     runs = []
     plain = ShakenDam.run
 
-    def counted(shaken, *args):
+    def counted(shaken, *args, **options):
         runs.append(shaken.shaking.end)
-        return plain(shaken, *args)
+        return plain(shaken, *args, **options)
 
     monkeypatch.setattr(ShakenDam, "run", counted)
     quiet = [*COARSE, "motion.duration=3s", "motion.pga=0.05g", "reservoir.depth=20m"]
@@ -129,7 +144,8 @@ def test_a_dam_at_rest_costs_one_run(monkeypatch):
     runs.clear()
     found = flexible(read_case(BASE, [*COARSE, "motion.duration=3s"]))
     # One more for the damping.
-    assert runs[:3] == [3.0, 13.0, 3.0 + found.silence_s]
+    assert runs == [3.0, 3.0 + found.silence_s]
+    assert 0.0 < found.silence_s < 10.0
 
 
 def test_without_silence_a_run_ends_with_the_motion_and_says_so():
@@ -197,7 +213,7 @@ def test_many_runs_end_where_each_of_them_does():
     assert (quiet["end_time"] == 2.1).all()
     numbers = np.array([case.cut and rigid_many([case], [alone[0].motion])["slip"][0] for case in cases[:2]])
     assert found["slip"][:2].tolist() == numbers.tolist()
-    with pytest.raises(InputError, match=r"^limits\.silence: nan ends nothing; give 0 to 600 s$"):
+    with pytest.raises(InputError, match=r"^limits\.silence: nan is out of range; give 0 to 600 s$"):
         rigid_many(cases, [alone[0].motion], limits=Limits(silence=math.nan))
 
 

@@ -138,6 +138,42 @@ def test_components_of_two_earthquakes_are_told(tmp_path):
         assert bool(said) is told
 
 
+def columns(path, values=WAVE, step=0.01, **about):
+    header = [f"# {name}: {text}" for name, text in about.items()]
+    header += [f"# time step: {step} s", "# units: [g]"]
+    path.write_text("\n".join([*header, *(f"{value:.6g}" for value in values)]))
+    return path
+
+
+@pytest.mark.parametrize(
+    ("across", "up", "code"),
+    [
+        ({"event": "Kern County 1952"}, {"event": "Imperial Valley", "date": "1940-05-19"}, "components-differ"),
+        ({"event": "A", "station": "Here"}, {"event": "A", "station": "There"}, "components-differ"),
+        ({"event": "A", "date": "1940-05-19"}, {"event": "A", "step": 0.02}, None),
+        ({"event": "A", "date": "1940-05-19"}, {"station": "There", "step": 0.02}, "components-unsure"),
+        ({"date": "1940-05-19"}, {"values": WAVE[:300]}, "components-unsure"),
+        ({"date": "1940-05-19"}, {}, None),
+    ],
+)
+def test_components_are_compared_by_all_that_their_files_state(across, up, code, tmp_path):
+    files = columns(tmp_path / "a.txt", **across), columns(tmp_path / "b.txt", **up)
+    case = read_case(BLOCK, [f"motion.file={files[0]}", f"motion.vertical.file={files[1]}"])
+    notices = [notice for notice in rigid(case).warnings if notice.code.startswith("components-")]
+    assert [notice.code for notice in notices] == ([code] if code else [])
+    if code == "components-unsure":
+        assert "event" in str(notices[0])
+        assert "could not be compared" in str(notices[0])
+
+
+def test_components_in_two_formats_are_compared_by_their_years(tmp_path):
+    across = columns(tmp_path / "a.txt", event="Kern County, California, 1952")
+    up = tmp_path / "b.V2"
+    up.write_text(cosmos(direction="Up", event="Nowhere Earthquake of Tue Jan 1, 1980 20:00 UTC"))
+    case = read_case(BLOCK, [f"motion.file={across}", f"motion.vertical.file={up}"])
+    assert "components-differ" in {notice.code for notice in rigid(case).warnings}
+
+
 def test_the_first_of_two_channels_is_not_taken_for_the_record():
     whole = csmip({"90 DEG": GAL, "UP": -0.5 * GAL})
     cut = whole[: whole.index("POINTS OF ACCEL DATA", whole.index("POINTS OF ACCEL DATA") + 1) - 2]

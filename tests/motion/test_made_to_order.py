@@ -11,7 +11,7 @@ from scipy.stats import gamma
 
 from heeltoe.case.read import read_case
 from heeltoe.case.shaking import resolve
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.motion.measures import arias_intensity, husid_time, significant_duration, velocity_displacement
 from heeltoe.motion.scenario import normal_scores, parameters_of, scenario_parameters, source_of, synthetic
 from heeltoe.motion.spectrum import response_spectrum
@@ -215,7 +215,7 @@ def test_in_a_case_and_on_the_command_line(tmp_path, monkeypatch):
     assert found.name == "synthetic-M6.5-20km-seed3"
     wrong = read_case(DAM | {"motion": motion | {"unit": "g"}}).motion
     assert wrong is not None
-    with pytest.raises(InputError, match=r"motion.unit: has no say in a motion made to order; remove it"):
+    with pytest.raises(InputError, match=r"motion.unit: has no effect on a synthetic motion; remove it"):
         resolve(wrong, case.gravity, tmp_path)
     run = command("motion", "synthetic:M6.5,20km,seed=3")
     assert run.returncode == 0

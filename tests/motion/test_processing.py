@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from heeltoe.case.processing import BandPass, Baseline
 from heeltoe.case.read import read_case
 from heeltoe.case.shaking import resolve
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import (
     arias_intensity,
@@ -233,7 +233,7 @@ def test_scaling():
     assert response_spectrum(scaled, [0.7], 0.02).pseudo_acceleration == pytest.approx(5.0, rel=1e-12)
     slower = scale_time(sine(2.0), 2.0, allow=True)
     assert mean_period(slower) == pytest.approx(1.0, rel=0.02)
-    assert "no earthquake was recorded so" in str(slower.warnings[-1])
+    assert "no earthquake was recorded like that" in str(slower.warnings[-1])
 
 
 ZERO = points((0.0, 0.0), (1.0, 0.0))
@@ -296,13 +296,13 @@ def test_a_case_processes_before_it_scales(tmp_path):
 @pytest.mark.parametrize(
     ("step", "said"),
     [
-        ({"low": "1 Hz"}, 'motion.processing[1].step: is required and not there; add for example step = "baseline"'),
+        ({"low": "1 Hz"}, 'motion.processing[1].step: is required but missing; add for example step = "baseline"'),
         ({"step": "bandpass"}, 'motion.processing[1].step: "bandpass" is not a choice; choose "baseline", "band-pass"'),
         ({"step": "band-pass", "lo": "1 Hz"}, 'motion.processing[1].lo: no such field; did you mean "low"?'),
         ({"step": "band-pass", "low": "1 rad/s"}, 'motion.processing[1].low: "1 rad/s" is not a frequency'),
         (
             {"step": "scale-to-arias"},
-            'motion.processing[1].intensity: is required and not there; add for example intensity = "0.5 m/s"',
+            'motion.processing[1].intensity: is required but missing; add for example intensity = "0.5 m/s"',
         ),
         ("taper", 'motion.processing[1]: "taper" is of the wrong type; give a block of fields'),
     ],

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.motion.targets import asce_7, en_1998, table
 
 G = 9.81

@@ -1,5 +1,6 @@
 """One version, in one place, and all that repeats it says the same."""
 
+import re
 import runpy
 import shutil
 import tomllib
@@ -47,11 +48,19 @@ def test_a_tag_is_the_version_and_its_date_stands_in_both_places(tmp_path):
     log = (tmp_path / "CHANGELOG.md").read_text(encoding="utf-8")
     cited = (tmp_path / "CITATION.cff").read_text(encoding="utf-8")
     heading = next(line for line in log.splitlines() if line.startswith(f"## {VERSION} ("))
-    date = next(line.split()[1] for line in cited.splitlines() if line.startswith("date-released: "))
-    (tmp_path / "CHANGELOG.md").write_text(log.replace(heading, f"## {VERSION} ({date})"), encoding="utf-8")
-    assert problems(tmp_path, f"v{VERSION}") == []
-    (tmp_path / "CHANGELOG.md").write_text(log.replace(heading, f"## {VERSION} (unreleased)"), encoding="utf-8")
-    assert "unreleased" in problems(tmp_path, f"v{VERSION}")[0]
+    cited = re.sub("^date-released: .*\n", "", cited, flags=re.MULTILINE)
+    unreleased, released = f"## {VERSION} (unreleased)", f"## {VERSION} (2027-01-31)"
+    dated = f"{cited}date-released: 2027-01-31\n"
+    for title, citation, alone, tagged in (
+        (unreleased, cited, True, False),
+        (released, dated, True, True),
+        (unreleased, dated, False, False),
+        (released, cited, False, False),
+    ):
+        (tmp_path / "CHANGELOG.md").write_text(log.replace(heading, title), encoding="utf-8")
+        (tmp_path / "CITATION.cff").write_text(citation, encoding="utf-8")
+        assert (problems(tmp_path) == []) is alone
+        assert (problems(tmp_path, f"v{VERSION}") == []) is tagged
 
 
 @pytest.mark.parametrize("name", ["requirements.lock", "requirements-bench.lock"])

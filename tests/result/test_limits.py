@@ -12,6 +12,7 @@ from heeltoe.case.options import Limits
 from heeltoe.result.limits import check_limits
 from heeltoe.result.response import Response
 from shared.dams import BASE, FAST
+from shared.responses import with_numbers
 
 NUMBERS = {
     "residual_slip_m": -0.060,
@@ -29,17 +30,19 @@ SCATTERS = {
     "flexible": {"elements_across": 6},
     "limits": {"residual_slip": "1 m"},
 }
-WORTH = {name: {"value": value, "uncertainty": 0.011} for name, value in NUMBERS.items()}
-
-
-def judged(limit: str, *, evidence: bool = True):
-    summary = {**NUMBERS, "evidence": WORTH if evidence else None}
-    return check_limits(Limits(residual_slip=limit, peak_slip="100 mm"), summary, "ok")
 
 
 @pytest.fixture(scope="module")
 def response() -> Response:
-    return flexible(read_case(BASE, FAST))
+    return flexible(read_case(BASE, [*FAST, "flexible.evidence=step"]))
+
+
+def judged(response: Response, limit: str, *, evidence: bool = True):
+    found = with_numbers(response, **NUMBERS)
+    worth = found.evidence.residual_slip_m
+    told = {name: replace(worth, value=value, uncertainty=0.011) for name, value in NUMBERS.items()}
+    found = with_numbers(found, evidence=replace(found.evidence, **told) if evidence else None)
+    return check_limits(Limits(residual_slip=limit, peak_slip="100 mm"), found)
 
 
 @pytest.mark.parametrize(
@@ -50,15 +53,15 @@ def response() -> Response:
             "65 mm",
             True,
             False,
-            "It keeps within its limits, but not for certain: its residual slip of 60.0 mm, give or take 11.0 mm, may "
+            "It keeps within its limits, but not for certain: its residual slip of 60.0 mm ± 11.0 mm may "
             "be more than the 65.0 mm allowed.",
         ),
         (
             "55 mm",
             False,
             False,
-            "It does not keep within its limits, though not for certain: its residual slip of 60.0 mm, give or take "
-            "11.0 mm, is more than the 55.0 mm allowed.",
+            "It does not keep within its limits, though not for certain: its residual slip of 60.0 mm ± 11.0 mm is "
+            "more than the 55.0 mm allowed.",
         ),
         (
             "40 mm",
@@ -69,7 +72,7 @@ def response() -> Response:
     ],
 )
 def test_a_limit_within_the_uncertainty_is_not_met_or_missed_for_certain(response, limit, met, certain, words):
-    slip, peak = judged(limit)
+    slip, peak = judged(response, limit)
     assert (slip.met, slip.certain) == (met, certain)
     assert (peak.value_m, peak.met, peak.certain) == (0.070, True, True)
     found = replace(response, limits=(slip, peak))
@@ -78,8 +81,8 @@ def test_a_limit_within_the_uncertainty_is_not_met_or_missed_for_certain(respons
     assert (said["met"], said["certain"], said["uncertainty_m"]) == (met, certain, 0.011)
 
 
-def test_without_evidence_nothing_is_said_of_certainty():
-    slip, _ = judged("60.001 mm", evidence=False)
+def test_without_evidence_nothing_is_said_of_certainty(response):
+    slip, _ = judged(response, "60.001 mm", evidence=False)
     assert (slip.met, slip.certain, slip.uncertainty_m) == (True, True, 0.0)
 
 

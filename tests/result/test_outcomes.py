@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,7 +9,7 @@ import pytest
 
 from heeltoe import Response, flexible, read_case, rigid, verdict
 from heeltoe.mechanics.block import build_block
-from heeltoe.models.flexible.warnings import outcome_of
+from heeltoe.models.flexible.warnings import judge_outcome
 from heeltoe.result.rest import comes_to_rest
 from shared.dams import COARSE, FAST, PULSE, example, polygon
 
@@ -72,9 +71,10 @@ def test_small_rotations_that_are_large_are_no_result():
 @pytest.mark.parametrize(("rotation", "outcome"), [(0.09, "ok"), (0.11, "large rotation")])
 def test_rotations_beyond_the_elastic_model(typical_elastic, rotation, outcome):
     block = build_block(example("typical-base", *FAST))
-    raw = {"rotation_max": 0.0, "rotation_min": -rotation}
+    numbers = {"rotation_max": 0.0, "rotation_min": -rotation}
+    raw = SimpleNamespace(by_name=lambda: numbers)
     run = SimpleNamespace(summary=raw, summaries=(raw,), outcome="ok")
-    found, advice = outcome_of(typical_elastic.crack.dam, block, run)
+    found, advice = judge_outcome(typical_elastic.crack.dam, block, run)
     assert found == outcome
     assert (advice is None) == (outcome == "ok")
     assert advice is None or "no setting of it has a result here" in str(advice)
@@ -84,9 +84,9 @@ def test_rotations_beyond_the_elastic_model(typical_elastic, rotation, outcome):
 def test_what_still_rocks_is_not_at_rest(typical_elastic: Response, gap):
     h = typical_elastic.histories
     still = {name: np.zeros_like(h[name]) for name in ("slip_m", "gap_heel_m", "gap_toe_m")}
-    assert comes_to_rest(replace(typical_elastic, histories={**h, **still}))
+    assert comes_to_rest(typical_elastic.with_crack(histories={**h, **still}))
     rocking = 0.01 * np.maximum(0.0, np.sin(9.0 * h["time_s"]))
-    response = replace(typical_elastic, histories={**h, **still, gap: rocking})
+    response = typical_elastic.with_crack(histories={**h, **still, gap: rocking})
     assert not comes_to_rest(response)
     face = "upstream" if gap == "gap_heel_m" else "downstream"
     assert f"in the last 1 s its opening at the {face} face changes by 10.0 mm" in verdict(response)

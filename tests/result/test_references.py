@@ -7,7 +7,7 @@ import pytest
 
 import heeltoe
 from heeltoe import read_case, run
-from heeltoe.references import REFERENCES
+from heeltoe.mechanics.references import REFERENCES
 
 CASE = {
     "title": "references",

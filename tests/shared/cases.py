@@ -1,7 +1,7 @@
 """The fields of a sound case, and what is said to those that are not."""
 
 from heeltoe.case.read import read_case
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from shared.dams import TYPICAL_SECTION
 
 DAM = {

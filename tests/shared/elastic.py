@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from heeltoe.models.flexible.elastic import bonded_state, dam
+from heeltoe.models.flexible.body.elastic import bonded_state, dam
 from heeltoe.models.flexible.mesh.checks import check_elements
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from shared.meshes import bodies

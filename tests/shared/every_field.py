@@ -112,6 +112,7 @@ NO_COEFFICIENTS: Fields = {"crack.static_friction": GONE, "crack.kinetic_frictio
 #: For fields that stand only in another case than the base, or have no value there: what changes first, then the value.
 HELPED: dict[str, tuple[Fields, Any]] = {
     "title": ({}, "another"),
+    "motion.sign": ({"motion.reverse": GONE}, "reversed"),
     "section.upstream": ({"section": FACES}, [["0 m", 0.1], ["12 m", 0.0]]),
     "section.downstream": ({"section": FACES}, [["0 m", 0.7], ["25 m", 0.0]]),
     **{
@@ -212,6 +213,19 @@ _STRAIGHT_ALONE = (
     "flexible.elements_across_below",
 )
 HELPED["crack.kinks"] = (dict.fromkeys(_STRAIGHT_ALONE, GONE), [["8 m", "0.5 m"]])
+HELPED |= {
+    "crack.uplift": (SEVERAL | {"crack.uplift": "none"}, "uniform"),
+    "crack.uplift_intensity": (SEVERAL | {"crack.uplift_intensity": 0.5}, 1.5),
+    # Strong enough for the upper block to strike.
+    "further_cracks[0].restitution": (SEVERAL | {"motion.pga": "5 g"}, 0.1),
+}
+QUAKE = {"name": "MDE", "seismic_coefficient": 0.1, "vertical_seismic_coefficient": 0.05, "rarity": "extreme"}
+QUAKES = {
+    "statics.seismic_coefficient": GONE, "statics.vertical_seismic_coefficient": GONE, "statics.earthquakes": [QUAKE],
+}  # fmt: skip
+HELPED |= {f"statics.earthquakes[0].{name}": (QUAKES, None) for name in QUAKE}
+HELPED["statics.earthquakes[0].name"] = (QUAKES, "SEE")
+HELPED["statics.earthquakes[0].rarity"] = (QUAKES, "unusual")
 HELPED |= {f"statics.sections[0].{name}": ({"statics.sections": [JOINT]}, None) for name in JOINT}
 _NUMBER = re.compile(r"-?\d+(?:\.\d*)?(?:e[+-]?\d+)?")
 

@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
+from heeltoe.kernel._kernel import BlockEvents, BlockHistories, BlockSummary
 from heeltoe.kernel.block import BLOCK, EVENT_KINDS, MODES, SETTLE, Limits, run_block
 from heeltoe.kernel.shaking import Shaking
 
@@ -128,11 +129,11 @@ def rectangle(
 class Run:
     """Result of one run by the kernel's names; `kinds` and `modes` in words."""
 
-    summary: dict[str, float]
+    summary: BlockSummary
     outcome: str
-    histories: dict[str, Floats]
+    histories: BlockHistories
     modes: list[str]
-    events: dict[str, Floats]
+    events: BlockEvents
     kinds: list[str]
 
 
@@ -156,10 +157,10 @@ def run(
     shaking = Shaking(array(time), array(horizontal), None if vertical is None else array(vertical))
     found = run_block(block, shaking, array(at), Limits(event_limit, jam, settle), start=start)
     return Run(
-        summary=dict(found.summary),
+        summary=found.summary,
         outcome=found.outcome,
-        histories=dict(found.histories),
+        histories=found.histories,
         modes=[MODES[m] for m in found.mode],
-        events=dict(found.events),
-        kinds=[EVENT_KINDS[int(k)] for k in found.events["kind"]],
+        events=found.events,
+        kinds=[EVENT_KINDS[int(k)] for k in found.events.kind],
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 import subprocess
 from functools import cache
@@ -69,3 +70,40 @@ def files() -> tuple[str, ...]:
 def _ours(path: Path) -> bool:
     """Whether a path of a copy without its history can be a file of the project."""
     return path.is_file() and not {".venv", "target", "out"} & set(path.parts)
+
+
+def equations(page: str) -> list[str]:
+    """Return the numbers of the equations of a page, in their order."""
+    return re.findall(r"\\tag\{(\d+[a-z]?)\}", PAGES[page])
+
+
+_PLACE = r"`([\w./-]+\.(?:py|rs))::(\w+)`"
+
+
+def equation_rows() -> list[tuple[str, tuple[str, str], tuple[str, str]]]:
+    """Return what stands beside equations and rules: page, then file and function of the code, and of the test."""
+    rows = []
+    for page, text in PAGES.items():
+        for row in re.findall(rf"^(?:code |\| [^|\n]* \| ){_PLACE}(?: · test | \| ){_PLACE}", text, re.M):
+            rows.append((page, row[:2], row[2:]))
+    return rows
+
+
+@cache
+def functions(file: str) -> frozenset[str]:
+    """Return the names of all functions of a Python or Rust file, methods included."""
+    text = (ROOT / file).read_text(encoding="utf-8")
+    if file.endswith(".rs"):
+        return frozenset(re.findall(r"\bfn (\w+)", text))
+    return frozenset(
+        node.name for node in ast.walk(ast.parse(text)) if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
+    )
+
+
+@cache
+def proofs(file: str) -> frozenset[str]:
+    """Return the names of the tests in a Python or Rust file."""
+    if file.endswith(".rs"):
+        text = (ROOT / file).read_text(encoding="utf-8")
+        return frozenset(re.findall(r"#\[test\](?:\s*#\[[^\]]*\])*\s*fn (\w+)", text))
+    return frozenset(name for name in functions(file) if name.startswith("test_"))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from heeltoe.motion.records import read_text, read_text_channels
-from heeltoe.motion.records.to_motion import Told
+from heeltoe.motion.records.to_motion import Options
 
 G = 9.80665
 #: A wave without offset [g], as K-NET's reader takes the mean out.
@@ -154,8 +154,8 @@ Memo.
 
 
 def read(text: str, name: str = "a.V2", channel: str | int | None = None, **hints):
-    return read_text(text.encode(), name, channel, Told(**hints))
+    return read_text(text.encode(), name, channel, Options(**hints))
 
 
 def channels(text: str, **hints):
-    return read_text_channels(text.encode(), "a.V2", Told(assume=True, **hints))
+    return read_text_channels(text.encode(), "a.V2", Options(assume=True, **hints))

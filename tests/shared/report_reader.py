@@ -11,7 +11,7 @@ import pytest
 from pypdf import PdfReader
 
 from heeltoe.result.write import json_text
-from heeltoe.views.report.content import Section
+from heeltoe.views.content.tree import Section
 from heeltoe.views.report.html import html
 from heeltoe.views.report.typst_pdf import pdf
 from heeltoe.views.words.numbers import Value

@@ -71,10 +71,10 @@ class Rectangles:
     def exact(self, time, ground):
         """Return slip, heel gap and toe gap of the lower and of the upper crack at the samples of the motion."""
         found = self.run(Shaking(time, ground), time)
-        assert all(crack.outcome == "ok" and crack.summary["impacts"] for crack in found.cracks)
-        assert all(crack.summary["energy_residual"] < 1e-14 for crack in found.cracks)
+        assert all(crack.outcome == "ok" and crack.summary.impacts for crack in found.cracks)
+        assert all(crack.summary.energy_residual < 1e-14 for crack in found.cracks)
         names = ("slip", "gap_heel", "gap_toe")
-        return np.column_stack([crack.histories[name] for crack in found.cracks for name in names])
+        return np.column_stack([getattr(crack.histories, name) for crack in found.cracks for name in names])
 
     def contacts(self):
         """Return masses (6,), and rows of gaps (4, 6) and of slips (4, 6) at heel and toe of the lower and of the upper

@@ -51,6 +51,7 @@ case = "case.toml"
 "crack.friction" = [0.3, 0.5]
 "crack.restitution" = { from = 0.2, to = 0.8, count = 3 }
 [motions]
+both_signs = false
 folder = "quakes"
 scale = { measure = "pga", values = ["0.3 g", "0.9 g"] }
 """

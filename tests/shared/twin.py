@@ -29,7 +29,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 
 SLIP, HEEL, TOE = 0, 1, 2
 #: Which corners push, in the order tried: as few as will do.

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from heeltoe.case.model import Case
-from heeltoe.models.flexible.reduced import build_flexible_dam
-from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.run import earthquake
 
 PULSES = [
@@ -73,6 +73,6 @@ def bonded(case: Case, elevation: float) -> Case:
 
 def same(one, other, width: float) -> None:
     """Compare what a crack does, to a millionth of how far it moves."""
-    largest = np.abs(other["slip"]).max()
+    largest = np.abs(other.slip).max()
     for name, arm in (("slip", 1.0), ("rotation", width), ("opening_heel", 1.0), ("opening_toe", 1.0)):
-        assert arm * one[name] == pytest.approx(arm * other[name], abs=1e-6 * largest), name
+        assert arm * getattr(one, name) == pytest.approx(arm * getattr(other, name), abs=1e-6 * largest), name

@@ -7,10 +7,10 @@ import pytest
 from scipy import stats
 
 from heeltoe import InputError, run_study
-from heeltoe.study import fragility
-from heeltoe.study.answers import bands
-from heeltoe.study.fragility import exceeding, observed
-from heeltoe.study.likelihood import Tally, fit, within, witnesses
+from heeltoe.study.answers import fragility
+from heeltoe.study.answers.answers import bands
+from heeltoe.study.answers.fragility import exceeding, observed
+from heeltoe.study.answers.likelihood import Tally, fit, within, witnesses
 from shared.command import command
 from shared.studies import DRAWN, GRID, study_file
 
@@ -169,11 +169,11 @@ def test_intervals_hold_about_as_often_as_they_say(events):
 
 def test_the_command_says_what_the_study_found(tmp_path):
     file = study_file(tmp_path, DRAWN)
-    said = command("study", file, "--out", tmp_path / "out", "--json", tmp_path / "study.json", columns=80)
+    said = command("study", file, "--out", tmp_path / "out", "--json", tmp_path / "study.json", "--details", columns=80)
     assert said.returncode == 0, said.stderr
     assert "60 runs (60 dams; of 10 motions, one each)" in said.stderr
-    for text in ("A block  (study)", "residual slip: half stay below", "exceeds", "median pga", "rotation 0.01 rad"):
-        assert text in said.stdout
+    for text in ("A block (study)", "residual slip: half stay below", "exceed", "median", "rotation 0.01 rad"):
+        assert text in " ".join(said.stdout.split())
     assert max(len(line) for line in said.stdout.splitlines() if "wrote" not in line) <= 80
     assert (tmp_path / "study.json").read_text().count('"limit"') == 3
     assert "all runs are of rigid blocks" in " ".join(said.stdout.split())
@@ -191,7 +191,7 @@ def test_an_interrupted_command_says_how_to_go_on(tmp_path, monkeypatch):
     def stop(*args, **options):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("heeltoe.study.run._run", stop)
+    monkeypatch.setattr("heeltoe.study.run.run._run", stop)
     said = command("study", study_file(tmp_path, GRID), "--out", tmp_path / "out")
     assert said.returncode == 130
     assert f"--out {tmp_path / 'out'} --resume" in said.stderr

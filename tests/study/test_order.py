@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from heeltoe.study.order import quantiles
+from heeltoe.study.plan.rank_correlation import quantiles
 
 SHARES = (0.0, 0.05, 0.16, 0.5, 0.84, 0.95, 1.0)
 

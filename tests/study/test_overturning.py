@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from heeltoe import InputError, overturning_map, read_case
-from heeltoe.study.overturning import ENDS
-from heeltoe.whole import LISTED
+from heeltoe.base.atomic_files import LISTED
+from heeltoe.study.small.overturning import ENDS
 from shared.command import command
 
 SLENDER = {
@@ -54,8 +54,8 @@ def test_weak_pulses_do_nothing():
 @pytest.mark.parametrize(
     ("options", "message"),
     [
-        ({"pulse": "square"}, "pulse: square is no pulse; choose sine, half-sine or cosine"),
-        ({"count": 1}, "count: 1 is no number of pulses; give 2 to 400"),
+        ({"pulse": "square"}, "pulse: square is not a pulse; choose sine, half-sine or cosine"),
+        ({"count": 1}, "count: 1 is not a valid number of pulses; give 2 to 400"),
     ],
 )
 def test_refused(options, message):

@@ -8,11 +8,11 @@ import pytest
 from scipy import stats
 
 from heeltoe import read_case
-from heeltoe.study import samples as module
-from heeltoe.study.axes import axis_of
-from heeltoe.study.file import Distribution, read_study
-from heeltoe.study.plan import plan_of
-from heeltoe.study.samples import Samples
+from heeltoe.study.plan import samples as module
+from heeltoe.study.plan.axes import axis_of
+from heeltoe.study.plan.file import Distribution, read_study
+from heeltoe.study.plan.plan import plan_of
+from heeltoe.study.plan.samples import Samples
 from shared.dams import BLOCK
 from shared.studies import DRAWN, study_file
 

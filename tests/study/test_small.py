@@ -8,7 +8,7 @@ import pytest
 
 from heeltoe import InputError, read_case, rigid
 from heeltoe.result.write import json_text
-from heeltoe.study.small import MOST, parse_axes, run_small
+from heeltoe.study.small.run_table import MOST, parse_axes, run_small
 from shared.dams import BLOCK, KOYNA, SHORT, TRIANGLE, polygon
 
 VERTICAL = ["motion.vertical.file=elcentro-1940-up-nga"]

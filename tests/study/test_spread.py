@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from heeltoe import InputError, flexible, read_case, rigid, verdict, with_spread
 from heeltoe.result.contract import HEADLINES
+from heeltoe.result.numbers import EvidenceNumbers, HeadlineWorth
 from heeltoe.result.write import json_text
-from heeltoe.study.spread import _step, check_runs
+from heeltoe.study.small.spread import _step, check_runs
 from shared.dams import BASE, FAST, SLENDER
 from shared.dams import KOYNA_TOP as KOYNA
+from shared.responses import with_numbers
 
 
 @pytest.mark.parametrize("changes", [[], ['motion.vertical.file="elcentro-1940-up-nga"'], ["motion.duration=60s"]])
@@ -61,9 +62,28 @@ def test_the_longer_step_is_taken_only_where_it_gives_the_same(typical_both):
     assert _step(response) == response.time_step_s
 
     def judged(change: float) -> float:
-        slip = {"value": 0.1, "step": 0.1 * change}
-        evidence = {"residual_slip_m": slip, "other_time_step_s": 2.0 * response.time_step_s}
-        return _step(replace(response, summary={**response.summary, "evidence": evidence}))
+        nothing = HeadlineWorth(value=0.1, run=0.1, uncertainty=0.1, step=0.1 * change, mesh=None, shaking=None)
+        evidence = EvidenceNumbers(
+            asked="step",
+            converged=True,
+            value_is="run",
+            moved_most_by="step",
+            allowed_m=0.01,
+            time_step_s=response.time_step_s,
+            other_time_step_s=2.0 * response.time_step_s,
+            elements_across=4,
+            other_elements_across=None,
+            third_elements_across=None,
+            scales=[],
+            residual_slips_m=[],
+            failed=0,
+            runs=2,
+            work=1.5,
+            budget=20.0,
+            budget_spent=False,
+            **{headline.key: nothing for headline in HEADLINES},
+        )
+        return _step(with_numbers(response, evidence=evidence))
 
     assert judged(0.005) == 2.0 * response.time_step_s
     assert judged(0.02) == response.time_step_s
@@ -88,13 +108,13 @@ def test_a_dam_that_cannot_stand_has_no_spread_but_says_so():
     spread = with_spread(rigid(case), case, 4).spread
     assert spread["failed"] == 4
     assert spread["residual_slip_m"] is None
-    json.dumps(spread, allow_nan=False)
+    json.dumps(spread.to_json(), allow_nan=False)
 
 
 def test_a_result_that_hangs_on_details_is_a_warning():
     def said(path, changes):
         case = read_case(path, changes)
-        return [text for text in map(str, with_spread(rigid(case), case).warnings) if "hangs on details" in text]
+        return [text for text in map(str, with_spread(rigid(case), case).warnings) if "depends on details" in text]
 
     assert said(KOYNA, [])
     assert not said(BASE, [])

@@ -7,8 +7,8 @@ import pytest
 from scipy.stats import qmc
 
 from heeltoe import InputError, read_study, run_study
-from heeltoe.study.compared import Comparison
-from heeltoe.study.sensitivity import sobol_indices, tornado
+from heeltoe.study.answers.comparison import Comparison
+from heeltoe.study.answers.sensitivity import sobol_indices, tornado
 from shared.studies import DRAWN, GRID, study_file
 
 

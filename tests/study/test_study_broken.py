@@ -88,7 +88,7 @@ def cluster(tmp_path):
 @pytest.mark.parametrize("kill", [False, True], ids=["two workers", "one of them killed"])
 def test_workers_started_by_hand_give_the_same_table(tmp_path, cluster, kill, monkeypatch):
     address, started = cluster
-    monkeypatch.setattr("heeltoe.study.run._MOST", 500)
+    monkeypatch.setattr("heeltoe.study.run.run._MOST", 500)
     file = study_file(tmp_path, DRAWN.replace("samples = 60", "samples = 12000"))
     here = rows(run_study(file, tmp_path / "here"))
     told = []

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 
 from heeltoe import InputError
-from heeltoe.study import parts
-from heeltoe.study.file import read_study
-from heeltoe.study.plan import plan_of
+from heeltoe.study.plan.file import read_study
+from heeltoe.study.plan.plan import plan_of
+from heeltoe.study.run import batches as parts
 from shared.command import command
 from shared.dams import STUDIES
 from shared.studies import DRAWN, GRID, study_file
@@ -66,7 +66,7 @@ REFUSED = {
     "numbers of another distribution": (changed(DRAWN, "median = 0.4", "median = 0.4, std = 3"), "std", "lognormal"),
     "no number of samples": (changed(DRAWN, "samples = 60", ""), "samples", "required"),
     "samples of a grid": (changed(GRID, "[vary]", "samples = 3\n[vary]"), "samples", "draws"),
-    "no power of two": (changed(DRAWN, '"latin hypercube"', '"sensitivity"'), "samples", "32 or 64"),
+    "not a power of two": (changed(DRAWN, '"latin hypercube"', '"sensitivity"'), "samples", "32 or 64"),
     "a million million runs": (changed(DRAWN, "samples = 60", "samples = 1000000000000"), "study", "too many"),
     "more than Sobol has": (
         changed(changed(DRAWN, '"latin hypercube"', '"sobol"'), "samples = 60", "samples = 4294967296"),
@@ -74,8 +74,8 @@ REFUSED = {
         "too many",
     ),
     "an empty folder": (changed(GRID, '"quakes"', '"."'), "motions.folder", "no records"),
-    "no folder": (changed(GRID, '"quakes"', '"nowhere"'), "motions.folder", "no directory"),
-    "a folder of too long a name": (changed(GRID, '"quakes"', f'"{"y" * 300}"'), "motions.folder", "no directory"),
+    "no folder": (changed(GRID, '"quakes"', '"nowhere"'), "motions.folder", "not a directory"),
+    "a folder of too long a name": (changed(GRID, '"quakes"', f'"{"y" * 300}"'), "motions.folder", "not a directory"),
     "no motions": (changed(GRID, 'folder = "quakes"', ""), "motions.folder", "files"),
     "motions twice": (changed(GRID, 'folder = "quakes"', 'folder = "quakes"\nfiles = ["x"]'), "folder", "keep one"),
     "components that do not pair": (
@@ -155,7 +155,7 @@ REFUSED = {
     "no base to stand beside": (
         changed(changed(GRID, "[vary]", 'method = "one at a time"\n[vary]'), FRICTION, '"reservoir.depth" = ["1 m"]'),
         "vary.reservoir.depth",
-        "value of its own",
+        "does not state a value",
     ),
 }
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from heeltoe import read_study
-from heeltoe.study import run
-from heeltoe.study.plan import plan_of
+from heeltoe.study.plan.plan import plan_of
+from heeltoe.study.run import run
 from shared.studies import GRID, study_file
 
 CLOCK = {"now": 0.0}

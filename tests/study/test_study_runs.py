@@ -11,10 +11,10 @@ import pytest
 from heeltoe import InputError, flexible, open_study, read_case, read_study, rigid, run_study
 from heeltoe.models.run import decoupled
 from heeltoe.motion.records import read_record
-from heeltoe.study import parts
-from heeltoe.study.plan import plan_of
-from heeltoe.study.schedule import run_on_workers
-from heeltoe.study.store import Store
+from heeltoe.study.plan.plan import plan_of
+from heeltoe.study.run import batches as parts
+from heeltoe.study.run.schedule import run_on_workers
+from heeltoe.study.run.store import Store
 from shared.dams import TYPICAL_SECTION
 from shared.studies import DRAWN, GRID, rows, study_file
 
@@ -84,6 +84,7 @@ model = {model}
 [vary]
 "crack.friction" = [0.5, 0.7]
 [motions]
+both_signs = false
 files = ["quakes/quake-a-000.txt", "quakes/quake-b-090.txt"]
 scale = {{ measure = "pga", values = ["0.3 g", "0.6 g"] }}
 """
@@ -124,7 +125,7 @@ def test_the_same_bits_whatever_the_parts_and_whoever_runs_them(tmp_path):
 def test_a_study_goes_on_where_it_stopped(tmp_path, monkeypatch):
     file = study_file(tmp_path, DRAWN)
     whole = rows(run_study(file, tmp_path / "whole"))
-    monkeypatch.setattr("heeltoe.study.run._MOST", 7)
+    monkeypatch.setattr("heeltoe.study.run.run._MOST", 7)
     out = tmp_path / "out"
     done = []
 
@@ -143,7 +144,7 @@ def test_a_study_goes_on_where_it_stopped(tmp_path, monkeypatch):
         run_study(file, out)
     assert refused.value.code == "study-begun"
     ran = []
-    monkeypatch.setattr("heeltoe.study.schedule.run_part", lambda *a, **b: ran.append(a) or parts.run_part(*a, **b))
+    monkeypatch.setattr("heeltoe.study.run.schedule.run_part", lambda *a, **b: ran.append(a) or parts.run_part(*a, **b))
     assert rows(run_study(file, out, resume=True)) == whole
     assert len(ran) == half.store.parts - 3
     assert rows(run_study(file, out, resume=True)) == whole
@@ -186,7 +187,7 @@ def test_inputs_that_have_changed_are_noticed_and_said(tmp_path, change, said):
 def test_a_full_disk_is_one_line_and_a_study_to_go_on_with(tmp_path, monkeypatch):
     file = study_file(tmp_path, DRAWN)
     whole = rows(run_study(file, tmp_path / "whole"))
-    monkeypatch.setattr("heeltoe.study.run._MOST", 11)
+    monkeypatch.setattr("heeltoe.study.run.run._MOST", 11)
     write, wrote = pq.write_table, []
 
     def full(table, place, **options):
@@ -251,7 +252,7 @@ def test_no_scheduler_and_no_package_are_said(tmp_path, monkeypatch):
     with pytest.raises(InputError, match="there is no scheduler at nowhere://1"):
         run_study(tmp_path / "study.toml", tmp_path / "out", scheduler="nowhere://1")
     assert not (tmp_path / "out").exists()
-    monkeypatch.setattr("heeltoe.study.schedule.find_spec", lambda name: None)
+    monkeypatch.setattr("heeltoe.study.run.schedule.find_spec", lambda name: None)
     with pytest.raises(InputError) as refused:
         list(run_on_workers(plan, [(0, 0, 1)], tmp_path))
     assert refused.value.code == "study-package"

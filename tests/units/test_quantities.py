@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from pydantic import TypeAdapter
 
 from heeltoe.case.quantities import AccelerationField, DimensionlessNumber, Length
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.units.parse import (
     DIMENSIONS,
     STANDARD_GRAVITY,
@@ -87,7 +87,7 @@ def test_read(text, dimension, expected):
         # pint alone reads the next two as 15 m and 1000 m.
         ("1,5 m", "length", 'crack.elevation: "1,5 m" is not a length; write for example "100 m"'),
         ("1,000 m", "length", 'crack.elevation: "1,000 m" is not a length; write for example "100 m"'),
-        ("12 furlings", "length", 'has a unit that is not known, "furlings"; write for example "100 m"'),
+        ("12 furlings", "length", 'has the unknown unit "furlings"; write for example "100 m"'),
         ("1e999 m", "length", '"1e999 m" is not a finite number; write for example "100 m"'),
         ("1e308 km", "length", '"1e308 km" is not a finite number; write for example "100 m"'),
         ("nan m", "length", "is not a length"),
@@ -96,9 +96,9 @@ def test_read(text, dimension, expected):
         (None, "length", "null is not a length"),
         (True, "length", "true is not a length"),
         ([1, 2], "length", "[1, 2] is not a length"),
-        ("4 m + 3 m", "length", "unit that is not known"),
+        ("4 m + 3 m", "length", "has the unknown unit"),
         ("3 2 m", "length", "is not a length"),
-        ("2 m/0", "length", "unit that is not known"),
+        ("2 m/0", "length", "has the unknown unit"),
         ("20 kg", "acceleration", "is not an acceleration"),
         ("9 mg", "acceleration", "is not an acceleration"),
         (math.inf, "number", "is not a finite number; write for example 1.0"),
@@ -125,6 +125,10 @@ def test_g_is_gravity_of_the_case():
     assert parse_acceleration("0.4g", "f") == Acceleration(0.4, in_g=True)
     assert parse_acceleration("0.4 g", "f").si(9.81) == pytest.approx(3.924)
     assert parse_acceleration("3.924 m/s^2", "f").si(1.62) == pytest.approx(3.924)
+
+
+def test_per_cent_of_g():
+    assert parse_acceleration("35 %g", "") == Acceleration(0.35, in_g=True)
 
 
 def test_gal_is_no_gallon():

@@ -30,6 +30,10 @@ from heeltoe.units.sentences import UNITS, Sentence, numbers, quantity, written
         (0.15, ".2f m", "0.15 m", "5.9 in"),
         (65.76e6, ".3f MN/m", "65.760 MN/m", "4506.0 kip/ft"),
         (-2e-12, "z.3f MPa", "0.000 MPa", "0.0 psi"),
+        # Without an exponent where people would write none, and without what rounding leaves.
+        (1.0, ".2g %", "100 %", "100 %"),
+        (184.6, ".4g mm", "184600 mm", "605.6 ft"),
+        (6.98e-10, ".3g MPa", "0 MPa", "0 psi"),
         # The same everywhere.
         (0.012, ".3g ms", "12 ms", "12 ms"),
         (0.6667, ".2g %", "67 %", "67 %"),

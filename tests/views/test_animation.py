@@ -7,10 +7,11 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import shapely
 
 from heeltoe.case.dam import Reservoir
 from heeltoe.views.animation import look
-from heeltoe.views.animation.bodies import ACCURACY, Moments
+from heeltoe.views.animation.bodies import ACCURACY, Moments, rigid_parts
 from heeltoe.views.animation.frames import STATUSES, automatic, build_scene, round_below
 from heeltoe.views.animation.picture import arrow_outlines, shore_of
 from shared.dams import example
@@ -54,7 +55,7 @@ def test_an_overturned_block_keeps_its_shape_and_stands_on_its_corner(block, ang
         "gap_heel_m": np.full(count, rise if angle < 0.0 else 0.0),
         "gap_toe_m": np.full(count, rise if angle > 0.0 else 0.0),
     }
-    tilted = replace(response, outcome="overturned", histories={**response.histories, **made})
+    tilted = replace(response, outcome="overturned").with_crack(histories={**response.histories, **made})
     scene = build_scene(case, tilted, response.histories["time_s"], None)
     assert scene.exaggeration == 1.0
     assert scene.subtitle.endswith("; rigid model; overturned")
@@ -65,6 +66,21 @@ def test_an_overturned_block_keeps_its_shape_and_stands_on_its_corner(block, ang
     corner = upper.points[0 if angle > 0.0 else 1]
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     assert drawn == pytest.approx((upper.points - corner) @ turn.T + corner + [0.3, 0.0], abs=1e-9)
+
+
+def test_a_block_is_carried_by_all_blocks_below_it():
+    case = example("two-cracks").with_({"further_cracks": [{"elevation": "50 m"}, {"elevation": "90 m"}]})
+    slips = (0.01, 0.2, 3.0)
+    still = dict.fromkeys(("gap_heel_m", "gap_toe_m", "rotation_rad"), np.zeros(2))
+    histories = [{**still, "slip_m": np.array([0.0, slip])} for slip in slips]
+    blocks = rigid_parts(case, histories, Moments.of(np.arange(2.0), np.arange(2.0)))
+    assert len(blocks) == 3
+    areas = []
+    for place, part in enumerate(blocks):
+        moved = part.drawn(1, 1.0) - part.points
+        assert np.hypot(*moved.T) == pytest.approx(sum(slips[place:]))
+        areas.append(shapely.Polygon(part.points[part.outline]).area)
+    assert sum(areas) == pytest.approx(case.outline.area)
 
 
 def test_an_elastic_dam_moves_as_its_record_says(elastic):

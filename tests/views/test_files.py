@@ -10,10 +10,10 @@ import pyarrow.parquet as pq
 import pytest
 
 from heeltoe import InputError, Response, flexible, overturning_map, read_case, rigid
+from heeltoe.base.atomic_files import LISTED, files
 from heeltoe.result.write import json_text
-from heeltoe.study.small import parse_axes, run_small
+from heeltoe.study.small.run_table import parse_axes, run_small
 from heeltoe.views.files.write import write_all, write_overturning
-from heeltoe.whole import LISTED, files
 from shared.dams import BLOCK, FAST, HEIGHT, KOYNA, SHORT, SLENDER, example
 
 
@@ -126,7 +126,9 @@ def test_a_failure_at_any_stage_leaves_what_was_there(stage, both, block, tmp_pa
     write_all(block, tmp_path / "old", figures={})
     (tmp_path / "old" / "notes.txt").write_text("mine")
     before = contents(tmp_path)
-    monkeypatch.setattr(f"heeltoe.{'whole' if stage == '_publish' else 'views.files.write'}.{stage}", failing)
+    monkeypatch.setattr(
+        f"heeltoe.{'base.atomic_files' if stage == '_publish' else 'views.files.write'}.{stage}", failing
+    )
     for place in ("old", "deep/er"):
         with pytest.raises(InputError, match=r"cannot be written \(No space left on device\)") as refused:
             write_all(both, tmp_path / place)

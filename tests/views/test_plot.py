@@ -6,7 +6,7 @@ import pytest
 from matplotlib.image import imread
 
 from heeltoe import InputError, overturning_map, read_case, rigid, statics
-from heeltoe.study.small import parse_axes, run_small
+from heeltoe.study.small.run_table import parse_axes, run_small
 from shared.dams import BASE, FAST, SLENDER, example
 from shared.drawn import check, texts
 

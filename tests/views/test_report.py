@@ -14,16 +14,16 @@ from hypothesis import strategies as st
 from pypdf import PdfReader
 
 from heeltoe import InputError, read_case, rigid, with_spread
-from heeltoe.plain import LONGEST, plain
+from heeltoe.errors.sanitize import LONGEST, plain
 from heeltoe.result.write import json_text
-from heeltoe.views.report.build_input import fields, input_hash
-from heeltoe.views.report.content import Document, FigureBlock, Section, paragraph
-from heeltoe.views.report.drawings import caption
+from heeltoe.views.content.drawings import caption
+from heeltoe.views.content.input import fields, input_hash
+from heeltoe.views.content.tree import Document, FigureBlock, Section, paragraph
 from heeltoe.views.report.html import html
 from heeltoe.views.report.typst_pdf import pages, pdf, source
 from heeltoe.views.report.write import build_report, check_packages, write_report
 from heeltoe.views.words.numbers import Value
-from heeltoe.warnings import Notice
+from heeltoe.warnings.notice import Notice
 from shared.dams import BASE, BLOCK, FAST, SLENDER
 from shared.report_reader import Reader, check_numbers, lookup, pdf_text, read_back, squeezed, values
 
@@ -65,7 +65,7 @@ def test_numbers_of_both_models_equal_those_of_the_json(both, document):
 def test_numbers_have_units(document):
     plain = ("factor", "friction", "ratio.", "impacts", "events", "samples", "steps", "iterations", "elements", "nodes")
     # The caption says that factors have no unit.
-    plain += ("modes", "residual", "statics.checks.")
+    plain += ("modes", "residual", "statics.checks.", "open_contacts")
     for value in values(document.blocks):
         length_or_time = value.key.endswith(("_m", "_rad", "_s")) and "ratio." not in value.key
         if length_or_time or not any(word in value.key for word in plain):
@@ -303,7 +303,7 @@ def test_packages_that_are_missing_are_named(monkeypatch, tmp_path, block):
     with pytest.raises(InputError) as found:
         check_packages()
     assert found.value.code == "report-package"
-    assert "heeltoe[report]" in str(found.value)
+    assert "pip install jinja2 typst" in str(found.value)
     with pytest.raises(InputError) as found:
         write_report(*block, tmp_path, kinds=("docx",))
     assert found.value.code == "report-kind"

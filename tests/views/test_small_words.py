@@ -7,7 +7,7 @@ import io
 from rich.console import Console
 
 from heeltoe import rigid
-from heeltoe.study.small import parse_axes, run_small
+from heeltoe.study.small.run_table import parse_axes, run_small
 from heeltoe.views.terminal.small import print_small
 from shared.dams import KOYNA, SHORT
 

@@ -11,10 +11,10 @@ import pytest
 from pypdf import PdfReader
 
 from heeltoe import read_case, statics
-from heeltoe.study.statics import After, judge
+from heeltoe.study.small.statics import After, judge
+from heeltoe.views.content.statics import statics_document
 from heeltoe.views.figures.statics.all import slug, statics_figures
 from heeltoe.views.report.html import html
-from heeltoe.views.report.statics import statics_document
 from heeltoe.views.report.typst_pdf import pdf
 from heeltoe.views.words.sheet import lines, sheet_units, steps
 from shared.command import command

@@ -8,9 +8,9 @@ import re
 import pytest
 
 from heeltoe import open_study, run_study
-from heeltoe.views.report.content import FigureBlock, Section, Table
+from heeltoe.views.content.study import study_document, study_subject
+from heeltoe.views.content.tree import FigureBlock, Section, Table
 from heeltoe.views.report.html import html
-from heeltoe.views.report.study import study_document, study_subject
 from shared.command import command
 from shared.studies import DRAWN, GRID, study_file
 
@@ -68,11 +68,11 @@ def test_what_failed_and_what_is_missing_come_first(tmp_path):
 
 
 def test_an_incomplete_study_says_so(tmp_path, monkeypatch):
-    monkeypatch.setattr("heeltoe.study.run._MOST", 20)
+    monkeypatch.setattr("heeltoe.study.run.run._MOST", 20)
     run_study(study_file(tmp_path, GRID), tmp_path / "out")
     (tmp_path / "out" / "runs" / "part-00000001.parquet").unlink()
     document, said = report(open_study(tmp_path / "out"), tmp_path)
-    assert "Not complete 1 of 3 parts of the runs are not there yet." in said
+    assert "Not complete 1 of 3 parts of the runs are missing." in said
     assert "Fragility" not in titles(document)
 
 
@@ -90,7 +90,7 @@ def test_what_the_slip_hangs_on_has_a_section(tmp_path, method, figure):
 def test_the_command_writes_it_beside_the_runs(tmp_path):
     out = tmp_path / "out"
     file = study_file(tmp_path, GRID)
-    said = command("study", file, "--out", out, "--report", "--units", "us", "--no-figures")
+    said = command("study", file, "--out", out, "--report", "--units", "us", "--no-figures", "--details")
     assert said.returncode == 0, said.stderr
     assert (out / "report.pdf").read_bytes().startswith(b"%PDF")
     text = (out / "report.html").read_text()

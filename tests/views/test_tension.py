@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 import pytest
 
 from heeltoe import flexible, read_case
+from heeltoe.result.numbers import TensionByMesh
 from heeltoe.result.tension import cracks_said, place_said
 from heeltoe.result.verdict import verdict
 from heeltoe.views.figures.all import all_figures
@@ -34,9 +36,11 @@ def test_it_is_said_with_place_moment_and_strength(judged):
     assert line.endswith("MORE than the 0.75 MPa that the concrete bears in an earthquake, 0.5 MPa without one")
     assert "psi" in tension_line(found, "us")
     assert "MPa" not in tension_line(found, "us")
-    strong = {**found, "strength": {**found["strength"], "exceeds": False}}
+    strong = replace(found, strength=replace(found.strength, exceeds=False))
     assert "; within the 0.75 MPa" in tension_line(strong, "si")
-    assert tension_line({**found, "strength": None}, "si").endswith("gives no concrete.tensile_strength to judge it by")
+    assert tension_line(replace(found, strength=None), "si").endswith(
+        "gives no concrete.tensile_strength to judge it by"
+    )
 
 
 def test_the_verdict_names_it_where_the_concrete_does_not_bear_it(judged):
@@ -45,8 +49,10 @@ def test_the_verdict_names_it_where_the_concrete_does_not_bear_it(judged):
     assert f"Its tension of {found['stress_pa'] / 1e6:.3g} MPa {place_said(found)}" in said
     assert "more than the 0.75 MPa that the concrete bears: that nothing else cracks does not hold." in said
     assert "psi" in verdict(judged, "us")
-    strong = {**found, "strength": {**found["strength"], "exceeds": False}}
-    assert cracks_said(strong, "si") == cracks_said({**found, "strength": None}, "si") == cracks_said(None, "si") == ""
+    strong = replace(found, strength=replace(found.strength, exceeds=False))
+    assert (
+        cracks_said(strong, "si") == cracks_said(replace(found, strength=None), "si") == cracks_said(None, "si") == ""
+    )
 
 
 def test_page_one_of_the_report_has_it(judged):
@@ -60,8 +66,10 @@ def test_what_it_is_worth_is_said(judged):
     assert tension_worth(judged.tension, "si") == (
         "read 1 m from the crack at least, as it has no bound there; compared with no other mesh"
     )
-    mesh = {"other_elements_across": 2, "stress_pa": 1.234e6, "difference_pa": 1e5}
-    assert tension_worth({**judged.tension, "mesh": mesh}, "si").endswith("; 1.23 MPa with 2 elements along the crack")
+    mesh = TensionByMesh(other_elements_across=2, stress_pa=1.234e6, difference_pa=1e5)
+    assert tension_worth(replace(judged.tension, mesh=mesh), "si").endswith(
+        "; 1.23 MPa with 2 elements along the crack"
+    )
 
 
 @pytest.mark.parametrize("units", ["si", "us"])

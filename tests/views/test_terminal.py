@@ -10,24 +10,28 @@ from typing import Any
 import pytest
 from rich.console import Console
 
-from heeltoe import rigid, statics, with_spread
-from heeltoe.models.statics.model import Statics
-from heeltoe.study.small import parse_axes, run_small
+from heeltoe import read_case, rigid, statics, with_spread
+from heeltoe.case.model import Case
+from heeltoe.models.statics.joints import Joints, statics_of_sections
+from heeltoe.study.small.run_table import parse_axes, run_small
 from heeltoe.views.terminal.motion import print_motion
 from heeltoe.views.terminal.show import show
-from heeltoe.views.terminal.statics import print_statics
+from heeltoe.views.terminal.statics import print_sections
 from shared.command import command
-from shared.dams import KOYNA_TOP, example
+from shared.dams import BASE, FAST, KOYNA_TOP, example
 from shared.statics import dam
 
 SI = re.compile(r"\d ?(mm|m|m/s|m/s²|kN/m|MN/m|kPa|MPa|GPa|J|J/m|kJ/m|MJ/m|kg/m\^3)(?![\w/²^])|per metre")
 
 
-def shown(result: Any, units: str) -> str:
-    """The text of a result on a wide terminal."""
+def shown(result: Any, units: str, case: Case | None = None) -> str:
+    """The text of a result on a wide terminal; all of it with its case."""
     file = io.StringIO()
     console = Console(file=file, width=220, highlight=False)
-    (print_statics if isinstance(result, Statics) else show)(result, console, units)
+    if isinstance(result, Joints):
+        print_sections(result, console, units, details=True)
+    else:
+        show(result, console, units, case)
     return file.getvalue()
 
 
@@ -47,7 +51,7 @@ def results(typical_both, koyna_both) -> dict[str, Any]:
         "decoupled": koyna_both.beside,
         "chain": koyna_both,
         "grid": run_small(KOYNA_TOP, ["motion.duration=2s"], parse_axes(["crack.friction=0.2,1.0"]), rigid),
-        "statics": statics(example("typical-base", *loads), 0.1),
+        "statics": statics_of_sections(example("typical-base", *loads), lambda case, place: statics(case, 0.1)),
         "failed": rigid(dam("99 m", crack={"friction": 0.2}, motion={"points": [["0 s", "0.1 g"], ["1 s", "0 g"]]})),
     }
 
@@ -59,7 +63,7 @@ def test_no_si_unit_is_left(results, name):
         result = plain(result) if name not in ("both", "chain") else result.with_responses(plain)
     text = shown(result, "us")
     assert not SI.search(text), SI.search(text)
-    assert SI.search(shown(result, "si")) or name == "grid"
+    assert SI.search(shown(result, "si")) or name in ("grid", "failed")
 
 
 def test_both_systems_say_the_same(results):
@@ -68,8 +72,9 @@ def test_both_systems_say_the_same(results):
         (line,) = (line for line in text.splitlines() if line.startswith(label))
         return [float(number) * sizes[unit] for number, unit in re.findall(r"(-?[\d.]+) (mm|m|in|ft)\b", line)]
 
-    for label in ("residual slip", "peak slip downstream", "opening, upstream face"):
-        si, us = (lengths(shown(results["both"], units), label) for units in ("si", "us"))
+    case = read_case(BASE, FAST)
+    for label in ("Residual slip, +", "Peak slip downstream", "Opening, upstream face"):
+        si, us = (lengths(shown(results["both"], units, case), label) for units in ("si", "us"))
         assert len(si) == len(us) > 0
         assert us == pytest.approx(si, rel=0.02, abs=1e-5)
 
@@ -79,14 +84,18 @@ def test_a_row_of_the_static_checks_has_one_unit(results):
 
     def row(lines: list[str], label: str) -> list[float]:
         (line,) = (line for line in lines if line.startswith(label))
-        return [float(text) for text in line.removeprefix(label).split()]
+        numbers, units = line.removeprefix(label).split()[::2], set(line.removeprefix(label).split()[1::2])
+        assert len(units) == 1, line
+        return [float(number) for number in numbers]
 
-    forces = row(si, "normal force, MN/m")
+    forces = row(si, "Normal force")
     assert len(forces) == 5
     kip_per_foot, psi = 4448.2216152605 / 0.3048, 6894.757293168
-    assert row(us, "normal force, kip/ft") == pytest.approx([each * 1e6 / kip_per_foot for each in forces], rel=1e-4)
-    stresses = row(si, "stress at toe, MPa")
-    assert row(us, "stress at toe, psi") == pytest.approx([each * 1e6 / psi for each in stresses], rel=2e-3)
+    assert row(us, "Normal force") == pytest.approx([each * 1e6 / kip_per_foot for each in forces], rel=1e-3)
+    stresses = row(si, "Stress at the toe, compression +")
+    assert row(us, "Stress at the toe, compression +") == pytest.approx(
+        [each * 1e6 / psi for each in stresses], rel=2e-3
+    )
 
 
 def test_people_s_own_words_stay(results):

@@ -1,15 +1,19 @@
 //! The flexible model, bound to Python.
 
+use std::sync::Arc;
+
 use heeltoe::flexible::{
-    many, simulate, Dam, Extreme, FaceAnchor, Give, Inside, Line, Modes, Penalty, Point, RisingWater, Scheme,
-    Shaking, Sides, Span, Stressed, Stresses, Summary, Wanted, Worked,
+    many, rest, simulate, Dam, FaceAnchor, Inside, Line, Modes, Penalty, Point, RisingWater,
+    RockingThresholds, Scheme, Shaking, Sides, Span, Stressed, Stresses, Summary, UntilRest, Wanted,
 };
 use heeltoe::inside::Law;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods};
+use numpy::{PyReadonlyArray2, PyReadonlyArray3, PyUntypedArrayMethods};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
 use crate::law::FrictionLaw;
-use crate::tables::{named, pool, rows, shaped, wrong, Numbers};
+use crate::results::{by_column, AtRest, DamRun};
+use crate::tables::{named, pool, rows, wrong, Numbers};
 use crate::watch::{watched, Ending};
 
 /// A body in its modes as Python gives it, by the names of `Modes`.
@@ -134,7 +138,7 @@ impl CrackLine<'_> {
             nodes: [span(self.upper), span(self.lower)],
             friction: self.friction,
             law: self.law.as_ref().map(|law| law.get().0.clone()),
-            give: Give {
+            give: RockingThresholds {
                 rotation: self.give.0,
                 gap: self.give.1,
             },
@@ -142,30 +146,6 @@ impl CrackLine<'_> {
         }
     }
 }
-
-/// Slip and number of open contacts of each crack, amplitudes of both bodies, forces on the nodes of both.
-type Rest<'py> = (
-    Vec<f64>,
-    Vec<usize>,
-    Bound<'py, PyArray1<f64>>,
-    Bound<'py, PyArray1<f64>>,
-    Bound<'py, PyArray1<f64>>,
-    Bound<'py, PyArray1<f64>>,
-);
-
-type Run<'py> = (
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray2<u8>>,
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray2<f64>>,
-);
 
 /// Stresses by the modes of either part as Python gives them, by the names of `Stressed`.
 #[derive(FromPyObject)]
@@ -197,7 +177,10 @@ impl StressRows<'_> {
 /// See `_kernel.pyi`.
 #[pyclass(frozen)]
 pub struct CrackedDam {
-    dam: Dam,
+    dam: Arc<Dam>,
+    /// The crack that is asked of.
+    asked: usize,
+    rising: Vec<RisingWater>,
 }
 
 impl CrackedDam {
@@ -226,31 +209,24 @@ impl CrackedDam {
 }
 
 impl CrackedDam {
-    fn rising(&self, given: &[Rising], scheme: &Scheme) -> PyResult<Vec<RisingWater>> {
-        let found = given.iter().map(Rising::water).collect::<PyResult<Vec<_>>>()?;
-        let bodies = &self.dam.bodies;
-        let counts = [
-            bodies.upper.nodes(),
-            bodies
-                .lower
-                .as_ref()
-                .map_or(0, heeltoe::flexible::ReducedBody::nodes),
-        ];
-        let fits = |water: &RisingWater| [water.change[0].len(), water.change[1].len()] == counts;
-        if !found.iter().all(fits) {
-            return Err(wrong("the water that changes needs a force for each crack node"));
-        }
-        if !found.is_empty() && (matches!(scheme, Scheme::Penalty(_)) || self.dam.cracks.len() > 1) {
+    /// The ground, and the water that changes meanwhile, as this scheme may have it.
+    fn shaking<'a>(&'a self, ground: &'a [[f64; 2]], dt: f64, scheme: &Scheme) -> PyResult<Shaking<'a>> {
+        if !self.rising.is_empty() && (matches!(scheme, Scheme::Penalty(_)) || self.dam.cracks.len() > 1) {
             return Err(wrong("water that changes needs exact contact in one crack"));
         }
-        Ok(found)
+        Ok(Shaking {
+            ground,
+            dt,
+            scale: [1.0; 2],
+            rising: &self.rising,
+        })
     }
 }
 
 #[pymethods]
 impl CrackedDam {
     #[new]
-    #[pyo3(signature = (upper, lower, cracks, contactors, water=None, anchors=Vec::new()))]
+    #[pyo3(signature = (upper, lower, cracks, contactors, water=None, anchors=Vec::new(), *, asked=0))]
     #[allow(clippy::too_many_arguments)]
     fn new(
         py: Python<'_>,
@@ -260,7 +236,11 @@ impl CrackedDam {
         contactors: u8,
         water: Option<FollowingWater>,
         anchors: Vec<CrackAnchor>,
+        asked: usize,
     ) -> PyResult<Self> {
+        if asked >= cracks.len() {
+            return Err(wrong("the crack asked of is not there"));
+        }
         let dam = Dam {
             bodies: Sides {
                 upper: upper.body()?,
@@ -275,117 +255,106 @@ impl CrackedDam {
             still: None,
         };
         dam.check().map_err(wrong)?;
-        let dam = watched(py, None, |_| None, |stop| dam.rested(stop))?;
-        Ok(CrackedDam { dam })
+        let dam = watched(py, None, |_| None, |stop| rest(dam, stop))?;
+        Ok(CrackedDam {
+            dam: Arc::new(dam),
+            asked,
+            rising: Vec::new(),
+        })
     }
 
     /// See `_kernel.pyi`.
-    fn still<'py>(&self, py: Python<'py>) -> Option<Rest<'py>> {
-        let still = self.dam.still.as_ref()?;
-        let [above, below] = still.amplitudes(&self.dam);
-        Some((
-            still.slip.clone(),
-            still.open.clone(),
-            above.into_pyarray(py),
-            below.into_pyarray(py),
-            still.force[0].clone().into_pyarray(py),
-            still.force[1].clone().into_pyarray(py),
-        ))
+    fn under(&self, rising: Vec<Rising<'_>>) -> PyResult<Self> {
+        let rising = rising.iter().map(Rising::water).collect::<PyResult<Vec<_>>>()?;
+        let bodies = &self.dam.bodies;
+        let below = bodies
+            .lower
+            .as_ref()
+            .map_or(0, heeltoe::flexible::ReducedBody::nodes);
+        let counts = [bodies.upper.nodes(), below];
+        let fits = |water: &RisingWater| [water.change[0].len(), water.change[1].len()] == counts;
+        if !rising.iter().all(fits) {
+            return Err(wrong("the water that changes needs a force for each crack node"));
+        }
+        Ok(CrackedDam {
+            dam: Arc::clone(&self.dam),
+            asked: self.asked,
+            rising,
+        })
     }
 
     /// See `_kernel.pyi`.
-    #[pyo3(signature = (ground, dt, theta, stride, keep_modes, stresses=None, penalty=None, ending=None,
-        rising=Vec::new()))]
+    fn still(&self, py: Python<'_>) -> PyResult<Option<AtRest>> {
+        let still = self.dam.still.as_ref();
+        still.map(|still| AtRest::of(py, &self.dam, still)).transpose()
+    }
+
+    /// See `_kernel.pyi`.
+    #[pyo3(signature = (ground, step, theta, *, stride=0, stresses=None, penalty=None, ending=None, until_rest=None))]
     #[allow(clippy::too_many_arguments)]
     fn run<'py>(
         &self,
         py: Python<'py>,
         ground: PyReadonlyArray2<'py, f64>,
-        dt: f64,
+        step: f64,
         theta: f64,
         stride: usize,
-        keep_modes: bool,
         stresses: Option<StressRows<'py>>,
         penalty: Option<[f64; 3]>,
         ending: Option<Bound<'py, Ending>>,
-        rising: Vec<Rising<'py>>,
-    ) -> PyResult<Run<'py>> {
+        until_rest: Option<(usize, usize, f64, f64)>,
+    ) -> PyResult<DamRun> {
         let scheme = self.scheme(theta, penalty)?;
-        let rising = self.rising(&rising, &scheme)?;
-        let ground = rows(ground.as_slice()?, "ground")?;
-        let shaking = Shaking {
-            ground,
-            dt,
-            scale: [1.0; 2],
-            rising: &rising,
-        };
+        let shaking = self.shaking(rows(ground.as_slice()?, "ground")?, step, &scheme)?;
         let stresses = stresses.as_ref().map(StressRows::stressed).transpose()?;
+        let until_rest = until_rest.map(|(first, every, seconds, moved)| UntilRest {
+            first,
+            every: every.max(1),
+            seconds,
+            moved,
+        });
         let reached = |run: &heeltoe::flexible::Run| Some([run.summary().end_time, run.summary().slip]);
         let run = watched(py, ending.as_ref().map(Bound::get), reached, |stop| {
             let wanted = Wanted {
                 stride,
-                modes: keep_modes,
+                modes: stride > 0,
                 stresses,
+                rest: until_rest,
                 stop,
             };
             simulate(&self.dam, &shaking, &scheme, wanted)
         })?;
-        let frames = run.frames;
-        let (cracks, rows) = (run.cracks.len(), frames.rows.len());
-        let count = rows / cracks;
-        let extremes = run.extremes.unwrap_or_default();
-        let table = |of: Vec<Extreme>| shaped(py, of.iter().flat_map(Extreme::row).collect(), of.len());
-        Ok((
-            shaped(py, run.cracks.iter().flat_map(numbers).collect(), cracks)?,
-            shaped(py, frames.rows.as_flattened().to_vec(), rows)?,
-            shaped(py, frames.upper, count)?,
-            shaped(py, frames.lower, count)?,
-            shaped(py, frames.force, count)?,
-            shaped(py, frames.status, count)?,
-            shaped(py, frames.modes_upper, count)?,
-            shaped(py, frames.modes_lower, count)?,
-            table(extremes.upper)?,
-            table(extremes.lower.unwrap_or_default())?,
-            crate::tables::table(py, run.worked.iter().map(Worked::row)),
-        ))
+        DamRun::of(py, run, self.asked)
     }
 
     /// See `_kernel.pyi`.
-    #[pyo3(signature = (ground, dt, theta, scales, threads, penalty=None, ending=None, rising=Vec::new()))]
+    #[pyo3(signature = (ground, step, theta, scales, *, threads=0, penalty=None, ending=None))]
     #[allow(clippy::too_many_arguments)]
     fn run_many<'py>(
         &self,
         py: Python<'py>,
         ground: PyReadonlyArray2<'py, f64>,
-        dt: f64,
+        step: f64,
         theta: f64,
-        scales: Vec<[f64; 2]>,
+        scales: PyReadonlyArray2<'py, f64>,
         threads: usize,
         penalty: Option<[f64; 3]>,
         ending: Option<Bound<'py, Ending>>,
-        rising: Vec<Rising<'py>>,
-    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+    ) -> PyResult<Bound<'py, PyTuple>> {
         let scheme = self.scheme(theta, penalty)?;
-        let rising = self.rising(&rising, &scheme)?;
-        let shaking = Shaking {
-            ground: rows(ground.as_slice()?, "ground")?,
-            dt,
-            scale: [1.0; 2],
-            rising: &rising,
-        };
+        let shaking = self.shaking(rows(ground.as_slice()?, "ground")?, step, &scheme)?;
+        let scales = rows(scales.as_slice()?, "scales")?;
         let pool = pool(threads)?;
         let runs = watched(
             py,
             ending.as_ref().map(Bound::get),
             |_| None,
-            |stop| pool.install(|| many::run(&self.dam, &shaking, &scheme, &scales, stop)),
+            |stop| pool.install(|| many::run(&self.dam, &shaking, &scheme, scales, stop)),
         )?;
-        let runs = runs.concat();
-        shaped(py, runs.iter().flat_map(numbers).collect(), runs.len())
+        let of_crack = |k: usize| by_column(py, Summary::FIELDS, runs.iter().map(|cracks| cracks[k].row()));
+        let cracks: Vec<_> = (0..self.dam.cracks.len())
+            .map(of_crack)
+            .collect::<PyResult<_>>()?;
+        PyTuple::new(py, cracks)
     }
-}
-
-/// The columns of a summary, then the tensions of the anchors.
-fn numbers(summary: &Summary) -> Vec<f64> {
-    [&summary.row(), &summary.tensions[..]].concat()
 }

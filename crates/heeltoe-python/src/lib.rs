@@ -1,18 +1,19 @@
-//! Kernels of heeltoe, bound to Python as `heeltoe._kernel`.
+//! Kernels of heeltoe, bound to Python as `heeltoe.kernel._kernel`.
 
 mod flexible;
 mod law;
+mod results;
 mod rigid;
 mod stack;
 mod tables;
 mod watch;
 
 use heeltoe::asperity::AsperityNumbers;
-use heeltoe::flexible::{self as elastic, Frames, State, Status};
+use heeltoe::flexible::{self as elastic, State, Status};
 use heeltoe::friction::{LawNumbers, Shape};
 use heeltoe::rigid::stack::Place;
 use heeltoe::rigid::varying::VaryingNumbers;
-use heeltoe::rigid::{BlockNumbers, Event, EventKind, Mode, Moment, Outcome, Shaking, Summary};
+use heeltoe::rigid::{BlockNumbers, EventKind, Mode, Outcome, Shaking, Summary};
 use numpy::PyArray2;
 use pyo3::prelude::*;
 
@@ -28,6 +29,11 @@ mod _kernel {
     use crate::flexible::CrackedDam;
     #[pymodule_export]
     use crate::law::FrictionLaw;
+    #[pymodule_export]
+    use crate::results::{
+        AtRest, BlockEvents, BlockHistories, BlockRun, BlockSummary, DamFrames, DamRun, DamSummary,
+        Roughness, StackRun, StressExtremes, Worn, WornContacts,
+    };
     #[pymodule_export]
     use crate::rigid::{run_rigid, run_rigid_many, run_rigid_varying};
     #[pymodule_export]
@@ -72,15 +78,9 @@ mod _kernel {
         m.add("LAW_FIELDS", LawNumbers::FIELDS.to_vec())?;
         m.add("LAWS", Shape::NAMES.to_vec())?;
         m.add("SUMMARY_FIELDS", Summary::FIELDS.to_vec())?;
-        m.add("HISTORY_FIELDS", Moment::FIELDS.to_vec())?;
-        m.add("EVENT_FIELDS", Event::FIELDS.to_vec())?;
         m.add("MODES", Mode::NAMES.to_vec())?;
         m.add("EVENT_KINDS", EventKind::NAMES.to_vec())?;
         m.add("OUTCOMES", Outcome::NAMES.to_vec())?;
-        m.add("CRACK_SUMMARY_FIELDS", elastic::Summary::FIELDS.to_vec())?;
-        m.add("FRAME_FIELDS", Frames::FIELDS.to_vec())?;
-        m.add("WORKED_FIELDS", elastic::Worked::FIELDS.to_vec())?;
-        m.add("EXTREME_FIELDS", elastic::Extreme::FIELDS.to_vec())?;
         m.add("CRACK_OUTCOMES", elastic::Outcome::NAMES.to_vec())?;
         m.add("CRACK_STATES", State::NAMES.to_vec())?;
         m.add("CONTACT_STATUSES", Status::NAMES.to_vec())?;

@@ -4,38 +4,15 @@ use heeltoe::asperity::{Asperities, AsperityNumbers};
 use heeltoe::friction::Worn as BeenThrough;
 use heeltoe::inside::{Anchor, Law};
 use heeltoe::rigid::varying::{self, Rotation, Surface, TurningBlock, TurningShaking, VaryingNumbers};
-use heeltoe::rigid::{
-    exact, many, Block, BlockNumbers, Event, Moment, Options, Outcome, Run, Shaking, Wanted,
-};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
+use heeltoe::rigid::{exact, many, Block, BlockNumbers, Options, Outcome, Run, Shaking, Summary, Wanted};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::law::FrictionLaw;
-use crate::tables::{named, pool, row, rows, slice, table, wrong, Numbers};
+use crate::results::{by_column, BlockRun};
+use crate::tables::{named, pool, row, rows, slice, wrong, Numbers};
 use crate::watch::{prompt, watched};
-
-pub type Result<'py> = (
-    Bound<'py, PyArray1<f64>>,
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray1<u8>>,
-    Bound<'py, PyArray2<f64>>,
-);
-
-type VaryingResult<'py> = (
-    Bound<'py, PyArray1<f64>>,
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray1<u8>>,
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray1<f64>>,
-    Option<Worn<'py>>,
-    Option<Rough<'py>>,
-);
-
-/// Path and bond at the moments asked for, and at the end, and the error of the integration.
-type Worn<'py> = (Bound<'py, PyArray2<f64>>, f64, bool, f64, f64);
-
-/// Dilation, angle and plastic work of the asperities at the moments asked for, and at the end, and the largest dilation.
-type Rough<'py> = (Bound<'py, PyArray2<f64>>, [f64; 3], f64);
 
 /// Runs of no more events, samples and moments that are wanted take a few milliseconds: nobody interrupts them.
 const EVENTS_AT_ONCE: u64 = 2000;
@@ -45,17 +22,6 @@ const MOMENTS_AT_ONCE: usize = 50_000;
 fn reached(run: &Run) -> Option<[f64; 2]> {
     let [slip, ..] = run.summary.position;
     Some([run.summary.end_time, slip])
-}
-
-/// Summary, histories, modes and events.
-pub fn arrays<'py>(py: Python<'py>, run: &Run) -> Result<'py> {
-    let modes: Vec<u8> = run.moments.iter().map(|m| m.mode.index() as u8).collect();
-    (
-        run.summary.row().to_vec().into_pyarray(py),
-        table(py, run.moments.iter().map(Moment::row)),
-        modes.into_pyarray(py),
-        table(py, run.events.iter().map(Event::row)),
-    )
 }
 
 fn block(numbers: &Numbers) -> PyResult<Block> {
@@ -89,7 +55,7 @@ pub fn run_rigid<'py>(
     settle: f64,
     event_limit: u64,
     jam: bool,
-) -> PyResult<Result<'py>> {
+) -> PyResult<BlockRun> {
     let block = self::block(&block)?;
     let shaking = Shaking::new(time.as_slice()?, horizontal.as_slice()?, slice(&vertical)?).map_err(wrong)?;
     let options = Options {
@@ -111,11 +77,11 @@ pub fn run_rigid<'py>(
         };
         let run = prompt(py, || walk(few, wanted))?;
         if run.summary.outcome != Outcome::EventLimit || few.event_limit == event_limit {
-            return Ok(arrays(py, &run));
+            return BlockRun::of(py, run, true);
         }
     }
     let run = walked(py, &output_times, |wanted| walk(options, wanted))?;
-    Ok(arrays(py, &run))
+    BlockRun::of(py, run, true)
 }
 
 /// Run one block under loads and at rotations that change; see `_kernel.pyi`.
@@ -144,7 +110,7 @@ pub fn run_rigid_varying<'py>(
     settle: f64,
     event_limit: u64,
     jam: bool,
-) -> PyResult<VaryingResult<'py>> {
+) -> PyResult<BlockRun> {
     let block = self::block(&block)?;
     let anchors = rows(anchors.as_slice()?, "anchors")?.iter().map(anchor).collect();
     let body = TurningBlock::new(
@@ -171,29 +137,7 @@ pub fn run_rigid_varying<'py>(
     let run = walked(py, &output_times, |wanted| {
         varying::simulate(&block, &body, surface.as_ref(), &shaking, start, options, wanted)
     })?;
-    Ok(varying_arrays(py, run))
-}
-
-/// The same as [`arrays`], with what has changed as the block moved.
-fn varying_arrays(py: Python<'_>, run: Run) -> VaryingResult<'_> {
-    let (summary, histories, modes, events) = arrays(py, &run);
-    let worn = run.worn.map(|worn| {
-        let kept = table(py, worn.kept.into_iter());
-        (kept, worn.end.path, worn.end.bonded, worn.error, worn.integrated)
-    });
-    let rough = run.rough.map(|rough| {
-        let kept = table(py, rough.kept.into_iter());
-        (kept, rough.end, rough.highest)
-    });
-    (
-        summary,
-        histories,
-        modes,
-        events,
-        run.tensions.into_pyarray(py),
-        worn,
-        rough,
-    )
+    BlockRun::of(py, run, false)
 }
 
 fn asperities(numbers: &Numbers) -> PyResult<Asperities> {
@@ -225,7 +169,7 @@ pub fn run_rigid_many<'py>(
     event_limit: u64,
     jam: bool,
     threads: usize,
-) -> PyResult<Bound<'py, PyArray2<f64>>> {
+) -> PyResult<Bound<'py, PyDict>> {
     let (blocks, scales) = (blocks.as_slice()?, scales.as_slice()?);
     let (blocks, scales) = (rows(blocks, "blocks")?, rows(scales, "scales")?);
     let which = motion_of.as_slice()?;
@@ -258,5 +202,5 @@ pub fn run_rigid_many<'py>(
         |_| None,
         |stop| pool.install(|| many::run(count, options, stop, case)),
     )?;
-    Ok(table(py, summaries.iter().map(heeltoe::rigid::Summary::row)))
+    by_column(py, Summary::FIELDS, summaries.iter().map(Summary::row))
 }

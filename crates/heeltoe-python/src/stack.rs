@@ -1,23 +1,15 @@
 //! Two rigid blocks, one on the other, bound to Python.
 
-use heeltoe::rigid::stack::{simulate, Place, Stack, StackRun};
+use heeltoe::rigid::stack::{self, simulate, Place, Stack};
 use heeltoe::rigid::{BlockNumbers, Options, Shaking, Wanted};
-use numpy::PyArray2;
 use pyo3::prelude::*;
 
-use crate::rigid::{arrays, Result};
-use crate::tables::{row, slice, table, wrong, Numbers};
+use crate::results::StackRun;
+use crate::tables::{row, slice, wrong, Numbers};
 use crate::watch::watched;
 
-type StackResult<'py> = (
-    Result<'py>,
-    Result<'py>,
-    Bound<'py, PyArray2<f64>>,
-    Bound<'py, PyArray2<f64>>,
-);
-
 /// How far a run has come (s).
-fn reached(run: &StackRun) -> Option<[f64; 2]> {
+fn reached(run: &stack::StackRun) -> Option<[f64; 2]> {
     let summary = &run.cracks[0].summary;
     Some([summary.end_time, summary.position[0]])
 }
@@ -38,7 +30,7 @@ pub fn run_rigid_stack<'py>(
     settle: f64,
     event_limit: u64,
     jam: bool,
-) -> PyResult<StackResult<'py>> {
+) -> PyResult<StackRun> {
     let block = |numbers: &Numbers| Ok::<_, PyErr>(BlockNumbers::from_row(&row(numbers, "a block")?));
     let place = Place::from_row(&row(&place, "a place")?);
     let stack = Stack::new(&block(&lower)?, &block(&upper)?, &place).map_err(wrong)?;
@@ -57,11 +49,5 @@ pub fn run_rigid_stack<'py>(
         };
         simulate(&stack, &shaking, options, wanted)
     })?;
-    let [below, above] = &run.cracks;
-    Ok((
-        arrays(py, below),
-        arrays(py, above),
-        table(py, run.tilts.into_iter()),
-        table(py, run.lost.into_iter()),
-    ))
+    StackRun::of(py, run)
 }

@@ -13,7 +13,7 @@ use pyo3::create_exception;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
 use pyo3::prelude::*;
 
-create_exception!(heeltoe._kernel, InternalError, PyRuntimeError);
+create_exception!(heeltoe.kernel._kernel, InternalError, PyRuntimeError);
 
 /// What ends runs on other threads than the one that hears of signals; see `_kernel.pyi`.
 #[pyclass(frozen)]

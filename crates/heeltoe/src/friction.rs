@@ -94,6 +94,8 @@ pub struct Strength {
     pub lean: [f64; 2],
 }
 
+/// So many lengths of an exponential law leave less than rounding of what it falls by.
+const FADED: f64 = 40.0;
 /// The steepest that Barton and Choubey (1977) let the angle of friction be.
 const STEEPEST: f64 = 70.0 * std::f64::consts::PI / 180.0;
 
@@ -144,7 +146,8 @@ impl Law {
             Shape::Constant => true,
             Shape::Linear => pressed_evenly || worn.path >= scale || peak == residual,
             Shape::Barton | Shape::Lift => pressed_evenly,
-            Shape::Exponential | Shape::Speed => false,
+            Shape::Exponential => worn.path >= FADED * scale,
+            Shape::Speed => false,
         }
     }
 
@@ -165,6 +168,7 @@ impl Law {
         match self.shape {
             Shape::Constant => [[peak, 0.0], [residual, 0.0]],
             Shape::Linear => left((1.0 - path / scale).max(0.0)),
+            Shape::Exponential if path >= FADED * scale => left(0.0),
             Shape::Exponential => left((-path / scale).exp()),
             Shape::Speed => left((-speed / scale).exp()),
             Shape::Barton => [self.barton(stress); 2],

@@ -79,6 +79,12 @@ impl<Place> Anchor<Place> {
         (self.prestress + self.axial_stiffness * self.elongation(moved)).max(0.0)
     }
 
+    /// Tension, and the force that it bears with its resistance to slip.
+    pub(crate) fn borne(&self, moved: [f64; 2]) -> [f64; 2] {
+        let tension = self.tension(moved);
+        [tension, tension.hypot(self.shear_stiffness * moved[0])]
+    }
+
     /// Force along and across the crack on the part above.
     pub(crate) fn pull(&self, moved: [f64; 2]) -> [f64; 2] {
         let tension = self.tension(moved);
@@ -141,6 +147,15 @@ mod tests {
         assert_eq!(ANCHOR.pull_beyond_prestress([0.0, 0.0]), [0.0, 0.0]);
         assert_eq!(ANCHOR.tension([-0.5, 0.0]), 0.0);
         assert_eq!(ANCHOR.pull([-0.5, 0.0]), [25.0, 0.0]);
+    }
+
+    #[test]
+    fn an_anchor_bears_tension_and_shear_together() {
+        // A tension of 10 + 100 * 0.3 * 0.6 = 28, and a shear of 50 * 0.3 = 15.
+        let [tension, force] = ANCHOR.borne([0.3, 0.0]);
+        assert!((tension - 28.0).abs() < 1e-12);
+        assert!((force - 28_f64.hypot(15.0)).abs() < 1e-12);
+        assert_eq!(ANCHOR.borne([-0.5, 0.0]), [0.0, 25.0]);
     }
 
     #[test]

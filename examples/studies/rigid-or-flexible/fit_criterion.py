@@ -1,9 +1,10 @@
 """Fit how much farther elastic dams slide than their blocks, to runs.parquet; see docs/rigid-or-flexible.md.
 
-    python examples/studies/rigid-or-flexible/fit_criterion.py
+    python examples/studies/rigid-or-flexible/fit_criterion.py OUT
 
-writes the numbers of the fit into the package and the figure of the documentation, and prints how the fit does on the
-dams and earthquakes that were held back.
+writes the numbers of the fit, criterion.json, and the figure of the documentation, rigid-or-flexible.png, into the
+directory OUT, and prints how the fit does on the dams and earthquakes that were held back. To ship new numbers, copy
+criterion.json to python/heeltoe/models/rigid and the figure to docs.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from __future__ import annotations
 import json
 import math
 import re
+import sys
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from itertools import pairwise
@@ -21,12 +23,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pyarrow.parquet as pq
 
-from heeltoe.models.rigid import criterion
 from heeltoe.models.rigid.criterion import FAR_M, LEAST_MISSED, SHARE, Fit, Likeness, Regime, fit_of, regressor
 from heeltoe.views.figures.write import save
 
 HERE = Path(__file__).parent
-ROOT = HERE.parents[2]
 #: What each line has on its axes.
 TERMS: dict[Regime, tuple[str, ...]] = {
     "slides": ("slip", "amplification", "period"),
@@ -254,18 +254,20 @@ def draw(fits: Mapping[str, Mapping[str, Any]]) -> Any:
     return figure
 
 
-def main() -> None:
-    """Fit, write, draw, print."""
+def main(out: Path) -> None:
+    """Fit, write numbers and figure into a directory, and print how well the fit does."""
+    out.mkdir(parents=True, exist_ok=True)
     fits = all_fits()
-    # A list on a line.
+    # Each list stands on one line.
     text = re.sub(r"\[[^\[\]{]*\]", lambda found: " ".join(found[0].split()), json.dumps(fits, indent=2))
-    place = Path(criterion.__file__).parent / "criterion.json"
-    place.write_text(text + "\n", encoding="utf-8")
-    save(draw(fits), ROOT / "docs" / "rigid-or-flexible.png", dpi=110)
+    (out / "criterion.json").write_text(text + "\n", encoding="utf-8")
+    save(draw(fits), out / "rigid-or-flexible.png", dpi=110)
     report(fits)
     groups(fit_of(fits["flexible"]["slides"]))
     compare()
 
 
 if __name__ == "__main__":
-    main()
+    if len(sys.argv) != 2:
+        sys.exit("usage: fit_criterion.py OUT")
+    main(Path(sys.argv[1]))

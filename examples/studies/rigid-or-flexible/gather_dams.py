@@ -18,13 +18,13 @@ import pyarrow.parquet as pq
 
 from heeltoe import open_study
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.mechanics.beam import swing_of
 from heeltoe.mechanics.block import build_block, static_state
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import mean_period, significant_duration
-from heeltoe.study.file import read_study
-from heeltoe.study.plan import plan_of
+from heeltoe.study.plan.file import read_study
+from heeltoe.study.plan.plan import plan_of
 
 HERE = Path(__file__).parent
 MODELS = ("rigid", "decoupled", "flexible")

@@ -6,12 +6,12 @@ import asyncio
 from collections.abc import Mapping
 from typing import Any
 
-from heeltoe.app.actions import Asked, BadRequestError, Desk, Entry, number
+from heeltoe.app.desk import Asked, BadRequestError, Desk, Entry, number
 from heeltoe.app.jobs import Job, Work
 from heeltoe.app.sessions import Session
 from heeltoe.app.workers import WorkerLostError
 
-_LOST = "The process that computes this model was ended, perhaps for want of memory. It has been started anew."
+_LOST = "The process that computes this model was ended, perhaps because memory ran out. It has been restarted."
 # Of all tabs.
 _RUNNING: set[asyncio.Task[None]] = set()
 
@@ -23,45 +23,45 @@ def changes_of(session: Session, values: object) -> dict[str, Any]:
 
     if session.case is None or not isinstance(values, Mapping):
         raise BadRequestError("values are numbers by the paths of the sliders")
-    known = {each.path: each for each in sliders(session.case, session.units)}
-    found: dict[str, Any] = {}
+    known = {slider.path: slider for slider in sliders(session.case, session.units)}
+    changes: dict[str, Any] = {}
     for path in values:
         if path not in known:
-            raise BadRequestError(f"{path} is no slider")
-        found |= change(known[path], number(dict(values), path), session.case)
-    return found
+            raise BadRequestError(f"no slider has the path {path}")
+        changes |= change(known[path], number(dict(values), path), session.case)
+    return changes
 
 
-async def rigid(desk: Desk, asked: Asked) -> dict[str, Any]:
+async def rigid(desk: Desk, request: Asked) -> dict[str, Any]:
     """Run the rigid block with the sliders where they are, and remember where that is."""
     from heeltoe.app.live import answer
 
     session = desk.session
-    values = asked.get("values")
+    values = request.get("values")
     session.changes, session.moved = changes_of(session, values), frozenset(values or ())
-    found = await desk.workers.quick(answer, session.case, session.changes, "rigid", session.units)
-    return {"of": "rigid", **found}
+    payload = await desk.workers.quick(answer, session.case, session.changes, "rigid", session.units)
+    return {"of": "rigid", **payload}
 
 
-async def decoupled(desk: Desk, asked: Asked) -> dict[str, Any]:
+async def decoupled(desk: Desk, request: Asked) -> dict[str, Any]:
     """Run the decoupled chain with the sliders where they are."""
     from heeltoe.app.live import answer
 
     session = desk.session
-    changes = changes_of(session, asked.get("values"))
+    changes = changes_of(session, request.get("values"))
     try:
-        found = await desk.workers.beside(answer, session.case, changes, "decoupled", session.units)
+        payload = await desk.workers.beside(answer, session.case, changes, "decoupled", session.units)
     except WorkerLostError:
-        found = {"absent": _LOST}
-    return {"of": "decoupled", **found}
+        payload = {"absent": _LOST}
+    return {"of": "decoupled", **payload}
 
 
-async def flexible(desk: Desk, asked: Asked) -> dict[str, Any]:
+async def flexible(desk: Desk, request: Asked) -> dict[str, Any]:
     """Start the flexible model with the sliders where they are; it tells how far it is, and its result in the end."""
     from heeltoe.app.live import flexible as work
 
     session = desk.session
-    changes = changes_of(session, asked.get("values"))
+    changes = changes_of(session, request.get("values"))
     return start(desk, "flexible", work, session.case, changes, session.units)
 
 
@@ -72,7 +72,7 @@ def start(desk: Desk, what: str, work: Work, *arguments: Any, parent: bool = Fal
         return {
             "of": "job refused",
             "what": what,
-            "text": f"{len(_RUNNING)} long runs go on: cancel one, or wait for it.",
+            "text": f"{len(_RUNNING)} long runs are under way; cancel one, or wait until one ends.",
         }
     job = Job(what, work, *arguments, parent=parent)
     session.jobs[job.number] = job
@@ -82,9 +82,9 @@ def start(desk: Desk, what: str, work: Work, *arguments: Any, parent: bool = Fal
     return job.told()
 
 
-async def cancel(desk: Desk, asked: Asked) -> dict[str, Any]:
+async def cancel(desk: Desk, request: Asked) -> dict[str, Any]:
     """Cancel a long run of this tab."""
-    job = desk.session.jobs.get(int(number(asked, "number")))
+    job = desk.session.jobs.get(int(number(request, "number")))
     if job is None:
         raise BadRequestError("there is no such run")
     job.cancel()

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from zipfile import ZIP_DEFLATED, ZipFile
 
 from heeltoe.app.case.files import named
-from heeltoe.case.written import case_text
+from heeltoe.case.toml_writer import case_text
 
 if TYPE_CHECKING:
     from heeltoe.app.sessions import Session
@@ -29,14 +29,15 @@ def sent_files(session: Session) -> dict[str, Path]:
     return {name: session.folder / stored for name, stored in session.sent.items()}
 
 
-def lay_out(fields: Mapping[str, Any], sent: Sent, folder: Path) -> None:
-    """Write a case, given by its fields, into a folder, and beside it those of its files that were sent."""
+def lay_out(fields: Mapping[str, Any], sent: Sent, folder: Path, *, listed: bool = True) -> None:
+    """Write a case, given by its fields, into a folder, and beside it those of its files that were sent; its cracks as
+    one list, or as they are where a study has paths of them."""
     folder.mkdir(parents=True, exist_ok=True)
     own = copy.deepcopy(dict(fields))
     for _, block, name in named(own):
         if block[name] in sent:
             block[name] = copied(sent[block[name]], block[name], folder)
-    (folder / CASE).write_text(case_text(own), encoding="utf-8")
+    (folder / CASE).write_text(case_text(own, listed=listed), encoding="utf-8")
 
 
 def copied(path: Path, name: str, folder: Path) -> str:
@@ -53,9 +54,9 @@ def copied(path: Path, name: str, folder: Path) -> str:
 def zipped(folder: Path, path: Path, *, without: tuple[str, ...] = ()) -> Path:
     """Write all files of a folder into one, but those that have one of these names or are hidden with their folder."""
     with ZipFile(path, "w", ZIP_DEFLATED) as archive:
-        for each in sorted(folder.rglob("*")):
-            inner = each.relative_to(folder)
+        for member in sorted(folder.rglob("*")):
+            inner = member.relative_to(folder)
             hidden = any(part.startswith(".") for part in inner.parts[:-1])
-            if each.is_file() and each != path and each.name not in without and not hidden:
-                archive.write(each, f"{folder.name}/{inner.as_posix()}")
+            if member.is_file() and member != path and member.name not in without and not hidden:
+                archive.write(member, f"{folder.name}/{inner.as_posix()}")
     return path

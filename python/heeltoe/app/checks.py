@@ -2,72 +2,98 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from heeltoe.app.actions import Asked, BadRequestError, Desk, Entry
 from heeltoe.app.answer import changes_of, start
-from heeltoe.app.meant import meant
+from heeltoe.app.desk import Asked, BadRequestError, Desk, Entry
+from heeltoe.app.wording import in_words_of_the_page, meant
 from heeltoe.case.model import Case
 
 if TYPE_CHECKING:
+    from heeltoe.models.statics.joints import Joints
     from heeltoe.models.statics.model import Statics
 
 _MODELS = ("rigid", "decoupled", "flexible")
 
 
-async def statics(desk: Desk, asked: Asked) -> dict[str, Any]:
+async def statics(desk: Desk, request: Asked) -> dict[str, Any]:
     """Judge the dam of the sliders by its criteria, before and after the earthquake."""
     session = desk.session
-    changes = changes_of(session, asked.get("values"))
-    return {"of": "statics", **await desk.workers.quick(checked, session.case, changes, session.units)}
+    changes = changes_of(session, request.get("values"))
+    left = [job.result["left"] for job in session.jobs.values() if job.result and "left" in job.result]
+    return {"of": "statics", **await desk.workers.quick(checked, session.case, changes, session.units, left)}
 
 
-async def spread(desk: Desk, asked: Asked) -> dict[str, Any]:
+async def spread(desk: Desk, request: Asked) -> dict[str, Any]:
     """Start the runs with a little weaker and a little stronger shaking."""
-    session, model = desk.session, asked.get("model")
+    session, model = desk.session, request.get("model")
     if model not in _MODELS:
         raise BadRequestError("there is no such model")
-    changes = changes_of(session, asked.get("values"))
+    changes = changes_of(session, request.get("values"))
     return start(desk, "spread", spread_of, session.case, changes, model, session.units)
 
 
-def _judged(case: Case) -> Statics:
-    """Return the static checks, with the slip of the rigid block where that knows the case."""
-    from heeltoe.app.live import ABSENT
-    from heeltoe.errors import InputError
+def _judged(case: Case, left: Sequence[Mapping[str, Any]]) -> Joints:
+    """Return the static checks at every section, with the slips of the elastic dam where that has been run as it is
+    now, or else of the rigid block where that knows the case."""
+    from heeltoe.case.combinations import UNSUPPORTED
+    from heeltoe.errors.error import InputError
     from heeltoe.models.run import earthquake, live
-    from heeltoe.models.statics.after import statics_after
+    from heeltoe.models.statics.after import joints_after
+    from heeltoe.models.statics.joints import statics_of_sections
     from heeltoe.models.statics.model import statics as judge
 
     if case.motion is None:
-        return judge(case)
+        return statics_of_sections(case)
+    now = case.model_dump_json()
+    elastic = next((run for run in reversed(left) if run["case"] == now and run["slips_m"]), None)
+    if elastic is not None and case.statics.residual_slip is None:
+
+        def after(alone: Case, place: int | None) -> Statics:
+            slip = elastic["slips_m"].get(f"{alone.crack.elevation:g}")
+            return judge(alone) if slip is None else judge(alone, slip, slip_source=elastic["source"])
+
+        return statics_of_sections(case, after)
     try:
-        return statics_after(case, live(case, "rigid", earthquake(case)))
+        response = live(case, "rigid", earthquake(case))
     except InputError as error:
-        if error.code not in ABSENT:
+        if error.code != UNSUPPORTED:
             raise
-        return judge(case)
+        return statics_of_sections(case)
+    return joints_after(case, lambda: (response,))
 
 
-def checked(case: Case, changes: Mapping[str, Any], units: str) -> dict[str, Any]:
-    """Return the static checks, with the slip that the rigid block has in the earthquake."""
+def checked(
+    case: Case, changes: Mapping[str, Any], units: str, left: Sequence[Mapping[str, Any]] = ()
+) -> dict[str, Any]:
+    """Return the static checks, after the slips that the earthquake leaves; `left` has those of elastic runs."""
     from heeltoe.app.live import refused
-    from heeltoe.errors import InputError
-    from heeltoe.views.words.statics import basis, check_rows, failed, verdict_of
+    from heeltoe.errors.error import InputError
+    from heeltoe.units.sentences import quantity
+    from heeltoe.views.content.checks import answer_of
+    from heeltoe.views.words.statics import basis, check_rows, failed, section_warnings, verdict_of
 
     try:
         changed = case.with_(changes) if changes else case
-        found = _judged(changed)
+        judged = _judged(changed, left)
     except InputError as error:
         return refused(error)
+    several = len(judged.joints) > 1
+    missed, rows = list[str](), list[dict[str, Any]]()
+    for joint in judged.ranked:
+        where = f"{quantity(joint.elevation_m, '.5g m', units)}, " if several else ""
+        missed += [f"{where}{text}" for text in failed(joint.statics, units)]
+        rows += [
+            {"cells": (where + load_case, *cells), "met": met} for (load_case, *cells), met in check_rows(joint.statics)
+        ]
     return {
-        "ok": found.ok,
-        "verdict": verdict_of(found),
-        "failed": failed(found, units),
-        "basis": basis(found, units),
-        "checks": check_rows(found),
-        "warnings": [meant(each, units) for each in found.warnings],
+        "ok": judged.ok,
+        "verdict": answer_of(judged, units) if several else verdict_of(judged.governing.statics),
+        "failed": missed,
+        "basis": basis(judged.governing.statics, units),
+        "checks": rows,
+        "warnings": [in_words_of_the_page(text) for text in section_warnings(judged.joints, units)],
     }
 
 
@@ -76,23 +102,23 @@ def spread_of(
 ) -> dict[str, Any]:
     """Return the same run with weaker and stronger shaking, as a table."""
     from heeltoe.models.run import earthquake, flexible, live
-    from heeltoe.study.spread import with_spread
+    from heeltoe.study.small.spread import with_spread
     from heeltoe.views.words.spread import COLUMNS, spread_rows, spread_said
 
     changed = case.with_(changes) if changes else case
     say(f"running the {model} model")
-    found = flexible(changed) if model == "flexible" else live(changed, model, earthquake(changed))
-    if not found.summary:
-        return {"model": model, "columns": COLUMNS, "rows": [], "said": found.outcome, "warnings": []}
-    spread = with_spread(found, changed, progress=lambda done, of: say(f"{done} of {of} runs"))
-    before = {meant(each, units) for each in found.warnings}
-    warnings = [meant(each, units) for each in spread.warnings]
+    response = flexible(changed) if model == "flexible" else live(changed, model, earthquake(changed))
+    if not response.summary:
+        return {"model": model, "columns": COLUMNS, "rows": [], "said": response.outcome, "warnings": []}
+    spread = with_spread(response, changed, progress=lambda done, of: say(f"{done} of {of} runs"))
+    before = {meant(warning, units) for warning in response.warnings}
+    warnings = [meant(warning, units) for warning in spread.warnings]
     return {
         "model": model,
         "columns": COLUMNS,
         "rows": spread_rows(spread, units),
         "said": spread_said(spread, units),
-        "warnings": [each for each in warnings if each not in before],
+        "warnings": [warning for warning in warnings if warning not in before],
     }
 
 

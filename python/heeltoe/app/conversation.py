@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import asyncio
 import json
+import logging
 from typing import Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from heeltoe.app.actions import Asked, BadRequestError, Desk, Entry
-from heeltoe.errors import HeeltoeError
+from heeltoe.app.desk import Asked, BadRequestError, Desk, Entry
+from heeltoe.errors.error import HeeltoeError
 
+_LOG = logging.getLogger(__name__)
 # Of actions that a tab asks for at once; a page waits for its answers.
 _MOST_AT_ONCE = 16
 
@@ -50,34 +52,49 @@ class Conversation:
 
     async def _take(self, message: str) -> None:
         try:
-            asked = json.loads(message)
+            content = json.loads(message, parse_constant=_no_number)
         except (ValueError, RecursionError):
-            asked = None
-        name = asked.get("do") if isinstance(asked, dict) else None
+            content = None
+        name = content.get("do") if isinstance(content, dict) else None
         entry = self._actions.get(name) if isinstance(name, str) else None
-        if entry is None or not isinstance(asked, dict) or not isinstance(name, str):
+        if entry is None or not isinstance(content, dict) or not isinstance(name, str):
             await self._desk.tell({"of": "bad request", "text": "there is no such action"})
             return
         if entry.newest and name in self._busy:
-            self._waiting[name] = asked
+            self._waiting[name] = content
             return
         if len(self._tasks) >= _MOST_AT_ONCE:
-            await self._desk.tell({"of": "bad request", "text": "too much at once", "serial": asked.get("serial")})
+            await self._desk.tell({"of": "bad request", "text": "too much at once", "serial": content.get("serial")})
             return
         self._busy.add(name)
-        task = asyncio.create_task(self._answer(name, entry, asked))
+        task = asyncio.create_task(self._answer(name, entry, content))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 
-    async def _answer(self, name: str, entry: Entry, asked: Asked | None) -> None:
-        while asked is not None:
-            serial = asked.get("serial")
-            try:
-                found: dict[str, Any] = await entry.action(self._desk, asked)
-            except BadRequestError as error:
-                found = {"of": "bad request", "text": str(error)}
-            except HeeltoeError as error:
-                found = {"of": "refused", "text": str(error)}
-            await self._desk.tell({**found, "serial": serial, "to": name})
-            asked = self._waiting.pop(name, None) if entry.newest else None
-        self._busy.discard(name)
+    async def _answer(self, name: str, entry: Entry, request: Asked | None) -> None:
+        try:
+            while request is not None:
+                answer = await self._answer_of(name, entry, request)
+                await self._desk.tell({**answer, "serial": request.get("serial"), "to": name})
+                request = self._waiting.pop(name, None) if entry.newest else None
+        finally:
+            # Whatever has happened, the tab may ask for it again.
+            self._busy.discard(name)
+
+    async def _answer_of(self, name: str, entry: Entry, request: Asked) -> dict[str, Any]:
+        """Return the answer of an action; one that fails says so, and the log says where."""
+        try:
+            return await entry.action(self._desk, request)
+        except BadRequestError as error:
+            return {"of": "bad request", "text": str(error)}
+        except HeeltoeError as error:
+            return {"of": "refused", "text": str(error)}
+        except Exception as error:
+            _LOG.exception("the action %r of the app failed", name)
+            text = f"heeltoe failed at this ({type(error).__name__}): the terminal in which the app runs says where."
+            return {"of": "refused", "text": text}
+
+
+def _no_number(name: str) -> None:
+    """Refuse NaN and the infinities, which are no JSON."""
+    raise ValueError(name)

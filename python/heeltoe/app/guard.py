@@ -44,9 +44,9 @@ class Guard:
 
         async def sealed(message: Message) -> None:
             if message["type"] == "http.response.start":
-                given = MutableHeaders(scope=message)
+                headers = MutableHeaders(scope=message)
                 for name, value in _HEADERS.items():
-                    given[name] = value
+                    headers[name] = value
             await send(message)
 
         refusal = self._refusal(scope, headers)
@@ -56,7 +56,7 @@ class Guard:
                 answer.set_cookie(COOKIE, self._settings.token, httponly=True, samesite="strict")
                 await answer(scope, receive, sealed)
                 return
-            refusal = "This address needs the token that heeltoe app has printed: open the address as it stands there."
+            refusal = "This address needs a token; open the address that heeltoe app has printed."
         if not refusal:
             await self._app(scope, receive, sealed)
         elif scope["type"] == "websocket":
@@ -69,26 +69,30 @@ class Guard:
         """Say why a request is refused, whoever it comes from; nothing where it is not."""
         host = headers.getlist("host")
         if len(host) != 1 or not self._settings.knows(host[0]):
-            return "This server goes by another name."
+            return "This server has another name."
         origin = headers.get("origin")
         changes = scope["type"] == "websocket" or scope["method"] not in ("GET", "HEAD")
         if origin is None:
             return "A page of this server says where it comes from." if changes else ""
         parts = urlsplit(origin)
-        return "" if parts.scheme == "http" and parts.netloc == host[0] else "Pages of others may not ask this server."
+        return (
+            ""
+            if parts.scheme == "http" and parts.netloc == host[0]
+            else "Pages of other sites may not use this server."
+        )
 
     def _shows_token(self, headers: Headers) -> bool:
         try:
-            found = SimpleCookie(headers.get("cookie", "")).get(COOKIE)
+            cookie = SimpleCookie(headers.get("cookie", "")).get(COOKIE)
         except CookieError:
             return False
-        return found is not None and self._is_token(found.value)
+        return cookie is not None and self._is_token(cookie.value)
 
     def _brings_token(self, scope: Scope) -> bool:
         if scope["type"] != "http" or scope["method"] != "GET":
             return False
-        given = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])
-        return self._is_token(given[0])
+        token = parse_qs(scope["query_string"].decode("latin-1")).get("token", [""])
+        return self._is_token(token[0])
 
     def _is_token(self, text: str) -> bool:
         return secrets.compare_digest(text.encode(), self._settings.token.encode())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import multiprocessing
+import os
 import signal
 import sys
 from collections.abc import Awaitable, Callable
@@ -13,7 +14,7 @@ from multiprocessing.connection import Connection
 from time import monotonic
 from typing import Any
 
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 
 #: What a job calls: it says what goes on, with the share that is done where it knows, and returns what a page can draw.
 Work = Callable[..., dict[str, Any]]
@@ -22,6 +23,8 @@ Tell = Callable[[dict[str, Any]], Awaitable[None]]
 _NUMBERS = count(1)
 # A process that does not end by itself when asked to is ended after this [s]; one that has others ends them before.
 _PATIENCE_S = 10.0
+# The same where the whole app ends, for which somebody waits at a terminal.
+_LAST_PATIENCE_S = 2.0
 
 
 class Job:
@@ -47,10 +50,10 @@ class Job:
         self._began = monotonic()
         self._ended: float | None = None
         context = multiprocessing.get_context("spawn")
-        self._here, there = context.Pipe(duplex=False)
-        self._process = context.Process(target=_run, args=(there, work, arguments), daemon=not parent)
+        self._here, far_end = context.Pipe(duplex=False)
+        self._process = context.Process(target=_run, args=(far_end, work, arguments), daemon=not parent)
         self._process.start()
-        there.close()
+        far_end.close()
 
     @property
     def process_id(self) -> int | None:
@@ -60,8 +63,8 @@ class Job:
     def told(self) -> dict[str, Any]:
         """Return what a page shows of it."""
         seconds = (self._ended or monotonic()) - self._began
-        told = {"of": "job", "number": self.number, "what": self.what, "state": self.state, "seconds": seconds}
-        return told | {"said": self.said, "share": self.share, "result": self.result}
+        payload = {"of": "job", "number": self.number, "what": self.what, "state": self.state, "seconds": seconds}
+        return payload | {"said": self.said, "share": self.share, "result": self.result}
 
     def cancel(self) -> None:
         """End it, where it has not ended."""
@@ -69,10 +72,26 @@ class Job:
             self.state, self.said = "cancelled", "cancelled"
             self._process.terminate()
 
+    def end(self) -> None:
+        """End it and all processes that it has, and return only then: Python waits at its own end for processes that
+        may have others."""
+        self.cancel()
+        self._process.join(_LAST_PATIENCE_S)
+        self._kill()
+        self._process.join(_LAST_PATIENCE_S)
+
+    def _kill(self) -> None:
+        if not self._process.is_alive():
+            return
+        if hasattr(os, "killpg") and not self._process.daemon and self._process.pid is not None:
+            with suppress(ProcessLookupError, PermissionError):
+                os.killpg(self._process.pid, signal.SIGKILL)
+        self._process.kill()
+
     async def follow(self, tell: Tell) -> None:
         """Tell what goes on until it has ended, whatever ends it."""
         loop = asyncio.get_running_loop()
-        await tell(self.told())
+        state = await self._tell(tell)
         while True:
             ready = await loop.run_in_executor(None, self._here.poll, 0.5)
             try:
@@ -80,16 +99,24 @@ class Job:
                     self._take(self._here.recv())
             except (EOFError, OSError):
                 break
-            await tell(self.told())
+            # A result is sent once: a second one would replace what the page has marked as out of date since.
+            if state == "running":
+                state = await self._tell(tell)
         # A process that has processes of its own takes a while to end: nobody else shall wait for it.
         await loop.run_in_executor(None, self._process.join, _PATIENCE_S)
-        if self._process.is_alive():
-            self._process.kill()
+        self._kill()
         self._here.close()
         self._ended = monotonic()
         if self.state == "running":
             self.state, self.said = "lost", _lost(self._process.exitcode)
-        await tell(self.told())
+        if self.state != state:
+            await tell(self.told())
+
+    async def _tell(self, tell: Tell) -> str:
+        """Tell what goes on, and return the state that was told: a run may be cancelled while that is sent."""
+        message = self.told()
+        await tell(message)
+        return str(message["state"])
 
     def _take(self, message: tuple[str, Any]) -> None:
         kind, content = message
@@ -114,15 +141,18 @@ def _lost(code: int | None) -> str:
     return "The process of this run has ended without a result. Nothing else is lost; run it again."
 
 
-def _run(there: Connection, work: Work, arguments: tuple[Any, ...]) -> None:
+def _run(far_end: Connection, work: Work, arguments: tuple[Any, ...]) -> None:
     """Run in the process of a job."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if not multiprocessing.current_process().daemon:
+        # All its processes can be ended together.
+        if hasattr(os, "setpgid"):
+            os.setpgid(0, 0)
         # Its processes are ended, and what they share is given back, on the way out.
         signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
     try:
-        there.send(("done", work(lambda text, share=None: there.send(("says", (text, share))), *arguments)))
+        far_end.send(("done", work(lambda text, share=None: far_end.send(("says", (text, share))), *arguments)))
     except InputError as error:
-        there.send(("refused", str(error)))
+        far_end.send(("refused", str(error)))
     except MemoryError:
-        there.send(("failed", "There is not enough memory for this run."))
+        far_end.send(("failed", "There is not enough memory for this run."))

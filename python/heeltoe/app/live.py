@@ -6,27 +6,16 @@ from collections.abc import Callable, Mapping
 from time import perf_counter
 from typing import Any
 
-from heeltoe.app.dam import dam
-from heeltoe.app.drawn import drawn
+from heeltoe.app.response_payload import dam, drawn
+from heeltoe.base.cache import Kept
+from heeltoe.case.combinations import UNSUPPORTED
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError
-from heeltoe.kept import Kept
+from heeltoe.errors.error import InputError
 from heeltoe.models.run import cost_of, earthquake, live
+from heeltoe.models.statics.after import slip_source
 from heeltoe.motion.earthquake import Earthquake
-from heeltoe.result.beside import meaning
+from heeltoe.result.comparison import meaning
 
-#: What blocks do not know and the elastic dam may, by the codes of errors.
-_BESIDE = (
-    "This model does not know the {field} of this case beside further cracks: run the elastic dam with its button."
-)
-ABSENT = {
-    "kinks-straight": "This model knows straight cracks alone: run the elastic dam with its button.",
-    "several-cracks": "This model knows one crack alone, since what is above one of several is no single block: run "
-    "the elastic dam with its button.",
-    "two-cracks-most": "This model knows two cracks at most: run the elastic dam with its button.",
-    "one-crack-only": _BESIDE,
-    "one-crack-value": _BESIDE,
-}
 _KEPT: Kept[Earthquake] = Kept(16)
 
 
@@ -36,24 +25,26 @@ def answer(case: Case, changes: Mapping[str, Any], model: str, units: str) -> di
     try:
         changed = case.with_(changes) if changes else case
         if model == "decoupled" and changed.crack.elevation == 0.0 and not changed.further_cracks:
-            return {"absent": "The decoupled chain needs something below the crack: this one is at the base."}
+            return {"absent": "The decoupled chain needs a part below the crack; this crack is at the base."}
         if model == "decoupled" and changed.concrete.modulus is None and not changed.further_cracks:
-            return {"absent": "The decoupled chain needs the concrete's modulus, which this case does not give."}
-        found = live(changed, model, _earthquake(changed))
+            return {"absent": "The decoupled chain needs the concrete's modulus; this case does not give it."}
+        response = live(changed, model, _earthquake(changed))
     except InputError as error:
-        absent = ABSENT.get(error.code)
-        return refused(error) if absent is None else {"absent": absent.format(field=error.field)}
-    return drawn(found, units) | {"dam": dam(changed, found), "computed_s": perf_counter() - began}
+        if error.code != UNSUPPORTED:
+            return refused(error)
+        return {"absent": f"{error.problem[:1].upper()}{error.problem[1:]}; run the elastic dam with its button."}
+    return drawn(response, units) | {"dam": dam(changed, response), "computed_s": perf_counter() - began}
 
 
 def _earthquake(case: Case) -> Earthquake:
     """Return what shakes a case: the very same where it is as before, so that what is kept of it is found."""
-    found = earthquake(case)
+    shaking = earthquake(case)
     key = tuple(
-        each and (each.name, each.time.tobytes(), each.acceleration.tobytes(), each.processing, each.warnings)
-        for each in (found.motion, found.vertical)
+        motion
+        and (motion.name, motion.time.tobytes(), motion.acceleration.tobytes(), motion.processing, motion.warnings)
+        for motion in (shaking.motion, shaking.vertical)
     )
-    return _KEPT.get((key, found.end), lambda: found)
+    return _KEPT.get((key, shaking.end), lambda: shaking)
 
 
 def refused(error: InputError) -> dict[str, Any]:
@@ -68,6 +59,13 @@ def flexible(say: Callable[[str], None], case: Case, changes: Mapping[str, Any],
     changed = case.with_(changes) if changes else case
     cost = cost_of(changed, "flexible")
     say("running the flexible model" + ("" if cost is None else f", about {max(1.0, cost.seconds):.0f} s"))
-    found = run(changed, AUTO)
-    beside = "" if found.beside is None else meaning(found, found.beside, units)
-    return drawn(found, units) | {"dam": dam(changed, found), "beside": beside}
+    response = run(changed, AUTO)
+    beside = "" if response.beside is None else meaning(response, response.beside, units)
+    # What the static checks go on from.
+    known = response.outcome == "ok"
+    slips = {
+        "case": changed.model_dump_json(),
+        "source": slip_source(response),
+        "slips_m": {f"{crack.elevation:g}": crack.residual_slip_m for crack in response.cracks} if known else {},
+    }
+    return drawn(response, units) | {"dam": dam(changed, response), "beside": beside, "left": slips}

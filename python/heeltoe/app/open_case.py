@@ -3,13 +3,28 @@
 from __future__ import annotations
 
 from dataclasses import asdict
+from pathlib import Path
 from typing import Any
 
-from heeltoe.app.actions import Asked, BadRequestError, Desk, Entry, text
-from heeltoe.app.examples import FIRST, example_path, examples
+from heeltoe.app.desk import Asked, BadRequestError, Desk, Entry, text
 from heeltoe.app.sessions import Session
+from heeltoe.case.examples import examples_folder
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
+
+#: What the app opens with.
+FIRST = "typical-base"
+
+
+def examples() -> list[str]:
+    """Return the names of the cases to start from, that which the app opens with first."""
+    names = sorted(path.stem for path in examples_folder().glob("*.toml"))
+    return sorted(names, key=lambda name: name != FIRST)
+
+
+def example_path(name: str) -> Path | None:
+    """Return the file of an example, None where there is none of this name."""
+    return examples_folder() / f"{name}.toml" if name in examples() else None
 
 
 def state(session: Session) -> dict[str, Any]:
@@ -19,14 +34,14 @@ def state(session: Session) -> dict[str, Any]:
     case = session.case
     if case is None:
         return {"of": "state", "case": None, "examples": examples(), "units": session.units}
-    found = sliders(case.with_(session.changes) if session.changes else case, session.units)
+    slider_list = sliders(case.with_(session.changes) if session.changes else case, session.units)
     return {
         "of": "state",
         "case": {"title": case.title, "example": session.example},
         "examples": examples(),
         "units": session.units,
-        "sliders": [asdict(each) for each in found],
-        "moved": {each.path: each.value for each in found if each.path in session.moved},
+        "sliders": [asdict(slider) for slider in slider_list],
+        "moved": {slider.path: slider.value for slider in slider_list if slider.path in session.moved},
         "drained": case.uplift.pattern == "drained",
         **models_for(case),
     }
@@ -63,31 +78,31 @@ def _open(session: Session, name: str) -> None:
 
     path = example_path(name)
     if path is None:
-        raise BadRequestError(f"{name} is no example; the first one is {FIRST}")
+        raise BadRequestError(f"no example is called {name}; the first example is {FIRST}")
     start(session, read_fields(path))
     session.example = name
     session.kept.clear()
 
 
-async def open_example(desk: Desk, asked: Asked) -> dict[str, Any]:
+async def open_example(desk: Desk, request: Asked) -> dict[str, Any]:
     """Open an example in the place of the case that the tab has."""
 
     def opened() -> dict[str, Any]:
-        _open(desk.session, text(asked, "name"))
+        _open(desk.session, text(request, "name"))
         return state(desk.session)
 
-    found: dict[str, Any] = await desk.workers.quick(opened)
-    return found
+    payload: dict[str, Any] = await desk.workers.quick(opened)
+    return payload
 
 
-async def set_units(desk: Desk, asked: Asked) -> dict[str, Any]:
+async def set_units(desk: Desk, request: Asked) -> dict[str, Any]:
     """Show everything in SI or in units of the United States."""
-    name = text(asked, "units")
+    name = text(request, "units")
     if name not in ("si", "us"):
         raise BadRequestError("units are si or us")
     desk.session.units = name
-    found: dict[str, Any] = await desk.workers.quick(state, desk.session)
-    return found
+    payload: dict[str, Any] = await desk.workers.quick(state, desk.session)
+    return payload
 
 
 ACTIONS = {"open example": Entry(open_example), "units": Entry(set_units)}

@@ -10,13 +10,15 @@ import signal
 import socket
 import sys
 import tempfile
+import threading
 import webbrowser
 from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
 
 from heeltoe.app.settings import Settings, is_loopback
-from heeltoe.errors import InputError
+from heeltoe.app.workers import WORKER_NAME
+from heeltoe.errors.error import InputError
 
 #: Where the app is found if it is free and no other is asked for.
 USUAL_PORT = 8642
@@ -67,6 +69,15 @@ def serve(host: str, port: int | None, *, public: bool, browser: bool, say: Call
         signal.signal(signal.SIGINT, lambda number, _: interrupts.append(number))
         say(address)
         asyncio.run(_run(settings, listening, address if browser else "", interrupts))
+    _leave()
+
+
+def _leave() -> None:
+    """End Python where a computation is still under way on a thread: nobody waits for what it finds."""
+    if any(thread.name.startswith(WORKER_NAME) for thread in threading.enumerate()):
+        sys.stdout.flush()
+        sys.stderr.flush()
+        os._exit(0)
 
 
 async def _run(settings: Settings, listening: socket.socket, open_at: str, interrupts: list[int]) -> None:

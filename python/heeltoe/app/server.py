@@ -18,16 +18,18 @@ from starlette.routing import Mount, Route, WebSocketRoute
 from starlette.staticfiles import StaticFiles
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
-from heeltoe.app.actions import Desk, actions
+from heeltoe.app.actions import actions
 from heeltoe.app.conversation import Conversation
-from heeltoe.app.downloads import gone
+from heeltoe.app.desk import Desk
 from heeltoe.app.guard import Guard
 from heeltoe.app.sessions import Session, Sessions, TooManyError
 from heeltoe.app.settings import Settings
-from heeltoe.app.uploads import take
+from heeltoe.app.transfers import gone, take
 from heeltoe.app.workers import Workers
 
 _PAGE = Path(__file__).parent / "page"
+# What moves the dam, in the files of animations and here.
+_SCENE = Path(__file__).parents[1] / "views" / "animation" / "scene.js"
 # The code with which a websocket is closed where there are too many.
 _TRY_LATER = 1013
 
@@ -49,9 +51,9 @@ def application(settings: Settings) -> Starlette:
 
     async def talk(socket: WebSocket) -> None:
         await socket.accept()
-        asked = socket.query_params
+        query = socket.query_params
         try:
-            session = sessions.enter(asked.get("session", ""), again="again" in asked, closed=asked.get("closed", ""))
+            session = sessions.enter(query.get("session", ""), again="again" in query, closed=query.get("closed", ""))
         except TooManyError as error:
             await socket.close(_TRY_LATER, str(error))
             return
@@ -67,7 +69,7 @@ def application(settings: Settings) -> Starlette:
     async def upload(request: Request) -> Response:
         session = sessions.get(request.headers.get("x-session", ""))
         if session is None:
-            return JSONResponse({"error": "This tab is not known any more: reload the page."}, status_code=403)
+            return JSONResponse({"error": "The app has forgotten this tab; reload the page."}, status_code=403)
         return await take(request, session, sessions, settings)
 
     async def download(request: Request) -> Response:
@@ -79,6 +81,7 @@ def application(settings: Settings) -> Starlette:
         routes=[
             Route("/", _index),
             Route("/plotly.js", _plotly),
+            Route("/scene.js", _scene),
             Route("/upload", upload, methods=["POST"]),
             Route("/download/{key}", download),
             WebSocketRoute("/talk", talk),
@@ -121,16 +124,20 @@ async def _index(request: Request) -> Response:
     return FileResponse(_PAGE / "index.html", headers={"Cache-Control": "no-cache"})
 
 
+async def _scene(request: Request) -> Response:
+    return FileResponse(_SCENE, media_type="text/javascript", headers={"Cache-Control": "no-cache"})
+
+
 async def _plotly(request: Request) -> Response:
     return FileResponse(plotly_file(), media_type="text/javascript", headers={"Cache-Control": "max-age=86400"})
 
 
 def plotly_file() -> Path:
     """Return the library that draws, as the Python package brings it, without loading that."""
-    found = find_spec("plotly")
-    assert found is not None
-    assert found.origin is not None
-    return Path(found.origin).parent / "package_data" / "plotly.min.js"
+    spec = find_spec("plotly")
+    assert spec is not None
+    assert spec.origin is not None
+    return Path(spec.origin).parent / "package_data" / "plotly.min.js"
 
 
 def _warm() -> None:

@@ -13,9 +13,9 @@ from heeltoe.app.settings import Settings
 
 if TYPE_CHECKING:
     from heeltoe.app.case.draft import Draft
-    from heeltoe.app.downloads import Offer
     from heeltoe.app.jobs import Job, Tell
     from heeltoe.app.studies.actions import Made
+    from heeltoe.app.transfers import Offer
     from heeltoe.case.model import Case
 
 
@@ -54,7 +54,7 @@ class Session:
     offers
         Files that it may fetch once, by the secret in their address.
     kept_files
-        The folder of what it takes away, and the case that this is of.
+        The folder of its exported files, and the case that they are of.
     studies
         Its studies, by their number.
     open, tell
@@ -111,6 +111,8 @@ class Session:
         """End what runs for it, and remove its files."""
         for job in self.jobs.values():
             job.cancel()
+        for job in self.jobs.values():
+            job.end()
         shutil.rmtree(self.folder, ignore_errors=True)
 
 
@@ -134,10 +136,10 @@ class Sessions:
     def get(self, name: str) -> Session | None:
         """Return the session of this name, where there is one."""
         self._forget()
-        found = self._found.get(name)
-        if found is not None:
-            found.used = monotonic()
-        return found
+        session = self._found.get(name)
+        if session is not None:
+            session.used = monotonic()
+        return session
 
     def enter(self, name: str, *, again: bool = False, closed: str = "") -> Session:
         """Return the session of a tab that comes: the one it had, else that of the tab which this browser had closed
@@ -151,18 +153,18 @@ class Sessions:
         TooManyError
             Where as many are open as may be.
         """
-        found = self.get(name)
-        goes_on = found is not None and (again or not found.open)
-        if not goes_on and sum(each.open for each in self._found.values()) >= self._settings.most_open:
-            most = self._settings.most_open
-            raise TooManyError(f"{most} tabs are open, which is as many as can be: close one, and this page goes on.")
-        if found is None and not name:
+        session = self.get(name)
+        goes_on = session is not None and (again or not session.open)
+        if not goes_on and sum(session.open for session in self._found.values()) >= self._settings.most_open:
+            limit = self._settings.most_open
+            raise TooManyError(f"{limit} tabs are open, which is as many as can be: close one, and this page goes on.")
+        if session is None and not name:
             left = self.get(closed)
-            found = None if left is None or left.open else left
-        if found is None or (found.open and not again):
-            found = self._new(found)
-        found.open = True
-        return found
+            session = None if left is None or left.open else left
+        if session is None or (session.open and not again):
+            session = self._new(session)
+        session.open = True
+        return session
 
     def leave(self, session: Session, tell: Tell | None = None) -> None:
         """Note that a tab is closed, unless it has come back and is told what goes on in another way than `tell`."""
@@ -173,36 +175,36 @@ class Sessions:
 
     def take(self, key: str) -> Offer | None:
         """Return what is behind a link, once."""
-        return next((each.offers.pop(key) for each in self._found.values() if key in each.offers), None)
+        return next((session.offers.pop(key) for session in self._found.values() if key in session.offers), None)
 
     @property
     def uploaded(self) -> int:
         """How much all tabs have sent [bytes]."""
-        return sum(each.uploaded for each in self._found.values())
+        return sum(session.uploaded for session in self._found.values())
 
     def close(self) -> None:
         """Forget all."""
-        for each in self._found.values():
-            each.close()
+        for session in self._found.values():
+            session.close()
         self._found.clear()
 
     def _new(self, like: Session | None) -> Session:
         name = secrets.token_urlsafe(24)
         folder = self._settings.folder / secrets.token_hex(8)
         folder.mkdir(mode=0o700, parents=True)
-        found = Session(name, folder)
+        session = Session(name, folder)
         if like is not None:
-            found.begin_as(like)
-        self._found[name] = found
+            session.begin_as(like)
+        self._found[name] = session
         self._forget()
-        return found
+        return session
 
     def _forget(self) -> None:
         now = monotonic()
-        closed = sorted((each for each in self._found.values() if not (each.open or each.runs)), key=_used)
-        for each in closed:
-            if len(self._found) > self._settings.most_sessions or now - each.used > self._settings.idle_s:
-                self._found.pop(each.name).close()
+        closed = sorted((session for session in self._found.values() if not (session.open or session.runs)), key=_used)
+        for session in closed:
+            if len(self._found) > self._settings.most_sessions or now - session.used > self._settings.idle_s:
+                self._found.pop(session.name).close()
 
 
 def _used(session: Session) -> float:

@@ -60,8 +60,8 @@ def _friction(case: Case) -> Slider:
     """Return the slider of the coefficient, which a friction law has no place for."""
     crack = case.crack
     if crack.law is not None:
-        said = f"The friction of the crack goes by the law {crack.law.name}."
-        return Slider("crack.friction", "Friction coefficient", 0.3, 2.0, 0.01, 1.0, off=said)
+        reason = f"The law {crack.law.name} gives the friction of the crack."
+        return Slider("crack.friction", "Friction coefficient", 0.3, 2.0, 0.01, 1.0, off=reason)
     return _with(Slider("crack.friction", "Friction coefficient", 0.3, 2.0, 0.01, crack.mu_static))
 
 

@@ -13,6 +13,8 @@ from concurrent.futures.process import BrokenProcessPool
 from typing import Any
 
 THREADS = 4
+#: What the names of its threads begin with.
+WORKER_NAME = "heeltoe"
 # How far the processes beside stand back.
 _NICE = 5
 
@@ -25,7 +27,7 @@ class Workers:
     """Threads, and processes beside them: one for what follows the sliders, one for what people wait for anyway."""
 
     def __init__(self) -> None:
-        self._threads = ThreadPoolExecutor(THREADS, thread_name_prefix="heeltoe")
+        self._threads = ThreadPoolExecutor(THREADS, thread_name_prefix=WORKER_NAME)
         # An executor starts its process when it is first asked.
         self._processes = {name: _process() for name in ("live", "aside")}
         self._reader = _process()
@@ -83,14 +85,14 @@ class Workers:
     def close(self) -> None:
         """End all."""
         self._threads.shutdown(wait=False, cancel_futures=True)
-        for each in (*self._processes.values(), self._reader):
-            _end(each, wait=True)
+        for pool in (*self._processes.values(), self._reader):
+            _end(pool, wait=True)
 
 
 def _end(pool: ProcessPoolExecutor, *, wait: bool = False) -> None:
     """End a process, and with `wait` what looks after it, too, which the end of Python would meet half closed."""
-    for each in (pool._processes or {}).values():
-        each.terminate()
+    for process in (pool._processes or {}).values():
+        process.terminate()
     pool.shutdown(wait=wait, cancel_futures=True)
 
 

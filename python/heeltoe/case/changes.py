@@ -6,12 +6,15 @@ import copy
 import re
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from heeltoe.case.dam import UPLIFT_OPTIONS
+from heeltoe.case.lists import CRACKS, path_in_fields
 from heeltoe.case.motion import NO_MOTION
 from heeltoe.case.options import NO_FLOOD
-from heeltoe.errors import InputError, shown
+from heeltoe.errors.error import InputError, shown
+from heeltoe.motion.records.catalog import PREFIX, find
 
 #: ``"crack.friction=1.0"``, ``{"crack.friction": 1.0}``, ``{"crack": {"friction": 1.0}}``, or several of these.
 Changes = str | Mapping[str, Any] | Sequence[str | Mapping[str, Any]]
@@ -50,19 +53,42 @@ _REPLACES = {
 
 # One of a list, by its place; a few digits, since no list is longer.
 _ITEM = re.compile(r"(\w+)\[(\d{1,4})\]")
-_FURTHER = re.compile(r"further_cracks\[\d{1,4}\](?=\.)")
+_LISTED = re.compile(r"(?:further_)?cracks\[\d{1,4}\](?=\.)")
 
 
-def apply(fields: dict[str, Any], changes: Changes) -> None:
+def apply(fields: dict[str, Any], changes: Changes, directory: Path | None = None) -> dict[str, str]:
     """Change the fields of a case, as a file has them, in place.
+
+    Parameters
+    ----------
+    fields
+        As a file has them.
+    changes
+        What wins over them.
+    directory
+        Where relative paths start; None where no file is looked for.
+
+    Returns
+    -------
+    dict
+        How the changes call cracks, by the paths of these cracks in the fields, where it is another way.
 
     Raises
     ------
     InputError
         Where a change says nothing, or what it says does not go together with the rest.
     """
-    split = list(_split_all(changes))
-    _check_pair(fields, split)
+    split, written = [], dict[str, str]()
+    for path, value in _split_all(changes):
+        if path == [CRACKS] or (CRACKS in fields and path in (["crack"], ["further_cracks"])):
+            # Another form of all cracks takes the place of the one before.
+            for name in {CRACKS, "crack", "further_cracks"} - {path[0]}:
+                fields.pop(name, None)
+        place = path_in_fields(".".join(path), fields).split(".")
+        if place != path:
+            written[place[0]] = path[0]
+        split.append((place, value))
+    _check_pair(fields, split, directory)
     for path, value in split:
         for other in (*_replaced(".".join(path)), *_of_others(path, value)):
             _remove(fields, other.split("."))
@@ -74,6 +100,7 @@ def apply(fields: dict[str, Any], changes: Changes) -> None:
                 raise InputError("unknown-field", ".".join(path), suggestion=f'"{name}" has no fields')
             block = inner
         block[path[-1]] = value
+    return written
 
 
 def _inner(block: dict[str, Any], name: str, path: str) -> Any:
@@ -81,13 +108,13 @@ def _inner(block: dict[str, Any], name: str, path: str) -> Any:
     item = _ITEM.fullmatch(name)
     if item is None:
         return block.setdefault(name, {})
-    found = _found(block, name)
-    if found is None:
+    item_block = _found(block, name)
+    if item_block is None:
         items = block.get(item[1])
         count = len(items) if isinstance(items, list) else 0
         has = f'"{item[1]}" has {count}, counted from 0' if count else f'there is no list "{item[1]}"'
         raise InputError("unknown-field", path, suggestion=has)
-    return found
+    return item_block
 
 
 def _found(block: dict[str, Any], name: str) -> Any:
@@ -100,26 +127,28 @@ def _found(block: dict[str, Any], name: str) -> Any:
 
 
 def _replaced(path: str) -> tuple[str, ...]:
-    """Return what goes where a field is set; a further crack has its coefficients as the first one has."""
-    further = _FURTHER.match(path)
-    if further is None:
+    """Return what goes where a field is set; all cracks of a list have their coefficients as `crack` has."""
+    listed = _LISTED.match(path)
+    if listed is None:
         return _REPLACES.get(path, ())
-    others = _REPLACES.get(f"crack{path[further.end() :]}", ())
-    return tuple(other.replace("crack", further[0], 1) for other in others)
+    others = _REPLACES.get(f"crack{path[listed.end() :]}", ())
+    return tuple(other.replace("crack", listed[0], 1) for other in others)
 
 
-def _check_pair(fields: dict[str, Any], split: Sequence[tuple[list[str], Any]]) -> None:
+def _check_pair(fields: dict[str, Any], split: Sequence[tuple[list[str], Any]], directory: Path | None) -> None:
     """Refuse another horizontal motion beside the vertical one of the case: they are of one earthquake, and the
     vertical one would be scaled by a factor that is none of its own."""
     motion = fields.get("motion")
     if not isinstance(motion, dict) or motion.get("vertical") in (None, NO_MOTION):
         return
-    given = {".".join(path): value for path, value in split}
-    if not given.keys().isdisjoint({"motion", "motion.vertical", "motion.vertical.file", "motion.vertical.points"}):
+    values = {".".join(path): value for path, value in split}
+    if not values.keys().isdisjoint({"motion", "motion.vertical", "motion.vertical.file", "motion.vertical.points"}):
         return
     for name in ("motion.file", "motion.points"):
-        if name in given and given[name] != motion.get(name.removeprefix("motion.")):
-            raise InputError("vertical-of-another", name, shown(given[name]), none=NO_MOTION)
+        if name in values and values[name] != motion.get(name.removeprefix("motion.")):
+            if name == "motion.file" and directory is not None and not str(values[name]).startswith(PREFIX):
+                find(str(values[name]), directory)  # a file that is missing is the first thing to say
+            raise InputError("vertical-of-another", name, shown(values[name]), none=NO_MOTION)
 
 
 def _of_others(path: Sequence[str], value: Any) -> tuple[str, ...]:
@@ -142,12 +171,12 @@ def _split_all(changes: Changes) -> Iterator[tuple[list[str], Any]]:
                 raise InputError("override-form", "changes", shown(name))
             path = [part.strip() for part in name.split(".")]
             if isinstance(value, Mapping):
-                yield from (([*path, *inner], each) for inner, each in _split_all(value))
+                yield from (([*path, *inner], part) for inner, part in _split_all(value))
             else:
                 yield path, copy.deepcopy(value)
     elif isinstance(changes, Sequence):
-        for each in changes:
-            yield from _split_all(each)
+        for change in changes:
+            yield from _split_all(change)
     else:
         raise InputError("override-form", "changes", shown(changes))
 

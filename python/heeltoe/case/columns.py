@@ -14,12 +14,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe.arrays import Integers
-from heeltoe.case.at_crack import one_crack
+from heeltoe.base.arrays import Integers
+from heeltoe.case.combinations import check
 from heeltoe.case.dam import UPLIFT_OPTIONS, pattern_of
 from heeltoe.case.model import Case, misfits
 from heeltoe.case.paths import bounds_of, quantity_of
-from heeltoe.errors import InputError, expect, shown
+from heeltoe.errors.error import InputError, expect, shown
 from heeltoe.geometry.section import outside
 from heeltoe.units.parse import DIMENSIONS
 
@@ -79,18 +79,18 @@ def by_columns(case: Case, columns: Columns, *, every: bool = False) -> Rows:
         a single case, for the first row that is none.
     """
     expect(case, Case, "not-a-case", "case")
-    one_crack(case, "a table of blocks")
-    given, count = _checked(columns)
+    check(case, "table")
+    fields, count = _checked(columns)
     sound, parts = np.ones(count, dtype=np.bool_), []
-    for rows in _alike(given, count):
-        here = _taken(given, rows)
+    for rows in _alike(fields, count):
+        here = _taken(fields, rows)
         wrong, many = _part(case, here, every=every)
         sound[rows[wrong]] = False
         if many is not None:
             parts.append((rows[~wrong], many))
     if not every and not sound.all():
         first = int(sound.argmin())
-        _row(case, given, first)
+        _row(case, fields, first)
         raise AssertionError(f"row {first} is refused among many and taken alone")
     return Rows(sound, tuple(parts))
 
@@ -121,8 +121,8 @@ def _part(case: Case, here: _Given, *, every: bool) -> tuple[NDArray[np.bool_], 
     return wrong, None if misfit.all() else _filled(one, _taken(here, kept[~misfit]))
 
 
-def _taken(given: _Given, rows: Integers) -> _Given:
-    return {path: values[rows] for path, values in given.items()}
+def _taken(fields: _Given, rows: Integers) -> _Given:
+    return {path: values[rows] for path, values in fields.items()}
 
 
 def _stands(case: Case, here: _Given, row: int) -> bool:
@@ -135,7 +135,7 @@ def _stands(case: Case, here: _Given, row: int) -> bool:
 
 def _checked(columns: Columns) -> tuple[_Given, int]:
     """Return the columns as arrays, and their length; one row where there are none."""
-    given: _Given = {}
+    fields: _Given = {}
     count: int | None = None
     for path, values in columns.items():
         if path not in COLUMNS:
@@ -147,16 +147,16 @@ def _checked(columns: Columns) -> tuple[_Given, int]:
         count = column.size if count is None else count
         if column.shape != (count,):
             raise InputError("blocks-many", path, " x ".join(map(str, column.shape)) or "one number", count=count)
-        given[path] = column
-    return given, 1 if count is None else count
+        fields[path] = column
+    return fields, 1 if count is None else count
 
 
-def _alike(given: _Given, count: int) -> list[Integers]:
+def _alike(fields: _Given, count: int) -> list[Integers]:
     """Return the rows of each pattern of the uplift."""
-    if PATTERN not in given or count == 0:
+    if PATTERN not in fields or count == 0:
         return [np.arange(count)] if count else []
-    _, which = np.unique(given[PATTERN].astype(str), return_inverse=True)
-    return [np.flatnonzero(which == each) for each in range(which.max() + 1)]
+    _, which = np.unique(fields[PATTERN].astype(str), return_inverse=True)
+    return [np.flatnonzero(which == group) for group in range(which.max() + 1)]
 
 
 def _row(case: Case, here: _Given, row: int) -> Case:

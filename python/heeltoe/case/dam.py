@@ -22,7 +22,7 @@ from heeltoe.case.quantities import (
     Stiffness,
 )
 from heeltoe.case.sentences import gathered
-from heeltoe.errors import InputError, shown
+from heeltoe.errors.error import InputError, shown
 
 #: The fields of an anchor that is given by its ends.
 ANCHOR_ENDS = ("head_x", "head_elevation", "foot_x", "foot_elevation")
@@ -117,20 +117,20 @@ class Anchor(Fields):
     shear_stiffness: Annotated[Stiffness, Field(ge=0.0, le=1e13)] = Field(default="0 MN/m/m", validate_default=True)
     """Resistance it gains by slip, as a dowel."""
     capacity: Annotated[LineForce, Field(gt=0.0, le=1e9)] | None = None
-    """Tension it is good for; more is warned about."""
+    """Force it is good for, tension and resistance to slip together; more is warned about."""
 
     @model_validator(mode="after")
     @gathered
     def _sound(self) -> Iterator[InputError]:
-        given = [name for name in ANCHOR_ENDS if getattr(self, name) is not None]
-        if given:
-            yield from (InputError("anchor-form", name) for name in ANCHOR_ENDS if name not in given)
+        ends = [name for name in ANCHOR_ENDS if getattr(self, name) is not None]
+        if ends:
+            yield from (InputError("anchor-form", name) for name in ANCHOR_ENDS if name not in ends)
             crack = [name for name in ("distance", "inclination") if name in self.model_fields_set]
-            yield from (InputError("fields-conflict", name, other=given[0]) for name in crack)
+            yield from (InputError("fields-conflict", name, other=ends[0]) for name in crack)
         elif self.distance is None:
             yield InputError("anchor-form", "distance")
         if not (self.prestress or self.axial_stiffness or self.shear_stiffness):
-            field = "distance" if not given else given[0]
+            field = "distance" if not ends else ends[0]
             yield InputError("needs-other", field, other="prestress, axial_stiffness or shear_stiffness")
 
     @property
@@ -195,7 +195,7 @@ class Uplift(Fields):
             value = getattr(self, option)
             if value is not None and pattern != self.pattern:
                 yield InputError("uplift-option-foreign", option, shown(value), pattern=self.pattern, owner=pattern)
-            replaced = option in DRAINS and any(getattr(self, each) is not None for each in DRAINS)
+            replaced = option in DRAINS and any(getattr(self, name) is not None for name in DRAINS)
             if value is None and pattern == self.pattern and not replaced and option != "drain_x":
                 yield InputError("uplift-option-missing", option, pattern=pattern)
         if self.drain_position is not None and self.drain_x is not None:

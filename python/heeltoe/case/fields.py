@@ -6,8 +6,8 @@ from typing import Annotated
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
 
+from heeltoe.base.display import Named
 from heeltoe.case.quantities import DimensionlessNumber, Duration, Length
-from heeltoe.shown import Named
 
 Fraction = Annotated[DimensionlessNumber, Field(ge=0.0, le=1.0)]
 FrictionCoefficient = Annotated[DimensionlessNumber, Field(ge=0.0, le=10.0)]

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property, partial
+from itertools import pairwise
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
 
@@ -11,23 +13,16 @@ import numpy as np
 import shapely
 from pydantic import Field, PrivateAttr, ValidationError, model_validator
 
-from heeltoe.arrays import Floats
-from heeltoe.case.at_crack import (
-    AnchorAtCrack,
-    anchor_at_crack,
-    each_alone,
-    flat,
-    many_cracks,
-    places_of,
-    rough_crack,
-    too_flat,
-    uplift_at_crack,
-)
+from heeltoe.base.arrays import Floats
+from heeltoe.base.display import Shown
+from heeltoe.case.at_crack import AnchorAtCrack, anchor_at_crack, flat, too_flat, uplift_at_crack
 from heeltoe.case.changes import apply
+from heeltoe.case.combinations import conflicts
 from heeltoe.case.crack.crack import Crack, FurtherCrack
-from heeltoe.case.crack.kinks import climbs, kinks_alone, kinks_misfit
+from heeltoe.case.crack.kinks import climbs, kinks_misfit
 from heeltoe.case.dam import Anchor, Concrete, Ice, Reservoir, Silt, Uplift, Water
 from heeltoe.case.fields import Fields
+from heeltoe.case.lists import CRACKS, aliases_of, as_blocks, as_listed, crack_path, renamed
 from heeltoe.case.motion import Aftershock, Motion
 from heeltoe.case.options import Analysis, Decoupled, Flexible, Limits, StaticsChoice
 from heeltoe.case.project import Project
@@ -35,15 +30,15 @@ from heeltoe.case.quantities import Gravity
 from heeltoe.case.section import Section
 from heeltoe.case.section_file import with_section_read
 from heeltoe.case.sentences import all_errors, gathered
-from heeltoe.case.sequence import with_motions_apart
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
+from heeltoe.errors.sanitize import plain
 from heeltoe.geometry.levels import cut_levels
 from heeltoe.geometry.section import ON_LINE, CutSection, above_line, cut, outline, outside
-from heeltoe.plain import plain
-from heeltoe.shown import Shown
 
 # Water so many times as deep as the dam is high is a slip of the pen.
 _DEEPEST = 2.0
+# Cracks nearer to each other than this part of the height of the section leave no part of the dam between them.
+_NEAREST = 1e-3
 
 
 class Case(Shown, Fields):
@@ -63,9 +58,9 @@ class Case(Shown, Fields):
     concrete: Concrete = Field(default_factory=Concrete)
     """The concrete."""
     crack: Crack
-    """The crack."""
+    """The crack; or the list `[[cracks]]` of one or several, from the crest down."""
     further_cracks: tuple[FurtherCrack, ...] = ()
-    """Cracks beside it, in any order."""
+    """Cracks beside that of `[crack]`, in any order; `[[cracks]]` lists all of them."""
     reservoir: Reservoir | None = None
     """The water upstream."""
     tailwater: Water | None = None
@@ -124,25 +119,27 @@ class Case(Shown, Fields):
                 yield InputError("needs-other", f"{name}.follows_vertical_motion", other="motion.vertical")
         if self.aftershocks and self.motion is None:
             yield InputError("needs-other", "aftershocks", other="a motion")
-        yield from many_cracks(self)
-        yield from rough_crack(self)
-        yield from kinks_alone(self)
-        if self.crack.law is not None and self.crack.law.cohesion is not None and self.statics.cohesion:
-            yield InputError("law-twice", "statics.cohesion")
+        yield from conflicts(self)
+        if not self.further_cracks:
+            for name in ("uplift", "uplift_intensity"):
+                if getattr(self.crack, name) is not None:
+                    yield InputError("needs-other", f"crack.{name}", other="several cracks ([uplift] is that of one)")
         if self.statics.drain_diameter is not None and self.uplift.pattern != "drained":
             yield InputError("needs-other", "statics.drain_diameter", other='uplift.pattern = "drained"')
 
     @classmethod
-    def of(cls, fields: Mapping[str, Any], directory: Path | None = None) -> Case:
+    def of(
+        cls, fields: Mapping[str, Any], directory: Path | None = None, written: Mapping[str, str] | None = None
+    ) -> Case:
         """Return the case of some fields, as a file has them, with relative paths from a directory, the current one
-        where none is given.
+        where none is given; `written` is how the user called cracks, by their paths in the fields.
 
         Raises
         ------
         InputError
             The first thing that is wrong, with the others.
         """
-        case, wrong = problems(fields, directory or Path())
+        case, wrong = problems(fields, directory or Path(), written)
         if case is None:
             raise wrong[0].with_others(wrong[1:])
         return case.based_in(directory or Path())
@@ -164,10 +161,30 @@ class Case(Shown, Fields):
             Where a change cannot be used, or does not go together with the rest.
         """
         fields = self.model_dump(mode="json", exclude_unset=True)
-        apply(fields, changes)
-        return Case.of(fields, self.base_directory)
+        if self._lists_cracks:
+            fields = as_listed(fields)
+        return Case.of(fields, self.base_directory, apply(fields, changes, self.base_directory))
+
+    def without_evidence(self) -> Case:
+        """Return the case whose elastic runs have no evidence."""
+        return self.model_copy(update={"flexible": self.flexible.with_evidence("none")})
+
+    def reversal(self) -> dict[str, Any]:
+        """Return the changes that reverse all of its motions."""
+        if self.motion is None:
+            return {}
+        changes: dict[str, Any] = {"motion.reverse": not self.motion.is_reversed, "motion.sign": None}
+        if self.aftershocks:
+            reverse = [
+                motion.model_copy(update={"reverse": not motion.is_reversed, "sign": None})
+                for motion in self.aftershocks
+            ]
+            changes["aftershocks"] = [motion.model_dump(mode="json", exclude_unset=True) for motion in reverse]
+        return changes
 
     _base_directory: Path = PrivateAttr(default_factory=Path)
+    # Whether its file has the list [[cracks]], by which messages call its cracks.
+    _lists_cracks: bool = PrivateAttr(default=False)
 
     @property
     def base_directory(self) -> Path:
@@ -218,8 +235,19 @@ class Case(Shown, Fields):
         between = [(section.heel[0] + x, section.heel[1] + z) for x, z in points]
         return np.array([section.heel, *between, section.toe])
 
+    @property
+    def cracks(self) -> tuple[Crack, ...]:
+        """Its cracks from the crest down, each with all of its fields.
+
+        Raises
+        ------
+        InputError
+            Where two cracks meet or cross.
+        """
+        return tuple(case.crack for case in self.single_crack_cases)
+
     @cached_property
-    def cracks(self) -> tuple[Case, ...]:
+    def single_crack_cases(self) -> tuple[Case, ...]:
         """The case with one crack alone, for each of its cracks from the crest down.
 
         Raises
@@ -227,23 +255,65 @@ class Case(Shown, Fields):
         InputError
             Where two cracks meet or cross.
         """
-        return places_of(self)[0]
+        return self._sorted_cracks[0]
 
     @cached_property
     def asked(self) -> int:
-        """Which of them is that of ``[crack]``."""
-        return places_of(self)[1]
+        """Which of its cracks is the first one of the file, that of ``[crack]``."""
+        return self._sorted_cracks[1]
+
+    @cached_property
+    def _sorted_cracks(self) -> tuple[tuple[Case, ...], int]:
+        if not self.further_cracks:
+            return (self,), 0
+        cases = dict(zip(self.crack_paths, self._cases_as_written(), strict=True))
+        first = next(iter(cases))
+        ends = {path: _ends_of_crack(path, case, is_first=path == first) for path, case in cases.items()}
+        paths = sorted(cases, key=lambda path: -ends[path][0])
+        for above, below in pairwise(paths):
+            upper, lower = cases[above], cases[below]
+            nearest = _NEAREST * (upper.cut.crest_elevation - upper.cut.base_elevation)
+            near = any(high - low < nearest for high, low in zip(ends[above], ends[below], strict=True))
+            if near or _distance_between(upper, lower) < nearest:
+                later = max(above, below, key=list(cases).index)
+                one, other = f"{upper.crack.elevation:g} m", f"{lower.crack.elevation:g} m"
+                raise InputError("cracks-meet", f"{later}.elevation", one, other=other, least=f"{nearest:g} m")
+        if self._lists_cracks and paths != list(cases):
+            path, before = next((path, above) for path, above in zip(cases, paths, strict=True) if path != above)
+            level = f"{cases[path].crack.elevation:g} m"
+            raise InputError("cracks-order", f"{path}.elevation", level, other=before)
+        return tuple(cases[path] for path in paths), paths.index(first)
+
+    def _cases_as_written(self) -> Iterator[Case]:
+        """Walk the case with one crack alone, for each of its cracks in the order of the file."""
+        if not self.further_cracks:
+            yield self
+            return
+        first = self.crack.model_copy(update={"uplift": None, "uplift_intensity": None})
+        for crack in (self.crack, *(crack.beside(first) for crack in self.further_cracks)):
+            own = crack.model_copy(update={"uplift": None, "uplift_intensity": None})
+            yield self.model_copy(update={"further_cracks": (), "crack": own, "uplift": crack.uplift_of(self.uplift)})
+
+    @property
+    def crack_paths(self) -> tuple[str, ...]:
+        """Paths of its cracks, as its file has them."""
+        paths = ("crack", *(f"further_cracks[{place}]" for place in range(len(self.further_cracks))))
+        return tuple(self.path_as_written(path) for path in paths)
+
+    def path_as_written(self, path: str) -> str:
+        """Return the path of a field as the file of the case has it: of one that lists its cracks, in that list."""
+        return crack_path(path) if self._lists_cracks else path
 
     @cached_property
     def anchors_at_crack(self) -> tuple[AnchorAtCrack, ...]:
         """The anchors by their distance from the heel and their inclination to the normal of the crack; those that do
         not cross it do nothing."""
-        return tuple(anchor_at_crack(each, self.cut) for each in self.anchors)
+        return tuple(anchor_at_crack(anchor, self.cut) for anchor in self.anchors)
 
     @cached_property
     def uplift_at_crack(self) -> Uplift:
         """The uplift with its drains on the crack."""
-        return uplift_at_crack(self.uplift, self.cut)
+        return uplift_at_crack(self.crack.uplift_of(self.uplift), self.cut)
 
     def model_copy(self, *, update: Mapping[str, Any] | None = None, deep: bool = False) -> Self:
         """Return a copy with other fields; what was made of those before goes."""
@@ -265,7 +335,8 @@ _MADE_OF = {
     "outline": {"section"},
     "cut": {"section", "crack"},
     "above": {"section", "crack"},
-    "cracks": set(Case.model_fields),
+    "single_crack_cases": set(Case.model_fields),
+    "_sorted_cracks": set(Case.model_fields),
     "asked": {"section", "crack", "further_cracks"},
     "anchors_at_crack": {"section", "crack", "anchors"},
     "uplift_at_crack": {"section", "crack", "uplift"},
@@ -276,7 +347,9 @@ _SECTION, _CRACK = {"height": "1 m", "crest_width": "1 m", "base_width": "1 m"},
 _OF_OTHERS = {"reservoir": ("ice", "silt")}
 
 
-def problems(fields: Mapping[str, Any], directory: Path | None) -> tuple[Case | None, list[InputError]]:
+def problems(
+    fields: Mapping[str, Any], directory: Path | None, written: Mapping[str, str] | None = None
+) -> tuple[Case | None, list[InputError]]:
     """Return the case of some fields, as a file has them, and all that is wrong with them; None where anything is.
 
     Parameters
@@ -285,10 +358,21 @@ def problems(fields: Mapping[str, Any], directory: Path | None) -> tuple[Case | 
         As a file has them.
     directory
         Where relative paths start; None where no file is to be read.
+    written
+        How the user called cracks, by their paths in the fields.
     """
+    listed = CRACKS in fields
+    aliases = aliases_of(fields) if listed else {}
+    case, wrong = _problems(fields, directory, listed=listed)
+    return case, renamed(renamed(wrong, aliases), written or {})
+
+
+def _problems(
+    fields: Mapping[str, Any], directory: Path | None, *, listed: bool
+) -> tuple[Case | None, list[InputError]]:
     wrong: list[InputError] = []
     try:
-        fields = with_motions_apart(fields)
+        fields = as_blocks(fields)
     except InputError as error:
         return None, [error]
     try:
@@ -297,9 +381,10 @@ def problems(fields: Mapping[str, Any], directory: Path | None) -> tuple[Case | 
         read, wrong = {**fields, "section": _SECTION}, [error, *error.others]
     try:
         case = Case.model_validate(read)
-    except ValidationError as found:
-        wrong += all_errors(found, Case)
+    except ValidationError as complaint:
+        wrong += all_errors(complaint, Case)
         return None, [*wrong, *_further(read, wrong)]
+    case._lists_cracks = listed
     if not wrong:
         wrong = _misfits(case)
     return (None if wrong else case), wrong
@@ -348,8 +433,8 @@ def misfits(case: Case) -> Iterator[tuple[bool, Callable[[], InputError]]]:
     }
     for field, depth in surfaces.items():
         if depth is not None:
-            most = height if field == "silt.depth" else _DEEPEST * height
-            yield depth > most * (1.0 + ON_LINE), partial(_above_crest, field, depth, height)
+            limit = height if field == "silt.depth" else _DEEPEST * height
+            yield depth > limit * (1.0 + ON_LINE), partial(_above_crest, field, depth, height)
     if case.ice is not None and case.reservoir is not None:
         level = case.reservoir.depth - case.ice.depth
         yield level > height * (1.0 + ON_LINE), partial(_ice_above_crest, level, height)
@@ -357,10 +442,10 @@ def misfits(case: Case) -> Iterator[tuple[bool, Callable[[], InputError]]]:
         field = f"statics.sections[{place}].elevation"
         yield outside(case.outline, joint.elevation), partial(_outside, field, joint.elevation, height)
     if case.further_cracks:
-        _ = case.cracks  # says so itself where they meet
+        _ = case.single_crack_cases  # raises where two meet
     section = case.cut
-    for alone, crack in each_alone(case):
-        wrong = kinks_misfit(alone, crack)
+    for alone, path in zip(case._cases_as_written(), case.crack_paths, strict=True):
+        wrong = kinks_misfit(alone, path)
         if wrong is not None:
             yield True, partial(wrong.with_others, ())
     for place, anchor in enumerate(case.anchors):
@@ -368,8 +453,27 @@ def misfits(case: Case) -> Iterator[tuple[bool, Callable[[], InputError]]]:
             far = partial(_beyond_toe, f"anchors[{place}].distance", anchor.distance, section.crack_width)
             yield anchor.distance > section.crack_width * (1.0 + ON_LINE), far
             continue
-        for each in case.cracks if case.further_cracks else (case,):
+        for each in case.single_crack_cases if case.further_cracks else (case,):
             yield too_flat(anchor, each.cut), partial(flat, place, anchor, each.cut)
+
+
+def _ends_of_crack(path: str, case: Case, *, is_first: bool) -> tuple[float, float]:
+    """Return the elevations of both ends of the only crack of a case."""
+    try:
+        section = case.cut
+    except InputError as error:
+        if is_first:
+            raise
+        elevation = f"{case.crack.elevation:g} m"
+        raise InputError("section-misfit", f"{path}.elevation", elevation, reason=error) from None
+    return section.heel[1], section.toe[1]
+
+
+def _distance_between(upper: Case, lower: Case) -> float:
+    """Return how far the lines of two cracks are apart, of which one has kinks; infinite where none has [m]."""
+    if not (upper.crack.kinks or lower.crack.kinks):
+        return math.inf
+    return float(shapely.distance(*(shapely.LineString(case.crack_line) for case in (upper, lower))))
 
 
 def _outside(field: str, elevation: float, height: float) -> InputError:

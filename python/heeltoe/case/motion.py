@@ -11,7 +11,7 @@ from heeltoe.case.fields import LARGEST_ACCELERATION, Channel, Fields, Time, Tim
 from heeltoe.case.processing import ProcessingStep
 from heeltoe.case.quantities import AccelerationField
 from heeltoe.case.sentences import collected
-from heeltoe.errors import InputError, shown
+from heeltoe.errors.error import InputError, shown
 from heeltoe.units.parse import STANDARD_GRAVITY, acceleration_unit
 
 NO_MOTION = "none"
@@ -73,16 +73,35 @@ class Motion(Source):
 
     duration: TimeSpan | None = None
     """Length of the run, counted from where the record begins; the whole record where it is not given."""
+    sign: Literal["recorded", "reversed"] | None = None
+    """Which way round the motion shakes the dam. Where the case does not say, here or by `reverse`, both ways are run
+    and the worse one leads; `points` are as they are written."""
     allow_zero: Truth = False
     """Accept a motion that is zero throughout, which is otherwise taken for a mistake."""
     vertical: Annotated[
         Source | None,
         BeforeValidator(
-            lambda given: None if given == NO_MOTION else given, json_schema_input_type=Source | Literal["none"] | None
+            lambda value: None if value == NO_MOTION else value, json_schema_input_type=Source | Literal["none"] | None
         ),
     ] = None
     """The vertical motion of the same earthquake, positive up; without a peak of its own it is scaled as the horizontal
     one is. "none" leaves it out."""
+
+    @model_validator(mode="after")
+    def _check_sign(self) -> Self:
+        if self.sign is not None and "reverse" in self.model_fields_set:
+            raise InputError("contradiction", "sign", f'"{self.sign}"', other=f"reverse = {str(self.reverse).lower()}")
+        return self
+
+    @property
+    def is_reversed(self) -> bool:
+        """Whether it is turned round before it shakes the dam."""
+        return self.reverse or self.sign == "reversed"
+
+    @property
+    def has_sign(self) -> bool:
+        """Whether the case says which way round it shakes the dam: points of the case are what its author means."""
+        return self.sign is not None or self.points is not None or "reverse" in self.model_fields_set
 
 
 class Aftershock(Motion):

@@ -10,7 +10,7 @@ from pydantic import BeforeValidator, Field, model_validator
 from heeltoe.case.fields import Count, Fields, Fraction, FrictionCoefficient, Head, TimeSpan, Truth
 from heeltoe.case.quantities import DimensionlessNumber, Duration, Length, MemorySize, Pressure
 from heeltoe.case.sentences import gathered
-from heeltoe.errors import InputError, shown
+from heeltoe.errors.error import InputError, shown
 
 Evidence = Literal["full", "step", "none"]
 EVIDENCE = get_args(Evidence)
@@ -68,8 +68,6 @@ class Flexible(Fields):
     @model_validator(mode="after")
     @gathered
     def _go_together(self) -> Iterator[InputError]:
-        if self.contact == "idce" and self.damping in ("relative", "modal"):
-            yield InputError("contradiction", "damping", shown(self.damping), other='contact = "idce"')
         if not self.damping_on_water and self.damping != "relative":
             yield InputError("contradiction", "damping_on_water", "false", other=f'damping = "{self.damping}"')
 
@@ -82,7 +80,7 @@ class Flexible(Fields):
             Where there is no such.
         """
         if evidence not in EVIDENCE:
-            choices = ", ".join(f'"{each}"' for each in EVIDENCE)
+            choices = ", ".join(f'"{choice}"' for choice in EVIDENCE)
             raise InputError("not-a-choice", "evidence", shown(evidence), choices=choices)
         return self.model_copy(update={"evidence": evidence})
 
@@ -140,14 +138,37 @@ class StaticsSection(Fields):
     """Tensile strength of the bonded part."""
 
 
-def _section_of(given: object) -> object:
+#: Earthquakes that are unusual loads and no extreme ones, by what people call them.
+_UNUSUAL = ("obe", "operating basis earthquake")
+
+
+class StaticsEarthquake(Fields):
+    """An earthquake of the pseudo-static checks."""
+
+    name: Annotated[str, Field(strict=True, min_length=1, max_length=60)]
+    """What it is called: OBE, MDE, MCE, SEE, or a name of your own."""
+    seismic_coefficient: Annotated[DimensionlessNumber, Field(gt=0.0, le=3.0)]
+    """Its horizontal acceleration in g."""
+    vertical_seismic_coefficient: Annotated[DimensionlessNumber, Field(ge=0.0, le=3.0)] = 0.0
+    """Its vertical acceleration at the same time in g, up and down."""
+    rarity: Literal["unusual", "extreme"] | None = None
+    """Whether it is an unusual load, as the operating basis earthquake (OBE) is, or an extreme one, as all others are;
+    by its name where it is not given."""
+
+    @property
+    def is_unusual(self) -> bool:
+        """Whether it is an unusual load."""
+        return self.rarity == "unusual" or (self.rarity is None and self.name.strip().lower() in _UNUSUAL)
+
+
+def _section_of(value: object) -> object:
     """Return the fields of a section of which only the elevation is said."""
-    return given if isinstance(given, dict | StaticsSection) else {"elevation": given}
+    return value if isinstance(value, dict | StaticsSection) else {"elevation": value}
 
 
-def _flood_of(given: object) -> object:
+def _flood_of(value: object) -> object:
     """Return a depth as it is given; nothing where there is to be no flood."""
-    return None if given == NO_FLOOD else given
+    return None if value == NO_FLOOD else value
 
 
 class StaticsChoice(Fields):
@@ -179,6 +200,9 @@ class StaticsChoice(Fields):
     """Horizontal acceleration of the pseudo-static check in g; no such check without it."""
     vertical_seismic_coefficient: Annotated[DimensionlessNumber, Field(ge=0.0, le=3.0)] = 0.0
     """Vertical acceleration at the same time in g, up and down: each check is judged by the worse way."""
+    earthquakes: Annotated[tuple[StaticsEarthquake, ...], Field(max_length=10)] = ()
+    """Earthquakes of different rarity, each with pseudo-static checks, in place of `seismic_coefficient`, which is an
+    extreme one."""
     uplift_in_earthquake: Literal["criteria", "unchanged", "zero", "full"] = "criteria"
     """Pressure of the water where a pseudo-static load opens the crack: as the criteria have it; as it was (USACE,
     FERC); none (USBR); or at once the reservoir's (ICOLD)."""
@@ -192,6 +216,18 @@ class StaticsChoice(Fields):
     sections: tuple[Annotated[StaticsSection, BeforeValidator(_section_of)], ...] = ()
     """Lift joints to judge, the base among them where it is listed: elevations, or tables with what differs there."""
 
+    @property
+    def pseudo_static(self) -> tuple[StaticsEarthquake, ...]:
+        """The earthquakes of the pseudo-static checks; that of `seismic_coefficient` has no name."""
+        if self.seismic_coefficient is None:
+            return self.earthquakes
+        only = StaticsEarthquake.model_construct(
+            name="",
+            seismic_coefficient=self.seismic_coefficient,
+            vertical_seismic_coefficient=self.vertical_seismic_coefficient,
+        )
+        return (only,)
+
     @model_validator(mode="after")
     @gathered
     def _belong_together(self) -> Iterator[InputError]:
@@ -202,12 +238,18 @@ class StaticsChoice(Fields):
             yield InputError("needs-other", "flood_tailwater", other="flood_depth")
         if self.vertical_seismic_coefficient and self.seismic_coefficient is None:
             yield InputError("needs-other", "vertical_seismic_coefficient", other="seismic_coefficient")
-        if self.uplift_in_earthquake != "criteria" and self.seismic_coefficient is None:
-            yield InputError("needs-other", "uplift_in_earthquake", other="seismic_coefficient")
+        if self.earthquakes and self.seismic_coefficient is not None:
+            yield InputError("fields-conflict", "seismic_coefficient", other="earthquakes")
+        called = [earthquake.name.strip().lower() for earthquake in self.earthquakes]
+        again = next((title for title in called if called.count(title) > 1), None)
+        if again is not None:
+            yield InputError("earthquakes-twice", "earthquakes", shown(again))
+        if self.uplift_in_earthquake != "criteria" and not self.pseudo_static:
+            yield InputError("needs-other", "uplift_in_earthquake", other="seismic_coefficient or earthquakes")
         if self.flood_rarity == "extreme" and self.flood_depth is None:
             yield InputError("needs-other", "flood_rarity", other="flood_depth")
         elevations = [section.elevation for section in self.sections]
-        twice = next((each for each in elevations if elevations.count(each) > 1), None)
+        twice = next((elevation for elevation in elevations if elevations.count(elevation) > 1), None)
         if twice is not None:
             yield InputError("sections-twice", "sections", f"{twice:g} m")
         if self.criteria_file is not None and "criteria" in self.model_fields_set:
@@ -227,5 +269,5 @@ class Decoupled(Fields):
     rotation: Truth = False
     """The block feels the rotation of the crack too."""
     upper_part: Literal["rigid body", "mass on the crack"] = "rigid body"
-    """How the part above the crack hangs on the part below it: as a rigid body with its lever arm and its inertia; or,
-    as in Zhu (2004), as the mass of its concrete alone, spread evenly along the crack."""
+    """How the part above the crack is attached to the part below it: as a rigid body with its lever arm and inertia;
+    or, as in Zhu (2004), as the mass of its concrete alone, spread evenly along the crack."""

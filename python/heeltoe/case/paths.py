@@ -21,10 +21,10 @@ def quantity_of(path: str) -> str | None:
     place: Mapping[str, Any] = schema
     for part in path.split("."):
         name, listed, _ = part.partition("[")
-        place = next((each["properties"][name] for each in _meant(place, schema) if name in each["properties"]), {})
+        place = next((block["properties"][name] for block in _meant(place, schema) if name in block["properties"]), {})
         if listed:
-            place = next((each["items"] for each in _alternatives(place) if "items" in each), {})
-    return next((str(each["quantity"]) for each in _alternatives(place) if "quantity" in each), None)
+            place = next((choice["items"] for choice in _alternatives(place) if "items" in choice), {})
+    return next((str(choice["quantity"]) for choice in _alternatives(place) if "quantity" in choice), None)
 
 
 @cache
@@ -34,9 +34,9 @@ def bounds_of(path: str) -> tuple[tuple[str, float], ...]:
     model: type[BaseModel] = Case
     for block in blocks:
         model = block_of(model.model_fields[block].annotation) or model
-    given = list(constraints(model.model_fields[name]))
+    limits = list(constraints(model.model_fields[name]))
     kinds = ("ge", "gt", "le", "lt")
-    return tuple((kind, float(getattr(each, kind))) for each in given for kind in kinds if hasattr(each, kind))
+    return tuple((kind, float(getattr(limit, kind))) for limit in limits for kind in kinds if hasattr(limit, kind))
 
 
 def value_of(case: Case, path: str) -> Any:
@@ -50,12 +50,12 @@ def value_of(case: Case, path: str) -> Any:
     return place
 
 
-def constraints(given: object) -> Iterator[object]:
+def constraints(field: object) -> Iterator[object]:
     """Walk all that is said of a field, also of one that may be left out."""
-    inner = (given.annotation, *given.metadata) if isinstance(given, FieldInfo) else get_args(given)
-    for each in inner:
-        yield each
-        yield from constraints(each)
+    inner = (field.annotation, *field.metadata) if isinstance(field, FieldInfo) else get_args(field)
+    for part in inner:
+        yield part
+        yield from constraints(part)
 
 
 @cache
@@ -66,13 +66,13 @@ def _schema() -> dict[str, Any]:
 def _alternatives(place: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
     """Walk what a field may hold, itself or one of several."""
     yield place
-    for each in (*place.get("anyOf", ()), *place.get("allOf", ())):
-        yield from _alternatives(each)
+    for choice in (*place.get("anyOf", ()), *place.get("allOf", ())):
+        yield from _alternatives(choice)
 
 
 def _meant(place: Mapping[str, Any], schema: Mapping[str, Any]) -> Iterator[Mapping[str, Any]]:
     """Walk the blocks of fields that a field may hold."""
-    for each in _alternatives(place):
-        found = schema["$defs"][each["$ref"].rpartition("/")[2]] if "$ref" in each else each
-        if "properties" in found:
-            yield found
+    for choice in _alternatives(place):
+        block = schema["$defs"][choice["$ref"].rpartition("/")[2]] if "$ref" in choice else choice
+        if "properties" in block:
+            yield block

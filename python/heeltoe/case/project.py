@@ -14,7 +14,7 @@ from heeltoe.case.fields import Fields
 Words = Annotated[
     str,
     BeforeValidator(
-        lambda given: str(given) if isinstance(given, date | int) and not isinstance(given, bool) else given
+        lambda value: str(value) if isinstance(value, date | int) and not isinstance(value, bool) else value
     ),
     Field(strict=True),
     WithJsonSchema({"type": ["string", "integer"]}),

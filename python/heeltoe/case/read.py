@@ -16,9 +16,9 @@ from pathlib import Path
 from typing import Any
 
 from heeltoe.case.changes import Changes, apply
+from heeltoe.case.lists import CRACKS, CRACKS_MEANING, motions_as_blocks
 from heeltoe.case.model import Case
-from heeltoe.case.sequence import with_motions_apart
-from heeltoe.errors import InputError, shown
+from heeltoe.errors.error import InputError, shown
 
 # A case is some kilobytes; what never ends, as /dev/zero, is none.
 _LARGEST = 10_000_000
@@ -57,14 +57,21 @@ def read_case(source: str | os.PathLike[str] | Mapping[str, Any], changes: Chang
         fields, directory = read_fields(path), path.parent
     else:
         raise InputError("case-source", "source", kind=type(source).__name__)
-    fields = with_motions_apart(fields)
-    apply(fields, changes)
-    return Case.of(fields, directory)
+    # Changes by path find the motions as blocks; cracks stay as they are written.
+    fields = motions_as_blocks(fields)
+    return Case.of(fields, directory, apply(fields, changes, directory))
 
 
 def case_schema() -> dict[str, Any]:
-    """Return the JSON schema of a case."""
-    return Case.model_json_schema()
+    """Return the JSON schema of a case: its cracks stand in one list, or in the blocks `crack` and `further_cracks`."""
+    schema = Case.model_json_schema()
+    cracks = {"type": "array", "minItems": 1, "items": {"$ref": "#/$defs/Crack"}, "description": CRACKS_MEANING}
+    properties: dict[str, Any] = {}
+    for name, field in schema["properties"].items():
+        properties |= {CRACKS: cracks, name: field} if name == "crack" else {name: field}
+    required = [name for name in schema["required"] if name != "crack"]
+    forms = [{"required": [name]} for name in (CRACKS, "crack")]
+    return schema | {"properties": properties, "required": required, "oneOf": forms}
 
 
 def read_fields(path: Path, missing: str = "case-file-missing") -> dict[str, Any]:
@@ -99,13 +106,13 @@ def read_fields(path: Path, missing: str = "case-file-missing") -> dict[str, Any
 def _toml(text: str) -> dict[str, Any]:
     if any(line.count(".") >= _DEEPEST for line in text.splitlines()):
         parts = 1
-        for found in _OF_KEYS.finditer(text):
-            if found[0] == ".":
+        for token in _OF_KEYS.finditer(text):
+            if token[0] == ".":
                 parts += 1
-            elif found[0] in "[]{}=,\n":
+            elif token[0] in "[]{}=,\n":
                 parts = 1
             if parts > _DEEPEST:
-                line = text.count("\n", 0, found.start()) + 1
+                line = text.count("\n", 0, token.start()) + 1
                 raise ValueError(f"a key of more than {_DEEPEST} parts (at line {line})")
     return tomllib.loads(text)
 

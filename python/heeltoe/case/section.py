@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 from heeltoe.case.fields import Fields, Head
 from heeltoe.case.quantities import DimensionlessNumber, Length
 from heeltoe.case.sentences import gathered
-from heeltoe.errors import InputError, shown
+from heeltoe.errors.error import InputError, shown
 from heeltoe.geometry.faces import corners_between
 
 Slope = Annotated[DimensionlessNumber, Field(ge=-2.0, le=10.0)]
@@ -56,33 +56,33 @@ class Section(Fields):
     @model_validator(mode="after")
     @gathered
     def _one_form(self) -> Iterator[InputError]:
-        given = [name for name in type(self).model_fields if getattr(self, name) is not None]
+        names = [name for name in type(self).model_fields if getattr(self, name) is not None]
         if self.file is not None:
             # What a file says is put in the place of these fields before they are read.
             yield InputError("section-file-unread", "file", shown(self.file))
             return
-        yield from (InputError("needs-other", name, other="a file") for name in ("layer", "unit") if name in given)
-        given = [name for name in given if name not in ("layer", "unit")]
+        yield from (InputError("needs-other", name, other="a file") for name in ("layer", "unit") if name in names)
+        names = [name for name in names if name not in ("layer", "unit")]
         if self.polygon is not None:
-            yield from (InputError("fields-conflict", name, other="polygon") for name in given if name != "polygon")
+            yield from (InputError("fields-conflict", name, other="polygon") for name in names if name != "polygon")
             return
-        faces = [name for name in _FACES if name in given]
+        faces = [name for name in _FACES if name in names]
         if faces:
-            foreign = [name for name in given if name not in (*_SIZES, *faces)]
+            foreign = [name for name in names if name not in (*_SIZES, *faces)]
             yield from (InputError("fields-conflict", name, other=faces[0]) for name in foreign)
             yield from self._missing(_SIZES)
             for name in faces:
                 yield from self._wrong_face(name)
             return
         # Half a neck is a slip of the pen, no neck is a plain trapezoid.
-        yield from self._missing((*_SIZES, "base_width", *(_NECK if set(_NECK) & set(given) else ())))
+        yield from self._missing((*_SIZES, "base_width", *(_NECK if set(_NECK) & set(names) else ())))
         if self.neck_height is not None and self.height is not None and self.neck_height > self.height:
             yield InputError("neck-above-crest", "neck_height", f"{self.neck_height:g} m", height=f"{self.height:g} m")
 
-    def _missing(self, wanted: tuple[str, ...]) -> Iterator[InputError]:
-        for name in wanted:
+    def _missing(self, names: tuple[str, ...]) -> Iterator[InputError]:
+        for name in names:
             if getattr(self, name) is None:
-                yield InputError("section-incomplete", name, fields=", ".join(wanted))
+                yield InputError("section-incomplete", name, fields=", ".join(names))
 
     def _wrong_face(self, name: str) -> Iterator[InputError]:
         levels = [level for level, _ in getattr(self, name)]

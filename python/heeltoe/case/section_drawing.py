@@ -8,8 +8,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from heeltoe.errors import InputError, shown
-from heeltoe.plain import plain
+from heeltoe.errors.error import InputError, shown
+from heeltoe.errors.sanitize import plain
 
 Corners = list[tuple[float, float]]
 
@@ -36,9 +36,9 @@ def corners_of_drawing(path: Path, layer: str | None) -> tuple[Corners, str]:
     """
     drawing = _read(path)
     closed = list(_closed(drawing))
-    on_layers = Counter(each.dxf.layer for each in closed)
+    on_layers = Counter(line.dxf.layer for line in closed)
     # Names of layers are the same in large and small letters.
-    mine = [each for each in closed if layer is None or each.dxf.layer.lower() == layer.lower()]
+    mine = [line for line in closed if layer is None or line.dxf.layer.lower() == layer.lower()]
     known = ", ".join(f"{shown(name)} ({count})" for name, count in on_layers.most_common(_MOST_NAMES)) or "none"
     if not mine and layer is not None:
         raise InputError("drawing-layer", "section.layer", shown(layer), layers=known)
@@ -69,12 +69,12 @@ def _read(path: Path) -> Any:
 
 def _closed(drawing: Any) -> Iterator[Any]:
     """Walk the closed polylines of the plane."""
-    for each in drawing.modelspace().query("LWPOLYLINE POLYLINE"):
-        if each.dxftype() == "LWPOLYLINE":
-            points = [(x, y) for x, y, *_ in each.get_points()]
-        elif each.is_2d_polyline:
-            points = [(point.x, point.y) for point in each.points()]
+    for line in drawing.modelspace().query("LWPOLYLINE POLYLINE"):
+        if line.dxftype() == "LWPOLYLINE":
+            points = [(x, y) for x, y, *_ in line.get_points()]
+        elif line.is_2d_polyline:
+            points = [(point.x, point.y) for point in line.points()]
         else:
             continue
-        if len(points) > 2 and (each.is_closed or points[0] == points[-1]):
-            yield each
+        if len(points) > 2 and (line.is_closed or points[0] == points[-1]):
+            yield line

@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from heeltoe.errors import InputError, shown
+from heeltoe.errors.error import InputError, shown
 from heeltoe.units.parse import parse
 
 Corners = list[tuple[float, float]]
@@ -85,21 +85,21 @@ def read_corners(path: Path, layer: str | None = None, unit: str | None = None) 
     if _DXF.match(content):
         from heeltoe.case.section_drawing import corners_of_drawing
 
-        found, stated = corners_of_drawing(path, layer)
+        corners, stated = corners_of_drawing(path, layer)
     else:
         if layer is not None:
             raise InputError("needs-other", "section.layer", other="a drawing (DXF)")
-        found, stated = _corners_of_table(content)
-    if len(found) > 1 and found[0] == found[-1]:
-        found = found[:-1]
-    if len(found) > _MOST_CORNERS:
+        corners, stated = _corners_of_table(content)
+    if len(corners) > 1 and corners[0] == corners[-1]:
+        corners = corners[:-1]
+    if len(corners) > _MOST_CORNERS:
         raise InputError("section-file-large", "section.file", f"{_MOST_CORNERS} corners")
-    if len(found) < 3:
-        raise InputError("polygon-corners", "section.file", len(found))
+    if len(corners) < 3:
+        raise InputError("polygon-corners", "section.file", len(corners))
     if unit is None and not stated:
         raise InputError("section-unit-missing", "section.unit")
     one = parse(f"1 {unit or stated}", "length", "section.unit" if unit else "section.file")
-    return [(x * one, z * one) for x, z in found]
+    return [(x * one, z * one) for x, z in corners]
 
 
 def _corners_of_table(content: bytes) -> tuple[Corners, str]:
@@ -113,23 +113,23 @@ def _corners_of_table(content: bytes) -> tuple[Corners, str]:
         raise InputError("section-file-kind", "section.file")
     cells = [(number, _cells(line.split("#")[0])) for number, line in rows]
     columns, stated, width = (0, 1), "", 2
-    if any(_number(each) is None for each in cells[0][1]):
+    if any(_number(cell) is None for cell in cells[0][1]):
         columns, stated = _head(cells[0][1])
         width, cells = len(cells[0][1]), cells[1:]
-    found: Corners = []
+    corners: Corners = []
     for number, row in cells:
         x, z = (_number(row[place]) if len(row) == width else None for place in columns)
         if x is None or z is None:
             raise InputError("section-row", "section.file", shown(" ".join(row)), number=number)
-        found.append((x, z))
-    return found, stated
+        corners.append((x, z))
+    return corners, stated
 
 
 def _cells(line: str) -> list[str]:
     """Return the cells of a row; where these are divided by semicolons, a comma is one of decimals."""
     if ";" in line:
-        return [each.strip().replace(",", ".") for each in line.split(";")]
-    return [each.strip() for each in line.split(",")] if "," in line else line.split()
+        return [cell.strip().replace(",", ".") for cell in line.split(";")]
+    return [cell.strip() for cell in line.split(",")] if "," in line else line.split()
 
 
 def _number(cell: str) -> float | None:
@@ -142,7 +142,7 @@ def _number(cell: str) -> float | None:
 
 def _head(cells: Sequence[str]) -> tuple[tuple[int, int], str]:
     """Return the columns of x and z, and the unit that both state."""
-    units = {found[1] or found[2] for cell in cells if (found := _UNIT.search(cell))}
+    units = {match[1] or match[2] for cell in cells if (match := _UNIT.search(cell))}
     names = [_UNIT.sub("", cell).strip().lower() for cell in cells]
     if len(units) > 1:
         raise InputError("section-head", "section.file", shown(", ".join(cells)))

@@ -11,12 +11,13 @@ import functools
 import types
 import typing
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cache
 
 from pydantic import BaseModel, ValidationError, WithJsonSchema
 from pydantic_core import ErrorDetails, PydanticCustomError
 
-from heeltoe.errors import InputError, shown
-from heeltoe.plain import harmless
+from heeltoe.errors.error import InputError, shown
+from heeltoe.errors.sanitize import harmless
 
 P = typing.ParamSpec("P")
 R = typing.TypeVar("R")
@@ -67,12 +68,12 @@ def gathered(check: Callable[[M], Iterator[InputError]]) -> Callable[[M], M]:
     return inner
 
 
-def first_error(found: ValidationError, model: type[BaseModel]) -> InputError:
+def first_error(complaint: ValidationError, model: type[BaseModel]) -> InputError:
     """Return the problem to be told first, with the others.
 
     Parameters
     ----------
-    found
+    complaint
         What pydantic gathered.
     model
         The model of the whole case, for the names it knows.
@@ -83,16 +84,16 @@ def first_error(found: ValidationError, model: type[BaseModel]) -> InputError:
         A field that does not exist goes first, since a slip of the pen makes the field that was meant look
         missing.
     """
-    error, *others = all_errors(found, model)
+    error, *others = all_errors(complaint, model)
     return error.with_others(others)
 
 
-def all_errors(found: ValidationError, model: type[BaseModel]) -> list[InputError]:
+def all_errors(complaint: ValidationError, model: type[BaseModel]) -> list[InputError]:
     """Return all problems that pydantic gathered, fields that do not exist first; see :func:`first_error`.
 
     Of a field that may be of several types there is one problem, and none of a list for what is wrong inside it.
     """
-    details = found.errors(include_url=False)
+    details = complaint.errors(include_url=False)
     details.sort(key=lambda detail: detail["type"] != "extra_forbidden")
     wrong: dict[str, InputError] = {}
     for detail in details:
@@ -110,8 +111,8 @@ def _all_translated(detail: ErrorDetails, model: type[BaseModel]) -> list[InputE
     first = _translated(detail, model)
     path = _path(detail["loc"], model)
     others = detail.get("ctx", {}).get("others", ())
-    for each in others:
-        each.field = _joined(path, each.field)
+    for other in others:
+        other.field = _joined(path, other.field)
     return [first, *others]
 
 
@@ -237,10 +238,19 @@ def _places(model: type[BaseModel], above: str = "") -> Iterator[tuple[str, str]
             yield from _places(block, f"{above}{name}.")
 
 
+@cache
+def _first_places(model: type[BaseModel]) -> dict[str, str]:
+    """Return the full path of the first field of each name, once for all names of a long file that are unknown."""
+    paths: dict[str, str] = {}
+    for name, path in _places(model):
+        paths.setdefault(name, path)
+    return paths
+
+
 def _suggestion(location: Sequence[int | str], model: type[BaseModel]) -> str:
     name = str(location[-1])
     known = [field.alias or own for own, field in _owner(location, model).model_fields.items()]
-    elsewhere = next((path for other, path in _places(model) if other == name), None)
+    elsewhere = _first_places(model).get(name)
     near = difflib.get_close_matches(name, known, n=1)
     if elsewhere or near:
         return f'did you mean "{elsewhere or near[0]}"?'
@@ -253,5 +263,5 @@ def _example(location: Sequence[int | str], model: type[BaseModel]) -> str:
     if block_of(field.annotation):
         return f"[{_path(location, model)}]"
     schemas = (part.json_schema for part in field.metadata if isinstance(part, WithJsonSchema))
-    schema: Mapping[str, typing.Any] = next((found for found in schemas if found), {})
+    schema: Mapping[str, typing.Any] = next((schema for schema in schemas if schema), {})
     return f"{name} = {shown(next(iter(schema.get('examples', [''])), ''))}"

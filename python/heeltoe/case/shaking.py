@@ -5,18 +5,18 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+from heeltoe.base.cache import Kept
 from heeltoe.case.model import Case
 from heeltoe.case.motion import Motion, Source
-from heeltoe.errors import InputError
-from heeltoe.kept import Kept
+from heeltoe.errors.error import InputError
 from heeltoe.motion.check import check, check_moved, check_pair, check_record
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.processing import process
 from heeltoe.motion.records import called, read_record
-from heeltoe.motion.records.catalog import find
-from heeltoe.motion.scenario import PREFIX, synthetic
+from heeltoe.motion.records.catalog import PREFIX, find
+from heeltoe.motion.scenario import synthetic
 from heeltoe.motion.sequence import joined
-from heeltoe.warnings import Notice
+from heeltoe.warnings.notice import Notice
 
 # Records as they were read: many runs differ in all else.
 _KEPT: Kept[GroundMotion] = Kept(8)
@@ -92,12 +92,12 @@ def resolve_all(case: Case) -> tuple[GroundMotion, GroundMotion | None]:
         raise InputError("motion-missing", "motion")
     if not case.aftershocks:
         return resolve(case.motion, case.gravity, case.base_directory)
-    given = {"motion": case.motion, **{f"aftershocks[{k}]": each for k, each in enumerate(case.aftershocks)}}
+    motions = {"motion": case.motion, **{f"aftershocks[{k}]": motion for k, motion in enumerate(case.aftershocks)}}
     pairs = []
-    for field, each in given.items():
-        across, up = resolve(each, case.gravity, case.base_directory, field)
-        pairs.append((across, up, each.duration or across.duration))
-    return joined(pairs, [each.pause for each in case.aftershocks])
+    for field, motion in motions.items():
+        across, up = resolve(motion, case.gravity, case.base_directory, field)
+        pairs.append((across, up, motion.duration or across.duration))
+    return joined(pairs, [aftershock.pause for aftershock in case.aftershocks])
 
 
 def read_source(
@@ -141,13 +141,13 @@ def _source(shaking: Source, gravity: float, base_directory: Path, field: str, u
 def _state_of(path: Path) -> tuple[object, ...]:
     """Return what is another where a file has been written anew."""
     try:
-        found = path.stat()
+        status = path.stat()
     except OSError:
         return (path,)
-    return path.resolve(), found.st_mtime_ns, found.st_size, found.st_ino
+    return path.resolve(), status.st_mtime_ns, status.st_size, status.st_ino
 
 
 def _finish(motion: GroundMotion, shaking: Source, duration: float | None) -> GroundMotion:
-    if shaking.reverse:
+    if shaking.is_reversed if isinstance(shaking, Motion) else shaking.reverse:
         motion = motion.reversed()
     return motion if duration is None else motion.cut(duration + motion.lead)

@@ -19,8 +19,10 @@ title = {title}
 # on the crack, from the heel; or by their ends in the section, whatever the crack is: x, and elevation above the base
 # anchors = [{{ head_x = "3 m", head_elevation = "99 m", foot_x = "9 m", foot_elevation = "-9 m", \
 prestress = "2 MN/m" }}]
-# Cracks beside that of [crack], for the flexible model; they may have kinks and a law, too; friction and uplift are as
-# there where they say none:
+# Several cracks, from the crest down, in place of the block [crack] below; each has what that has, and an uplift of its
+# own; friction and restitution that one does not state are those of the first:
+# cracks = [{{ elevation = "80 m", friction = 1.0, uplift = "triangular" }}, {{ elevation = "0 m", friction = 1.1 }}]
+# or further ones beside [crack], in any order:
 # further_cracks = [{{ elevation = "80 m", friction = 1.0, uplift = "triangular", uplift_intensity = 0.5 }}]
 # Motions after that of [motion], each meeting the dam as the one before has left it; what a motion has, and a pause:
 # aftershocks = [{{ file = "elcentro-1940-270-nga", pga = "0.2 g", pause = "10 s" }}]
@@ -63,6 +65,8 @@ elevation = "0 m"                  # at the upstream face, above the lowest poin
 # inclination = "0 deg"            # positive where the crack rises downstream
 # kinks = [["20 m", "0 m"], ["22 m", "1.5 m"]]   # [distance from the heel, height above the line to the toe]
 friction = 1.0
+# uplift = "none"                  # of one of several cracks, where it differs from [uplift], as does the next
+# uplift_intensity = 0.5
 # static_friction = 1.1            # instead of friction, where the friction at rest
 # kinetic_friction = 1.0           # is higher than in motion
 restitution = 0.5                  # of a rocking block's impacts: 0 stays down, 1 loses nothing
@@ -122,7 +126,8 @@ pattern = "triangular"             # or none, uniform, cut-off, drained, profile
 [motion]                           # the ground's acceleration, positive downstream
 file = "elcentro-1940-180-nga"     # a file beside this one, or a name from the catalogue of records
 pga = "0.4 g"                      # leave out to take the record as it is
-# reverse = true                   # the other sign can be the worse one: try both
+# sign = "recorded"                # or "reversed"; both are run, and the worse one leads, where it is not given
+# reverse = true                   # the same as sign = "reversed"
 # duration = "30 s"                # leave out for the whole record
 # channel = "90 deg"               # of a file with several: by number or by direction
 # unit = "cm/s^2"                  # of a file that does not state it
@@ -153,7 +158,7 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # newmark_beta = 0.36
 
 # [analysis]
-# silence = "10 s"                 # at most so long does a run go on after the motion, until the dam is at rest
+# silence = "10 s"                 # a run goes on after the motion until the dam is at rest, at most so long
 # paradox = "stop"                 # where no motion agrees with Coulomb's law; or "tangential impact"
 # event_limit = 1_000_000
 # time_limit = "10 min"            # what elastic parts may take, by an estimate before they are run
@@ -163,7 +168,7 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # [decoupled]                      # of --model decoupled: the part below the crack shakes the block above it
 # vertical = false                 # with the vertical motion at the crack, too
 # rotation = false                 # and with its rotation
-# upper_part = "rigid body"        # how the part above hangs on that below; or "mass on the crack", as in Zhu (2004)
+# upper_part = "rigid body"        # how the part above is attached below; or "mass on the crack", as in Zhu (2004)
 
 # [limits]                         # what you allow: the verdict and the report compare with it
 # residual_slip = "150 mm"
@@ -186,6 +191,8 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # flood_rarity = "unusual"         # or extreme
 # seismic_coefficient = 0.1        # of the pseudo-static check, in g
 # vertical_seismic_coefficient = 0.05
+# Several in place of that one; an OBE is an unusual load, others are extreme ones, or as rarity says:
+# earthquakes = [{{ name = "OBE", seismic_coefficient = 0.1 }}, {{ name = "MDE", seismic_coefficient = 0.2 }}]
 # uplift_in_earthquake = "criteria"    # where that opens the crack; or "unchanged", "zero", "full"
 # residual_friction = 0.8          # after the earthquake
 # residual_slip = "100 mm"         # that of an analysis without it

@@ -11,7 +11,7 @@ from heeltoe.case.at_crack import anchor_line, crosses, drains
 from heeltoe.case.model import Case
 from heeltoe.geometry.crossing import on_face
 from heeltoe.units.parse import STANDARD_GRAVITY
-from heeltoe.warnings import Notice
+from heeltoe.warnings.notice import Notice
 
 # What is so near a face, as a part of the height of the dam, is on it.
 _ON_FACE = 1e-3
@@ -22,41 +22,44 @@ _TALL = 0.03
 
 def case_warnings(case: Case) -> tuple[Notice, ...]:
     """Return what is allowed in a case but seldom meant."""
-    said = []
+    notices = []
     if case.crack.mu_static > 2.0:
-        said.append(Notice("friction-high", friction=case.crack.mu_static))
+        notices.append(Notice("friction-high", friction=case.crack.mu_static))
     if case.uplift.intensity > 1.0:
-        said.append(Notice("uplift-intensity", intensity=case.uplift.intensity))
+        notices.append(Notice("uplift-intensity", intensity=case.uplift.intensity))
     if not 9.7 <= case.gravity <= 10.0:
-        said.append(Notice("gravity-unusual", gravity_m_s2=case.gravity, earth_m_s2=STANDARD_GRAVITY))
+        notices.append(Notice("gravity-unusual", gravity_m_s2=case.gravity, earth_m_s2=STANDARD_GRAVITY))
     for side, water in (("reservoir", case.reservoir), ("tailwater", case.tailwater)):
         # From fresh water to a flood full of silt.
         if water and not 950.0 <= water.density <= 1300.0:
-            said.append(Notice("water-density-unusual", field=f"{side}.density", density_kg_m3=water.density))
+            notices.append(Notice("water-density-unusual", field=f"{side}.density", density_kg_m3=water.density))
+    modulus = case.concrete.modulus
+    if modulus is not None and not 5e9 <= modulus <= 1e11:
+        notices.append(Notice("modulus-unusual", modulus_pa=modulus))
     if not 1800.0 <= case.concrete.density <= 3200.0:
-        said.append(Notice("density-unusual", density_kg_m3=case.concrete.density))
+        notices.append(Notice("density-unusual", density_kg_m3=case.concrete.density))
     upstream = case.reservoir.depth if case.reservoir else 0.0
     if case.reservoir and 0.0 < upstream <= case.crack.elevation:
-        said.append(Notice("reservoir-below-crack"))
+        notices.append(Notice("reservoir-below-crack"))
     over = upstream - (case.cut.crest_elevation - case.cut.base_elevation)
     if case.reservoir and over > 0.0:
-        said.append(Notice("water-over-crest", over_m=over, nappe=case.reservoir.nappe))
+        notices.append(Notice("water-over-crest", over_m=over, nappe=case.reservoir.nappe))
     if case.ice and upstream - case.ice.depth < case.crack.elevation:
-        said.append(Notice("ice-below-crack"))
+        notices.append(Notice("ice-below-crack"))
     if case.silt and case.silt.depth <= case.crack.elevation:
-        said.append(Notice("silt-below-crack"))
+        notices.append(Notice("silt-below-crack"))
     if case.silt and case.silt.depth > upstream:
-        said.append(Notice("silt-above-water"))
+        notices.append(Notice("silt-above-water"))
     if case.silt and (case.silt.horizontal_density > 1000.0 or case.silt.vertical_density > 1300.0):
-        said.append(
+        notices.append(
             Notice("silt-with-water", densities_kg_m3=(case.silt.horizontal_density, case.silt.vertical_density))
         )
     toe = case.cut.toe[1] - case.cut.base_elevation
     if case.tailwater and 0.0 < case.tailwater.depth <= toe:
-        said.append(Notice("tailwater-below-crack"))
+        notices.append(Notice("tailwater-below-crack"))
     if case.tailwater and case.tailwater.depth > upstream:
-        said.append(Notice("tailwater-deeper"))
-    return (*said, *_about_the_anchors(case), *_about_the_asperities(case))
+        notices.append(Notice("tailwater-deeper"))
+    return (*notices, *_about_the_anchors(case), *_about_the_asperities(case))
 
 
 def _about_the_asperities(case: Case) -> Iterator[Notice]:
@@ -75,9 +78,9 @@ def _about_the_asperities(case: Case) -> Iterator[Notice]:
 def _about_the_anchors(case: Case) -> Iterator[Notice]:
     """Walk what is to be said of where anchors and drains are."""
     section, whole = case.cut, case.outline
-    there = case.uplift.drain_x is None or drains(case.uplift.drain_x, section)[0]
+    inside = case.uplift.drain_x is None or drains(case.uplift.drain_x, section)[0]
     at = case.uplift_at_crack
-    if not there:
+    if not inside:
         yield Notice("drains-miss")
     elif at.pattern == "drained" and (at.drain_efficiency or 0.0) < (at.drain_position or 0.0):
         yield Notice("drains-raise", efficiency=at.drain_efficiency)
@@ -88,8 +91,8 @@ def _about_the_anchors(case: Case) -> Iterator[Notice]:
     }
     for place, anchor in enumerate(case.anchors):
         field, number = f"anchors[{place}]", place + 1
-        found = [crosses(anchor, each.cut) for each in case.cracks]
-        if all(each is not None and not each.there for each in found):
+        crossings = [crosses(anchor, alone.cut) for alone in case.single_crack_cases]
+        if all(crossing is not None and not crossing.there for crossing in crossings):
             yield Notice("anchor-misses", field=field, number=number)
             continue
         head, _ = anchor_line(anchor, section, 0.0)
@@ -105,10 +108,7 @@ def _about_the_anchors(case: Case) -> Iterator[Notice]:
 
 def concrete_warnings(case: Case) -> tuple[Notice, ...]:
     """Return what elastic concrete seldom is; models of a rigid dam do not ask."""
-    said = []
+    notices = []
     if case.concrete.poisson > 0.35:
-        said.append(Notice("poisson-unusual", poisson=case.concrete.poisson))
-    modulus = case.concrete.modulus or 0.0
-    if not 5e9 <= modulus <= 1e11:
-        said.append(Notice("modulus-unusual", modulus_pa=modulus))
-    return tuple(said)
+        notices.append(Notice("poisson-unusual", poisson=case.concrete.poisson))
+    return tuple(notices)

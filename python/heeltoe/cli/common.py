@@ -14,17 +14,21 @@ import typer
 from rich.console import Console
 from typer.core import TyperGroup
 
+from heeltoe.base.atomic_files import check_file, write_text
 from heeltoe.cli.streams import console, print_data
-from heeltoe.errors import InputError
-from heeltoe.plain import plain
+from heeltoe.errors.error import InputError
+from heeltoe.errors.sanitize import plain
 from heeltoe.units.systems import unit_system
-from heeltoe.whole import check_file, write_text
 
 if TYPE_CHECKING:
     from heeltoe.case.model import Case
 
 # Typer shows this class of its click by its heirs alone.
 _UsageError: Any = typer.BadParameter.__mro__[1]
+
+
+# Several of these look like a list of motions; the last one would win silently.
+_ONCE = ("--motion", "--pga")
 
 
 class Commands(TyperGroup):
@@ -37,6 +41,14 @@ class Commands(TyperGroup):
     def invoke(self, ctx: Any) -> Any:
         with _refused():
             return super().invoke(ctx)
+
+    def resolve_command(self, ctx: Any, args: list[str]) -> Any:
+        name, command, rest = super().resolve_command(ctx, args)
+        for option in _ONCE:
+            count = sum(argument.partition("=")[0] == option for argument in rest)
+            if count > 1:
+                raise InputError("option-repeated", option, count)
+        return name, command, rest
 
 
 @contextmanager
@@ -70,11 +82,12 @@ LONGEST_PATH = 5000
 CasePath = Annotated[str, typer.Argument(metavar="CASE.toml", help="The case file (TOML or JSON).")]
 Changes = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="PATH=VALUE", help="Set any field of the case, e.g. crack.friction=1.0."),
+    typer.Option("--set", metavar="PATH=VALUE", help="Set a field of the case, e.g. crack.friction=1.0."),
 ]
 JsonPath = Annotated[str | None, typer.Option("--json", metavar="FILE|-", help="Write the result as JSON.")]
+Details = Annotated[bool, typer.Option("--details", help="Print all results, not only the most important ones.")]
 UnitsName = Annotated[
-    str, typer.Option("--units", metavar="si|us", help="Units of all that people read; files of numbers stay SI.")
+    str, typer.Option("--units", metavar="si|us", help="Units of text and figures; JSON and tables stay SI.")
 ]
 
 CaseUnits = Annotated[
@@ -82,7 +95,7 @@ CaseUnits = Annotated[
     typer.Option(
         "--units",
         metavar="si|us",
-        help="Units of all that people read, in place of those of the case; files of numbers stay SI.",
+        help="Units of text and figures, instead of those of the case; JSON and tables stay SI.",
     ),
 ]
 

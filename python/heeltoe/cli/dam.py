@@ -8,12 +8,14 @@ from typing import Annotated
 
 import typer
 
+from heeltoe.base.atomic_files import check_directory, check_file
 from heeltoe.cli.common import (
     LONGEST_PATH,
     NO_RESULT,
     CasePath,
     CaseUnits,
     Changes,
+    Details,
     JsonPath,
     as_given,
     check_json,
@@ -23,21 +25,21 @@ from heeltoe.cli.common import (
     units_of,
 )
 from heeltoe.cli.streams import console
-from heeltoe.errors import InputError
-from heeltoe.plain import plain
-from heeltoe.whole import check_directory, check_file
+from heeltoe.errors.error import InputError
+from heeltoe.errors.sanitize import plain
 
 
 def periods(
     case: CasePath,
-    count: Annotated[int, typer.Option(metavar="N", help="How many of each.")] = 5,
+    count: Annotated[int, typer.Option(metavar="N", help="Number of periods of the dam and of its parts.")] = 5,
     set_: Changes = None,
     json_: JsonPath = None,
     units: CaseUnits = None,
+    details: Details = False,
 ) -> None:
-    """Say in which periods the dam vibrates: intact, and the parts above and below its crack by themselves."""
+    """Print the vibration periods of the intact dam and of the parts above and below its crack."""
     from heeltoe.case.read import read_case
-    from heeltoe.models.flexible.periods import dam_periods
+    from heeltoe.models.flexible.body.periods import dam_periods
     from heeltoe.views.terminal.dam import about_dam, print_periods
 
     check_units(units)
@@ -45,23 +47,23 @@ def periods(
     check_json(json_)
     with status() as say:
         say("building the elastic parts")
-        found = dam_periods(loaded, count, field="--count")
+        periods = dam_periods(loaded, count, field="--count")
     dam = about_dam(loaded, units_of(loaded, units))
-    finish(found.to_json(), json_, [], lambda console: print_periods(found, console, dam))
+    finish(periods.to_json(), json_, [], lambda console: print_periods(periods, console, dam, details=details))
 
 
 def overturning(
     case: CasePath,
     pulse: Annotated[str, typer.Option(metavar="sine|half-sine|cosine", help="Shape of the pulse.")] = "sine",
-    count: Annotated[int, typer.Option(metavar="N", help="How many frequencies, and how many amplitudes.")] = 60,
+    count: Annotated[int, typer.Option(metavar="N", help="Number of frequencies and of amplitudes.")] = 60,
     set_: Changes = None,
     json_: JsonPath = None,
     out: Annotated[Path, typer.Option(metavar="DIR", help="Write map and figure here.")] = Path("overturning"),
     units: CaseUnits = None,
 ) -> None:
-    """Draw which pulses overturn the block: a map over their frequency and amplitude, with the safe gap."""
+    """Draw which pulses overturn the block, over frequency and amplitude, with the safe gap."""
     from heeltoe.case.read import read_case
-    from heeltoe.study.overturning import overturning_map
+    from heeltoe.study.small.overturning import overturning_map
     from heeltoe.views.files.write import OVERTURNING, write_overturning
     from heeltoe.views.terminal.dam import about_dam, print_overturning
 
@@ -71,33 +73,34 @@ def overturning(
     check_json(json_)
     with status() as say:
         say(f"running {count * count} pulses")
-        found = overturning_map(loaded, pulse, count=count)
-        written = write_overturning(found, out)
+        overturning = overturning_map(loaded, pulse, count=count)
+        written = write_overturning(overturning, out)
     dam = about_dam(loaded, units_of(loaded, units))
-    finish(found.to_json(), json_, written, lambda console: print_overturning(found, console, dam))
+    finish(overturning.to_json(), json_, written, lambda console: print_overturning(overturning, console, dam))
 
 
 def animate(
     case: CasePath,
-    model: Annotated[
-        str, typer.Option(metavar="auto|rigid|flexible|decoupled", help="What the dam is taken for.")
-    ] = "auto",
+    model: Annotated[str, typer.Option(metavar="auto|rigid|flexible|decoupled", help="Model of the dam.")] = "auto",
     to: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="A .mp4, .gif or .html; CASE.animation.html here if not said.")
+        Path | None,
+        typer.Option(metavar="FILE", help="Output file: .mp4, .gif or .html (default: CASE.animation.html)."),
     ] = None,
-    exaggerate: Annotated[
-        str, typer.Option(metavar="N|auto", help="Draw displacements N times as far as they are.")
-    ] = "auto",
-    fps: Annotated[float, typer.Option(metavar="30", help="Pictures per second of a video.")] = 30.0,
-    speed: Annotated[float, typer.Option(metavar="1.0", help="Seconds of the earthquake per second.")] = 1.0,
-    from_: Annotated[str, typer.Option("--from", metavar="0s", help="Where to start.")] = "0 s",
-    until: Annotated[str | None, typer.Option(metavar="20s", help="Where to end.")] = None,
-    motion: Annotated[str | None, typer.Option(metavar="FILE-or-NAME", help="Another ground motion.")] = None,
+    exaggerate: Annotated[str, typer.Option(metavar="N|auto", help="Magnify displacements N times.")] = "auto",
+    fps: Annotated[float, typer.Option(metavar="30", help="Frames per second of a video.")] = 30.0,
+    speed: Annotated[
+        float, typer.Option(metavar="1.0", help="Playback speed, in seconds of the earthquake per second.")
+    ] = 1.0,
+    from_: Annotated[str, typer.Option("--from", metavar="0s", help="Time at which to start.")] = "0 s",
+    until: Annotated[str | None, typer.Option(metavar="20s", help="Time at which to end.")] = None,
+    motion: Annotated[
+        str | None, typer.Option(metavar="FILE-or-NAME", help="Ground motion to use instead of that of the case.")
+    ] = None,
     pga: Annotated[str | None, typer.Option(metavar="0.4g", help="Scale the motion to this peak.")] = None,
     set_: Changes = None,
     units: CaseUnits = None,
 ) -> None:
-    """Show what the dam does: a video, or a page that plays in any browser without a network."""
+    """Animate the dam: a video, or a page that plays offline in any browser."""
     from time import perf_counter
 
     from heeltoe.case.read import read_case

@@ -19,13 +19,22 @@ def explain(
         ),
     ] = None,
     json_: JsonPath = None,
+    schema: Annotated[
+        bool, typer.Option("--schema", help="Print the JSON schema of `heeltoe run --json`, with units and meanings.")
+    ] = False,
 ) -> None:
     """Say what a field of a case or a study, a key of the JSON or a column of a table means."""
+    if schema:
+        from heeltoe.result.schema import run_schema
+        from heeltoe.result.write import json_text
+
+        typer.echo(json_text(run_schema()))
+        return
     from heeltoe.views.explain.find import everything
     from heeltoe.views.explain.find import explain as find
     from heeltoe.views.terminal.explain import as_json, print_list, print_meanings
 
-    found = everything() if name is None else find(name)
+    entry = everything() if name is None else find(name)
     check_json(json_)
     show = print_list if name is None else print_meanings
-    finish(as_json(found), json_, [], lambda console: show(found, console))
+    finish(as_json(entry), json_, [], lambda console: show(entry, console))

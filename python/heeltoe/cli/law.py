@@ -8,19 +8,19 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from heeltoe.base.atomic_files import check_directory
 from heeltoe.cli.common import CaseUnits, Changes, JsonPath, check_json, check_units, finish, units_of
-from heeltoe.errors import InputError
-from heeltoe.whole import check_directory
+from heeltoe.errors.error import InputError
 
 
 def law(
-    name: Annotated[str, typer.Argument(metavar="NAME|CASE.toml", help="Name of a law, or a case.")],
+    name: Annotated[str, typer.Argument(metavar="NAME|CASE.toml", help="Name of a friction law, or a case file.")],
     set_: Changes = None,
     json_: JsonPath = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write the figure here.")] = None,
     units: CaseUnits = None,
 ) -> None:
-    """Draw a friction law: by its name with sample numbers, or those of the cracks of a case."""
+    """Draw a friction law by name with sample numbers, or the laws of all cracks of a case."""
     from heeltoe.case.read import read_case
     from heeltoe.mechanics.law_curve import curves_of, sample_curve
     from heeltoe.views.terminal.law import print_law
@@ -42,10 +42,10 @@ def law(
         check_directory(out, "--out", LAW)
         written = write_law(curves, out)
     first, *others = curves.values()
-    told = first.to_json() | ({"others": [each.to_json() for each in others]} if others else {})
+    data = first.to_json() | ({"others": [other.to_json() for other in others]} if others else {})
 
     def say(console: Console) -> None:
         for curve in curves.values():
             print_law(curve, console, shown)
 
-    finish(told, json_, written, say)
+    finish(data, json_, written, say)

@@ -10,6 +10,7 @@ from typing import Annotated, Never
 
 import typer
 
+from heeltoe.base.atomic_files import check_directory, write_text, write_whole
 from heeltoe.cli import app as app_command
 from heeltoe.cli import dam as dam_commands
 from heeltoe.cli import explain as explain_command
@@ -20,9 +21,8 @@ from heeltoe.cli import statics as statics_command
 from heeltoe.cli import study as study_command
 from heeltoe.cli.common import BAD_INPUT, BUG, INTERRUPTED, LONGEST_PATH, NO_RESULT, app
 from heeltoe.cli.streams import console, streams
-from heeltoe.errors import InputError
-from heeltoe.plain import plain
-from heeltoe.whole import check_directory, write_text, write_whole
+from heeltoe.errors.error import InputError
+from heeltoe.errors.sanitize import plain
 
 _OBJECTS_BEFORE_COLLECTING = 200_000
 # What a panic of the kernel is raised as; named, so that nothing is loaded for it.
@@ -40,8 +40,8 @@ def main() -> None:
         with streams():
             app()
     except InputError as error:
-        for each in (error, *error.others):
-            print(f"heeltoe: {each}", file=sys.stderr)
+        for problem in (error, *error.others):
+            print(f"heeltoe: {problem}", file=sys.stderr)
         sys.exit(BAD_INPUT)
     except MemoryError:
         _no_memory()
@@ -57,13 +57,13 @@ def main() -> None:
     except BaseException as error:
         if type(error).__name__ not in _PANICS:
             raise
-        asked = "please report it with the command and its files"
-        print(f"heeltoe: this is a bug of its kernel: {plain(error)}; {asked}", file=sys.stderr)
+        remedy = "please report it with the command and its files"
+        print(f"heeltoe: this is a bug of its kernel: {plain(error)}; {remedy}", file=sys.stderr)
         sys.exit(BUG)
 
 
 def _no_memory() -> Never:
-    print("heeltoe: there is not enough memory for this; give the program more, or ask for less", file=sys.stderr)
+    print("heeltoe: not enough memory; provide more memory, or request a smaller run", file=sys.stderr)
     sys.exit(NO_RESULT)
 
 
@@ -73,8 +73,8 @@ def _known(ended: BaseException) -> list[str]:
     return [*getattr(ended, "__notes__", ()), *(_known(cause) if cause else ())]
 
 
-def _version(wanted: bool) -> None:
-    if wanted:
+def _version(shown: bool) -> None:
+    if shown:
         from heeltoe.result.write import build_info
 
         print(" ".join(f"{name} {version}" for name, version in build_info().items()))
@@ -84,14 +84,14 @@ def _version(wanted: bool) -> None:
 @app.callback()
 def _options(
     version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and leave.")
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and exit.")
     ] = False,
 ) -> None:
     pass
 
 
 def validate(
-    name: Annotated[str | None, typer.Argument(help="One of the cases; all of them without it.")] = None,
+    name: Annotated[str | None, typer.Argument(help="Reference case to recompute (default: all).")] = None,
 ) -> None:
     """Recompute the reference cases: reference, ours, deviation, verdict."""
     from heeltoe.validation.table import run_all
@@ -116,10 +116,10 @@ def new(
 
 def examples(
     directory: Annotated[
-        Path, typer.Argument(metavar="DIR", show_default=False, help="A new directory; examples if not given.")
+        Path, typer.Argument(metavar="DIR", show_default=False, help="New directory to write into (default: examples).")
     ] = Path("examples"),
 ) -> None:
-    """Write the examples, cases and studies, to start from."""
+    """Write example cases and studies to start from."""
     from heeltoe.case.examples import copy_examples
 
     if os.path.lexists(directory):

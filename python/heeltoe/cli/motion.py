@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from heeltoe.cli.common import JsonPath, UnitsName, check_json, finish
+from heeltoe.cli.common import Details, JsonPath, UnitsName, check_json, finish
 from heeltoe.cli.streams import console
-from heeltoe.errors import InputError
-from heeltoe.plain import plain
+from heeltoe.errors.error import InputError
+from heeltoe.errors.sanitize import plain
 from heeltoe.units.parse import STANDARD_GRAVITY, parse
 from heeltoe.units.systems import unit_system
 
@@ -28,25 +28,31 @@ if TYPE_CHECKING:
 def motion(
     files: Annotated[list[str] | None, typer.Argument(metavar="FILE-or-NAME...")] = None,
     unit: Annotated[str | None, typer.Option(help="Unit of a file that does not state it: g, cm/s^2, ...")] = None,
-    time_step: Annotated[str | None, typer.Option(metavar="0.01s", help="Of a file that does not state it.")] = None,
-    channel: Annotated[str | None, typer.Option(help="Of a file of several: its number or direction.")] = None,
+    time_step: Annotated[
+        str | None, typer.Option(metavar="0.01s", help="Time step of a file that does not state it.")
+    ] = None,
+    channel: Annotated[
+        str | None, typer.Option(help="Channel to read from a multi-channel file (number or direction).")
+    ] = None,
     match: Annotated[
-        str | None, typer.Option(metavar="en1998:0.3g,B | asce7:0.9g,0.4g,8s | FILE", help="Match it to this spectrum.")
+        str | None,
+        typer.Option(metavar="en1998:0.3g,B | asce7:0.9g,0.4g,8s | FILE", help="Match the motion to this spectrum."),
     ] = None,
     out: Annotated[Path | None, typer.Option(metavar="FILE.txt", help="Write the motion in two columns, in g.")] = None,
     figure: Annotated[
-        Path | None, typer.Option(metavar="FILE.png", help="Where to draw it; NAME.motion.png here if not said.")
+        Path | None, typer.Option(metavar="FILE.png", help="File of the figure (default: NAME.motion.png).")
     ] = None,
-    no_figure: Annotated[bool, typer.Option("--no-figure", help="Do not draw it.")] = False,
+    no_figure: Annotated[bool, typer.Option("--no-figure", help="Draw no figure.")] = False,
     json_: JsonPath = None,
     units: UnitsName = "si",
-    list_: Annotated[bool, typer.Option("--list", help="List the records that can be used by name.")] = False,
+    details: Details = False,
+    list_: Annotated[bool, typer.Option("--list", help="List the records available by name.")] = False,
 ) -> None:
-    """Say what is in a record, or in the components of one: peaks, measures, origin, warnings; and draw it.
+    """Print and draw a record, or the components of one: peaks, intensity measures, origin, warnings.
 
-    PEER AT2, COSMOS and CSMIP V2, USGS SMC, K-NET, ESM and ITACA ASC, AFAD, GeoNet V1A and V2A, USC V2, CSMNC, UNAM,
-    BHRC and RENADIC V1, columns with or without a header, miniSEED and SAC (heeltoe[seismology]), all of these in
-    zip, tar, gz or bz2.
+    Formats: PEER AT2, COSMOS and CSMIP V2, USGS SMC, K-NET, ESM and ITACA ASC, AFAD, GeoNet V1A and V2A, USC V2,
+    CSMNC, UNAM, BHRC and RENADIC V1, columns with or without a header, miniSEED and SAC (with
+    the package obspy); all of them also in zip, tar, gz or bz2.
     """
     from heeltoe.motion.records.catalog import available
 
@@ -59,34 +65,36 @@ def motion(
     if not files:
         raise InputError("record-missing", "FILE-or-NAME")
     check_json(json_)
-    motions = [each for file in files for each in _motions(file, unit, time_step, channel)]
+    motions = [motion for file in files for motion in _motions(file, unit, time_step, channel)]
     misfits: list[Misfit] = []
     if match is not None:
         motions, misfits = _matched(motions, match)
     written = _written(motions, out, None if no_figure else figure, not no_figure, len(files) > 1, units)
     data = {} if json_ is None else _json(motions, misfits)
-    finish(data, json_, written, lambda shown: _show(motions, misfits, shown, units, len(files) > 1))
+    finish(data, json_, written, lambda shown: _show(motions, misfits, shown, units, len(files) > 1, details))
 
 
-def _show(motions: list[GroundMotion], misfits: list[Misfit], words: Console, units: str, components: bool) -> None:
+def _show(
+    motions: list[GroundMotion], misfits: list[Misfit], words: Console, units: str, components: bool, details: bool
+) -> None:
     from heeltoe.motion.check import check_pair
-    from heeltoe.views.terminal.common import print_warnings
     from heeltoe.views.terminal.motion import print_motion, print_motions
+    from heeltoe.views.terminal.render import print_warnings
 
     side_by_side = 1 < len(motions) <= _SIDE_BY_SIDE
     if side_by_side:
-        print_motions(motions, words, units)
-    for k, each in enumerate(motions):
+        print_motions(motions, words, units, details=details)
+    for k, motion in enumerate(motions):
         if not side_by_side:
-            print_motion(each, words, units)
+            print_motion(motion, words, units, details=details)
         if misfits:
-            whose = f"{plain(each.name)}: " if side_by_side else "  "
+            whose = f"{plain(motion.name)}: " if side_by_side else "  "
             words.print(f"{whose}{misfits[k]}", soft_wrap=True, markup=False)
         if not side_by_side:
             words.print()
     if components:
-        said = [each.text(units) for other in motions[1:] for each in check_pair(motions[0], other)]
-        print_warnings(tuple(dict.fromkeys(said)), words)
+        notices = [notice.text(units) for other in motions[1:] for notice in check_pair(motions[0], other)]
+        print_warnings(tuple(dict.fromkeys(notices)), words)
     elif len(motions) > 1:
         words.print(f"{len(motions)} channels; --channel NUMBER shows and draws one", soft_wrap=True)
 
@@ -96,14 +104,14 @@ def _json(motions: list[GroundMotion], misfits: list[Misfit]) -> dict[str, Any]:
     from heeltoe.motion.spectrum import response_spectrum
     from heeltoe.result.write import motion_json
 
-    said = []
-    for k, each in enumerate(motions):
-        spectrum = response_spectrum(each)
-        said.append(
+    rows = []
+    for k, motion in enumerate(motions):
+        spectrum = response_spectrum(motion)
+        rows.append(
             {
-                **motion_json(each, STANDARD_GRAVITY),
-                **{name: getattr(each, name) for name in _ABOUT},
-                "warnings": [warning.to_json() for warning in each.warnings],
+                **motion_json(motion, STANDARD_GRAVITY),
+                **{name: getattr(motion, name) for name in _ABOUT},
+                "warnings": [warning.to_json() for warning in motion.warnings],
                 "spectrum": {
                     "damping": spectrum.damping,
                     "period_s": spectrum.period.tolist(),
@@ -112,41 +120,41 @@ def _json(motions: list[GroundMotion], misfits: list[Misfit]) -> dict[str, Any]:
                 **({"misfit": {"rms": misfits[k].rms, "largest": misfits[k].largest}} if misfits else {}),
             }
         )
-    return {"motions": said}
+    return {"motions": rows}
 
 
 def _matched(motions: list[GroundMotion], text: str) -> tuple[list[GroundMotion], list[Misfit]]:
     """Match each motion to a spectrum, as far as that goes and the motion lasts."""
     from heeltoe.motion.matching import match
-    from heeltoe.motion.target_names import target_of
+    from heeltoe.motion.targets import target_of
 
     target = target_of(text, "--match")
     shortest, longest = max(0.1, target.shortest), min(3.0, target.longest)
-    pairs = [match(each, target, shortest=shortest, longest=min(longest, each.duration)) for each in motions]
-    return [each for each, _ in pairs], [misfit for _, misfit in pairs]
+    pairs = [match(motion, target, shortest=shortest, longest=min(longest, motion.duration)) for motion in motions]
+    return [pair for pair, _ in pairs], [misfit for _, misfit in pairs]
 
 
 def _written(
     motions: list[GroundMotion], out: Path | None, figure: Path | None, drawn: bool, components: bool, units: str
 ) -> list[Path]:
     """Write the figures, one for each component, and the motion itself where that is wanted."""
+    from heeltoe.base.atomic_files import write_text
     from heeltoe.views.figures.motion import write_motion_figure
-    from heeltoe.whole import write_text
 
-    for option, given in (("--figure", figure), ("--out", out)):
-        if given is not None and len(motions) > 1:
+    for option, option_value in (("--figure", figure), ("--out", out)):
+        if option_value is not None and len(motions) > 1:
             raise InputError("motion-one", option, f"{len(motions)} motions")
     if figure is not None and figure.suffix.lower() not in (".png", ".svg", ".pdf"):
         raise InputError("figure-format", "--figure", figure)
     written = []
     if drawn and (components or len(motions) == 1):
-        for each in motions:
-            place = figure or Path(f"{_file_name(each.name)}.motion.png")
-            written.append(write_motion_figure(each, STANDARD_GRAVITY, place, units))
+        for motion in motions:
+            place = figure or Path(f"{_file_name(motion.name)}.motion.png")
+            written.append(write_motion_figure(motion, STANDARD_GRAVITY, place, units))
     if out is not None:
         rows = zip(motions[0].time, motions[0].acceleration / STANDARD_GRAVITY, strict=True)
-        said = f"# processing: {'; '.join(motions[0].processing)}\n" if motions[0].processing else ""
-        text = f"{said}# time [s], acceleration [g]\n" + "".join(f"{t:.6f} {a:.9e}\n" for t, a in rows)
+        header = f"# processing: {'; '.join(motions[0].processing)}\n" if motions[0].processing else ""
+        text = f"{header}# time [s], acceleration [g]\n" + "".join(f"{t:.6f} {a:.9e}\n" for t, a in rows)
         written.append(write_text(out, text, "--out"))
     return written
 
@@ -154,8 +162,8 @@ def _written(
 def _motions(file: str, unit: str | None, time_step: str | None, channel: str | None) -> list[GroundMotion]:
     """Read what is to be looked at: all channels of a file, the one wanted, or a motion made to order."""
     from heeltoe.motion.records import read_channels, read_record
-    from heeltoe.motion.records.catalog import find
-    from heeltoe.motion.scenario import PREFIX, synthetic
+    from heeltoe.motion.records.catalog import PREFIX, find
+    from heeltoe.motion.scenario import synthetic
 
     if file.startswith(PREFIX):
         for option, value in (("--unit", unit), ("--time-step", time_step), ("--channel", channel)):

@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import typer
 from typer.core import TyperCommand
 
+from heeltoe.base.atomic_files import check_directory, files
 from heeltoe.cli.common import (
     NO_RESULT,
     CasePath,
     CaseUnits,
     Changes,
+    Details,
     JsonPath,
     as_given,
     check_json,
@@ -25,14 +27,13 @@ from heeltoe.cli.common import (
     status,
     units_of,
 )
-from heeltoe.errors import InputError
-from heeltoe.whole import check_directory, files
+from heeltoe.errors.error import InputError
 
 if TYPE_CHECKING:
     from heeltoe.case.model import Case
-    from heeltoe.models.flexible.cost import Cost
+    from heeltoe.models.flexible.body.cost import Cost
     from heeltoe.result.response import Response
-    from heeltoe.study.small import SmallStudy
+    from heeltoe.study.small.run_table import SmallStudy
 
 #: Changes of fields, as options give them.
 Given = Sequence[str | Mapping[str, Any]]
@@ -42,14 +43,14 @@ class Run(TyperCommand):
     """A command whose option ``--spread`` needs no value, which is empty then; typer itself knows no such option."""
 
     def parse_args(self, ctx: typer.Context, args: list[str]) -> list[str]:  # type: ignore[override]
-        given = list(args)
+        words = list(args)
         for place, argument in enumerate(args):
             if argument == "--":
                 break
             following = args[place + 1] if place + 1 < len(args) else "--"
             if argument == "--spread" and (following.startswith("--") or following.endswith((".toml", ".json"))):
-                given[place] = "--spread="
-        return super().parse_args(ctx, given)
+                words[place] = "--spread="
+        return super().parse_args(ctx, words)
 
 
 def run(
@@ -58,25 +59,27 @@ def run(
         str,
         typer.Option(
             metavar="auto|rigid|decoupled|flexible|both",
-            help="What the dam is taken for; auto: elastic with a block beside it where the case gives a modulus.",
+            help="Model of the dam; auto: elastic with a rigid block beside it if the case has a modulus.",
         ),
     ] = "auto",
-    motion: Annotated[str | None, typer.Option(metavar="FILE-or-NAME", help="Another ground motion.")] = None,
+    motion: Annotated[
+        str | None, typer.Option(metavar="FILE-or-NAME", help="Ground motion to use instead of that of the case.")
+    ] = None,
     pga: Annotated[str | None, typer.Option(metavar="0.4g", help="Scale the motion to this peak.")] = None,
-    reverse: Annotated[bool, typer.Option("--reverse", help="Turn the motion round.")] = False,
+    reverse: Annotated[bool, typer.Option("--reverse", help="Reverse the sign of the motion.")] = False,
     duration: Annotated[str | None, typer.Option(metavar="30s", help="Length of the run.")] = None,
     set_: Changes = None,
     spread: Annotated[
         str | None,
         typer.Option(
             metavar="[N|none]",
-            help="Run N times more, 11 if not said, the shaking scaled by 0.99 to 1.01: what the result hangs on. "
-            "A report of a rigid or decoupled block has it without asking, but for none.",
+            help="Repeat the run N times (default 11) with the shaking scaled by 0.99 to 1.01: the sensitivity of "
+            "the result. Reports of rigid and decoupled models include it by default; use none to skip.",
         ),
     ] = None,
     json_: JsonPath = None,
     out: Annotated[Path | None, typer.Option(metavar="DIR", help="Write figures, histories and JSON here.")] = None,
-    csv: Annotated[bool, typer.Option("--csv", help="Histories as CSV instead of Parquet.")] = False,
+    csv: Annotated[bool, typer.Option("--csv", help="Write histories as CSV instead of Parquet.")] = False,
     vtk: Annotated[
         bool, typer.Option("--vtk", help="With --out: VTK files of the flexible model for ParaView.")
     ] = False,
@@ -84,22 +87,23 @@ def run(
     output_step: Annotated[
         str | None,
         typer.Option(
-            metavar="0.001s", help="Spacing of the histories; without it the record's own, 0.01 s if flexible."
+            metavar="0.001s",
+            help="Time step of the histories (default: that of the record; 0.01 s for the flexible model).",
         ),
     ] = None,
     evidence: Annotated[
         str | None,
         typer.Option(
             metavar="full|step|none",
-            help="What the flexible model is compared with: another step and mesh and the shaking varied by 1 %, "
-            "another step, or nothing.",
+            help="Convergence checks of the flexible model: full (other step, other mesh, shaking varied by 1 %), "
+            "step (other step only) or none.",
         ),
     ] = None,
     vary: Annotated[
         list[str] | None,
         typer.Option(
             metavar="PATH=V1,V2,...",
-            help="A small study: every combination of the values of some fields, a list, or "
+            help="Run every combination of field values: a list, or "
             "{from=V1,to=V2,count=N} and the other distributions of a study file.",
         ),
     ] = None,
@@ -107,13 +111,13 @@ def run(
         bool,
         typer.Option(
             "--report",
-            help="Write a report as PDF and HTML, into --out or a directory named by the case, with figures in "
-            "the report.",
+            help="Write a report with figures as PDF and HTML into --out, or into a directory named after the case.",
         ),
     ] = False,
+    details: Details = False,
 ) -> None:
-    """Run a case and say what the dam does."""
-    asked = _Asked(model, spread, json_, out, units, csv, vtk, vary, report)
+    """Run a case and print what the dam does."""
+    request = _Asked(model, spread, json_, out, units, csv, vtk, vary, report, details)
     changes = list(set_ or [])
     options = (
         ("motion.file", motion and json.dumps(as_given(motion))),
@@ -122,7 +126,7 @@ def run(
         ("flexible.evidence", evidence),
     )
     changes += [f"{name}={value}" for name, value in options if value is not None]
-    _run(case, changes, reverse, output_step, asked)
+    _run(case, changes, reverse, output_step, request)
 
 
 @dataclass(frozen=True)
@@ -138,6 +142,7 @@ class _Asked:
     vtk: bool
     vary: list[str] | None
     report: bool
+    details: bool
 
     @property
     def suffix(self) -> str:
@@ -157,12 +162,12 @@ class _Asked:
         if self.vtk and self.out is None and not self.report:
             raise InputError("vtk-without-out", "--vtk")
         if self.vary:
-            for option, given in (
+            for option, option_value in (
                 ("--vtk", self.vtk),
                 ("--spread", self.spread is not None),
                 ("--report", self.report),
             ):
-                if given:
+                if option_value:
                     raise InputError("vary-option", option)
 
     def check_elastic(self, case: Case) -> None:
@@ -178,86 +183,86 @@ class _Asked:
             return "cheap" if self.report else None
         if self.spread == "none":
             return None
-        from heeltoe.study.spread import RUNS, check_runs
+        from heeltoe.study.small.spread import RUNS, check_runs
 
         return check_runs(self.spread or RUNS, "--spread")
 
 
-def _run(path: str, changes: Given, reverse: bool, output_step: str | None, asked: _Asked) -> None:
+def _run(path: str, changes: Given, reverse: bool, output_step: str | None, request: _Asked) -> None:
     """Read the case with its changes, run it, write and show what is asked for."""
     from heeltoe.case.read import read_case
-    from heeltoe.case.sequence import turned_round
     from heeltoe.units.parse import parse
     from heeltoe.views.terminal.show import show
 
-    asked.check()
-    runs = asked.runs()
+    request.check()
+    runs = request.runs()
     case = read_case(path, changes)
     if reverse and case.motion is not None:
-        changes = [*changes, turned_round(case)]
+        changes = [*changes, case.reversal()]
         case = read_case(path, changes)
-    asked.check_elastic(case)
-    units = units_of(case, asked.units)
+    request.check_elastic(case)
+    units = units_of(case, request.units)
     step = None if output_step is None else parse(output_step, "duration", "--output-step")
-    place = asked.out or (Path(f"{Path(path).stem}-report") if asked.report else None)
+    place = request.out or (Path(f"{Path(path).stem}-report") if request.report else None)
     if place is not None:
         from heeltoe.views.files.write import names
 
-        check_directory(place, "--out", names(asked.suffix, report=asked.report))
-    check_json(asked.json)
+        check_directory(place, "--out", names(request.suffix, report=request.report))
+    check_json(request.json)
     with status() as say:
         result: Response | SmallStudy
-        if asked.vary:
-            result = _table(path, changes, asked, step, say)
+        if request.vary:
+            result = _table(path, changes, request, step, say)
         else:
-            from heeltoe.study.analysis import analyse
+            from heeltoe.study.small.analysis import analyse
 
-            result = analyse(case, asked.model, output_step=step, spread=runs, say=say)
+            result = analyse(case, request.model, output_step=step, spread=runs, say=say)
         # Files first: if they cannot be written that is all there is to say.
         earlier = [] if place is None else files(place)
-        written = [] if place is None else _write(result, case, asked, place, say)
+        written = [] if place is None else _write(result, case, request, place, say)
     removed = [] if place is None else [place / name for name in earlier if not (place / name).exists()]
-    finish(result.to_json(), asked.json, written, lambda console: show(result, console, units), removed)
+    details = case if request.details else None
+    finish(result.to_json(), request.json, written, lambda console: show(result, console, units, details), removed)
     if not result.ok:
         raise typer.Exit(NO_RESULT)
 
 
-def _table(path: str, changes: Given, asked: _Asked, step: float | None, say: Callable[[str], None]) -> SmallStudy:
+def _table(path: str, changes: Given, request: _Asked, step: float | None, say: Callable[[str], None]) -> SmallStudy:
     """Run a table of runs."""
     from heeltoe.models.run import cost_of
     from heeltoe.models.run import run as run_model
-    from heeltoe.study.small import parse_axes, run_small
+    from heeltoe.study.small.run_table import parse_axes, run_small
 
-    def run_one(each: Case) -> Response:
-        return run_model(each, asked.model, output_step=step)
+    def run_one(varied: Case) -> Response:
+        return run_model(varied, request.model, output_step=step)
 
-    def cost(each: Case) -> Cost | None:
-        return cost_of(each, asked.model, step)
+    def cost(varied: Case) -> Cost | None:
+        return cost_of(varied, request.model, step)
 
     def progress(done: int, of: int) -> None:
-        say(f"running the {asked.model} model, {done} of {of} runs done")
+        say(f"running the {request.model} model, {done} of {of} runs done")
 
-    return run_small(path, changes, parse_axes(asked.vary or []), run_one, cost=cost, progress=progress)
+    return run_small(path, changes, parse_axes(request.vary or []), run_one, cost=cost, progress=progress)
 
 
 def _write(
-    result: Response | SmallStudy, case: Case, asked: _Asked, place: Path, say: Callable[[str], None]
+    result: Response | SmallStudy, case: Case, request: _Asked, place: Path, say: Callable[[str], None]
 ) -> list[Path]:
     """Write files and report; what asks for a report alone has its figures in it."""
-    from heeltoe.study.small import SmallStudy
+    from heeltoe.study.small.run_table import SmallStudy
     from heeltoe.views.files.write import figures_of, write_run
 
     say("writing")
-    units = units_of(case, asked.units)
+    units = units_of(case, request.units)
     figures = figures_of(result, case, units)
 
     def report(fresh: Path) -> None:
-        if not asked.report or isinstance(result, SmallStudy):
+        if not request.report or isinstance(result, SmallStudy):
             return
         from heeltoe.views.report.write import build_report, write_kinds
 
         say("writing the report")
         write_kinds(build_report(case, result, units=units, command=command_line(), figures=figures), fresh)
 
-    shown = figures if asked.out else {}
-    return write_run(result, place, shown, suffix=asked.suffix, vtk=asked.vtk, report=report)
+    shown = figures if request.out else {}
+    return write_run(result, place, shown, suffix=request.suffix, vtk=request.vtk, report=report)

@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from heeltoe.base.atomic_files import check_directory, files
 from heeltoe.cli.common import (
     CasePath,
     CaseUnits,
     Changes,
+    Details,
     JsonPath,
     as_given,
     check_json,
@@ -23,13 +25,14 @@ from heeltoe.cli.common import (
     status,
     units_of,
 )
-from heeltoe.errors import InputError
-from heeltoe.whole import check_directory, files
+from heeltoe.errors.error import InputError
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from heeltoe.case.model import Case
     from heeltoe.models.statics.joints import Joints
-    from heeltoe.study.statics import After, StaticsTable
+    from heeltoe.study.small.statics import After, StaticsTable
 
 
 def statics(
@@ -37,46 +40,51 @@ def statics(
     set_: Changes = None,
     criteria: Annotated[
         str | None,
-        typer.Option(metavar="USACE|USBR|FERC|CDA|CADAM3D|FILE.toml", help="Whose required factors to judge by."),
+        typer.Option(metavar="USACE|USBR|FERC|CDA|CADAM3D|FILE.toml", help="Criteria with the required factors."),
     ] = None,
     slip: Annotated[
         str | None,
-        typer.Option(metavar="0.15m", help="Residual slip of the post-seismic case; without it that of a run."),
+        typer.Option(metavar="0.15m", help="Residual slip of the post-seismic case (default: computed by a run)."),
     ] = None,
     model: Annotated[
         str | None,
         typer.Option(
-            metavar="auto|rigid|decoupled|flexible", help="Whose run says that slip, whatever slip the case gives."
+            metavar="auto|rigid|decoupled|flexible", help="Model used to compute the residual slip; overrides the case."
         ),
     ] = None,
-    motion: Annotated[str | None, typer.Option(metavar="FILE-or-NAME", help="Another ground motion.")] = None,
+    motion: Annotated[
+        str | None, typer.Option(metavar="FILE-or-NAME", help="Ground motion to use instead of that of the case.")
+    ] = None,
     pga: Annotated[str | None, typer.Option(metavar="0.4g", help="Scale the motion to this peak.")] = None,
     vary: Annotated[
         list[str] | None,
-        typer.Option(metavar="PATH=V1,V2,...", help="A table of every combination of values, as of `heeltoe run`."),
+        typer.Option(metavar="PATH=V1,V2,...", help="Check every combination of field values, as in `heeltoe run`."),
     ] = None,
-    sheet: Annotated[bool, typer.Option("--sheet", help="Show the calculation sheet of each load case.")] = False,
+    sheet: Annotated[bool, typer.Option("--sheet", help="Print the calculation sheet of every load case.")] = False,
     json_: JsonPath = None,
     out: Annotated[
         Path | None, typer.Option(metavar="DIR", help="Write figures, calculation sheets, checks and JSON here.")
     ] = None,
     report: Annotated[
         bool,
-        typer.Option("--report", help="Write a report as PDF and HTML, into --out or a directory named by the case."),
+        typer.Option(
+            "--report", help="Write a report as PDF and HTML into --out, or into a directory named after the case."
+        ),
     ] = False,
     every_section: Annotated[
-        bool, typer.Option("--every-section", help="Figures of every section, not of the governing one alone.")
+        bool, typer.Option("--every-section", help="Draw every section, not only the governing one.")
     ] = False,
     units: CaseUnits = None,
+    details: Details = False,
 ) -> None:
-    """Judge the stability before, during (pseudo-static) and after the earthquake."""
-    asked = _Asked(slip, model, motion, pga, vary or [], sheet, out, report, every_section)
-    asked.check()
+    """Check the stability before, during (pseudo-static) and after the earthquake."""
+    request = _Asked(slip, model, motion, pga, vary or [], sheet, out, report, every_section, details)
+    request.check()
     check_units(units)
     changes = [*(set_ or []), *([] if criteria is None else [_judged_by(criteria)])]
     options = (("file", motion and json.dumps(as_given(motion))), ("pga", pga))
     changes += [f"motion.{name}={value}" for name, value in options if value is not None]
-    _statics(case, changes, json_, units, asked)
+    _statics(case, changes, json_, units, request)
 
 
 def _judged_by(criteria: str) -> str:
@@ -99,6 +107,7 @@ class _Asked:
     out: Path | None
     report: bool
     every_section: bool
+    details: bool
 
     def check(self) -> None:
         """Refuse what cannot be, or does not go together, before anything is read."""
@@ -106,9 +115,9 @@ class _Asked:
             from heeltoe.models.run import check_model
 
             check_model(self.model, "--model")
-        for option, given in (("--model", self.model), ("--motion", self.motion), ("--pga", self.pga)):
-            if self.slip is not None and given is not None:
-                raise InputError("contradiction", "--slip", self.slip, other=f"{option} {given}")
+        for option, option_value in (("--model", self.model), ("--motion", self.motion), ("--pga", self.pga)):
+            if self.slip is not None and option_value is not None:
+                raise InputError("contradiction", "--slip", self.slip, other=f"{option} {option_value}")
         if self.report:
             from heeltoe.views.report.write import check_packages
 
@@ -116,14 +125,14 @@ class _Asked:
         if self.every_section and self.out is None and not self.report:
             raise InputError("needs-other", "--every-section", other="--out or --report")
         options = (("--report", self.report), ("--sheet", self.sheet), ("--every-section", self.every_section))
-        for option, asked in options:
-            if self.vary and asked:
+        for option, ticked in options:
+            if self.vary and ticked:
                 raise InputError("vary-option", option)
 
     def after(self) -> After:
         """Return where the slip of the post-seismic case comes from."""
         from heeltoe.models.run import AUTO
-        from heeltoe.study.statics import After
+        from heeltoe.study.small.statics import After
         from heeltoe.units.parse import parse
 
         if self.slip is not None:
@@ -132,16 +141,16 @@ class _Asked:
         return After(model=self.model or (AUTO if shaken else None))
 
 
-def _statics(path: str, changes: list[str], json_: str | None, units: str | None, asked: _Asked) -> None:
+def _statics(path: str, changes: list[str], json_: str | None, units: str | None, request: _Asked) -> None:
     """Read the case with its changes, judge it, write and show what is asked for."""
     from heeltoe.case.read import read_case
-    from heeltoe.study.small import parse_axes
-    from heeltoe.study.statics import judge, statics_json, statics_table
+    from heeltoe.study.small.run_table import parse_axes
+    from heeltoe.study.small.statics import judge, statics_json, statics_table
     from heeltoe.views.terminal.statics import print_sections, print_statics_table
 
-    loaded, after = read_case(path, changes), asked.after()
+    loaded, after = read_case(path, changes), request.after()
     shown = units_of(loaded, units)
-    place = asked.out or (Path(f"{Path(path).stem}-statics") if asked.report else None)
+    place = request.out or (Path(f"{Path(path).stem}-statics") if request.report else None)
     if place is not None:
         from heeltoe.views.files.statics import OWN
 
@@ -150,38 +159,42 @@ def _statics(path: str, changes: list[str], json_: str | None, units: str | None
     earlier = [] if place is None else files(place)
     written: list[Path] = []
     with status() as say:
-        if asked.vary:
-            table = statics_table(path, changes, parse_axes(asked.vary), after, say)
-            written = [] if place is None else _write(table, loaded, asked, place, shown, say)
+        if request.vary:
+            table = statics_table(path, changes, parse_axes(request.vary), after, say)
+            written = [] if place is None else _write(table, loaded, request, place, shown, say)
         else:
-            found = judge(loaded, after, say)
-            written = [] if place is None else _write(found, loaded, asked, place, shown, say)
+            results = judge(loaded, after, say)
+            written = [] if place is None else _write(results, loaded, request, place, shown, say)
     removed = [] if place is None else [place / name for name in earlier if not (place / name).exists()]
-    if asked.vary:
+    if request.vary:
         finish(table.to_json(), json_, written, lambda console: print_statics_table(table, console, shown), removed)
     else:
-        data = statics_json(found)
-        finish(data, json_, written, lambda console: print_sections(found, console, shown, sheet=asked.sheet), removed)
+        data = statics_json(results)
+
+        def show(console: Console) -> None:
+            print_sections(results, console, shown, sheet=request.sheet, details=request.details)
+
+        finish(data, json_, written, show, removed)
 
 
 def _write(
-    found: Joints | StaticsTable, case: Case, asked: _Asked, place: Path, units: str, say: Callable[[str], None]
+    results: Joints | StaticsTable, case: Case, request: _Asked, place: Path, units: str, say: Callable[[str], None]
 ) -> list[Path]:
     """Write files and report; what asks for a report alone has its figures in it."""
-    from heeltoe.study.statics import StaticsTable
+    from heeltoe.study.small.statics import StaticsTable
     from heeltoe.views.figures.statics.all import statics_figures
     from heeltoe.views.files.statics import write_statics, write_statics_table
 
     say("writing")
-    if isinstance(found, StaticsTable):
-        return write_statics_table(found, place)
-    figures = statics_figures(found, units, every=asked.every_section)
+    if isinstance(results, StaticsTable):
+        return write_statics_table(results, place)
+    figures = statics_figures(results, units, every=request.every_section)
 
     def report(fresh: Path) -> None:
-        from heeltoe.views.report.statics import statics_document
+        from heeltoe.views.content.statics import statics_document
         from heeltoe.views.report.write import write_kinds
 
         say("writing the report")
-        write_kinds(statics_document(case, found, figures, units=units, command=command_line()), fresh)
+        write_kinds(statics_document(case, results, figures, units=units, command=command_line()), fresh)
 
-    return write_statics(found, place, figures if asked.out else {}, report=report if asked.report else None)
+    return write_statics(results, place, figures if request.out else {}, report=report if request.report else None)

@@ -14,7 +14,7 @@ from contextlib import contextmanager, suppress
 
 from rich.console import Console
 
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 
 #: Consoles that say to be narrower than this say nothing of use.
 _NARROWEST, _USUAL = 20, 80
@@ -27,10 +27,10 @@ _NOT_WRITTEN = (
 
 def console(*, stderr: bool = False) -> Console:
     """Return where words go."""
-    found = Console(stderr=stderr, highlight=False)
-    if found.width < _NARROWEST:
-        found.width = _USUAL
-    return found
+    console = Console(stderr=stderr, highlight=False)
+    if console.width < _NARROWEST:
+        console.width = _USUAL
+    return console
 
 
 def print_data(text: str) -> None:

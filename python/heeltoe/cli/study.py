@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from heeltoe.base.atomic_files import check_directory
 from heeltoe.cli.common import (
     LONGEST_PATH,
     NO_RESULT,
     CaseUnits,
+    Details,
     JsonPath,
     check_json,
     check_units,
@@ -24,37 +26,40 @@ from heeltoe.cli.common import (
     units_of,
 )
 from heeltoe.cli.streams import console
-from heeltoe.plain import plain
-from heeltoe.whole import check_directory
+from heeltoe.errors.sanitize import plain
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from heeltoe.study.run import Progress
+    from heeltoe.study.run.run import Progress
 
 
 def study(
     file: Annotated[str, typer.Argument(metavar="STUDY.toml", help="The study file (TOML or JSON).")],
     out: Annotated[
-        Path | None, typer.Option(metavar="DIR", help="Where the runs go; named by the file if not given.")
+        Path | None, typer.Option(metavar="DIR", help="Directory of the runs (default: named after the file).")
     ] = None,
-    resume: Annotated[bool, typer.Option("--resume", help="Go on with a study that was begun there.")] = False,
+    resume: Annotated[bool, typer.Option("--resume", help="Continue a study that was interrupted.")] = False,
     scheduler: Annotated[
-        str | None, typer.Option(metavar="ADDRESS", help="A Dask scheduler whose workers run it; else this machine.")
+        str | None,
+        typer.Option(metavar="ADDRESS", help="Dask scheduler whose workers do the runs (default: this machine)."),
     ] = None,
-    dry_run: Annotated[bool, typer.Option("--dry-run", help="Say what there would be, and run nothing.")] = False,
-    no_figures: Annotated[bool, typer.Option("--no-figures", help="Leave the figures out.")] = False,
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", help="Print the number of runs and the expected time, and run nothing.")
+    ] = False,
+    no_figures: Annotated[bool, typer.Option("--no-figures", help="Write no figures.")] = False,
     report: Annotated[
         bool, typer.Option("--report", help="Write a report as PDF and HTML into the directory of the runs.")
     ] = False,
     units: CaseUnits = None,
     json_: JsonPath = None,
+    details: Details = False,
 ) -> None:
     """Run a study: many dams, many earthquakes, one table."""
     from heeltoe.case.read import read_case
-    from heeltoe.study.file import read_study
-    from heeltoe.study.plan import plan_of
-    from heeltoe.study.run import outlook, run_study
+    from heeltoe.study.plan.file import read_study
+    from heeltoe.study.plan.plan import plan_of
+    from heeltoe.study.run.run import outlook, run_study
     from heeltoe.views.files.write import STUDY_REPORT, write_study
     from heeltoe.views.report.write import check_packages, write_study_report
     from heeltoe.views.terminal.study import print_outlook, print_study
@@ -75,7 +80,7 @@ def study(
         check_directory(place, "--out", STUDY_REPORT)
     try:
         with _bar() as progress:
-            found = run_study(
+            results = run_study(
                 read,
                 place,
                 resume=resume,
@@ -92,17 +97,17 @@ def study(
 
     def reported(fresh: Path, drawn: Mapping[str, Figure]) -> None:
         base = (read.directory / read.case).parent
-        write_study_report(found, fresh, base=base, units=in_units, command=command_line(), figures=drawn)
+        write_study_report(results, fresh, base=base, units=in_units, command=command_line(), figures=drawn)
 
-    written = write_study(found, place, in_units, figures=not no_figures, report=reported if report else None)
-    finish(found.to_json(), json_, [], lambda console: print_study(found, console, in_units))
+    written = write_study(results, place, in_units, figures=not no_figures, report=reported if report else None)
+    finish(results.to_json(), json_, [], lambda console: print_study(results, console, in_units, details=details))
     say_file("wrote", place, words)
     if not no_figures:
         say_file("wrote", place / "figures", words)
     for path in written:
         if path.name in STUDY_REPORT:
             say_file("wrote", path, words)
-    if not found.all_ok:
+    if not results.answered:
         raise typer.Exit(NO_RESULT)
 
 

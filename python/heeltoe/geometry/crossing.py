@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import shapely
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.geometry.section import ON_LINE, CutSection
 
 Place = tuple[float, float]

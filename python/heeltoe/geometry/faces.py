@@ -29,9 +29,9 @@ def corners_between(
 
 def _going_down(slopes: Sequence[Point], height: float) -> list[Point]:
     """Return how far a face is out from its crest, with the level, from the crest down to the base."""
-    found, out, above = [(0.0, height)], 0.0, height
+    corners, out, above = [(0.0, height)], 0.0, height
     for level, slope in reversed(slopes or ((0.0, 0.0),)):
         out += slope * (above - level)
         above = level
-        found.append((out, level))
-    return found
+        corners.append((out, level))
+    return corners

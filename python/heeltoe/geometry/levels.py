@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import shapely
 
-from heeltoe.arrays import Floats, Integers
-from heeltoe.errors import InputError
+from heeltoe.base.arrays import Floats, Integers
+from heeltoe.errors.error import InputError
 from heeltoe.geometry.section import CutSection, cut, measured, on_line
 
 
@@ -83,6 +83,6 @@ def _each(whole: shapely.Polygon, elevations: Floats, inclination: float) -> Cut
 
 def _together(shapes: list[Floats], which: Integers) -> Floats:
     """Return the corners of several shapes as columns (k, 2, n); the last corner of one with fewer is repeated."""
-    most = max(map(len, shapes))
-    filled = np.stack([np.pad(shape, ((0, most - len(shape)), (0, 0)), mode="edge") for shape in shapes], axis=-1)
+    longest = max(map(len, shapes))
+    filled = np.stack([np.pad(shape, ((0, longest - len(shape)), (0, 0)), mode="edge") for shape in shapes], axis=-1)
     return np.ascontiguousarray(filled[..., which])

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 
 # What is so short beside the whole is no side.
 _NOTHING = 1e-9
@@ -46,8 +46,8 @@ def pieces(polygon: Floats) -> tuple[Piece, ...]:
     """Return the pieces of a polygon (corners, shape (n, 2), not closed) from its left to its right; nothing where
     it is one piece, or where there are too many to be taken by hand."""
     little = _NOTHING * float(np.ptp(polygon, axis=0).max())
-    found = [piece for strip in _strips(polygon, little) for piece in _of_strip(*strip, little)]
-    return tuple(found) if 1 < len(found) <= _MOST else ()
+    pieces = [piece for strip in _strips(polygon, little) for piece in _of_strip(*strip, little)]
+    return tuple(pieces) if 1 < len(pieces) <= _MOST else ()
 
 
 def _strips(polygon: Floats, little: float) -> Iterator[tuple[_Corner, _Corner, _Corner, _Corner]]:
@@ -91,5 +91,5 @@ def _piece(shape: str, width: float, height: float, corners: tuple[_Corner, ...]
     x, z = np.array(corners).T
     cross = x * np.roll(z, -1) - np.roll(x, -1) * z
     area = float(cross.sum()) / 2.0
-    middle = [float(((each + np.roll(each, -1)) * cross).sum()) / (6.0 * area) for each in (x, z)]
+    middle = [float(((axis + np.roll(axis, -1)) * cross).sum()) / (6.0 * area) for axis in (x, z)]
     return Piece(shape, width, height, area, *middle)

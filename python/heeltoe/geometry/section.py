@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from heeltoe.arrays import Floats, number, ratio
-from heeltoe.errors import InputError, shown
+from heeltoe.base.arrays import Floats, number, ratio
+from heeltoe.errors.error import InputError, shown
 
 ON_LINE = 1e-9
 """What is so close to a line, as a part of the section's size, is on it: far above rounding, far below any drawing."""
@@ -205,6 +205,8 @@ def _cut_inclined(whole: shapely.Polygon, level: float, inclination: float, slac
     down, up = math.cos(inclination), math.sin(inclination)
     turn = np.array([[down, up], [-up, down]])
     turned = shapely.transform(whole, lambda corners: (corners - heel) @ turn.T)
+    if inclination < 0.0 and level == whole.bounds[1]:
+        raise InputError("crack-leaves-base", "crack.elevation", f"{math.degrees(-inclination):.3g} degrees")
     corners = _cut_level(turned, 0.0, slack, level - whole.bounds[1])
     if abs(corners[0, 0]) > slack:
         # Under an overhang the line is in concrete on either side of the heel.

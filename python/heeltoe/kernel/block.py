@@ -6,14 +6,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from heeltoe import _kernel
-from heeltoe.arrays import Floats, Integers
-from heeltoe.kernel.columns import columns
+from heeltoe.base.arrays import Floats, Integers
+from heeltoe.kernel import _kernel
 from heeltoe.kernel.friction import FrictionLaw
 from heeltoe.kernel.shaking import Shaking
 
+#: What runs return.
+BlockRun = _kernel.BlockRun
+BlockSummary = _kernel.BlockSummary
 #: Names of the numbers of a block, in the order of the kernels.
 BLOCK = tuple(_kernel.BLOCK_FIELDS)
 #: Names of the numbers of what changes as a block moves.
@@ -88,127 +89,6 @@ class Limits:
 USUAL = Limits()
 
 
-@dataclass(frozen=True, eq=False)
-class Worn:
-    """What a crack whose friction goes by a law has been through.
-
-    Attributes
-    ----------
-    path, bonded
-        At the moments that were asked for: how far it has slipped, to and fro [m], and 1 while its bond is whole.
-    end, bonded_at_end
-        The same when the run ended.
-    error
-        Sum of the errors estimated of all steps of the integration, and of what those in the velocity come to [m].
-    integrated
-        Time that these steps took; all else of the run is exact [s].
-    """
-
-    path: Floats
-    bonded: Floats
-    end: float
-    bonded_at_end: bool
-    error: float
-    integrated: float
-
-
-@dataclass(frozen=True, eq=False)
-class Roughness:
-    """What the asperities of a rough crack have been through.
-
-    Attributes
-    ----------
-    kept
-        (k, 3) at the moments that were asked for: how high the flank is on which the block is, or above which it flies,
-        over the valley in which it stood at first [m], angle of the flanks [rad], plastic work per area [J/m2].
-    end
-        The same three when the run ended.
-    highest
-        Largest dilation with a corner in contact [m].
-    """
-
-    kept: Floats
-    end: Sequence[float]
-    highest: float
-
-
-@dataclass(frozen=True, eq=False)
-class BlockRun:
-    """What a block did.
-
-    Attributes
-    ----------
-    summary
-        Numbers by name.
-    histories
-        Columns by name, at the moments that were asked for, fewer where the run stopped early.
-    mode
-        At the same moments, counting :data:`MODES`.
-    events
-        Columns by name; kinds and modes count :data:`EVENT_KINDS` and :data:`MODES`.
-    tension
-        (n,) largest tension of each anchor of what varies [N/m]; None where the walk was exact and nothing does.
-    worn
-        What the crack has been through, where its friction goes by a law.
-    drainage
-        How much of its drainage each motion of a sequence has found, where slip closes the drains.
-    rough
-        What its asperities have been through, where it is rough.
-    """
-
-    summary: Mapping[str, float]
-    histories: Mapping[str, Floats]
-    mode: NDArray[np.uint8]
-    events: Mapping[str, Floats]
-    tension: Floats | None
-    worn: Worn | None = None
-    drainage: tuple[float, ...] = ()
-    rough: Roughness | None = None
-
-    @classmethod
-    def of(
-        cls,
-        row: Floats,
-        histories: Floats,
-        mode: NDArray[np.uint8],
-        events: Floats,
-        tension: Floats | None = None,
-        worn: tuple[Floats, float, bool, float, float] | None = None,
-        rough: tuple[Floats, Sequence[float], float] | None = None,
-    ) -> BlockRun:
-        """Put the names on what a kernel returns."""
-        return cls(
-            summary=dict(zip(SUMMARY, row.tolist(), strict=True)),
-            histories=columns(_kernel.HISTORY_FIELDS, histories),
-            mode=mode,
-            events=columns(_kernel.EVENT_FIELDS, events),
-            tension=tension,
-            worn=None if worn is None else Worn(worn[0][:, 0], worn[0][:, 1], *worn[1:]),
-            rough=None if rough is None else Roughness(rough[0], rough[1], rough[2]),
-        )
-
-    @property
-    def exact(self) -> bool:
-        """Whether there were closed forms from event to event, or the walk was integrated."""
-        return self.tension is None
-
-    @property
-    def outcome(self) -> str:
-        """By name."""
-        return OUTCOMES[int(self.summary["outcome"])]
-
-    @property
-    def final_mode(self) -> str:
-        """By name."""
-        return MODES[int(self.summary["final_mode"])]
-
-    def times_of(self, *kinds: str) -> list[float]:
-        """Return the moments of all events of some kinds [s]."""
-        wanted = [EVENT_KINDS.index(kind) for kind in kinds]
-        found: list[float] = self.events["time"][np.isin(self.events["kind"], wanted)].tolist()
-        return found
-
-
 def block(values: Mapping[str, float]) -> Floats:
     """Return a block's numbers, those not given zero, as the kernels take them.
 
@@ -256,8 +136,8 @@ def run_block(
     time, horizontal, up = shaking.time, shaking.horizontal, shaking.up
     settle, most, jam = limits.settle, limits.event_limit, limits.jam
     if varying is None:
-        return BlockRun.of(*_kernel.run_rigid(block, time, horizontal, up, moments, start, settle, most, jam))
-    found = _kernel.run_rigid_varying(
+        return _kernel.run_rigid(block, time, horizontal, up, moments, start, settle, most, jam)
+    return _kernel.run_rigid_varying(
         block,
         varying.numbers,
         varying.rotation,
@@ -278,7 +158,6 @@ def run_block(
         most,
         jam,
     )
-    return BlockRun.of(*found)
 
 
 def run_blocks(
@@ -295,4 +174,4 @@ def run_blocks(
     """
     motions = [(each.time, each.horizontal, each.up) for each in shakings]
     settle, most, jam = limits.settle, limits.event_limit, limits.jam
-    return columns(SUMMARY, _kernel.run_rigid_many(blocks, motions, which, scales, settle, most, jam, threads))
+    return _kernel.run_rigid_many(blocks, motions, which, scales, settle, most, jam, threads)

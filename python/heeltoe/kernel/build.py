@@ -1,6 +1,6 @@
 """Which kernels these are."""
 
-from heeltoe import _kernel
+from heeltoe.kernel import _kernel
 
 VERSION = _kernel.VERSION
 #: "release" or "debug".

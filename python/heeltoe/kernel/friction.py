@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from heeltoe import _kernel
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
+from heeltoe.kernel import _kernel
 
 FrictionLaw = _kernel.FrictionLaw
 #: Names of the laws, as the kernels have them.

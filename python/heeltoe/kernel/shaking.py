@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from heeltoe import _kernel
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
+from heeltoe.kernel import _kernel
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,6 +26,8 @@ class Shaking:
         When the motions of a sequence but the first begin [s].
     drainage
         Between which moments the drainage changes [s], and how much of it is left then; what an elastic dam is told.
+    before
+        The same without the silence at its end; None where there is none.
     """
 
     time: Floats
@@ -34,6 +36,7 @@ class Shaking:
     turning: Floats | None = None
     begins: tuple[float, ...] = ()
     drainage: tuple[tuple[float, float, float], ...] = ()
+    before: Shaking | None = None
 
     @property
     def end(self) -> float:
@@ -43,7 +46,8 @@ class Shaking:
     def scaled(self, factor: float) -> Shaking:
         """Return the same motion, weaker or stronger."""
         up, turning = (None if each is None else factor * each for each in (self.up, self.turning))
-        return replace(self, horizontal=factor * self.horizontal, up=up, turning=turning)
+        before = None if self.before is None else self.before.scaled(factor)
+        return replace(self, horizontal=factor * self.horizontal, up=up, turning=turning, before=before)
 
 
 def peak_responses(time: Floats, ground: Floats, periods: Floats, damping: float) -> tuple[Floats, Floats]:

@@ -2,37 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-import numpy as np
-
-from heeltoe import _kernel
-from heeltoe.arrays import Floats
-from heeltoe.kernel.block import USUAL, BlockRun, Limits
+from heeltoe.base.arrays import Floats
+from heeltoe.kernel import _kernel
+from heeltoe.kernel.block import USUAL, Limits
 from heeltoe.kernel.shaking import Shaking
 
+#: What a run returns.
+StackRun = _kernel.StackRun
 #: Names of the numbers of a place, in the order of the kernel.
 PLACE = tuple(_kernel.PLACE_FIELDS)
-
-
-@dataclass(frozen=True, eq=False)
-class StackRun:
-    """What two blocks did.
-
-    Attributes
-    ----------
-    cracks
-        At the lower and at the upper crack, where the upper block moves relative to the lower one; energies are
-        those of both together.
-    tilts
-        (2, 2) least and largest rotation of the lower and of the upper block from the ground [rad].
-    lost
-        (2, 2) lost to friction and to impacts in the lower and in the upper crack [J/m].
-    """
-
-    cracks: tuple[BlockRun, BlockRun]
-    tilts: Floats
-    lost: Floats
 
 
 def run_stack(
@@ -52,7 +30,4 @@ def run_stack(
     """
     time, horizontal, up = shaking.time, shaking.horizontal, shaking.up
     settle, most, jam = limits.settle, limits.event_limit, limits.jam
-    below, above, tilts, lost = _kernel.run_rigid_stack(
-        *blocks, place, time, horizontal, up, moments, settle, most, jam
-    )
-    return StackRun((BlockRun.of(*below), BlockRun.of(*above)), np.asarray(tilts), np.asarray(lost))
+    return _kernel.run_rigid_stack(*blocks, place, time, horizontal, up, moments, settle, most, jam)

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
+from heeltoe.base.cache import Kept
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError
-from heeltoe.kept import Kept
+from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import mean_period
 from heeltoe.motion.spectrum import response_spectrum
@@ -82,10 +82,10 @@ def swing_of(case: Case, motion: GroundMotion, moduli: tuple[float, ...]) -> Swi
     peak = motion.pga
     if not peak:
         return None
-    found, periods, felt, mean = _swung(case, motion, moduli)
+    spectrum, periods, felt, mean = _swung(case, motion, moduli)
     if felt is None:
         return None
-    reached = [np.interp(case.crack.elevation, found.levels, mode) for mode in found.reached.T]
+    reached = [np.interp(case.crack.elevation, spectrum.levels, mode) for mode in spectrum.reached.T]
     at_crack = np.sqrt(peak**2 + np.sum((felt * np.array(reached)) ** 2, axis=1))
     return Swing(periods[:, 0], peak, mean, felt[:, 0], at_crack)
 

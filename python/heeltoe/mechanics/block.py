@@ -10,14 +10,16 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Annotated
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
+from heeltoe.base.blocks import Block as NumbersBlock
+from heeltoe.base.blocks import Number
 from heeltoe.case.crack.kinks import climbs
 from heeltoe.case.model import Case
-from heeltoe.errors import expect
+from heeltoe.errors.error import expect
 from heeltoe.geometry.section import CutSection
 from heeltoe.kernel.block import BLOCK
 from heeltoe.mechanics.friction import coefficients, friction_of, law_of
@@ -315,24 +317,62 @@ def across_crack(force: Resultant, section: CutSection) -> Resultant:
     return Resultant(force.name, along, across, force.moment, force.virial)
 
 
-def static_state(block: Block) -> dict[str, Any]:
+class CriticalAccelerationsInG(NumbersBlock):
+    """Ground accelerations at which the block at rest starts to move; infinite where none does it."""
+
+    sliding: Annotated[float, Number("The smaller one of both ways of sliding.", "g")]
+    rocking: Annotated[float, Number("The smaller one of both ways of rocking.", "g")]
+    sliding_downstream: Annotated[float, Number("At which it starts to slide downstream.", "g")]
+    sliding_upstream: Annotated[float, Number("At which it starts to slide upstream.", "g")]
+    rocking_downstream: Annotated[float, Number("At which it starts to rock about its toe.", "g")]
+    rocking_upstream: Annotated[float, Number("At which it starts to rock about its heel.", "g")]
+
+
+class StaticState(NumbersBlock):
+    """The state under the static loads, before the earthquake."""
+
+    critical_acceleration_g: Annotated[
+        CriticalAccelerationsInG, Number("Ground accelerations at which the block at rest starts to move.", "g")
+    ]
+    critical_acceleration_per_vertical: Annotated[
+        dict[str, float],
+        Number("By how much these grow with each g of upward ground acceleration, by their names."),
+    ]
+    sliding_safety_factor: Annotated[
+        float | None,
+        Number(
+            "Friction that there can be over the force along the crack, or along the straight line from heel to toe of "
+            "one with kinks."
+        ),
+    ]
+    resultant_from_heel_m: Annotated[
+        float | None, Number("Where the resultant of all forces meets the crack, from the heel.", "m")
+    ]
+    normal_force_n: Annotated[float, Number("Force across the crack, uplift taken off.", "N per metre of dam")]
+    horizontal_force_n: Annotated[float, Number("Force along the crack, positive downstream.", "N per metre of dam")]
+    concrete_mass_kg: Annotated[float, Number("Mass of the concrete above the crack.", "kg per metre of dam")]
+    virtual_mass_kg: Annotated[float, Number("Mass of the water that moves with it.", "kg per metre of dam")]
+
+
+def static_state(block: Block) -> StaticState:
     """Return the state under the static loads, by the names of the contract."""
     critical, lifted = (vars(block.critical_accelerations(up)) for up in (0.0, block.gravity))
     limits = {name: value / block.gravity for name, value in critical.items()}
-    return {
-        "critical_acceleration_g": {
-            kind: min(limits[f"{kind}_{way}"] for way in ("downstream", "upstream")) for kind in ("sliding", "rocking")
-        }
-        | limits,
+    return StaticState(
+        critical_acceleration_g=CriticalAccelerationsInG(
+            sliding=min(limits["sliding_downstream"], limits["sliding_upstream"]),
+            rocking=min(limits["rocking_downstream"], limits["rocking_upstream"]),
+            **limits,
+        ),
         # By how much more for each g of upward acceleration; what no acceleration does, none changes.
-        "critical_acceleration_per_vertical": {
+        critical_acceleration_per_vertical={
             name: (lifted[name] - value) / block.gravity if math.isfinite(value) else 0.0
             for name, value in critical.items()
         },
-        "sliding_safety_factor": block.sliding_safety_factor,
-        "resultant_from_heel_m": block.resultant_position,
-        "normal_force_n": block.normal_force,
-        "horizontal_force_n": block.static.horizontal,
-        "concrete_mass_kg": block.concrete_mass,
-        "virtual_mass_kg": block.water.mass,
-    }
+        sliding_safety_factor=block.sliding_safety_factor,
+        resultant_from_heel_m=block.resultant_position,
+        normal_force_n=block.normal_force,
+        horizontal_force_n=block.static.horizontal,
+        concrete_mass_kg=block.concrete_mass,
+        virtual_mass_kg=block.water.mass,
+    )

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from heeltoe.case.crack.crack import Crack
 from heeltoe.case.crack.law import Law
 from heeltoe.kernel.friction import FrictionLaw, friction_law, shear_stress
-from heeltoe.references import cited
+from heeltoe.mechanics.references import cited
 
 # Less pressed than this, a crack has the friction of this normal stress [Pa].
 _LEAST_STRESS = 1.0

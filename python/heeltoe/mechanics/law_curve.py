@@ -7,15 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.case.crack.crack import Crack
 from heeltoe.case.crack.law import Law
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
+from heeltoe.errors.suggestion import near
 from heeltoe.kernel.friction import shear_stress
 from heeltoe.mechanics.block import build_block
 from heeltoe.mechanics.friction import crack_law, references_of_law
-from heeltoe.near import near
 
 #: Numbers that show what a law looks like; they are those of no dam.
 SAMPLES: dict[str, dict[str, Any]] = {
@@ -120,14 +120,14 @@ def curves_of(case: Case) -> dict[str, LawCurve]:
     InputError
         Where a crack does not cut the section in two.
     """
-    found = {}
-    for place, alone in enumerate(case.cracks):
+    curves = {}
+    for place, alone in enumerate(case.single_crack_cases):
         if alone.crack.law is not None:
             curve = curve_of(alone)
             at = f"crack at {alone.crack.elevation:g} m" if case.further_cracks else ""
-            title = ", ".join(each for each in (curve.title, at) if each)
-            found["law" if place == case.asked else f"crack-{place + 1}/law"] = replace(curve, title=title)
-    return found or {"law": curve_of(case)}
+            title = ", ".join(text for text in (curve.title, at) if text)
+            curves["law" if place == case.asked else f"crack-{place + 1}/law"] = replace(curve, title=title)
+    return curves or {"law": curve_of(case)}
 
 
 def _curve(crack: Crack, stress: float, title: str) -> LawCurve:

@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from heeltoe.arrays import Floats, larger, smaller, where
+from heeltoe.base.arrays import Floats, larger, smaller, where
 from heeltoe.case.crack.kinks import climbs, corners
 from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
@@ -184,10 +184,10 @@ def uplift_profile(case: Case) -> Floats:
 
 def _uplift_points(case: Case) -> list[tuple[float, float]]:
     """Return the points of :func:`uplift_profile`."""
-    given = case.uplift_at_crack
+    uplift = case.uplift_at_crack
     heel, toe = _pressure(case, case.reservoir), _pressure(case, case.tailwater, toe=True)
     extent, position, efficiency = (
-        0.0 if option is None else option for option in (given.extent, given.drain_position, given.drain_efficiency)
+        0.0 if option is None else option for option in (uplift.extent, uplift.drain_position, uplift.drain_efficiency)
     )
     drains = toe + (1.0 - efficiency) * (heel - toe)
     own = case.gravity * (case.reservoir.density if case.reservoir else 1000.0)
@@ -197,10 +197,10 @@ def _uplift_points(case: Case) -> list[tuple[float, float]]:
         "triangular": [(0.0, heel), (1.0, toe)],
         "cut-off": [(0.0, heel), (extent, toe), (1.0, toe)],
         "drained": [(0.0, heel), (position, drains), (1.0, toe)],
-        "profile": [(fraction, own * head) for fraction, head in given.points or ()],
+        "profile": [(fraction, own * head) for fraction, head in uplift.points or ()],
     }
     width = case.cut.crack_width
-    return [(fraction * width, pressure * given.intensity) for fraction, pressure in points[given.pattern]]
+    return [(fraction * width, pressure * uplift.intensity) for fraction, pressure in points[uplift.pattern]]
 
 
 def uplift(case: Case) -> Resultant:
@@ -229,7 +229,7 @@ def _on_pieces(case: Case, points: tuple[tuple[float, float], ...]) -> Resultant
     distances, heights = zip(*corners(section, case.crack.kinks), strict=True)
     horizontal = vertical = moment = lifting = 0.0
     for (start, p0), (end, p1) in pairwise(points):
-        cuts = [start, *(each for each in distances if start < each < end), end]
+        cuts = [start, *(distance for distance in distances if start < distance < end), end]
         for t0, t1 in pairwise(cuts if end > start else ()):
             q0, q1 = (float(np.interp(t, (start, end), (p0, p1))) for t in (t0, t1))
             (x0, z0), (x1, z1) = (

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.case.columns import Columns, Rows, by_columns
 from heeltoe.case.model import Case
 from heeltoe.kernel.block import BLOCK
@@ -48,11 +48,11 @@ def sound_blocks(case: Case, columns: Columns) -> tuple[Floats, NDArray[np.bool_
 
 
 def _numbers(rows: Rows) -> Floats:
-    found = np.full((rows.sound.size, len(BLOCK)), np.nan)
+    table = np.full((rows.sound.size, len(BLOCK)), np.nan)
     for here, many in rows.parts:
         for place, value in enumerate(build_block(many).numbers()):
-            found[here, place] = value
-    return found
+            table[here, place] = value
+    return table
 
 
 def crack_widths(blocks: Floats) -> Floats:

@@ -6,7 +6,7 @@ vertical, what a horizontal acceleration presses with is less, by Zangar (1952) 
 
     r(psi) = 1 - psi / 90 degrees
 
-the straight line between the ends of his curve, whose coefficient falls from 0.73 at a vertical to 0 at a horizontal
+the straight line between the ends of his curve, whose coefficient falls from 0.735 at a vertical to 0 at a horizontal
 face. (The print was not at hand; potential flow against a face of constant slope has 0.89, 0.79, 0.69, 0.54, 0.39 and
 0.21 at 10, 20, 30, 45, 60 and 75 degrees, and 1.12 at an overhang of 10.) Each piece of a face counts by its own slope.
 
@@ -29,7 +29,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from heeltoe.arrays import arctan, larger, ratio, where
+from heeltoe.base.arrays import arctan, larger, ratio, where
 from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import Edge
@@ -117,7 +117,7 @@ def _before(case: Case, water: Water | None, edges: Sequence[Edge], side: float)
     section = case.cut
     surface = section.base_elevation + water.depth - section.crack_elevation
     wet = [(edge, larger(surface - edge.z0, 0.0), larger(surface - edge.z1, 0.0)) for edge in edges]
-    wet = [each for each in wet if np.any(each[1] != each[2])]
+    wet = [edge for edge in wet if np.any(edge[1] != edge[2])]
     if not wet:
         return None
     sloped = False

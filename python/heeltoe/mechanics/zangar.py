@@ -21,7 +21,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from heeltoe.arrays import larger, number, smaller, where
+from heeltoe.base.arrays import larger, number, smaller, where
 from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import Edge, cut

@@ -7,30 +7,40 @@ from dataclasses import replace
 from time import perf_counter
 from typing import TYPE_CHECKING, Literal, TypeVar
 
-from heeltoe.case.at_crack import one_crack
+from heeltoe.case.combinations import check, supports
+from heeltoe.case.field_usage import unused_fields
 from heeltoe.case.model import Case
 from heeltoe.case.shaking import resolve_all
-from heeltoe.case.use import unused_fields
 from heeltoe.case.warnings import case_warnings
-from heeltoe.errors import InputError, expect
-from heeltoe.models.drained import follows_drains, with_drains
+from heeltoe.errors.error import InputError, expect
+from heeltoe.errors.suggestion import near
+from heeltoe.mechanics.friction import friction_of
+from heeltoe.models.drain_closure import drained, follows_drains, with_shares
 from heeltoe.models.rigid.omitted import omitted
-from heeltoe.models.rigid.stack.model import check_stack
-from heeltoe.models.silence import about_the_end, reach_of_block, until_rest
+from heeltoe.models.runner import (
+    about_the_end,
+    badness,
+    numbers_of_sign,
+    reach_of_block,
+    slid_off,
+    twin_of,
+    until_rest,
+    worse_way,
+)
 from heeltoe.models.statics.standing import standing_warnings
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.near import near
-from heeltoe.result.contract import TOO_FAR
 from heeltoe.result.limits import check_limits
 from heeltoe.result.response import Chosen, Response
-from heeltoe.warnings import Notice
+from heeltoe.units.sentences import Sentence
+from heeltoe.warnings.notice import Notice, by_gravity
 
 # Not at run time: what another model needs is not loaded.
 if TYPE_CHECKING:
     from heeltoe.models.decoupled.response import DecoupledResponse
-    from heeltoe.models.flexible.cost import Cost
-    from heeltoe.models.flexible.response import FlexibleResponse
+    from heeltoe.models.flexible.body.cost import Cost
+    from heeltoe.models.flexible.model import Rested
+    from heeltoe.models.flexible.result.response import FlexibleResponse
 
 R = TypeVar("R", bound=Response)
 
@@ -39,11 +49,10 @@ BOTH = {"both": "rigid", "rigid,flexible": "rigid", "decoupled,flexible": "decou
 #: What fits the case.
 AUTO = "auto"
 _ASKED_FOR = "it was asked for"
-_KNOW_ONE = {
-    "rigid": "the rigid model",
-    "decoupled": "the decoupled chain",
-    **dict.fromkeys(BOTH, "the block beside the flexible model"),
-}
+# Restitution decides the slip where without it that differs by more than this part and by more than this [m].
+_DECIDES, _SLIGHT_M = 0.25, 1e-3
+# A slip of this part of the crack's width takes as much off what the dam stands on.
+_FAR = 0.1
 _BESIDE = "it stands beside the flexible model, which is the better one"
 
 
@@ -74,6 +83,7 @@ def run(
     Returns
     -------
     Response
+        Of the worse sign of the motion, unless the case says which way round it is (``motion.sign``); `signs` has both.
         Of the class of the model, of the better one of two; with all that case, motion and model warn of, what the
         usual loads do to the crack, and the limits of the case. `beside` holds that of the simpler model.
 
@@ -86,13 +96,65 @@ def run(
     shaking = earthquake(case, motion, vertical)
     names, why = models_of(case, model)
     _check_costs(case, names, shaking, output_step)
-    *block, better = _until_the_same_end(names, case, shaking, output_step)
-    if not block:
-        return _alone(better, case, Chosen(model, why))
-    found = _completed(better, case, names, Chosen(model, why))
-    # The better model is judged.
-    simpler = replace(_completed(block[0], case, names, Chosen(model, _BESIDE)), limits=())
-    return replace(found, beside=simpler)
+
+    def one_way(shaking: Earthquake, first: Rested | None = None) -> Response:
+        *block, better = _until_the_same_end(names, case, shaking, output_step, first)
+        if not block:
+            return _alone(better, case, Chosen(asked=model, why=why))
+        found = _completed(better, case, names, Chosen(asked=model, why=why))
+        # The better model is judged.
+        simpler = replace(_completed(block[0], case, names, Chosen(asked=model, why=_BESIDE)), limits=())
+        return replace(found, beside=simpler)
+
+    if names[-1] != "flexible" or follows_drains(case, shaking) or not runs_both_signs(case, shaking):
+        return _by_sign(case, shaking, one_way)
+    return _elastic_by_sign(case, shaking, output_step, one_way)
+
+
+def _elastic_by_sign(
+    case: Case,
+    shaking: Earthquake,
+    output_step: float | None,
+    run: Callable[[Earthquake, Rested | None], Response],
+) -> Response:
+    """Run an elastic dam both ways round without evidence, and the worse way with it."""
+    from heeltoe.models.flexible.model import rest_of
+
+    began = perf_counter()
+    rest = rest_of(case, shaking, output_step=output_step, stresses=True)
+    ways = {"recorded": (shaking, rest(shaking))}
+    if ways["recorded"][1].outcome == "unstable":
+        return run(*ways["recorded"])
+    turned = shaking.reversed()
+    ways["reversed"] = (turned, rest(turned))
+    worst = max(ways, key=lambda sign: ways[sign][1].badness(case))
+    took = perf_counter() - began
+    found = run(*ways[worst])
+    other = "recorded" if worst == "reversed" else "reversed"
+    if ways[other][1].badness(case) > badness(found):
+        # Its evidence has made the worse way the better one: both are judged with theirs.
+        judged = {worst: found, other: run(*ways[other])}
+        return replace(worse_way({sign: judged[sign] for sign in ways}), seconds=perf_counter() - began)
+    signs = [
+        numbers_of_sign(sign, found, governs=True) if sign == worst else rested.sign_numbers(case, sign)
+        for sign, (_, rested) in ways.items()
+    ]
+    return replace(found, signs=tuple(signs), seconds=found.seconds + took)
+
+
+def _by_sign(case: Case, shaking: Earthquake, run: Callable[[Earthquake], R]) -> R:
+    """Run both ways round, the worse one leading, unless the case says which way round its motion is."""
+    if not runs_both_signs(case, shaking):
+        return run(shaking)
+    recorded = run(shaking)
+    # One that does not stand has no use for an earthquake.
+    return worse_way({"recorded": recorded, "reversed": run(shaking.reversed())}) if recorded.started else recorded
+
+
+def runs_both_signs(case: Case, shaking: Earthquake | None = None) -> bool:
+    """Whether a case leaves it open which way round its motion is; one that is zero is the same both ways."""
+    known = case.motion is not None and case.motion.has_sign
+    return not known and (shaking is None or shaking.motion.pga > 0.0)
 
 
 def check_model(name: str, field: str) -> None:
@@ -116,7 +178,7 @@ def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
         return (BOTH[model], "flexible"), "it is the better one of the two that were asked for"
     if model != AUTO:
         return (model,), _ASKED_FOR
-    if case.crack.roughness is not None:
+    if not supports(case, "flexible") and case.crack.roughness is not None:
         at_height = case.crack.elevation > 0.0 and case.concrete.modulus is not None
         return ("decoupled" if at_height else "rigid",), "the flexible model does not know asperities"
     if case.concrete.modulus is None:
@@ -128,19 +190,11 @@ def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
 def _of_several(case: Case, model: str) -> tuple[tuple[str, ...], str]:
     """Return the model that knows several cracks, and kinks; the rigid one knows two cracks where it is asked for."""
     if model not in (AUTO, "flexible"):
-        _check_cracks(case, model)
+        check(case, "beside" if model in BOTH else model)
         return (model,), _ASKED_FOR
     what = "several cracks, and its parts can vibrate as they do"
     why = f"the case has {what if case.further_cracks else 'a crack with kinks, which the flexible model alone knows'}"
     return ("flexible",), _ASKED_FOR if model == "flexible" else why
-
-
-def _check_cracks(case: Case, model: str) -> None:
-    """Refuse cracks that a model other than the flexible one does not know."""
-    if model == "rigid" and case.further_cracks:
-        check_stack(case)
-    else:
-        one_crack(case, _KNOW_ONE.get(model, "the model"))
 
 
 def cost_of(case: Case, model: str = AUTO, output_step: float | None = None, spread: int = 0) -> Cost | None:
@@ -152,27 +206,35 @@ def cost_of(case: Case, model: str = AUTO, output_step: float | None = None, spr
 
 
 def _cost(case: Case, shaking: Earthquake, output_step: float | None, spread: int = 0) -> Cost:
-    from heeltoe.models.flexible.expected import analysing, frame_step_of
+    from heeltoe.models.flexible.run.expected import analysing, frame_step_of
 
     end = shaking.run_end
-    return analysing(case, end, frame_step_of(end, output_step), silence=case.analysis.silence, spread=spread)
+    cost = analysing(case, end, frame_step_of(end, output_step), silence=case.analysis.silence, spread=spread)
+    if not runs_both_signs(case, shaking):
+        return cost
+    # The other way round is run without evidence.
+    return cost + analysing(
+        case.without_evidence(), end, frame_step_of(end, output_step), silence=case.analysis.silence
+    )
 
 
 def _check_costs(case: Case, names: Sequence[str], shaking: Earthquake, output_step: float | None) -> None:
     """Refuse what takes too much before the first of two models runs."""
     if len(names) > 1 and "flexible" in names:
-        from heeltoe.models.flexible.cost import check_cost
+        from heeltoe.models.flexible.body.cost import check_cost
 
         check_cost(case, _cost(case, shaking, output_step))
 
 
 def _until_the_same_end(
-    names: Sequence[str], case: Case, shaking: Earthquake, output_step: float | None
+    names: Sequence[str], case: Case, shaking: Earthquake, output_step: float | None, first: Rested | None
 ) -> list[Response]:
-    """Run models until all of them are at rest, one as long as the other."""
+    """Run models until all of them are at rest, one as long as the other; `first` is what the elastic dam has done
+    without evidence, where that is known."""
     found = []
     for name in names:
-        found.append(_timed(name, case, shaking, output_step))
+        known = first if name == "flexible" and first is not None and not shaking.silence else None
+        found.append(_timed(name, case, shaking, output_step, known))
         shaking = shaking.silent(found[-1].silence_s)
 
     def as_long(each: Response) -> Response:
@@ -182,9 +244,16 @@ def _until_the_same_end(
     return [each if each.silence_s == shaking.silence else as_long(each) for each in found]
 
 
-def _timed(model: str, case: Case, shaking: Earthquake, output_step: float | None) -> Response:
+def _timed(
+    model: str, case: Case, shaking: Earthquake, output_step: float | None, first: Rested | None = None
+) -> Response:
     began = perf_counter()
-    found = MODELS[model](case, shaking, output_step)
+    if first is None:
+        found = MODELS[model](case, shaking, output_step)
+    else:
+        from heeltoe.models.flexible.model import run_flexible
+
+        found = run_flexible(case, shaking, output_step, first)
     return replace(found, seconds=perf_counter() - began)
 
 
@@ -202,9 +271,9 @@ def rigid(
     given; `rotation` is that of the ground about the middle of the crack, counter-clockwise [rad/s2].
     """
     expect(case, Case, "not-a-case", "case")
-    _check_cracks(case, "rigid")
+    check(case, "rigid")
     if rotation is not None:
-        one_crack(case, "a ground that turns")
+        check(case, "rotation")
     return _alone(_rigid(case, earthquake(case, motion, vertical, rotation), output_step), case)
 
 
@@ -221,7 +290,7 @@ def decoupled(
     5 ms, where no spacing is given.
     """
     expect(case, Case, "not-a-case", "case")
-    one_crack(case, _KNOW_ONE["decoupled"])
+    check(case, "decoupled")
     return _alone(_decoupled(case, earthquake(case, motion, vertical), output_step), case)
 
 
@@ -252,8 +321,12 @@ def live(case: Case, model: str, shaking: Earthquake) -> Response:
     InputError
         As :func:`run`.
     """
-    _check_cracks(case, model)
-    return _alone(_live(case, shaking) if model == "decoupled" else _rigid(case, shaking, None), case)
+    check(case, model)
+
+    def one_way(shaking: Earthquake) -> Response:
+        return _alone(_live(case, shaking) if model == "decoupled" else _rigid(case, shaking, None), case)
+
+    return _by_sign(case, shaking, one_way)
 
 
 def earthquake(
@@ -292,62 +365,82 @@ def _left_out(case: Case, vertical: GroundMotion | None) -> Iterator[Notice]:
 def _alone(response: R, case: Case, chosen: Chosen | None = None) -> R:
     """Return a response with no better model beside it, which says what it leaves out; its model was asked for by name
     where nothing else is said."""
-    return _completed(response, case, (response.model,), chosen or Chosen(response.model, _ASKED_FOR), alone=True)
+    return _completed(
+        response, case, (response.model,), chosen or Chosen(asked=response.model, why=_ASKED_FOR), alone=True
+    )
 
 
 def _completed(response: R, case: Case, models: Sequence[str], chosen: Chosen, *, alone: bool = False) -> R:
     """Add what every result has, and to one that stands `alone` what it leaves out; a field that one of the `models`
     side by side reads is not said to change nothing. A run that never started says why by itself."""
-    slid_off = _slid_off(case, response) if response.summary else ()
+    off = (*_slides_on(case, response), *_slid_off(response)) if response.started else ()
     response, between = _sequence(case, response)
     unused = unused_fields(case, models)
     vertical = () if response.vertical is None else response.vertical.warnings
     end = about_the_end(response, asked="silence" in case.analysis.model_fields_set)
     warnings = (*case_warnings(case), *response.motion.warnings, *vertical, *response.warnings, *end, *unused)
-    if not response.summary:
-        return replace(response, chosen=chosen, warnings=warnings)
-    warnings = (*warnings, *slid_off, *standing_warnings(case, response.static), *between)
+    if not response.started:
+        return replace(response, chosen=chosen, warnings=by_gravity(warnings))
+    warnings = (
+        *warnings,
+        *off,
+        *standing_warnings(case, response.cracks[case.asked].static),
+        *between,
+    )
     if alone and not response.elastic:
         left_out = omitted(case, response) if response.model == "rigid" else (Notice("rigid-top"),)
         warnings = (*warnings, *left_out)
     return replace(
         response,
         chosen=chosen,
-        warnings=warnings,
-        limits=check_limits(case.limits, response.summary, response.outcome),
+        warnings=by_gravity(warnings),
+        limits=check_limits(case.limits, response),
     )
 
 
 def _sequence(case: Case, response: R) -> tuple[R, tuple[Notice, ...]]:
     """Add what each motion of a sequence does, and return what is to be said of it."""
-    if not response.motion.parts or not response.summary:
+    if not response.motion.parts or not response.started:
         return response, ()
     from heeltoe.models.statics.between import about_the_sequence, judged_stages
 
-    followed = response.summary.get("drainage_by_motion") is not None
+    followed = response.drainage_by_motion is not None
     if not case.further_cracks:
         found = judged_stages(case, response)
-        return replace(response, sequence=found), tuple(about_the_sequence(case, found, followed=followed))
-    from heeltoe.models.flexible.response import FlexibleResponse
-
-    # The flexible model alone knows several.
-    assert isinstance(response, FlexibleResponse)
-    each = [judged_stages(alone, response.at_crack(place)) for place, alone in enumerate(case.cracks)]
+        return response.with_crack(sequence=found), tuple(about_the_sequence(case, found, followed=followed))
+    each = [judged_stages(alone, response.at_crack(place)) for place, alone in enumerate(case.single_crack_cases)]
     said = [
         notice
-        for alone, found in zip(case.cracks, each, strict=True)
+        for alone, found in zip(case.single_crack_cases, each, strict=True)
         for notice in about_the_sequence(alone, found, followed=followed, several=True)
     ]
-    return response.with_sequences(each), tuple(said)
+    for place, found in enumerate(each):
+        response = response.with_crack(place, sequence=found)
+    return response, tuple(said)
 
 
-def _slid_off(case: Case, response: Response) -> tuple[Notice, ...]:
-    """Say where nothing is left below the part above the crack."""
-    slip = max(abs(response.summary[name]) for name in ("peak_slip_downstream_m", "peak_slip_upstream_m"))
-    width = case.cut.crack_width
-    # Where it tips over the edge it turns too far for small rotations.
-    off = response.outcome in ("ok", TOO_FAR) and slip > width
-    return (Notice("slid-off", slip_m=slip, width_m=width),) if off else ()
+def _slides_on(case: Case, response: Response) -> Iterator[Notice]:
+    """Say where the friction of a crack that has begun to slip does not hold the static loads any more."""
+    for crack, alone in zip(response.cracks, case.single_crack_cases, strict=True):
+        factor, normal = crack.static.sliding_safety_factor, crack.static.normal_force_n
+        if factor is None or factor < 1.0 or normal <= 0.0 or alone.crack.kinks or alone.crack.roughness is not None:
+            continue
+        at_rest, sliding = friction_of(alone.crack, normal, crack.crack_width_m)
+        if at_rest / factor > sliding * (1.0 + 1e-9):
+            where = Sentence.of(" at {at_m:g m}", at_m=crack.elevation) if case.further_cracks else ""
+            yield Notice("slides-on", needed=at_rest / factor, sliding=sliding, where=where)
+
+
+def _slid_off(response: Response) -> tuple[Notice, ...]:
+    """Say where little or nothing is left below the part above a crack."""
+    found = []
+    for crack in response.cracks:
+        slip = max(abs(crack.peak_slip_downstream_m), abs(crack.peak_slip_upstream_m))
+        if slid_off(response.outcome, slip, crack.crack_width_m):
+            found.append(Notice("slid-off", slip_m=slip, width_m=crack.crack_width_m))
+        elif response.outcome == "ok" and slip > _FAR * crack.crack_width_m:
+            found.append(Notice("slid-far", share=slip / crack.crack_width_m))
+    return tuple(found)
 
 
 def _rigid(case: Case, earthquake: Earthquake, output_step: float | None) -> Response:
@@ -360,13 +453,31 @@ def _rigid(case: Case, earthquake: Earthquake, output_step: float | None) -> Res
             return run_two_blocks(case, through, output_step)
         return run_rigid(case, through, output_step)
 
-    return until_rest(run, reach_of_block, earthquake, case.analysis.silence)
+    found = until_rest(run, reach_of_block, earthquake, case.analysis.silence)
+    # Of bounces that amplify the last digit no run is the answer: a twin shows it.
+    twin = twin_of(case, found, run, earthquake)
+    if twin is None:
+        return found
+    bounce, slip = twin
+    other = Sentence("has no result") if slip is None else Sentence.of("slides {twin_m:.4g mm}", twin_m=slip)
+    notice = Notice("not-determined", other=other, slip_m=found.residual_slip_m, restitution=bounce)
+    return replace(found, warnings=(notice, *found.warnings))
 
 
 def _decoupled(case: Case, earthquake: Earthquake, output_step: float | None) -> DecoupledResponse:
     from heeltoe.models.decoupled.model import run_decoupled
 
-    return run_decoupled(case, earthquake, output_step)
+    found = run_decoupled(case, earthquake, output_step)
+    if found.outcome != "ok" or not found.impacts or not case.crack.restitution:
+        return found
+    # Blows are where the block and the dam differ most, and the restitution is seldom known.
+    dead = case.model_copy(update={"crack": case.crack.model_copy(update={"restitution": 0.0})})
+    other = run_decoupled(dead, earthquake.silent(found.silence_s), output_step)
+    slip, without = found.residual_slip_m, other.residual_slip_m
+    if other.outcome != "ok" or abs(slip - without) <= max(_DECIDES * abs(slip), _SLIGHT_M):
+        return found
+    notice = Notice("restitution-decides", slip_m=slip, restitution=case.crack.restitution, dead_slip_m=without)
+    return replace(found, warnings=(notice, *found.warnings))
 
 
 def _live(case: Case, earthquake: Earthquake) -> DecoupledResponse:
@@ -379,12 +490,13 @@ def _live(case: Case, earthquake: Earthquake) -> DecoupledResponse:
 
 
 def _flexible(case: Case, earthquake: Earthquake, output_step: float | None) -> FlexibleResponse:
-    from heeltoe.models.flexible.model import run_flexible
+    from heeltoe.models.flexible.model import rest_of, run_flexible
 
-    def run(case: Case, through: Earthquake) -> FlexibleResponse:
-        return run_flexible(case, through, output_step)
-
-    return with_drains(case, earthquake, run) if follows_drains(case, earthquake) else run(case, earthquake)
+    if not follows_drains(case, earthquake):
+        return run_flexible(case, earthquake, output_step)
+    rested, shares = drained(case, earthquake, rest_of(case, earthquake))
+    found = run_flexible(case, replace(earthquake, drainage=rested.earthquake.drainage), output_step)
+    return with_shares(found, shares)
 
 
 #: The models by name.

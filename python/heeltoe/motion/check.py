@@ -6,9 +6,9 @@ import re
 
 import numpy as np
 
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import UNCORRECTED, GroundMotion
-from heeltoe.warnings import Notice
+from heeltoe.warnings.notice import Notice
 
 # More than any ground has been seen to do [g].
 _STRONGEST = 10.0
@@ -26,6 +26,7 @@ _SHORTEST = 1e-3
 # Longest step [s] with which a record tells what a dam feels.
 _COARSE = 0.1
 _UP = re.compile(r"\b(?:up|ud|u-d|vert(?:ical)?|ver|down|dwn|dn|[behl][hnl]z)\b|^\s*[vz]\s*$", re.IGNORECASE)
+_YEAR = re.compile(r"\b(?:18|19|20)\d\d\b")
 _LEVEL = re.compile(
     r"\b(?:[ns]\s*\d{0,2}(?:\.\d*)?\s*[ew]|[ns]-[ns]|[ew]-[ew]|ns|sn|ew|we|north|south|east|west|[behl][hnl][ne12])\b"
     r"|^\s*\d{1,3}\s*(?:deg\w*|°)?\s*(?:\(|$)",
@@ -57,10 +58,10 @@ def check_record(
     peak = motion.pga / gravity
     if peak > _STRONGEST:
         raise InputError("motion-peak", field, f"{peak:.4g} g", name=motion.name)
-    said = []
+    notices = []
 
     def say(code: str, time_s: float | None = None, **quantities: float | str) -> None:
-        said.append(Notice(code, field=field, time_s=time_s, name=motion.name, **quantities))
+        notices.append(Notice(code, field=field, time_s=time_s, name=motion.name, **quantities))
 
     # A file without a header may tell by its name.
     component = motion.component or motion.name.replace("_", " ")
@@ -71,13 +72,13 @@ def check_record(
         say("component-horizontal", component=component)
     steps = np.diff(motion.time)
     if motion.time.size <= _DRAWN:
-        return tuple(said)
+        return tuple(notices)
     if motion.format != "points":
         moment, value = motion.peak
         lone, doubted = _reach(motion, 1), _reach(motion, 3)
         if lone > _LONE:
-            there = {"name": motion.name, "moment": f"{moment:.4g} s", "ratio": f"{lone:.3g}"}
-            raise InputError("motion-spike", field, f"{value / gravity:.4g} g", **there)
+            quantities = {"name": motion.name, "moment": f"{moment:.4g} s", "ratio": f"{lone:.3g}"}
+            raise InputError("motion-spike", field, f"{value / gravity:.4g} g", **quantities)
         if doubted > _DOUBTED:
             say("motion-spike", moment, peak_g=value / gravity, ratio=doubted)
         if motion.dt > _COARSE:
@@ -91,7 +92,7 @@ def check_record(
     for place, value in (("starts", motion.acceleration[0]), ("ends", motion.acceleration[-1])):
         if motion.format != "points" and abs(value) > _JUMP * motion.pga:
             say("motion-jumps", place=place, jump_g=float(value) / gravity, share=float(abs(value)) / motion.pga)
-    return tuple(said)
+    return tuple(notices)
 
 
 def _reach(motion: GroundMotion, width: int) -> float:
@@ -111,26 +112,56 @@ def check_moved(motion: GroundMotion, field: str) -> None:
     InputError
         With the value and its limit; a motion drawn by points may go anywhere.
     """
-    for each in motion.warnings:
-        if each.code == UNCORRECTED:
-            raise InputError(UNCORRECTED, field, name=motion.name, why=dict(each.quantities)["why"])
+    for notice in motion.warnings:
+        if notice.code == UNCORRECTED:
+            raise InputError(UNCORRECTED, field, name=motion.name, why=dict(notice.quantities)["why"])
     if motion.format != "points" and (motion.pgv > _FASTEST or motion.pgd > _FARTHEST):
-        there = {"displacement": f"{motion.pgd:.3g} m", "limit": f"{_FASTEST:g} m/s", "farthest": f"{_FARTHEST:g} m"}
-        raise InputError("motion-fast", field, f"{motion.pgv:.3g} m/s", name=motion.name, **there)
+        quantities = {
+            "displacement": f"{motion.pgd:.3g} m",
+            "limit": f"{_FASTEST:g} m/s",
+            "farthest": f"{_FARTHEST:g} m",
+        }
+        raise InputError("motion-fast", field, f"{motion.pgv:.3g} m/s", name=motion.name, **quantities)
 
 
 def check_pair(horizontal: GroundMotion, vertical: GroundMotion) -> tuple[Notice, ...]:
-    """Return a warning where the files of two components speak of different earthquakes; formats differ in their
-    words."""
-    if horizontal.format != vertical.format:
+    """Return a warning where the files of two components are of different earthquakes or stations, or where they do not
+    tell and the lengths or steps differ."""
+    if not {horizontal.format, vertical.format}.isdisjoint({"points", "synthetic"}):
         return ()
-    for name in ("date", "event"):
-        one, other = getattr(horizontal, name), getattr(vertical, name)
-        if one and other:
-            if re.sub(r"\W", "", one).casefold() == re.sub(r"\W", "", other).casefold():
-                return ()
-            return (Notice("components-differ", horizontal=one, vertical=other),)
-    return ()
+    texts = {name: (getattr(horizontal, name), getattr(vertical, name)) for name in ("date", "event", "station")}
+    years = [_YEAR.findall(f"{motion.date} {motion.event}") for motion in (horizontal, vertical)]
+    if all(years) and set(years[0]).isdisjoint(years[1]):
+        one, other = (f"{motion.event} {motion.date}".strip() for motion in (horizontal, vertical))
+        return (Notice("components-differ", horizontal=one, vertical=other),)
+    compared = 0
+    for one, other in texts.values():
+        # Formats differ in their words.
+        if one and other and horizontal.format == vertical.format:
+            if _bare(one) != _bare(other):
+                return (Notice("components-differ", horizontal=one, vertical=other),)
+            compared += 1
+    if compared or all(years) or _alike(horizontal, vertical):
+        return ()
+    missing = [name for name, pair in texts.items() if not all(pair)] or ["words of two formats"]
+    return (
+        Notice(
+            "components-unsure",
+            missing=", ".join(missing),
+            lengths_s=(horizontal.duration, vertical.duration),
+            steps_s=(horizontal.dt, vertical.dt),
+        ),
+    )
+
+
+def _bare(text: str) -> str:
+    return re.sub(r"\W", "", text).casefold()
+
+
+def _alike(one: GroundMotion, other: GroundMotion) -> bool:
+    """Whether two motions are as long as each other, but for a tenth, and have the same time step."""
+    same_step = abs(one.dt - other.dt) <= 1e-6 * one.dt
+    return same_step and abs(one.duration - other.duration) <= 0.1 * max(one.duration, other.duration)
 
 
 def check(
@@ -163,10 +194,10 @@ def check(
         raise InputError("motion-zero", field, motion.name)
     if peak > _STRONGEST:
         raise InputError("motion-peak", field, f"{peak:.4g} g", name=motion.name)
-    said = []
+    notices = []
 
     def say(code: str, **quantities: float) -> None:
-        said.append(Notice(code, field=field, name=motion.name, **quantities))
+        notices.append(Notice(code, field=field, name=motion.name, **quantities))
 
     if peak > 3.0:
         say("motion-strong", peak_g=peak)
@@ -174,4 +205,4 @@ def check(
         say("motion-weak", peak_g=peak)
     if motion.format != "points" and motion.pgv > 0.0 and abs(motion.end_velocity) > 0.2 * motion.pgv:
         say("motion-drifts", end_velocity_m_s=motion.end_velocity, share=abs(motion.end_velocity) / motion.pgv)
-    return tuple(said)
+    return tuple(notices)

@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.moments import on_same_moments
@@ -49,19 +49,35 @@ class Earthquake:
         """Return the same with so much silence after it [s]."""
         return self if seconds == self.silence else replace(self, silence=seconds)
 
+    def reversed(self) -> Earthquake:
+        """Return the same with the other sign of its horizontal motion, and of its rotation."""
+        rotation = None if self.rotation is None else self.rotation.reversed()
+        return replace(self, motion=self.motion.reversed(), rotation=rotation)
+
+    def scaled(self, factor: float) -> Earthquake:
+        """Return the same, weaker or stronger in all its directions."""
+        if factor == 1.0:
+            return self
+        vertical, rotation = (
+            None if motion is None else motion.scaled(factor) for motion in (self.vertical, self.rotation)
+        )
+        return replace(self, motion=self.motion.scaled(factor), vertical=vertical, rotation=rotation)
+
     @cached_property
     def shaking(self) -> Shaking:
         """The same on common moments, from zero to the end of the run, as the kernels take it."""
-        given = [each for each in (self.vertical, self.rotation) if each is not None]
-        if not given and self.motion.duration == self.end:
+        components = [motion for motion in (self.vertical, self.rotation) if motion is not None]
+        if not components and self.motion.duration == self.end:
             time, horizontal, others = self.motion.time, self.motion.acceleration, []
         else:
-            time, horizontal, *others = on_same_moments([self.motion, *given], self.end)
+            time, horizontal, *others = on_same_moments([self.motion, *components], self.end)
+        before = None
         if self.silence:
+            before = replace(self, silence=0.0).shaking
             time, (horizontal, *others) = _and_silence(time, [horizontal, *others], self.run_end)
         up = None if self.vertical is None else others.pop(0)
         begins = tuple(part.begins for part in self.motion.parts[1:] if part.begins < self.end)
-        return Shaking(time, horizontal, up, others[0] if others else None, begins, self.drainage)
+        return Shaking(time, horizontal, up, others[0] if others else None, begins, self.drainage, before)
 
 
 def _and_silence(time: Floats, series: list[Floats], end: float) -> tuple[Floats, list[Floats]]:
@@ -69,6 +85,6 @@ def _and_silence(time: Floats, series: list[Floats], end: float) -> tuple[Floats
     jumps."""
     if time.size > 1 and time[-1] == time[-2]:
         # It jumps there already, to what is cut off.
-        time, series = time[:-1], [each[:-1] for each in series]
-    after = [end] if all(each[-1] == 0.0 for each in series) else [time[-1], end]
-    return np.append(time, after), [np.append(each, np.zeros(len(after))) for each in series]
+        time, series = time[:-1], [values[:-1] for values in series]
+    after = [end] if all(values[-1] == 0.0 for values in series) else [time[-1], end]
+    return np.append(time, after), [np.append(values, np.zeros(len(after))) for values in series]

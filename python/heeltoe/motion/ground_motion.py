@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from heeltoe.arrays import Floats
-from heeltoe.dataframe import dataframe
-from heeltoe.errors import InputError
-from heeltoe.plain import plain
-from heeltoe.shown import Shown
-from heeltoe.warnings import Notice
+from heeltoe.base.arrays import Floats
+from heeltoe.base.display import Shown
+from heeltoe.base.pandas import dataframe
+from heeltoe.errors.error import InputError
+from heeltoe.errors.sanitize import plain
+from heeltoe.warnings.notice import Notice
 
 #: The warning of a record that stands as its instrument gave it; what corrects it takes it away.
 UNCORRECTED = "record-uncorrected"
@@ -108,8 +108,8 @@ class GroundMotion(Shown):
             raise InputError("motion-short", self.name, min(t.size, a.size))
         if not (np.isfinite(t).all() and np.isfinite(a).all()):
             bad = int(np.flatnonzero(~(np.isfinite(t) & np.isfinite(a)))[0])
-            found = t[bad] if np.isfinite(a[bad]) else a[bad]
-            raise InputError("motion-not-finite", self.name, str(found), number=bad + 1)
+            value = t[bad] if np.isfinite(a[bad]) else a[bad]
+            raise InputError("motion-not-finite", self.name, str(value), number=bad + 1)
         if (np.diff(t) < 0.0).any():
             bad = int(np.flatnonzero(np.diff(t) < 0.0)[0])
             raise InputError("motion-order", self.name, f"{t[bad + 1]:g} s", before=f"{t[bad]:g} s")
@@ -122,7 +122,7 @@ class GroundMotion(Shown):
             object.__setattr__(self, "processing", (*self.processing, f"time counted from {t[0]:g} s"))
 
     def __repr__(self) -> str:
-        ways = "".join(f", {plain(each)}" for each in (self.event, self.component) if each)
+        ways = "".join(f", {plain(text)}" for text in (self.event, self.component) if text)
         return (
             f"<GroundMotion {plain(self.name)}{ways}: peak {self.pga:.4g} m/s2, "
             f"{self.duration:.4g} s in {self.time.size} samples>"
@@ -189,8 +189,8 @@ class GroundMotion(Shown):
         two earthquakes.
         """
         if self.parts:
-            each = [self._of(part)._integrals for part in self.parts]
-            return max(found[0] for found in each), max(found[1] for found in each), each[-1][2]
+            of_parts = [self._of(part)._integrals for part in self.parts]
+            return max(peaks[0] for peaks in of_parts), max(peaks[1] for peaks in of_parts), of_parts[-1][2]
         v, d = integrals(self.time, self.acceleration)
         h = np.diff(self.time)
         a0, a1 = self.acceleration[:-1], self.acceleration[1:]
@@ -221,10 +221,10 @@ class GroundMotion(Shown):
 
     def scaled(self, factor: float, note: str = "") -> GroundMotion:
         """Return the motion times `factor`."""
-        said = note or f"scaled by {factor:.6g}"
+        step = note or f"scaled by {factor:.6g}"
         with np.errstate(over="ignore", invalid="ignore"):  # what is beyond all numbers is refused as none
             acceleration = self.acceleration * factor
-        return replace(self, acceleration=acceleration, processing=(*self.processing, said))
+        return replace(self, acceleration=acceleration, processing=(*self.processing, step))
 
     def scaled_to(self, pga: float, note: str = "") -> GroundMotion:
         """Return the motion scaled to a peak of `pga` [m/s2]."""
@@ -258,7 +258,7 @@ class GroundMotion(Shown):
 
     def corrected(self) -> GroundMotion:
         """Return the motion without the warning that its record is uncorrected."""
-        return replace(self, warnings=tuple(each for each in self.warnings if each.code != UNCORRECTED))
+        return replace(self, warnings=tuple(notice for notice in self.warnings if notice.code != UNCORRECTED))
 
     def led_by(self, lead: float) -> GroundMotion:
         """Return the motion with the ground at rest before it, so that its record begins `lead` [s] after its start."""
@@ -267,13 +267,13 @@ class GroundMotion(Shown):
             return self
         at_rest = [0.0] if self.acceleration[0] == 0.0 else [0.0, 0.0]
         time = np.concatenate([[0.0] if len(at_rest) == 1 else [0.0, more], self.time + more])
-        said = f"{more:.4g} s of rest before it, to go with the other component"
+        step = f"{more:.4g} s of rest before it, to go with the other component"
         return replace(
             self,
             time=time,
             acceleration=np.concatenate([at_rest, self.acceleration]),
             lead=lead,
-            processing=(*self.processing, said),
+            processing=(*self.processing, step),
         )
 
     @property

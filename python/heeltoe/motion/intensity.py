@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import arias_intensity, cumulative_absolute_velocity
 from heeltoe.motion.spectrum import response_spectrum

@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe.arrays import Floats
-from heeltoe.errors import InputError
+from heeltoe.base.arrays import Floats
+from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import arias_intensity, uniform
 from heeltoe.motion.processing import baseline
@@ -122,7 +122,7 @@ def match(
         raise InputError("order-zero", "", motion.name)
     judged = np.geomspace(shortest, longest, 2 * count - 1)
     period = judged[::2]
-    wanted = target(period)
+    targets = target(period)
     refined = uniform(motion)
     parts = int(np.ceil(refined.dt / (shortest / _SAMPLES_PER_PERIOD) * (1.0 - 1e-9)))
     refined = refined.resampled(refined.dt / parts) if parts > 1 else refined
@@ -136,7 +136,7 @@ def match(
     current = best
     for _ in range(iterations):
         current = baseline(
-            replace(current, acceleration=current.acceleration + oscillators.correction(current.acceleration, wanted)),
+            replace(current, acceleration=current.acceleration + oscillators.correction(current.acceleration, targets)),
             3,
         )
         error = float(np.sqrt(np.mean(_log_ratio(current, target, judged) ** 2)))
@@ -152,11 +152,11 @@ def match(
         best.pgd / scaled.pgd,
         arias_intensity(best) / arias_intensity(scaled),
     )
-    said = (
+    step = (
         f"matched by wavelets to {target.name}, {target.damping:.3%} damping, {shortest:g} s to {longest:g} s: "
         f"{misfit}; end velocity zero"
     )
-    return replace(best, processing=(*scaled.processing, said)), misfit
+    return replace(best, processing=(*scaled.processing, step)), misfit
 
 
 def _log_ratio(motion: GroundMotion, target: Target, period: Floats) -> Floats:
@@ -186,28 +186,28 @@ class _Oscillators:
         self.padded = int(2 ** np.ceil(np.log2(2 * size)))
         self.transform = np.fft.rfft(self.impulse, self.padded)
 
-    def correction(self, acceleration: Floats, wanted: Floats) -> Floats:
+    def correction(self, acceleration: Floats, change: Floats) -> Floats:
         """Return the sum of wavelets that, to first order, brings the largest peaks to what is wanted."""
         from scipy.signal import argrelmax
 
         spectrum = np.fft.rfft(acceleration, self.padded) * self.dt
         response = np.fft.irfft(self.transform * spectrum, self.padded)[:, : self.time.size]
         rows: list[tuple[int, int, float]] = []
-        for i, each in enumerate(response):
-            size = np.abs(each) / wanted[i]
+        for i, values in enumerate(response):
+            size = np.abs(values) / change[i]
             peaks = argrelmax(size)[0]
             peaks = peaks[np.argsort(-size[peaks], kind="stable")][:_PEAKS]
             for order, at in enumerate(peaks):
                 # The largest goes to the target; others that come near stay, or come down to it.
                 lacking = 1.0 - size[at] if order == 0 else min(1.0 - size[at], 0.0)
                 if order == 0 or size[at] > _NEARLY:
-                    rows.append((i, int(at), float(np.sign(each[at]) * lacking)))
+                    rows.append((i, int(at), float(np.sign(values[at]) * lacking)))
         who = np.array([i for i, _, _ in rows])
         wavelets = self._wavelets(who, self.dt * np.array([float(at) for _, at, _ in rows]))
         # Response of each oscillator to each wavelet, at the moment of the oscillator's own peak. Every fourth sample,
         # ten per period, is enough for the integral of two waves.
         gain = np.array(
-            [wavelets[:, at % 4 : at + 1 : 4] @ self.impulse[i, at - at % 4 :: -4] / wanted[i] for i, at, _ in rows]
+            [wavelets[:, at % 4 : at + 1 : 4] @ self.impulse[i, at - at % 4 :: -4] / change[i] for i, at, _ in rows]
         ) * (4.0 * self.dt)
         ridge = _RIDGE * np.linalg.norm(gain, 2)
         lack = np.array([lacking for _, _, lacking in rows])

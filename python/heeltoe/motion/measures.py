@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from heeltoe.arrays import Floats
-from heeltoe.errors import InputError
+from heeltoe.base.arrays import Floats
+from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import GroundMotion, integrals
 from heeltoe.units.parse import STANDARD_GRAVITY
 
@@ -34,14 +34,14 @@ def husid_time(motion: GroundMotion, share: float) -> float:
     curve = husid(motion)
     if curve[-1] == 0.0:
         raise InputError("order-zero", "", motion.name)
-    wanted = share * curve[-1]
-    k = int(np.clip(np.searchsorted(curve, wanted) - 1, 0, curve.size - 2))
+    level = share * curve[-1]
+    k = int(np.clip(np.searchsorted(curve, level) - 1, 0, curve.size - 2))
     h = motion.time[k + 1] - motion.time[k]
     a0, rise = motion.acceleration[k], motion.acceleration[k + 1] - motion.acceleration[k]
     low, high = 0.0, 1.0
     while low < (middle := (low + high) / 2.0) < high:
         reached = curve[k] + h * middle * (a0**2 + a0 * rise * middle + rise**2 * middle**2 / 3.0)
-        low, high = (middle, high) if reached < wanted else (low, middle)
+        low, high = (middle, high) if reached < level else (low, middle)
     return float(motion.time[k] + high * h)
 
 

@@ -12,12 +12,12 @@ from typing import Literal, Protocol
 
 import numpy as np
 
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import GroundMotion, integrals
 from heeltoe.motion.measures import arias_intensity, fourier_amplitudes, husid_time, measures, uniform
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.units.parse import STANDARD_GRAVITY
-from heeltoe.warnings import Notice
+from heeltoe.warnings.notice import Notice
 
 __all__ = [
     "Step",
@@ -99,11 +99,11 @@ def baseline(motion: GroundMotion, order: int = 2, *, displacement: bool = False
         start = start + free @ np.linalg.lstsq((fit.T @ free) * root[:, None], root * (velocity - fit.T @ start))[0]
     taken = start @ np.array(powers)
     also = " and displacement" if displacement else ""
-    said = f"baseline: polynomial of degree {order} taken from the velocity, end velocity{also} zero"
+    step = f"baseline: polynomial of degree {order} taken from the velocity, end velocity{also} zero"
     return replace(
         motion.corrected(),
         acceleration=motion.acceleration - taken,
-        processing=(*motion.processing, f"{said} (was {ends[0]:.4g} m/s)"),
+        processing=(*motion.processing, f"{step} (was {ends[0]:.4g} m/s)"),
     )
 
 
@@ -156,8 +156,8 @@ def band_pass(
     corners = [corner for corner in (low, high) if corner is not None]
     zeros = math.ceil(1.5 * order / corners[0] / motion.dt)
     if zeros > _MOST_ZEROS:
-        least = f"{1.5 * order / _MOST_ZEROS / motion.dt:.2g} Hz"
-        raise InputError("order-corner-slow", "high" if low is None else "low", f"{corners[0]:g} Hz", least=least)
+        slowest = f"{1.5 * order / _MOST_ZEROS / motion.dt:.2g} Hz"
+        raise InputError("order-corner-slow", "high" if low is None else "low", f"{corners[0]:g} Hz", least=slowest)
     kind = "bandpass" if len(corners) == 2 else "highpass" if high is None else "lowpass"
     sections = signal.butter(
         order, corners if len(corners) == 2 else corners[0], kind, fs=1.0 / motion.dt, output="sos"
@@ -169,7 +169,7 @@ def band_pass(
     last = max(zeros + motion.time.size - 1, int(felt[-1])) if felt.size else zeros + motion.time.size - 1
     before, behind = (zeros - first) * motion.dt, (last - zeros - motion.time.size + 1) * motion.dt
     band = " to ".join(f"{corner:g}" for corner in corners)
-    said = (
+    step = (
         f"{kind} {band} Hz (Butterworth of order {order}, forward and backward, {zeros * motion.dt:g} s of zeros on "
         f"either side, of which {before:.4g} s before and {behind:.4g} s behind the record stay)"
     )
@@ -178,7 +178,7 @@ def band_pass(
         time=motion.dt * np.arange(last - first + 1, dtype=np.float64),
         acceleration=filtered[first : last + 1],
         lead=motion.lead + before,
-        processing=(*motion.processing, said),
+        processing=(*motion.processing, step),
     )
 
 
@@ -207,13 +207,13 @@ def cut_significant(motion: GroundMotion, start: float = 0.05, end: float = 0.95
     first, last = husid_time(motion, start), husid_time(motion, end)
     inside = (motion.time > first) & (motion.time < last)
     edges = np.interp([first, last], motion.time, motion.acceleration)
-    said = f"cut to {start:g} to {end:g} of the Arias intensity, {first:.6g} s to {last:.6g} s"
+    step = f"cut to {start:g} to {end:g} of the Arias intensity, {first:.6g} s to {last:.6g} s"
     return replace(
         motion,
         time=np.concatenate([[first], motion.time[inside], [last]]) - first,
         acceleration=np.concatenate([edges[:1], motion.acceleration[inside], edges[1:]]),
         lead=0.0,
-        processing=(*motion.processing, said),
+        processing=(*motion.processing, step),
     )
 
 
@@ -228,13 +228,13 @@ def cut_to_window(motion: GroundMotion, start: float = 0.0, end: float | None = 
     inside = left.time > first
     edge = np.interp(first, left.time, left.acceleration)
     until = last - motion.lead
-    said = f"cut to {start:g} s to {until:g} s" if last < motion.duration else f"without its first {start:g} s"
+    step = f"cut to {start:g} s to {until:g} s" if last < motion.duration else f"without its first {start:g} s"
     return replace(
         left,
         time=np.concatenate([[0.0], left.time[inside] - first]),
         acceleration=np.concatenate([[edge], left.acceleration[inside]]),
         lead=motion.lead if start == 0.0 else 0.0,
-        processing=(*motion.processing, said),
+        processing=(*motion.processing, step),
     )
 
 
@@ -255,8 +255,8 @@ def scale_to_spectrum(motion: GroundMotion, period: float, acceleration: float, 
     if motion.pga == 0.0:
         raise InputError("order-zero", "", motion.name)
     factor = acceleration / float(response_spectrum(motion, [period], damping).pseudo_acceleration[0])
-    said = f"to a pseudo-acceleration of {acceleration:.6g} m/s2 at {period:g} s and {damping:.3%} damping"
-    return motion.scaled(factor, f"scaled by {factor:.6g} {said}")
+    purpose = f"to a pseudo-acceleration of {acceleration:.6g} m/s2 at {period:g} s and {damping:.3%} damping"
+    return motion.scaled(factor, f"scaled by {factor:.6g} {purpose}")
 
 
 def scale_time(motion: GroundMotion, factor: float, *, allow: bool = False) -> GroundMotion:
@@ -265,8 +265,8 @@ def scale_time(motion: GroundMotion, factor: float, *, allow: bool = False) -> G
         raise InputError("order-time-factor", "factor", f"{factor:g}")
     if not allow:
         raise InputError("order-time", "allow", f"{factor:g}")
-    said = f"time stretched by {factor:.6g}: all its frequencies are divided by that"
+    step = f"time stretched by {factor:.6g}: all its frequencies are divided by that"
     stretched = replace(
-        motion, time=motion.time * factor, lead=motion.lead * factor, processing=(*motion.processing, said)
+        motion, time=motion.time * factor, lead=motion.lead * factor, processing=(*motion.processing, step)
     )
     return stretched.with_warnings(Notice("motion-stretched", name=motion.name, factor=factor))

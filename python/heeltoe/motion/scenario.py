@@ -17,14 +17,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from heeltoe.arrays import Floats
-from heeltoe.errors import InputError
+from heeltoe.base.arrays import Floats
+from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.motion.records.catalog import PREFIX
 from heeltoe.motion.stochastic import Parameters, Source, stochastic_motion
 from heeltoe.units.parse import STANDARD_GRAVITY
-from heeltoe.warnings import Notice
-
-PREFIX = "synthetic:"
+from heeltoe.warnings.notice import Notice
 
 # Rows: intensity, D5-95, t_mid, frequency, its rate, bandwidth. Columns: 1, M, F, distance, Vs30, of which the last two
 # are ln(R / 25 km) and ln(Vs30 / 750 m/s) in the first row, and R [km] and Vs30 [m/s] in the others.
@@ -184,10 +183,10 @@ def synthetic(name: str, *, gravity: float = STANDARD_GRAVITY, field: str = "mot
     motion = replace(motion, event=f"made to order: M {magnitude:g} at {distance:g} km", source=name)
     if "step" in order:
         motion = motion.resampled(order["step"])
-    said = [Notice("motion-generated", field=field, name=motion.name)]
+    notices = [Notice("motion-generated", field=field, name=motion.name)]
     if not (6.0 <= magnitude <= 7.6 and 10.0 <= distance <= 100.0 and vs30 >= 600.0):
-        said.append(Notice("motion-beyond-relations", field=field, name=motion.name))
-    return motion.with_warnings(*said)
+        notices.append(Notice("motion-beyond-relations", field=field, name=motion.name))
+    return motion.with_warnings(*notices)
 
 
 def order_of(name: str, *, field: str = "motion.file") -> dict[str, float]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.motion.ground_motion import GroundMotion, Part
 
 #: Ground motions of one earthquake, horizontal and vertical, and how long they last [s].
@@ -48,9 +48,9 @@ def joined(pairs: Sequence[Pair], pauses: Sequence[float]) -> tuple[GroundMotion
 
 def _whole(placed: Sequence[_Placed], end: float) -> GroundMotion:
     time, values = [np.zeros(1)], [np.zeros(1)]
-    for each in placed:
-        moments, acceleration = _between_rests(each.motion.cut(each.lasts))
-        time.append(each.begins + moments)
+    for placement in placed:
+        moments, acceleration = _between_rests(placement.motion.cut(placement.lasts))
+        time.append(placement.begins + moments)
         values.append(acceleration)
     if time[-1][-1] < end:
         time.append(np.array([end]))
@@ -58,19 +58,25 @@ def _whole(placed: Sequence[_Placed], end: float) -> GroundMotion:
     moments, acceleration = np.concatenate(time), np.concatenate(values)
     # What is at rest on both sides of a moment needs that moment once.
     twice = np.append(False, (np.diff(moments) == 0.0) & (np.diff(acceleration) == 0.0))
-    first, *others = (each.motion for each in placed)
+    first, *others = (placement.motion for placement in placed)
     name = f"{first.name} and {len(others)} aftershock{'s' if len(others) > 1 else ''}" if others else first.name
-    warnings = tuple(dict.fromkeys(notice for each in placed for notice in each.motion.warnings))
+    warnings = tuple(dict.fromkeys(notice for placement in placed for notice in placement.motion.warnings))
     return GroundMotion(
         name,
         moments[~twice],
         acceleration[~twice],
         format="sequence",
-        source="; ".join(each.motion.source for each in placed),
+        source="; ".join(placement.motion.source for placement in placed),
         warnings=warnings,
         parts=tuple(
-            Part(each.motion.name, each.begins, each.begins + each.lasts, each.motion.pga, each.motion.processing)
-            for each in placed
+            Part(
+                placement.motion.name,
+                placement.begins,
+                placement.begins + placement.lasts,
+                placement.motion.pga,
+                placement.motion.processing,
+            )
+            for placement in placed
         ),
     )
 

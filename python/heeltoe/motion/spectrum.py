@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from heeltoe.arrays import Floats
-from heeltoe.errors import InputError
+from heeltoe.base.arrays import Floats
+from heeltoe.errors.error import InputError
 from heeltoe.kernel.shaking import peak_responses
 from heeltoe.motion.ground_motion import GroundMotion
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from heeltoe.arrays import Floats
-from heeltoe.errors import InputError
+from heeltoe.base.arrays import Floats
+from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.processing import baseline
 from heeltoe.units.parse import STANDARD_GRAVITY
@@ -167,14 +167,20 @@ def stochastic_motion(
     for numerator, denominator in [_critical(lowest)] if source is None else _two_corners(source):
         acceleration = signal.lfilter(*signal.bilinear(numerator, denominator, fs=1.0 / STEP), acceleration)
     long_periods = f"high-pass {lowest:.3g} Hz" if source is None else f"source {lowest:.3g} and {source.upper:.3g} Hz"
-    said = (
+    processing = (
         f"filtered, modulated white noise after Rezaeian and Der Kiureghian (2010): Arias intensity "
         f"{parameters.arias:.4g} m/s, D5-95 {parameters.duration:.4g} s, t_mid {parameters.middle:.4g} s, frequency "
         f"{parameters.frequency:.4g} Hz there, changing by {parameters.frequency_rate:.3g} Hz/s, bandwidth "
         f"{parameters.bandwidth:.3g}, {long_periods}, seed {seed}"
     )
     motion = GroundMotion(
-        name, time, acceleration, format="synthetic", units_as_read="m/s^2", source="made to order", processing=(said,)
+        name,
+        time,
+        acceleration,
+        format="synthetic",
+        units_as_read="m/s^2",
+        source="made to order",
+        processing=(processing,),
     )
     return baseline(motion, 3, displacement=True)
 
@@ -198,7 +204,7 @@ def _two_corners(source: Source) -> list[_Filter]:
     The spectrum f^2 ((1 - share) / (1 + (f / lower)^2) + share / (1 + (f / upper)^2)), one where the frequency is high,
     is that of s^2 (s + z)^2 / ((s + l)^2 (s + u)^2) with 1 / z^2 = (1 - share) / u^2 + share / l^2: no approximation.
     """
-    low, up = (2.0 * np.pi * each for each in (source.lower, source.upper))
+    low, up = (2.0 * np.pi * corner for corner in (source.lower, source.upper))
     z = float(1.0 / np.sqrt((1.0 - source.share) / up**2 + source.share / low**2))
     return [_critical(source.lower), ([1.0, 2.0 * z, z * z], [1.0, 2.0 * up, up * up])]
 

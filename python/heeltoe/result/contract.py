@@ -5,11 +5,16 @@ Terminal, report, notebook, models side by side, spread and tables of runs all r
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import TYPE_CHECKING, Literal
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
+from heeltoe.result.numbers import SlipByMode, TimeByMode
+
+# Not at run time: a response takes these names.
+if TYPE_CHECKING:
+    from heeltoe.result.response import Numbered
 
 
 @dataclass(frozen=True)
@@ -47,6 +52,10 @@ class Quantity:
     least: float
     column: str
     sense: Literal[1, -1] = 1
+
+    def of(self, crack: Numbered) -> float:
+        """Return this number of a crack, or of the crack of ``[crack]`` of a response."""
+        return float(getattr(crack, self.key))
 
     @property
     def full(self) -> str:
@@ -108,7 +117,28 @@ HEADLINES = (
 """In the order in which they are shown."""
 
 
+def leading_crack(slips_m: Sequence[float], first: int) -> int:
+    """Return which of several cracks leads: that which slips most, or the `first` one of the case where none slips by
+    what a joint meter shows. `slips_m` are the residual slips from the crest down [m]."""
+    sizes = [abs(slip) for slip in slips_m]
+    return sizes.index(max(sizes)) if max(sizes) >= JOINT_METER_M else first
+
+
+def slip_by_mode(row: Mapping[str, float]) -> SlipByMode:
+    """Return the slips by mode that a row of a kernel has."""
+    return SlipByMode(**{name: row[f"slip_{name}"] for name in SlipByMode.names()})
+
+
+def time_by_mode(row: Mapping[str, float]) -> TimeByMode:
+    """Return the times by mode that a row of a kernel has."""
+    return TimeByMode(**{name: row[f"time_{name}"] for name in TimeByMode.names()})
+
+
 def headlines(table: Mapping[str, Floats]) -> dict[str, Floats]:
     """Return those headline numbers of many runs that a kernel's table has, (n,) by their names in the JSON."""
     # Adding zero makes a negative zero a plain one.
-    return {each.key: each.sense * table[each.column] + 0.0 for each in HEADLINES if each.column in table}
+    return {
+        headline.key: headline.sense * table[headline.column] + 0.0
+        for headline in HEADLINES
+        if headline.column in table
+    }

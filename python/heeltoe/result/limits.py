@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated, Any
+
+from heeltoe.base.blocks import Block, Number
 
 if TYPE_CHECKING:
     from heeltoe.case.options import Limits
+    from heeltoe.result.response import CrackResponse, Response
 
 
 # What the fields of ``limits`` limit.
@@ -23,30 +25,23 @@ _LABELS = {
 _FAILURES = ("overturned", "unstable", "lost")
 
 
-@dataclass(frozen=True)
-class LimitCheck:
-    """A result beside what the user allows.
+class LimitCheck(Block):
+    """A result beside what the user allows."""
 
-    Attributes
-    ----------
-    name
-        Field of ``limits`` in the case.
-    value_m, allowed_m
-        Magnitude of the result, and how much it may be [m].
-    failed
-        Whether the dam has overturned, or does not even stand without an earthquake: then it keeps no limit.
-    uncertainty_m
-        How far the result may be off by its evidence [m]; zero where there is none.
-    elevation_m
-        Of the crack whose result it is, where there are several: the largest of all.
-    """
-
-    name: str
-    value_m: float
-    allowed_m: float
-    failed: bool
-    uncertainty_m: float = 0.0
-    elevation_m: float | None = None
+    name: Annotated[str, Number("Field of limits in the case.")]
+    value_m: Annotated[float, Number("What the run has, without its sign.", "m")]
+    allowed_m: Annotated[float, Number("How much the case allows.", "m")]
+    failed: Annotated[
+        bool,
+        Number("Whether the dam has overturned, or does not even stand without an earthquake: it keeps no limit then."),
+    ]
+    uncertainty_m: Annotated[
+        float, Number("How far the result may be off by its evidence; zero where there is none.", "m")
+    ] = 0.0
+    elevation_m: Annotated[
+        float | None,
+        Number("Of the crack whose result it is, where there are several: the largest of all.", "m", optional=True),
+    ] = None
 
     @property
     def label(self) -> str:
@@ -64,41 +59,46 @@ class LimitCheck:
         return self.failed or abs(self.value_m - self.allowed_m) > self.uncertainty_m or not self.uncertainty_m
 
     def to_json(self) -> dict[str, Any]:
-        """Return the contract."""
-        told = asdict(self)
-        if self.elevation_m is None:
-            del told["elevation_m"]
-        return {**told, "met": self.met, "certain": self.certain}
+        """Return its fields, and whether the limit is met, and for certain."""
+        return {**super().to_json(), "met": self.met, "certain": self.certain}
 
 
-def check_limits(limits: Limits, summary: Mapping[str, Any], outcome: str) -> tuple[LimitCheck, ...]:
-    """Compare the numbers of a summary with the limits that the user has set.
+def check_limits(limits: Limits, response: Response) -> tuple[LimitCheck, ...]:
+    """Compare the numbers of a response with the limits that the user has set.
 
     They are the numbers to trust: where the runs of an elastic dam scatter, the means. Without a result to trust
     nothing is compared.
     """
-    if outcome not in ("ok", *_FAILURES):
+    if response.outcome not in ("ok", *_FAILURES):
         return ()
+    failed = response.outcome in _FAILURES
     # Of several cracks any may break a limit.
-    cracks = summary.get("cracks") or [summary]
-    failed = outcome in _FAILURES
     checks = [
-        max((_check(name, limit, crack, failed=failed) for crack in cracks), key=lambda check: check.value_m)
+        max((_check(name, limit, crack, failed=failed) for crack in response.cracks), key=lambda check: check.value_m)
         for name in _LABELS
         if (limit := getattr(limits, name)) is not None
     ]
-    return tuple(checks)
+    return tuple(check if response.several else replace(check, elevation_m=None) for check in checks)
 
 
-def _check(name: str, limit: float, summary: Mapping[str, Any], *, failed: bool) -> LimitCheck:
+def _check(name: str, limit: float, crack: CrackResponse, *, failed: bool) -> LimitCheck:
     """Compare a number of one crack with what it may be."""
-    peak = max(("peak_slip_downstream_m", "peak_slip_upstream_m"), key=lambda key: abs(summary[key]))
+    numbers = crack.numbers
+    assert numbers is not None
+    peak = max(("peak_slip_downstream_m", "peak_slip_upstream_m"), key=lambda key: abs(numbers[key]))
     keys = {
         "residual_slip": "residual_slip_m",
         "peak_slip": peak,
         "opening_upstream": "opening_upstream_m",
         "opening_downstream": "opening_downstream_m",
     }
-    key, evidence = keys[name], summary.get("evidence") or {}
-    uncertainty = evidence[key]["uncertainty"] if evidence else 0.0
-    return LimitCheck(name, abs(summary[key]), limit, failed, uncertainty, summary.get("elevation_m"))
+    key, evidence = keys[name], numbers.get("evidence")
+    uncertainty = 0.0 if evidence is None else evidence[key].uncertainty
+    return LimitCheck(
+        name=name,
+        value_m=abs(numbers[key]),
+        allowed_m=limit,
+        failed=failed,
+        uncertainty_m=uncertainty,
+        elevation_m=crack.elevation,
+    )

@@ -2,87 +2,87 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any, ClassVar, Generic, Protocol, Self, TypeVar, overload
+from typing import Annotated, Any, ClassVar, Generic, Protocol, Self, TypeVar, overload
 
 import pyarrow as pa
 
-from heeltoe.arrays import Floats
-from heeltoe.dataframe import dataframe
+from heeltoe.base.arrays import Floats
+from heeltoe.base.atomic_files import written
+from heeltoe.base.blocks import Block, Number, plain_json
+from heeltoe.base.display import Shown
+from heeltoe.base.pandas import dataframe
+from heeltoe.errors.sanitize import plain
+from heeltoe.mechanics.block import StaticState
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.plain import plain
-from heeltoe.result.beside import meaning, ratio
-from heeltoe.result.contract import TOO_FAR
+from heeltoe.result.comparison import meaning, ratio
+from heeltoe.result.contract import TOO_FAR, leading_crack
 from heeltoe.result.limits import LimitCheck
+from heeltoe.result.numbers import (
+    OF_SEVERAL,
+    AnchorForce,
+    CrackNumbers,
+    FrictionLawState,
+    Roughness,
+    SignNumbers,
+    SlipByMode,
+    Spread,
+    TimeByMode,
+)
 from heeltoe.result.sequence import Stage
 from heeltoe.result.verdict import verdict
 from heeltoe.result.write import build_info, motion_json, static_json, write_table
-from heeltoe.shown import Shown
 from heeltoe.units.sentences import Sentence
-from heeltoe.warnings import Notice
-from heeltoe.whole import written
+from heeltoe.warnings.notice import Notice
 
 T = TypeVar("T")
 R = TypeVar("R", bound="Response")
+_J = "J per metre of dam"
 
 #: Outcomes of a run; only the first two come with a result to trust.
 OUTCOMES = ("ok", "overturned", "unstable", "paradox", "event limit", "cycling", "lost", "blown up", TOO_FAR)
 
 
-@dataclass(frozen=True)
-class Energy:
-    """The energy ledger of a run, per metre of dam.
+class Energy(Block):
+    """The energy ledger of a run, per metre of dam."""
 
-    Attributes
-    ----------
-    input_j
-        Work of water, weight, uplift and the ground's inertia force on the motion relative to the ground.
-    friction_j, impact_j
-        Energy lost in friction and in impacts, both positive.
-    kinetic_j
-        Kinetic energy left at the end; of elastic parts with their strain energy, less that at the start.
-    residual
-        What is left of the balance of all others, over the turnover; rounding if the run is sound.
-    damping_j, numerical_j
-        Lost in the concrete's damping, and by the time stepping itself; zero for a rigid block.
-    gained_j
-        Sum of what contact added in steps in which its work was positive; it should be nothing.
-    """
-
-    input_j: float
-    friction_j: float
-    impact_j: float
-    kinetic_j: float
-    residual: float
-    damping_j: float = 0.0
-    numerical_j: float = 0.0
-    gained_j: float = 0.0
+    input_j: Annotated[
+        float,
+        Number(
+            "Work of water, weight, uplift and the ground's inertia force on the motion relative to the ground.", _J
+        ),
+    ]
+    friction_j: Annotated[float, Number("Energy lost in friction.", _J)]
+    impact_j: Annotated[float, Number("Energy lost in impacts.", _J)]
+    kinetic_j: Annotated[
+        float,
+        Number(
+            "Kinetic energy left at the end; of elastic parts with their strain energy, less that at the start.", _J
+        ),
+    ]
+    residual: Annotated[
+        float, Number("What is left of the balance of all others, over the turnover; rounding if the run is sound.")
+    ]
+    damping_j: Annotated[float, Number("Energy lost in the concrete's damping; zero for a block.", _J)] = 0.0
+    numerical_j: Annotated[float, Number("Energy lost by the time stepping itself; zero for a block.", _J)] = 0.0
+    gained_j: Annotated[
+        float, Number("Sum of what contact added in steps in which its work was positive; it should be nothing.", _J)
+    ] = 0.0
 
 
-@dataclass(frozen=True)
-class Chosen:
-    """How a model came to be the one that the numbers are from.
+class Chosen(Block):
+    """How a model came to be the one that the numbers are from."""
 
-    Attributes
-    ----------
-    asked
-        What was asked for: a model, two of them, or ``"auto"``.
-    why
-        Why it is this model.
-    """
-
-    asked: str
-    why: str
+    asked: Annotated[str, Number("What was asked for: a model, two of them, or auto.")]
+    why: Annotated[str, Number("Why it is this model.")]
 
 
 class Of(Generic[T]):
-    """A number of the summary as an attribute of its response, by the same name; none where the run never started."""
-
-    def __init__(self, doc: str) -> None:
-        self.__doc__ = doc
+    """A number of a crack, or of the dam, as an attribute by the same name; none where the run never started."""
 
     def __set_name__(self, owner: type, name: str) -> None:
         self._name = name
@@ -90,16 +90,106 @@ class Of(Generic[T]):
     @overload
     def __get__(self, response: None, owner: type) -> Self: ...
     @overload
-    def __get__(self, response: Response, owner: type) -> T: ...
-    def __get__(self, response: Response | None, owner: type) -> Self | T:
+    def __get__(self, response: Numbered, owner: type) -> T: ...
+    def __get__(self, response: Numbered | None, owner: type) -> Self | T:
         if response is None:
             return self
-        try:
-            found: T = response.summary[self._name]
-        except KeyError:
-            said = f"a {owner.__name__} with outcome {response.outcome!r} has no {self._name!r}"
-            raise AttributeError(said) from None
-        return found
+        for block in (response.numbers, response.of_dam) if response.numbers is not None else ():
+            if block is not None and hasattr(block, self._name):
+                value: T = getattr(block, self._name)
+                return value
+        raise AttributeError(f"a {owner.__name__} without a run, or of another model, has no {self._name!r}")
+
+
+class Numbered(ABC):
+    """What has the numbers of a crack, each an attribute by its JSON name; :mod:`heeltoe.result.numbers` says what they
+    mean."""
+
+    @property
+    @abstractmethod
+    def numbers(self) -> CrackNumbers | None:
+        """The numbers of the crack, by their JSON names (SI); None where the run never started."""
+
+    @property
+    def of_dam(self) -> Block | None:
+        """Those of the dam as a whole; None of a block."""
+        return None
+
+    residual_slip_m = Of[float]()
+    peak_slip_downstream_m = Of[float]()
+    peak_slip_upstream_m = Of[float]()
+    rocking_downstream_rad = Of[float]()
+    rocking_upstream_rad = Of[float]()
+    opening_upstream_m = Of[float]()
+    opening_downstream_m = Of[float]()
+    largest_gap_heel_m = Of[float]()
+    largest_gap_toe_m = Of[float]()
+    slip_by_mode_m = Of[SlipByMode]()
+    time_by_mode_s = Of[TimeByMode]()
+    impacts = Of[int]()
+    largest_impact_velocity_m_s = Of[float]()
+    final_mode = Of[str]()
+    final_slip_velocity_m_s = Of[float]()
+    end_time_s = Of[float]()
+    crack_width_m = Of[float]()
+    uplift_during_shaking = Of[str]()
+    anchors = Of[list[AnchorForce] | None]()
+    events = Of[int]()
+    rotation = Of[str]()
+    friction_law = Of[FrictionLawState | None]()
+    roughness = Of[Roughness | None]()
+    drainage_by_motion = Of[list[float] | None]()
+    overturned_about = Of[str | None]()
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CrackResponse(Numbered):
+    """What one crack did.
+
+    Attributes
+    ----------
+    elevation
+        Of its upstream end above the lowest point of the section [m].
+    of_crack
+        Its numbers, by their JSON names (SI); None where the run never started.
+    histories
+        Columns of equal length, by name with unit; the first is ``time_s``.
+    mode
+        Mode of motion at each moment of the histories, by name.
+    event_log
+        Columns of equal length: every event with time, kind, modes, state, impulses.
+    static
+        State under the static loads: safety factors, resultant, critical accelerations.
+    sequence
+        What each motion does to it where the dam meets several, one after the other.
+    """
+
+    elevation: float
+    of_crack: CrackNumbers | None
+    histories: Mapping[str, Floats]
+    mode: tuple[str, ...]
+    event_log: Mapping[str, Any]
+    static: StaticState
+    sequence: tuple[Stage, ...] = ()
+
+    def __post_init__(self) -> None:
+        for name in ("histories", "event_log"):
+            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+
+    @property
+    def numbers(self) -> CrackNumbers | None:
+        """The numbers of the crack, by their JSON names (SI); None where the run never started."""
+        return self.of_crack
+
+    def __getitem__(self, name: str) -> Any:
+        """Return a number by its JSON name."""
+        return self.to_json()[name]
+
+    def to_json(self) -> dict[str, Any]:
+        """Return what the JSON has of one of several cracks."""
+        numbers = {} if self.of_crack is None else self.of_crack.to_json()
+        stages = {"sequence": [stage.to_json() for stage in self.sequence]} if self.sequence else {}
+        return {"elevation_m": self.elevation, **numbers, **stages}
 
 
 class Change(Protocol):
@@ -108,8 +198,8 @@ class Change(Protocol):
     def __call__(self, response: R, /) -> R: ...
 
 
-@dataclass(frozen=True, eq=False)
-class Response(Shown):
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Response(Numbered, Shown):
     """Result of one analysis. Signs: slip is positive downstream, rotation positive counter-clockwise (upstream).
 
     Attributes
@@ -122,22 +212,18 @@ class Response(Shown):
         ``"ok"``, or what stopped the run and what to do about it.
     warnings
         Everything a reader must know before using the numbers.
-    summary
-        The numbers of the contract, by their JSON names (SI). Empty where the run never started.
     energy
         The ledger; None where the run never started.
     motion, vertical
         The ground motions, as used.
     gravity
         One g of the case [m/s2].
-    histories
-        Columns of equal length, by name with unit; the first is ``time_s``.
-    mode
-        Mode of motion at each moment of the histories, by name.
-    event_log
-        Columns of equal length: every event with time, kind, modes, state, impulses.
-    static
-        State under the static loads: safety factors, resultant, critical accelerations.
+    cracks
+        What each crack did, from the crest down: one or many.
+    asked
+        Which of them leads, as it slips most: its numbers, histories and static state are those of the response.
+    dam
+        What the dam did as a whole, beside its cracks; None of a block.
     references
         Sources of the methods used.
     spread
@@ -152,8 +238,8 @@ class Response(Shown):
         How long it took to compute [s]; building the elastic parts is part of it.
     silence_s
         How long the run goes on after the ground motion has ended, until the dam is at rest [s].
-    sequence
-        What each motion does where the dam meets several, one after the other.
+    signs
+        What the motion does as recorded and reversed, where both were run: the response is that of the worse way.
     """
 
     model: str
@@ -161,57 +247,21 @@ class Response(Shown):
     outcome: str
     advice: Sentence | None
     warnings: tuple[Notice, ...]
-    summary: Mapping[str, Any]
     energy: Energy | None
     motion: GroundMotion
     vertical: GroundMotion | None
     gravity: float
-    histories: Mapping[str, Floats]
-    mode: tuple[str, ...]
-    event_log: Mapping[str, Any]
-    static: Mapping[str, Any]
+    cracks: tuple[CrackResponse, ...]
+    asked: int = 0
+    dam: Block | None = None
     references: tuple[str, ...] = field(default=())
-    spread: Mapping[str, Any] | None = None
+    spread: Spread | None = None
     limits: tuple[LimitCheck, ...] = ()
     chosen: Chosen | None = None
     beside: Response | None = None
     seconds: float = 0.0
     silence_s: float = 0.0
-    sequence: tuple[Stage, ...] = ()
-
-    def __post_init__(self) -> None:
-        for name in ("summary", "histories", "event_log", "static"):
-            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
-
-    residual_slip_m = Of[float]("Slip at the end, positive downstream [m].")
-    peak_slip_downstream_m = Of[float]("Largest slip on the way [m].")
-    peak_slip_upstream_m = Of[float]("Least slip on the way: negative where it is upstream of the start [m].")
-    rocking_downstream_rad = Of[float]("Largest rotation about the toe [rad].")
-    rocking_upstream_rad = Of[float]("Largest rotation about the heel [rad].")
-    opening_upstream_m = Of[float]("Largest opening of the crack at the upstream face [m].")
-    opening_downstream_m = Of[float]("Largest opening of the crack at the downstream face [m].")
-    largest_gap_heel_m = Of[float]("Largest gap at the heel, in the air included [m].")
-    largest_gap_toe_m = Of[float]("Largest gap at the toe, in the air included [m].")
-    slip_by_mode_m = Of[Mapping[str, float]]("Slip while sliding, in slide-rocking and in the air [m].")
-    time_by_mode_s = Of[Mapping[str, float]]("How long each mode of motion lasts in all [s].")
-    impacts = Of[int]("Blows; of an elastic dam those of the nodes of its crack.")
-    largest_impact_velocity_m_s = Of[float]("Of approach [m/s].")
-    final_mode = Of[str]("Mode of motion at the end.")
-    final_slip_velocity_m_s = Of[float]("Positive downstream [m/s].")
-    end_time_s = Of[float]("When the run ended [s].")
-    crack_width_m = Of[float]("Width of the crack [m].")
-    uplift_during_shaking = Of[str]("What the case says of it.")
-    anchors = Of[list[dict[str, float | None]]]("Of each anchor: place, largest tension and capacity.")
-    events = Of[int]("Changes of mode and impacts of a block.")
-    rotation = Of[str]("Geometry of a block: small, p-delta or finite.")
-    friction_law = Of[dict[str, Any] | None]("What the friction law of a crack has come to; null of coefficients.")
-    roughness = Of[dict[str, Any] | None]("What the asperities of a rough crack have come to; null of a flat one.")
-    drainage_by_motion = Of[list[float] | None](
-        "Share of the drains' work that each motion of a sequence finds; null where it stays."
-    )
-    overturned_about = Of[str | None]("Corner about which a block has overturned.")
-    cracks = Of[list[dict[str, Any]]]("What each of several cracks did, from the crest down.")
-    governing_crack = Of[int]("Which of several cracks slips most, from the crest down.")
+    signs: tuple[SignNumbers, ...] = ()
 
     #: Whether the parts of the dam are elastic, so that both ends of a crack shift with nothing happening to the dam.
     elastic: ClassVar[bool] = False
@@ -220,7 +270,7 @@ class Response(Shown):
         beside = "" if self.beside is None else f" with the {self.beside.model} one beside it"
         title = self.title or "untitled case"
         shaken = f"{plain(self.motion.name)}, peak {self.motion.pga / self.gravity:.4g} g"
-        count = sum(len(each.warnings) for each in self.responses)
+        count = sum(len(response.warnings) for response in self.responses)
         warned = f"\n  {count} warning{'s' if count > 1 else ''} in .warnings" if count else ""
         return f"<{type(self).__name__}: {self.model} model{beside}, {title!r}, {shaken}\n  {verdict(self)}{warned}>"
 
@@ -250,29 +300,81 @@ class Response(Shown):
         return self.outcome in ("ok", "overturned")
 
     @property
-    def histories_of_cracks(self) -> tuple[Mapping[str, Floats], ...]:
-        """The histories of each crack, from the crest down."""
-        return (self.histories,)
+    def started(self) -> bool:
+        """Whether there was a run: a dam that does not stand has none."""
+        return self.numbers is not None
 
     @property
-    def place(self) -> int:
-        """Which of several cracks is that of ``[crack]``, from the crest down."""
-        return 0
+    def numbers(self) -> CrackNumbers | None:
+        """The numbers of the crack that leads, by their JSON names (SI); None where the run never started."""
+        return self.cracks[self.asked].of_crack
 
     @property
-    def others(self) -> Mapping[str, Response]:
-        """The response at each of several cracks but that of ``[crack]``, by name: counted from the crest down."""
-        return {}
+    def of_dam(self) -> Block | None:
+        """The numbers of the dam as a whole; None of a block."""
+        return self.dam
 
     @property
-    def event_logs(self) -> tuple[Mapping[str, Any], ...]:
-        """The events of each crack, from the crest down."""
-        return (self.event_log,)
+    def summary(self) -> Mapping[str, Any]:
+        """All numbers of the crack that leads and of the dam, by their JSON names; empty where no run started."""
+        if self.numbers is None:
+            return {}
+        of_crack = {name: value for name, value in self.numbers.items() if name not in OF_SEVERAL}
+        return MappingProxyType({**of_crack, **(self.dam or {})})
 
     @property
-    def final_modes(self) -> tuple[str, ...]:
-        """The mode of motion of each crack at the end, from the crest down."""
-        return (self.final_mode,)
+    def histories(self) -> Mapping[str, Floats]:
+        """Columns of equal length, by name with unit; the first is ``time_s``."""
+        return self.cracks[self.asked].histories
+
+    @property
+    def mode(self) -> tuple[str, ...]:
+        """Mode of motion at each moment of the histories, by name."""
+        return self.cracks[self.asked].mode
+
+    @property
+    def event_log(self) -> Mapping[str, Any]:
+        """Columns of equal length: every event with time, kind, modes, state, impulses."""
+        return self.cracks[self.asked].event_log
+
+    @property
+    def static(self) -> StaticState:
+        """State under the static loads: safety factors, resultant, critical accelerations."""
+        return self.cracks[self.asked].static
+
+    @property
+    def sequence(self) -> tuple[Stage, ...]:
+        """What each motion does where the dam meets several, one after the other."""
+        return self.cracks[self.asked].sequence
+
+    @property
+    def several(self) -> bool:
+        """Whether the dam has several cracks, and there was a run."""
+        return self.started and len(self.cracks) > 1
+
+    @property
+    def governing_crack(self) -> int:
+        """Which of several cracks slips most, from the crest down; its numbers are those of the response."""
+        return leading_crack([crack.residual_slip_m for crack in self.cracks], self.asked)
+
+    @property
+    def others(self) -> Mapping[str, Self]:
+        """The response at each of several cracks but the one that leads, by name: counted from the crest down."""
+        places = range(len(self.cracks)) if self.several else ()
+        return {f"crack-{place + 1}": self.at_crack(place) for place in places if place != self.asked}
+
+    def at_crack(self, place: int) -> Self:
+        """Return the response of one of several cracks alone, from the crest down; its limits, its spread and what
+        stands beside it are left out."""
+        crack = self.cracks[place]
+        title = f"{self.title or 'Dam'}, crack at {crack.elevation:g} m"
+        return replace(self, title=title, cracks=(crack,), asked=0, limits=(), spread=None, beside=None)
+
+    def with_crack(self, place: int | None = None, **changes: Any) -> Self:
+        """Return the response with other fields of one of its cracks: the one that leads where none is named."""
+        at = self.asked if place is None else place
+        cracks = [replace(crack, **changes) if k == at else crack for k, crack in enumerate(self.cracks)]
+        return replace(self, cracks=tuple(cracks))
 
     def lets_go(self) -> bool:
         """Whether there are moments in which the whole dam can slide; a block slides as a whole or not at all."""
@@ -284,23 +386,25 @@ class Response(Shown):
 
     def to_json(self) -> dict[str, Any]:
         """Return the contract: a dictionary of plain numbers, strings and lists."""
-        energy = None
-        if self.energy is not None:
-            energy = asdict(self.energy)
+        several = {}
+        if self.several:
+            several = {"governing_crack": self.governing_crack, "cracks": [crack.to_json() for crack in self.cracks]}
         return {
             "model": self.model,
-            "chosen": None if self.chosen is None else asdict(self.chosen),
+            "chosen": None if self.chosen is None else self.chosen.to_json(),
             "title": self.title,
             "outcome": self.outcome,
             "advice": None if self.advice is None else str(self.advice),
             "verdict": verdict(self),
-            "warnings": [each.to_json() for each in self.warnings],
-            **self.summary,
+            "warnings": [notice.to_json() for notice in self.warnings],
+            **plain_json(self.summary),
+            **several,
             "silence_s": self.silence_s,
             **static_json(self.static),
-            "energy": energy,
-            **({} if self.spread is None else {"spread": dict(self.spread)}),
-            **({"sequence": [each.to_json() for each in self.sequence]} if self.sequence else {}),
+            "energy": None if self.energy is None else self.energy.to_json(),
+            **({} if self.spread is None else {"spread": self.spread.to_json()}),
+            **({"sequence": [stage.to_json() for stage in self.sequence]} if self.sequence else {}),
+            **({"signs": [way.to_json() for way in self.signs]} if self.signs else {}),
             "limits": [check.to_json() for check in self.limits],
             "motion": motion_json(self.motion, self.gravity),
             "vertical_motion": motion_json(self.vertical, self.gravity) if self.vertical else None,

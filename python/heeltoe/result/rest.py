@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.result.contract import JOINT_METER_M
 
 # Not at run time: a response says its verdict in its JSON.
@@ -54,7 +54,7 @@ def still_since(time: Floats, *moved: Floats) -> float:
 
 def last_of(response: Response) -> LastChange:
     """Return what of an elastic dam moves most in the last second of its run."""
-    return max((last_change(*each) for each in _moved(response)), key=lambda last: last.change_m)
+    return max((last_change(*history) for history in _moved(response)), key=lambda last: last.change_m)
 
 
 def comes_to_rest(response: Response) -> bool:
@@ -63,7 +63,7 @@ def comes_to_rest(response: Response) -> bool:
     A rigid block says so itself. An elastic dam is never quite still, and where its crack stays open in part it is not
     in the state of rest: it has stopped where its slip and its openings change by nothing measurable any more.
     """
-    return last_of(response).rest if response.elastic else all(mode == "rest" for mode in response.final_modes)
+    return last_of(response).rest if response.elastic else all(crack.final_mode == "rest" for crack in response.cracks)
 
 
 def rests_from(response: Response) -> float:
@@ -71,15 +71,16 @@ def rests_from(response: Response) -> float:
     if not comes_to_rest(response):
         return math.inf
     if response.elastic:
-        return max(still_since(*each) for each in _moved(response))
-    return max(float(max(log["time_s"], default=0.0)) for log in response.event_logs)
+        return max(still_since(*history) for history in _moved(response))
+    return max(float(max(crack.event_log["time_s"], default=0.0)) for crack in response.cracks)
 
 
 def motion_end(response: Response) -> float:
     """Return when the ground motion of a run ends [s]; what goes on after its run has no part in it."""
-    motions = [each for each in (response.motion, response.vertical) if each is not None]
-    return min(response.end_time_s - response.silence_s, max(each.duration for each in motions))
+    motions = [motion for motion in (response.motion, response.vertical) if motion is not None]
+    return min(response.end_time_s - response.silence_s, max(motion.duration for motion in motions))
 
 
 def _moved(response: Response) -> list[tuple[Floats, Floats, Floats, Floats]]:
-    return [(h["time_s"], h["slip_m"], h["gap_heel_m"], h["gap_toe_m"]) for h in response.histories_of_cracks]
+    histories = [crack.histories for crack in response.cracks]
+    return [(h["time_s"], h["slip_m"], h["gap_heel_m"], h["gap_toe_m"]) for h in histories]

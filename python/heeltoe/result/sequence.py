@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
-from typing import TYPE_CHECKING, Any
+from dataclasses import field
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 
+from heeltoe.base.blocks import Block, Number
 from heeltoe.result.contract import JOINT_METER_M, LEAST_M
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.units.write import length
@@ -21,65 +22,45 @@ if TYPE_CHECKING:
 _LAST_S = 0.5
 
 
-@dataclass(frozen=True)
-class Stage:
-    """A motion of a sequence, as the histories of its run have it.
+class Stage(Block):
+    """A motion of a sequence, as the histories of its run have it."""
 
-    Attributes
-    ----------
-    name, pga_g, begins_s, ends_s
-        Of the motion, in the time of the whole run.
-    slip_m
-        What it adds, positive downstream.
-    residual_slip_m
-        Where it leaves the dam, since before the first one.
-    peak_slip_downstream_m, peak_slip_upstream_m
-        Largest and least slip on its way, since before the first one.
-    opening_upstream_m, opening_downstream_m
-        Largest opening of the crack at either face.
-    rotation_downstream_rad, rotation_upstream_rad
-        Largest rotations, none negative.
-    at_rest
-        Whether the dam has come to rest before the next one begins, or before the run ends.
-    static
-        What the static checks say of the dam that it leaves: ``ok``, ``missed`` in words and the drainage that is left.
-    """
-
-    name: str
-    pga_g: float
-    begins_s: float
-    ends_s: float
-    slip_m: float
-    residual_slip_m: float
-    peak_slip_downstream_m: float
-    peak_slip_upstream_m: float
-    opening_upstream_m: float
-    opening_downstream_m: float
-    rotation_downstream_rad: float
-    rotation_upstream_rad: float
-    at_rest: bool
-    static: Mapping[str, Any] = field(default_factory=dict)
-
-    def to_json(self) -> dict[str, Any]:
-        """Return a dictionary of plain numbers, strings and lists."""
-        return asdict(self)
+    name: Annotated[str, Number("What the record is called.")]
+    pga_g: Annotated[float, Number("Peak acceleration of the motion.", "g")]
+    begins_s: Annotated[float, Number("When the motion begins, in the time of the whole run.", "s")]
+    ends_s: Annotated[float, Number("When it ends.", "s")]
+    slip_m: Annotated[float, Number("Slip that it adds, positive downstream.", "m")]
+    residual_slip_m: Annotated[float, Number("Where it leaves the dam, since before the first motion.", "m")]
+    peak_slip_downstream_m: Annotated[float, Number("Largest slip on its way, since before the first motion.", "m")]
+    peak_slip_upstream_m: Annotated[float, Number("Largest slip upstream on its way, since then; never positive.", "m")]
+    opening_upstream_m: Annotated[float, Number("Largest opening of the crack at the upstream face.", "m")]
+    opening_downstream_m: Annotated[float, Number("Largest opening of the crack at the downstream face.", "m")]
+    rotation_downstream_rad: Annotated[float, Number("Largest rotation about the toe.", "rad")]
+    rotation_upstream_rad: Annotated[float, Number("Largest rotation about the heel.", "rad")]
+    at_rest: Annotated[
+        bool, Number("Whether the dam has come to rest before the next motion begins, or before the run ends.")
+    ]
+    static: Annotated[
+        Mapping[str, Any],
+        Number("What the static checks say of the dam that it leaves: ok, what is missed, drainage that is left."),
+    ] = field(default_factory=dict)
 
 
 def stages(response: Response, parts: Sequence[Part]) -> Iterator[Stage]:
     """Walk what each motion does in a run; one that the run has not reached is left out."""
     histories = response.histories
     time, slip = histories["time_s"], histories["slip_m"]
-    before, least = 0.0, JOINT_METER_M if response.elastic else LEAST_M
-    for part, after in zip(parts, [*(each.begins for each in parts[1:]), response.end_time_s], strict=True):
+    before, smallest = 0.0, JOINT_METER_M if response.elastic else LEAST_M
+    for part, after in zip(parts, [*(part.begins for part in parts[1:]), response.end_time_s], strict=True):
         if part.begins > response.end_time_s or time[-1] < part.begins:
             return
-        there = (time >= part.begins) & (time <= after)
-        last = there & (time >= max(min(after, response.end_time_s) - _LAST_S, part.begins))
+        within = (time >= part.begins) & (time <= after)
+        last = within & (time >= max(min(after, response.end_time_s) - _LAST_S, part.begins))
         moved = [histories[name][last] for name in ("slip_m", "gap_heel_m", "gap_toe_m")]
         # The run itself knows what it ends with.
         final = after >= response.end_time_s
-        left = response.residual_slip_m if final else float(slip[there][-1])
-        turned = histories["rotation_rad"][there]
+        left = response.residual_slip_m if final else float(slip[within][-1])
+        turned = histories["rotation_rad"][within]
         yield Stage(
             name=part.name,
             pga_g=part.pga / response.gravity,
@@ -87,24 +68,24 @@ def stages(response: Response, parts: Sequence[Part]) -> Iterator[Stage]:
             ends_s=part.ends,
             slip_m=left - before,
             residual_slip_m=left,
-            peak_slip_downstream_m=float(max(slip[there].max(), left)),
-            peak_slip_upstream_m=float(min(slip[there].min(), left)),
-            opening_upstream_m=float(max(histories["gap_heel_m"][there].max(), 0.0)),
-            opening_downstream_m=float(max(histories["gap_toe_m"][there].max(), 0.0)),
+            peak_slip_downstream_m=float(max(slip[within].max(), left, 0.0)),
+            peak_slip_upstream_m=float(min(slip[within].min(), left, 0.0)),
+            opening_upstream_m=float(max(histories["gap_heel_m"][within].max(), 0.0)),
+            opening_downstream_m=float(max(histories["gap_toe_m"][within].max(), 0.0)),
             rotation_downstream_rad=float(max(-turned.min(), 0.0)),
             rotation_upstream_rad=float(max(turned.max(), 0.0)),
-            at_rest=comes_to_rest(response) if final else all(np.ptp(each) < least for each in moved),
+            at_rest=comes_to_rest(response) if final else all(np.ptp(values) < smallest for values in moved),
         )
         before = left
 
 
-def sequence_said(found: Sequence[Stage], units: str) -> str:
+def sequence_said(stages: Sequence[Stage], units: str) -> str:
     """Say which motion of a sequence moves the dam by how much."""
-    least = LEAST_M
-    told = [
-        f"{length(abs(each.slip_m), units)} {'downstream' if each.slip_m > 0.0 else 'upstream'} in motion {number}"
-        if abs(each.slip_m) >= least
+    smallest = LEAST_M
+    texts = [
+        f"{length(abs(stage.slip_m), units)} {'downstream' if stage.slip_m > 0.0 else 'upstream'} in motion {number}"
+        if abs(stage.slip_m) >= smallest
         else f"nothing in motion {number}"
-        for number, each in enumerate(found, 1)
+        for number, stage in enumerate(stages, 1)
     ]
-    return f"Motion by motion it slides {', '.join(told[:-1])} and {told[-1]}." if len(told) > 1 else ""
+    return f"Motion by motion it slides {', '.join(texts[:-1])} and {texts[-1]}." if len(texts) > 1 else ""

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
+from heeltoe.result.numbers import StressPlace, Tension
 from heeltoe.units.sentences import written
 
 # What parts are called where there are several cracks.
@@ -15,25 +13,25 @@ _SAID = {
 }
 
 
-def place_said(found: Mapping[str, Any]) -> str:
+def place_said(stress: StressPlace) -> str:
     """Say where a largest stress is, its height apart."""
-    part = _SAID.get(found["part"], f"the part {found['part']} the crack")
-    place = found["place"]
-    return f"inside {part}" if place == "inside" else f"at the {place}{'' if place == 'base' else ' face'} of {part}"
+    part = _SAID.get(stress.part, f"the part {stress.part} the crack")
+    face = "" if stress.place == "base" else " face"
+    return f"inside {part}" if stress.place == "inside" else f"at the {stress.place}{face} of {part}"
 
 
-def cracks_said(found: Mapping[str, Any] | None, units: str) -> str:
+def cracks_said(tension: Tension | None, units: str) -> str:
     """Say that the concrete does not bear its largest tension; nothing where it does, or where nobody knows."""
-    strength = None if found is None else found["strength"]
-    if found is None or strength is None or not strength["exceeds"]:
+    strength = None if tension is None else tension.strength
+    if tension is None or strength is None or not strength.exceeds:
         return ""
     return written(
         "Its tension of {stress_pa:.3g MPa} {where}, {z_m:.3g m} up, at {time_s:.2f s} is more than the "
         "{dynamic_pa:.3g MPa} that the concrete bears: that nothing else cracks does not hold.",
         units,
-        stress_pa=found["stress_pa"],
-        where=place_said(found),
-        z_m=found["z_m"],
-        time_s=found["time_s"],
-        dynamic_pa=strength["dynamic_pa"],
+        stress_pa=tension.stress_pa,
+        where=place_said(tension),
+        z_m=tension.z_m,
+        time_s=tension.time_s,
+        dynamic_pa=strength.dynamic_pa,
     )

@@ -24,10 +24,16 @@ _ROCKS_S = 0.02
 _AS = {"rigid": "As a rigid block", "decoupled": "As a rigid block on an elastic part below it"}
 
 
-def verdict(response: Response, units: str = "si") -> str:
-    """Say what the part above the crack does, and whether it is at rest in the end, in units ``"si"`` or ``"us"``."""
+def verdict(response: Response, units: str = "si", *, brief: bool = False) -> str:
+    """Say what the part above the crack does, and whether it is at rest in the end, in units ``"si"`` or ``"us"``.
+
+    Of several cracks that which slips most leads, and the others follow. A brief verdict leaves out the openings of an
+    elastic dam, for where a table shows them, and when it comes to rest.
+    """
     if not response.ok:
-        return f"No result to trust ({response.outcome}): {advice(response, units)}."
+        # Of two signs of the motion the other may have a result, which must not go unsaid.
+        failure = f"No result to trust ({response.outcome}): {advice(response, units)}."
+        return f"{failure} {_signs(response, units)}".rstrip()
     if response.outcome == "overturned":
         about = response.overturned_about
         way = "downstream" if about == "toe" else "upstream"
@@ -38,20 +44,39 @@ def verdict(response: Response, units: str = "si") -> str:
     elif response.elastic:
         sentences = [
             _elastic_slip(response, units),
-            _openings(response, units),
-            _elastic_end(response, units),
-            _other_cracks(response, units),
-            cracks_said(response.summary.get("tension"), units),
+            _elastic_rocking(response) if brief else _openings(response, units),
+            _other_cracks(response, units, brief),
+            _elastic_end(response, units, brief),
+            cracks_said(getattr(response, "tension", None), units),
         ]
     else:
-        sentences = [_slip(response, units), _rocking(response, units), _end(response), _other_cracks(response, units)]
-    told = [*sentences, sequence_said(response.sequence, units), _limits(response, units)]
-    return " ".join(sentence for sentence in told if sentence)
+        sentences = [
+            _slip(response, units),
+            _rocking(response, units),
+            _other_cracks(response, units, brief),
+            _end(response),
+        ]
+    sentences += [sequence_said(response.sequence, units), _signs(response, units), _limits(response, units)]
+    return " ".join(sentence for sentence in sentences if sentence)
 
 
 def advice(response: Response, units: str = "si") -> str:
     """Say where a run without a result stopped and what to do about it; nothing where there is a result."""
     return "" if response.advice is None else response.advice.text(units)
+
+
+def _signs(response: Response, units: str) -> str:
+    """Say what the motion does the other way round, where both were run."""
+    if not response.signs:
+        return ""
+    own, other = sorted(response.signs, key=lambda way: not way.governs)
+    does = "it ends without a result"
+    if other.outcome == "overturned":
+        does = "it overturns, too"
+    elif other.residual_slip_m is not None:
+        does = f"it slides {length(abs(other.residual_slip_m), units)}"
+    words = {"recorded": "as recorded", "reversed": "reversed"}
+    return f"This is for the motion {words[own.sign]}; {words[other.sign]} {does}."
 
 
 def _limits(response: Response, units: str) -> str:
@@ -96,24 +121,25 @@ def _level(elevation: float, units: str) -> str:
 def _judged(check: LimitCheck, units: str) -> str:
     """Return a result, and how uncertain it is where that decides."""
     value = length(check.value_m, units)
-    return value if check.certain else f"{value}, give or take {length(check.uncertainty_m, units)},"
+    return value if check.certain else f"{value} ± {length(check.uncertainty_m, units)}"
 
 
 def _spread(response: Response, units: str) -> str:
     """Return the range of the residual slip with slightly different shaking, in brackets."""
-    found = None if response.spread is None else response.spread["residual_slip_m"]
-    if found is None:
+    spread = None if response.spread is None else response.spread.residual_slip_m
+    if spread is None:
         return ""
-    low, high = sorted((abs(found["min"]), abs(found["max"])))
-    if found["min"] * found["max"] < 0.0:
-        return f" (with the shaking varied by 1 %, {length(found['min'], units)} to {length(found['max'], units)})"
+    low, high = sorted((abs(spread.min), abs(spread.max)))
+    if spread.min * spread.max < 0.0:
+        return f" (with the shaking varied by 1 %, {length(spread.min, units)} to {length(spread.max, units)})"
     return f" ({length(low, units)} to {length(high, units)} with the shaking varied by 1 %)"
 
 
 def _slip(response: Response, units: str) -> str:
     slip: float = response.residual_slip_m
     down, up = response.peak_slip_downstream_m, -response.peak_slip_upstream_m
-    dam = f"{_AS[response.model]}, the dam"
+    as_blocks = "As rigid blocks" if response.several else _AS[response.model]
+    dam = f"{as_blocks}, {_subject(response, units)}"
     if max(down, up) == 0.0:
         return f"{dam} does not slide."
     if abs(slip) < LEAST_M:
@@ -126,32 +152,46 @@ def _elastic_slip(response: Response, units: str) -> str:
     slip: float = response.residual_slip_m
     down, up = response.peak_slip_downstream_m, -response.peak_slip_upstream_m
     largest = max(down, up)
+    dam = _subject(response, units).replace("the", "The", 1)
     if largest < JOINT_METER_M:
-        return "The dam does not slide."
+        return f"{dam} does not slide."
     if abs(slip) < JOINT_METER_M:
-        return f"The dam does not slide: its crack shifts by up to {length(largest, units)} and comes back."
+        return f"{dam} does not slide: its crack shifts by up to {length(largest, units)} and comes back."
     if response.lets_go():
-        text = f"The dam slides {_worth(response, units)} {_way(slip)}{_spread(response, units)}"
+        text = f"{dam} slides {_worth(response, units)} {_way(slip)}{_spread(response, units)}"
         return text + _on_the_way(slip, down, up, JOINT_METER_M, units) + "."
     return (
-        f"The dam creeps {_worth(response, units)} {_way(slip)}{_spread(response, units)}: parts of the crack slip in "
+        f"{dam} creeps {_worth(response, units)} {_way(slip)}{_spread(response, units)}: parts of the crack slip in "
         "turn, while the rest holds."
     )
 
 
 def _worth(response: Response, units: str) -> str:
     """Return how far an elastic dam slides, and how certain that is."""
-    slip, found = length(abs(response.residual_slip_m), units), response.summary["evidence"]
-    return slip if found is None else f"{slip} (give or take {length(found['residual_slip_m']['uncertainty'], units)})"
+    slip, evidence = length(abs(response.residual_slip_m), units), getattr(response, "evidence", None)
+    return (
+        slip
+        if evidence is None
+        else f"{slip} (numerically ± {length(evidence.residual_slip_m.uncertainty, units)}{_damping(response, units)})"
+    )
+
+
+def _damping(response: Response, units: str) -> str:
+    """Say what twice the damping makes of the slip where a vibration grows as the dam slides."""
+    growth = getattr(response, "self_excitation", None)
+    other = None if growth is None else growth.twice_damped_slip_m
+    return "" if other is None else f"; {length(abs(other), units)} with twice the damping"
 
 
 def _way(slip: float) -> str:
     return "downstream" if slip > 0.0 else "upstream"
 
 
-def _on_the_way(slip: float, down: float, up: float, least: float, units: str) -> str:
+def _on_the_way(slip: float, down: float, up: float, smallest: float, units: str) -> str:
     back = max(down if slip > 0.0 else up, 0.0) - abs(slip)
-    return f", after up to {length(abs(slip) + back, units)} on the way" if back > max(least, 0.05 * abs(slip)) else ""
+    return (
+        f", after up to {length(abs(slip) + back, units)} on the way" if back > max(smallest, 0.05 * abs(slip)) else ""
+    )
 
 
 def _openings(response: Response, units: str) -> str:
@@ -172,23 +212,30 @@ def _openings(response: Response, units: str) -> str:
         fastest = "" if strikes == 1 else ", the fastest"
         count = "once" if strikes == 1 else f"{strikes} times"
         text += f"; nodes of the crack strike {count}{fastest} at {speed(response.largest_impact_velocity_m_s, units)}"
-    text += "."
+    return f"{text}. {_elastic_rocking(response)}".rstrip()
+
+
+def _elastic_rocking(response: Response) -> str:
+    """Say whether an elastic dam whose crack opens rocks."""
+    if max(response.opening_upstream_m, response.opening_downstream_m) < JOINT_METER_M:
+        return ""
     times = response.time_by_mode_s
-    rocking, in_the_air = times["rocking"] + times["slide_rocking"], times["drifting"]
+    rocking, in_the_air = times.rocking + times.slide_rocking, times.drifting
+    text = "No rocking: the opening is elastic deformation."
     if rocking >= _ROCKS_S:
-        text += f" It rocks, standing on one end of the crack, for {rocking:.2f} s in all."
-    else:
-        text += " It does not rock: an elastic dam gives that much."
+        text = f"It rocks, standing on one end of the crack, for {rocking:.2f} s in all."
     if in_the_air >= _IN_THE_AIR_S:
         text += f" For {in_the_air:.2f} s in all it touches nothing."
     return text
 
 
-def _elastic_end(response: Response, units: str) -> str:
+def _elastic_end(response: Response, units: str, brief: bool) -> str:
     if comes_to_rest(response):
+        if brief:
+            return "It is at rest in the end."
         return _rest_in_silence(response) or "It has come to rest in the end."
-    factor = response.static["sliding_safety_factor"]
-    held = any(each.code == "steps-hold" for each in response.warnings)
+    factor = response.static.sliding_safety_factor
+    held = any(notice.code == "steps-hold" for notice in response.warnings)
     if factor is not None and factor < 1.0 and not held:
         return "It slides away: its static loads alone move it, and nothing stops it."
     last = last_of(response)
@@ -199,26 +246,47 @@ def _elastic_end(response: Response, units: str) -> str:
     )
 
 
-def _other_cracks(response: Response, units: str) -> str:
-    """Say what the cracks but that of ``[crack]`` do, where there are several."""
-    cracks = response.summary.get("cracks")
-    if not cracks:
+def _other_cracks(response: Response, units: str, brief: bool) -> str:
+    """Say what the dam does at the cracks that do not lead, from the crest down."""
+    if not response.several:
         return ""
-    told = []
-    for place, crack in enumerate(cracks):
-        slip, opening = crack["residual_slip_m"], max(crack["opening_upstream_m"], crack["opening_downstream_m"])
-        said = "does not slip" if abs(slip) < JOINT_METER_M else f"slips {length(abs(slip), units)} {_way(slip)}"
-        opens = f" and opens up to {length(opening, units)}" if opening >= JOINT_METER_M else ""
-        which = "that" if place else "the crack"
-        told.append(f"{which} at {_level(crack['elevation_m'], units)} {said}{opens}")
-    return f"That is said of the crack of [crack]. From the crest down, {', '.join(told)}."
+    smallest = JOINT_METER_M if response.elastic else LEAST_M
+    sentences = []
+    for place, crack in enumerate(response.cracks):
+        if place == response.asked:
+            continue
+        slip, opening = crack.residual_slip_m, max(crack.opening_upstream_m, crack.opening_downstream_m)
+        peak = max(crack.peak_slip_downstream_m, -crack.peak_slip_upstream_m)
+        does = ["does not slide"]
+        if abs(slip) >= smallest:
+            does = [f"slides {length(abs(slip), units)} {_way(slip)}"]
+        elif peak >= smallest:
+            does = [f"shifts by up to {length(peak, units)} and comes back"]
+        if opening >= smallest and not brief:
+            does.append(f"opens up to {length(opening, units)}")
+        times = crack.time_by_mode_s
+        rocking = times.rocking + times.slide_rocking
+        if rocking >= _ROCKS_S:
+            does.append(f"rocks for {rocking:.2f} s")
+        if times.drifting >= _IN_THE_AIR_S:
+            does.append(f"lifts off for {times.drifting:.2f} s")
+        does = [*does[:-2], " and ".join(does[-2:])]
+        sentences.append(f"At the crack at {_level(crack.elevation, units)} it {', '.join(does)}.")
+    return " ".join(sentences)
+
+
+def _subject(response: Response, units: str) -> str:
+    """Return what slides: of several cracks the dam above the one that leads."""
+    if not response.several:
+        return "the dam"
+    return f"the dam above the crack at {_level(response.cracks[response.asked].elevation, units)}"
 
 
 def _rocking(response: Response, units: str) -> str:
     down, up = response.rocking_downstream_rad, response.rocking_upstream_rad
     if max(response.largest_gap_heel_m, response.largest_gap_toe_m) == 0.0:
         return "It does not rock."
-    if max(down, up) < LEAST_RAD and response.time_by_mode_s["drifting"] == 0.0:
+    if max(down, up) < LEAST_RAD and response.time_by_mode_s.drifting == 0.0:
         return "It lifts off by less than anyone could measure."
     parts = []
     if down >= LEAST_RAD:

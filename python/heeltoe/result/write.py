@@ -6,18 +6,56 @@ import json
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.csv
 import pyarrow.parquet
 
+from heeltoe.base.blocks import Block, Number
 from heeltoe.kernel.build import PROFILE, VERSION
+from heeltoe.mechanics.block import StaticState
 from heeltoe.motion.ground_motion import GroundMotion, Part
 from heeltoe.motion.measures import measures
 
 _MEASURES = ("arias_intensity_m_s", "cav_m_s", "significant_duration_s", "mean_period_s", "end_velocity_m_s")
+
+
+class MotionPart(Block):
+    """One motion of a sequence."""
+
+    name: Annotated[str, Number("What the record is called.")]
+    pga_g: Annotated[float, Number("Its peak acceleration.", "g")]
+    begins_s: Annotated[float, Number("When it begins, in the time of the whole run.", "s")]
+    ends_s: Annotated[float, Number("When it ends.", "s")]
+    processing: Annotated[list[str], Number("What was done to it, in its order.")]
+
+
+class MotionNumbers(Block):
+    """A ground motion, as used."""
+
+    name: Annotated[str, Number("What the record is called.")]
+    pga_g: Annotated[float, Number("Peak acceleration, without sign.", "g")]
+    pgv_m_s: Annotated[float, Number("Peak velocity.", "m/s")]
+    pgd_m: Annotated[float, Number("Peak displacement, by integration from rest.", "m")]
+    dt_s: Annotated[float, Number("Time between samples.", "s")]
+    duration_s: Annotated[float, Number("Length of the motion.", "s")]
+    samples: Annotated[int, Number("How many samples it has.")]
+    arias_intensity_m_s: Annotated[float | None, Number("Arias intensity.", "m/s", optional=True)] = None
+    cav_m_s: Annotated[float | None, Number("Cumulative absolute velocity.", "m/s", optional=True)] = None
+    significant_duration_s: Annotated[
+        float | None, Number("Time in which 5 to 95 % of the Arias intensity come in.", "s", optional=True)
+    ] = None
+    mean_period_s: Annotated[float | None, Number("Mean period of the Fourier amplitudes.", "s", optional=True)] = None
+    end_velocity_m_s: Annotated[
+        float | None, Number("Velocity at the end: what a sound record leaves is small.", "m/s", optional=True)
+    ] = None
+    source: Annotated[str, Number("File and version that the record was read from.")]
+    processing: Annotated[list[str], Number("What was done to the record, in its order.")]
+    parts: Annotated[
+        list[MotionPart] | None, Number("Of a sequence: its motions, one after the other.", optional=True)
+    ] = None
 
 
 def write_table(table: pa.Table, path: Path) -> None:
@@ -37,9 +75,9 @@ def json_text(data: Mapping[str, Any]) -> str:
 
 def _finite(value: Any) -> Any:
     if isinstance(value, Mapping):
-        return {name: _finite(each) for name, each in value.items()}
+        return {name: _finite(item) for name, item in value.items()}
     if isinstance(value, list | tuple):
-        return [_finite(each) for each in value]
+        return [_finite(item) for item in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
@@ -53,45 +91,46 @@ _LEFT_OUT = {
 
 def critical_json(critical: Mapping[str, float]) -> tuple[dict[str, float], dict[str, str]]:
     """Return the accelerations at which something starts, and by their path why the others are no number."""
-    found = {name: value for name, value in critical.items() if math.isfinite(value)}
-    return found, {f"critical_acceleration_g.{name}": _NO_ACCELERATION for name in critical if name not in found}
+    finite = {name: value for name, value in critical.items() if math.isfinite(value)}
+    return finite, {f"critical_acceleration_g.{name}": _NO_ACCELERATION for name in critical if name not in finite}
 
 
-def static_json(static: Mapping[str, Any]) -> dict[str, Any]:
+def static_json(state: StaticState) -> dict[str, Any]:
     """Return what the contract says about the static state: what is no number is left out, and why stands beside it."""
+    static = state.to_json()
     critical, left_out = critical_json(static["critical_acceleration_g"])
     others = {name: value for name, value in static.items() if name != "critical_acceleration_g"}
     left_out |= {f"static.{name}": _LEFT_OUT[name] for name, value in others.items() if value is None}
-    there = {name: value for name, value in others.items() if value is not None}
-    return {"critical_acceleration_g": critical, "static": there, "left_out": left_out}
+    stated = {name: value for name, value in others.items() if value is not None}
+    return {"critical_acceleration_g": critical, "static": stated, "left_out": left_out}
 
 
 def motion_json(motion: GroundMotion, gravity: float) -> dict[str, Any]:
     """Return what the contract says about a ground motion; `gravity` is one g [m/s2]."""
-    found = measures(motion, gravity)
-    return {
-        "name": motion.name,
-        "pga_g": motion.pga / gravity,
-        "pgv_m_s": motion.pgv,
-        "pgd_m": motion.pgd,
-        "dt_s": motion.dt,
-        "duration_s": motion.duration,
-        "samples": int(motion.time.size),
-        **{name: found[name] for name in _MEASURES if name in found},
-        "source": motion.source,
-        "processing": list(motion.processing),
-        **({"parts": [_part_json(each, gravity) for each in motion.parts]} if motion.parts else {}),
-    }
+    numbers = measures(motion, gravity)
+    return MotionNumbers(
+        name=motion.name,
+        pga_g=motion.pga / gravity,
+        pgv_m_s=motion.pgv,
+        pgd_m=motion.pgd,
+        dt_s=motion.dt,
+        duration_s=motion.duration,
+        samples=int(motion.time.size),
+        **{name: numbers.get(name) for name in _MEASURES},
+        source=motion.source,
+        processing=list(motion.processing),
+        parts=[_part(part, gravity) for part in motion.parts] or None,
+    ).to_json()
 
 
-def _part_json(part: Part, gravity: float) -> dict[str, Any]:
-    return {
-        "name": part.name,
-        "pga_g": part.pga / gravity,
-        "begins_s": part.begins,
-        "ends_s": part.ends,
-        "processing": list(part.processing),
-    }
+def _part(part: Part, gravity: float) -> MotionPart:
+    return MotionPart(
+        name=part.name,
+        pga_g=part.pga / gravity,
+        begins_s=part.begins,
+        ends_s=part.ends,
+        processing=list(part.processing),
+    )
 
 
 def build_info() -> dict[str, str]:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from numbers import Real
 from typing import TYPE_CHECKING, Any
 
-from heeltoe.errors import InputError, shown
+from heeltoe.errors.error import InputError, shown
 
 if TYPE_CHECKING:
     import pint
@@ -40,6 +40,8 @@ _SHORT = {
 _SHORT_UNIT = re.compile(rf"(?<![A-Za-z_])(?:{'|'.join(_SHORT)})(?![A-Za-z_])")
 _POUND = re.compile(r"(?<![A-Za-z_])(?:lbs?|pounds?)(?![A-Za-z_])")
 _OF_FORCES = ("pressure", "line force", "stiffness")
+# Numbers above this are no accelerations in g.
+_LARGEST_IN_G = 10.0
 _UNIT = re.compile(r"[A-Za-z%µμ_0-9()*/^²³⁻·. -]+")
 
 
@@ -122,6 +124,8 @@ def parse_acceleration(value: object, field: str) -> Acceleration:
     number, unit = _split(value, "acceleration", field)
     if unit == "g":
         return Acceleration(number, in_g=True)
+    if unit == "%g":
+        return Acceleration(number / 100.0, in_g=True)
     # Seismologists write gal; to pint that is a gallon.
     factor = _factor("Gal" if unit == "gal" else unit, value, "acceleration", field)
     return Acceleration(_finite(number * factor, value, "acceleration", field), in_g=False)
@@ -143,9 +147,9 @@ def _registry() -> pint.UnitRegistry[Any]:
 
 def _split(value: object, dimension: str, field: str) -> tuple[float, str]:
     """Take number and unit apart; the unit of a plain number is empty."""
-    wanted = DIMENSIONS[dimension]
+    expected = DIMENSIONS[dimension]
     if isinstance(value, Real) and not isinstance(value, bool):
-        if wanted.unit:
+        if expected.unit:
             raise InputError("unit-missing", field, shown(value), example=_with_unit(value, dimension))
         try:
             number = float(value)
@@ -154,28 +158,28 @@ def _split(value: object, dimension: str, field: str) -> tuple[float, str]:
         return _finite(number, value, dimension, field), ""
     match = _QUANTITY.fullmatch(value) if isinstance(value, str) else None
     if match is None:
-        raise InputError("wrong-quantity", field, shown(value), kind=wanted.kind, example=shown(wanted.example))
+        raise InputError("wrong-quantity", field, shown(value), kind=expected.kind, example=shown(expected.example))
     unit = (match[2] or "").strip()
-    if wanted.unit and not unit:
+    if expected.unit and not unit:
         raise InputError("unit-missing", field, shown(value), example=_with_unit(match[1], dimension))
     return _finite(float(match[1]), value, dimension, field), unit
 
 
 @functools.lru_cache(maxsize=256)
-def _conversion(unit: str, wanted: str) -> float | None:
+def _conversion(unit: str, target: str) -> float | None:
     """Return how many `wanted` one `unit` is; None where they are of different kinds."""
     registry = _registry()
     # "m/s2" is how many people write a square.
     one = registry.Quantity(1.0, registry.parse_units(re.sub(r"(?<=[A-Za-z])([23])\b", r"^\1", unit)))
-    return float(one.to(wanted).magnitude) if one.is_compatible_with(wanted) else None
+    return float(one.to(target).magnitude) if one.is_compatible_with(target) else None
 
 
 def _factor(unit: str, value: object, dimension: str, field: str) -> float:
-    wanted = DIMENSIONS[dimension]
+    expected = DIMENSIONS[dimension]
     if _TON.search(unit):
         raise InputError("unit-ton", field, shown(value))
     try:
-        if not wanted.unit:
+        if not expected.unit:
             # Not by way of pint, to which a degree is a number too: a friction of "45 deg" is not 0.785.
             factor = _PARTS.get(unit)
         elif dimension == "frequency" and not _FREQUENCY.fullmatch(unit):
@@ -186,16 +190,18 @@ def _factor(unit: str, value: object, dimension: str, field: str) -> float:
             factor = None
         elif dimension == "angle":
             # To pint a per cent is an angle.
-            factor = _conversion(unit, wanted.unit) if _ANGLE.fullmatch(unit) else None
+            factor = _conversion(unit, expected.unit) if _ANGLE.fullmatch(unit) else None
         elif _UNIT.fullmatch(unit):
-            unit_here = _SHORT_UNIT.sub(lambda found: _SHORT[found[0]], unit)
-            factor = _conversion(_POUND.sub("lbf", unit_here) if dimension in _OF_FORCES else unit_here, wanted.unit)
+            unit_here = _SHORT_UNIT.sub(lambda match: _SHORT[match[0]], unit)
+            factor = _conversion(_POUND.sub("lbf", unit_here) if dimension in _OF_FORCES else unit_here, expected.unit)
         else:
             raise ValueError
     except Exception:  # pint passes on whatever Python's tokenizer and arithmetic make of a unit it cannot read
-        raise InputError("unit-unknown", field, shown(value), unit=shown(unit), example=shown(wanted.example)) from None
+        raise InputError(
+            "unit-unknown", field, shown(value), unit=shown(unit), example=shown(expected.example)
+        ) from None
     if factor is None:
-        raise InputError("wrong-quantity", field, shown(value), kind=wanted.kind, example=shown(wanted.example))
+        raise InputError("wrong-quantity", field, shown(value), kind=expected.kind, example=shown(expected.example))
     return factor
 
 
@@ -208,4 +214,11 @@ def _finite(number: float, value: object, dimension: str, field: str) -> float:
 def _with_unit(value: object, dimension: str) -> str:
     """Return the user's own number with a unit, unless it is none that could be meant."""
     example = str(DIMENSIONS[dimension].example)
+    if dimension == "acceleration" and 9.7 < float(str(value)) < 9.9:
+        # That is gravity itself.
+        return shown(f"{value} m/s^2")
+    if dimension == "acceleration" and abs(number := float(str(value))) > _LARGEST_IN_G:
+        # No ground shakes with 35 g; 35 % of g is what people mean.
+        percent = f"{number / 100.0:g} g"
+        return f"{shown(percent)} or {shown(f'{value} %g')}" if abs(number) <= 100.0 * _LARGEST_IN_G else shown(example)
     return shown(f"{value} {example.split()[-1]}" if math.isfinite(float(str(value))) else example)

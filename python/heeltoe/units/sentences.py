@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from string import Formatter
 from typing import Any
 
-from heeltoe.plain import plain
+from heeltoe.errors.sanitize import plain
 from heeltoe.units.systems import FOOT, KIP, POUND, Scale, unit_system
-from heeltoe.units.write import number
+from heeltoe.units.write import is_noise, number
 
 _US = unit_system("us")
 _INCH = Scale(12.0 / FOOT, "in")
@@ -100,9 +100,19 @@ def numbers(values: Sequence[float], form: str, units: str = "si") -> tuple[list
     si = UNITS[unit][0] if unit in UNITS else _OTHERS.get(unit, 1.0)
     if units == "us" and unit in UNITS:
         to = scale(UNITS[unit][1], max(map(abs, values), default=0.0))
-        return [_in_us(to(each), spec, si * to.factor) for each in values], to.unit
+        return [_in_us(to(value), spec, si * to.factor) for value in values], to.unit
     # Whole factors leave round numbers round.
-    return [format(each / si if si > 1.0 else each * round(1.0 / si), spec) for each in values], unit
+    return [_in_si(value / si if si > 1.0 else value * round(1.0 / si), spec) for value in values], unit
+
+
+def _in_si(value: float, spec: str) -> str:
+    """Write a number by its format; one of so many digits without an exponent where people would write none."""
+    if not spec.endswith("g"):
+        return format(value, spec)
+    if is_noise(value):
+        return "0"
+    text = format(value, spec)
+    return f"{float(text):.0f}" if "e" in text and 1.0 <= abs(value) < 1e6 else text
 
 
 def _in_us(value: float, spec: str, step: float) -> str:
@@ -113,6 +123,8 @@ def _in_us(value: float, spec: str, step: float) -> str:
         decimals = max(0, math.ceil(int(precision) - math.log10(2.0 * step)))
         return f"{value:z.{decimals}f}"
     count = int(precision) + spec.endswith("e") if precision else _IN_FULL
+    if spec.endswith("g") and is_noise(value):
+        return "0"
     shown = number(value, count) if abs(value) < 1e6 else f"{float(f'{value:.{count}g}'):.0f}"
     return shown.rstrip("0").rstrip(".") if spec.endswith("g") and "." in shown and "e" not in shown else shown
 

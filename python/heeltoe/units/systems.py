@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 
 # Exact by definition (NIST Special Publication 811, appendix B.8) [m], [m], [kg], [N].
 FOOT, INCH, POUND, POUND_FORCE = 0.3048, 0.0254, 0.45359237, 4.4482216152605
@@ -62,7 +62,7 @@ class Units:
         if largest is None:
             value, unit = choices[0]
         else:
-            reached = (each for each in choices if largest >= _ENOUGH.get(each[1], 1.0) * each[0])
+            reached = (choice for choice in choices if largest >= _ENOUGH.get(choice[1], 1.0) * choice[0])
             value, unit = next(reached, choices[-1])
         return Scale(1.0 / value, unit)
 

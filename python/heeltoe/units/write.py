@@ -14,6 +14,8 @@ NOTHING = "–"
 """Stands where there is no number to show."""
 # Digits behind the first of the largest number of a table.
 _ALIKE = 3
+# What is less than this part of the unit that people chose is what rounding left.
+_NOISE = 1e-12
 
 
 def length(metres: float, units: str = "si") -> str:
@@ -45,7 +47,7 @@ def _us_length(metres: float) -> str:
 
 def lengths(metres: Sequence[float], units: str = "si") -> list[str]:
     """Write the lengths of one table, as :func:`length` does where that gives them all the same unit."""
-    return one_unit([length(each, units) for each in metres], metres, "displacement", units)
+    return one_unit([length(value, units) for value in metres], metres, "displacement", units)
 
 
 def one_unit(texts: Sequence[str], values: Sequence[float], quantity: str, units: str) -> list[str]:
@@ -64,10 +66,10 @@ def one_unit(texts: Sequence[str], values: Sequence[float], quantity: str, units
     """
     if len({text.rpartition(" ")[2] for text in texts}) < 2:
         return list(texts)
-    most = max(map(abs, values))
-    scale = unit_system(units).scale(quantity, most)
-    step = 10.0 ** (math.floor(math.log10(scale(most))) - _ALIKE)
-    return [f"{_to(scale(each), step, quantity == 'displacement')} {scale.unit}" for each in values]
+    largest = max(map(abs, values))
+    scale = unit_system(units).scale(quantity, largest)
+    step = 10.0 ** (math.floor(math.log10(scale(largest))) - _ALIKE)
+    return [f"{_to(scale(value), step, quantity == 'displacement')} {scale.unit}" for value in values]
 
 
 def _to(value: float, step: float, measured: bool) -> str:
@@ -95,7 +97,13 @@ def angle(radians: float) -> str:
 
 def scaled(value: float, scale: Scale, count: int = 3) -> str:
     """Write a value in SI with the unit of a scale, to so many digits, none cut off before the point."""
-    return f"{number(scale(value), count)} {scale.unit}"
+    shown = scale(value)
+    return f"{'0' if is_noise(shown) else number(shown, count)} {scale.unit}"
+
+
+def is_noise(value: float) -> bool:
+    """Whether a number in the unit in which it is shown is zero but for rounding."""
+    return abs(value) < _NOISE
 
 
 def number(value: float, digits: int = 3) -> str:

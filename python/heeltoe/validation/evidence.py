@@ -1,8 +1,8 @@
 """Dams drawn at random: whether what the program calls converged stays where it is on a finer mesh and with a shorter
 step.
 
-``python -m heeltoe.validation.evidence FIRST COUNT FILE`` judges many, a line of JSON each, and goes on where it
-stopped."""
+``python -m heeltoe.validation.evidence FIRST COUNT FILE [KIND]`` judges many of a kind, a line of JSON each, and goes
+on where it stopped."""
 
 from __future__ import annotations
 
@@ -11,23 +11,28 @@ import sys
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, get_args
 
 import numpy as np
 
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
+from heeltoe.errors.error import InputError
 from heeltoe.mechanics.block import build_block
-from heeltoe.models.flexible.evidence import Evidence
-from heeltoe.models.flexible.reduced import build_flexible_dam
-from heeltoe.models.flexible.refinement import answer
-from heeltoe.models.flexible.shaken import ShakenDam
-from heeltoe.models.flexible.trials import SCALES, Level, Trials
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
+from heeltoe.models.flexible.evidence.evidence import Evidence
+from heeltoe.models.flexible.evidence.refinement import answer
+from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.run import earthquake
+from heeltoe.result.contract import leading_crack
 from heeltoe.validation.row import Row
 from heeltoe.validation.sources import ENDS_WITH_MOTION
 from heeltoe.validation.thesis_dams import record_named
 
+#: Dams with a straight crack and constant friction, with a friction law, a crack with two kinks, or two cracks.
+Kind = Literal["plain", "law", "kinks", "two cracks"]
+KINDS: tuple[Kind, ...] = get_args(Kind)
 #: So many of those that are called converged must stay where they are.
 COVERED = 0.95
 #: How many a validation judges.
@@ -53,12 +58,12 @@ class Judged:
 
     Attributes
     ----------
-    seed
+    kind, seed
         It was drawn with.
     high
         Whether its crack is at a height.
     value, uncertainty
-        Of the residual slip [m].
+        Of the residual slip [m], of several cracks that of the one that slips most.
     converged, mean, spent, most, runs
         As the evidence has them.
     across
@@ -67,6 +72,7 @@ class Judged:
         By how much twice the elements and a quarter of the step move the value [m]; None where it is not converged.
     """
 
+    kind: Kind
     seed: int
     high: bool
     value: float
@@ -88,13 +94,13 @@ class Judged:
         return max(abs(self.by_mesh), abs(self.by_step)) <= self.uncertainty
 
     def __str__(self) -> str:
-        said = f"dam {self.seed}: {1e3 * self.value:.4g} ± {1e3 * self.uncertainty:.2g} mm"
+        text = f"{self.kind} dam {self.seed}: {1e3 * self.value:.4g} ± {1e3 * self.uncertainty:.2g} mm"
         if self.by_mesh is None or self.by_step is None:
-            return f"{said}, not converged"
-        return f"{said}, by mesh {1e3 * self.by_mesh:.2g} and step {1e3 * self.by_step:.2g} mm"
+            return f"{text}, not converged"
+        return f"{text}, by mesh {1e3 * self.by_mesh:.2g} and step {1e3 * self.by_step:.2g} mm"
 
 
-def draw(seed: int) -> Case:
+def draw(seed: int, kind: Kind = "plain") -> Case:
     """Draw a dam as dams are, its crack at the base or a height, and the first seconds of an earthquake that is strong
     enough for most of them to slide; half of them made to order."""
     rng = np.random.default_rng(seed)
@@ -107,6 +113,12 @@ def draw(seed: int) -> Case:
     lean = height * float(rng.choice([0.0, rng.uniform(0.0, 0.1)]))
     corners = ((0.0, 0.0), (base, 0.0), (lean + crest, neck), (lean + crest, height), (lean, height))
     elevation = height * float(rng.choice([0.0, 0.0, rng.uniform(0.3, 0.85)]))
+    # What a kind has beside leaves the rest as it is.
+    own = np.random.default_rng([seed, KINDS.index(kind)])
+    if kind == "kinks":
+        elevation = height * float(own.uniform(0.15, 0.6))
+    if kind == "two cracks":
+        elevation = 0.0
     record = str(rng.choice(_RECORDS))
     if rng.random() < 0.4:
         # The numbers on record are those of this corner.
@@ -130,30 +142,60 @@ def draw(seed: int) -> Case:
         # The numbers on record (docs/flexible.md) are those at the end of the motion.
         **ENDS_WITH_MOTION,
     }
+    if kind == "law":
+        del fields["crack"]["friction"]
+        fields["crack"]["law"] = _law(own)
+    if kind == "kinks":
+        share = elevation / neck
+        width = base + share * (lean + crest - base) - lean * elevation / height if share < 1.0 else crest
+        fields["crack"]["kinks"] = _kinks(own, width)
+    if kind == "two cracks":
+        friction = float(own.uniform(0.6, 1.4))
+        fields["further_cracks"] = [{"elevation": f"{height * own.uniform(0.4, 0.85)} m", "friction": friction}]
     return read_case(fields)
 
 
-def judge(seed: int) -> Judged | None:
-    """Judge the dam of a seed; None where it slides under its static loads alone.
+def _law(rng: np.random.Generator) -> dict[str, Any]:
+    residual = float(rng.uniform(0.6, 1.1))
+    friction = {"peak_friction": residual + float(rng.uniform(0.05, 0.5)), "residual_friction": residual}
+    form = str(rng.choice(["linear", "exponential", "speed"]))
+    if form == "speed":
+        return {"name": "speed weakening", **friction, "speed": f"{rng.uniform(0.02, 0.3)} m/s"}
+    return {"name": "slip weakening", "form": form, **friction, "slip": f"{rng.uniform(5.0, 60.0)} mm"}
+
+
+def _kinks(rng: np.random.Generator, width: float) -> list[list[str]]:
+    places, rises = np.sort(rng.uniform(0.2, 0.8, 2)), rng.uniform(-0.04, 0.04, 2)
+    return [[f"{width * place} m", f"{width * rise} m"] for place, rise in zip(places, rises, strict=True)]
+
+
+def judge(seed: int, kind: Kind = "plain") -> Judged | None:
+    """Judge the dam of a seed; None where it slides under its static loads alone, or its kinks do not fit into it.
 
     Raises
     ------
     Skipped
         Where its record is not there.
     """
-    case = draw(seed)
-    safety = build_block(case).sliding_safety_factor
-    dam = build_flexible_dam(case)
+    try:
+        case = draw(seed, kind)
+        safety = build_block(case).sliding_safety_factor
+        dam = build_flexible_dam(case)
+    except InputError:
+        if kind == "kinks":
+            return None
+        raise
     if (safety is not None and safety < 1.0) or not dam.start.stands:
         return None
     file = "" if case.motion is None else str(case.motion.file)
     if file in _RECORDS:
         record_named(file)
-    found = answer(ShakenDam(case, dam, earthquake(case).shaking), _FRAMES, "full")
-    evidence = found.evidence
-    assert evidence is not None
-    by_mesh, by_step = _moved(found.shaken, evidence) if evidence.converged else (None, None)
+    response = answer(ShakenDam(case, dam, earthquake(case).shaking), _FRAMES, "full")
+    crack = leading_crack([evidence.slip.value for evidence in response.evidences], response.shaken.dam.asked)
+    evidence = response.evidences[crack]
+    by_mesh, by_step = _moved(response.shaken, evidence, crack) if evidence.converged else (None, None)
     return Judged(
+        kind,
         seed,
         dam.lower is not None,
         evidence.slip.value,
@@ -169,28 +211,28 @@ def judge(seed: int) -> Judged | None:
     )
 
 
-def _moved(shaken: ShakenDam, evidence: Evidence) -> tuple[float, float]:
-    """Return by how much twice the elements and a quarter of the step move the slip [m]."""
+def _moved(shaken: ShakenDam, evidence: Evidence, crack: int) -> tuple[float, float]:
+    """Return by how much twice the elements and a quarter of the step move the slip of a crack [m]."""
     trials = Trials(shaken, evidence.time_step, _FRAMES)
     scales = SCALES if evidence.mean else SCALES[:1]
     # Means are over runs at the longer of the two steps.
     halvings = -1 if evidence.mean and evidence.other_step > evidence.time_step else 0
     finer, shorter = Level(1, halvings), Level(0, halvings + 2)
     mesh, step = (
-        float(trials.numbers(level, scales)["residual_slip_m"].mean()) - evidence.slip.value
+        float(trials.numbers(level, scales, crack)["residual_slip_m"].mean()) - evidence.slip.value
         for level in (finer, shorter)
     )
     return mesh, step
 
 
-def judge_all(seeds: Iterable[int], file: Path) -> Iterator[Judged]:
+def judge_all(seeds: Iterable[int], file: Path, kind: Kind = "plain") -> Iterator[Judged]:
     """Judge the dams of some seeds, one after the other, those in the file not again."""
     lines = file.read_text(encoding="utf-8").splitlines() if file.exists() else []
     done = {line["seed"]: line for line in map(json.loads, lines)}
     for seed in seeds:
         if seed not in done:
-            found = judge(seed)
-            done[seed] = {"seed": seed} if found is None else asdict(found)
+            judged = judge(seed, kind)
+            done[seed] = {"seed": seed} if judged is None else asdict(judged)
             with file.open("a", encoding="utf-8") as out:
                 out.write(json.dumps(done[seed]) + "\n")
         if len(done[seed]) > 1:
@@ -199,16 +241,16 @@ def judge_all(seeds: Iterable[int], file: Path) -> Iterator[Judged]:
 
 def evidence() -> Iterator[Row]:
     """Random dams: of those that the program calls converged, how many stay within what it says."""
-    yield from table([found for found in map(judge, range(FEW)) if found is not None])
+    yield from table([judged for seed in range(FEW) if (judged := judge(seed)) is not None])
 
 
 def table(judged: list[Judged]) -> Iterator[Row]:
     """Return what became of dams: how many are converged, and how many of these stay where they are."""
-    converged = [each for each in judged if each.converged]
-    covered = [each for each in converged if each.covered]
-    missed = ", ".join(map(str, (each for each in converged if not each.covered)))
+    converged = [dam for dam in judged if dam.converged]
+    covered = [dam for dam in converged if dam.covered]
+    missed = ", ".join(map(str, (dam for dam in converged if not dam.covered)))
     share = len(covered) / len(converged) if converged else 1.0
-    least = np.floor(COVERED * len(converged)) / max(len(converged), 1)
+    bound = np.floor(COVERED * len(converged)) / max(len(converged), 1)
     yield Row(
         f"converged, of {len(judged)}", len(judged), len(converged), None, relative=False, remark=_WHICH, kind="own run"
     )
@@ -216,7 +258,7 @@ def table(judged: list[Judged]) -> Iterator[Row]:
         "of these within their uncertainty with twice the elements and a quarter of the step",
         1.0,
         share,
-        1.0 - least,
+        1.0 - bound,
         relative=False,
         remark=missed or "none leaves it",
         kind="condition",
@@ -225,10 +267,11 @@ def table(judged: list[Judged]) -> Iterator[Row]:
 
 if __name__ == "__main__":
     first, count, name = int(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3])
+    wanted = KINDS[KINDS.index(sys.argv[4])] if len(sys.argv) > 4 else KINDS[0]
     judged = []
-    for each in judge_all(range(first, first + count), name):
-        judged.append(each)
-        sys.stdout.write(f"{each}\n")
+    for dam in judge_all(range(first, first + count), name, wanted):
+        judged.append(dam)
+        sys.stdout.write(f"{dam}\n")
         sys.stdout.flush()
     for row in table(judged):
         sys.stdout.write(f"{row.what}: {row.ours:.3g}; {row.remark}\n")

@@ -7,10 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
-from heeltoe.models.flexible.reduced import build_flexible_dam
-from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.run import flexible
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion

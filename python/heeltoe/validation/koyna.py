@@ -62,5 +62,5 @@ def _slip_mm(part: str, damping: float, uplift: str, friction: float) -> float:
         }
     )
     motion = record_named("elcentro-1940-180-nga").scaled_to(0.49 * _G).cut(30.0)
-    found: float = decoupled(case, motion).residual_slip_m
-    return 1e3 * found
+    slip: float = decoupled(case, motion).residual_slip_m
+    return 1e3 * slip

@@ -43,10 +43,10 @@ def rest_ends() -> Iterator[Row]:
     against = lift * _WIDTH * 2.0 / 3.0 + push * _DEPTH / 3.0
     arm = _CONCRETE * (rectangle * 50.0 + triangle * 30.0) + water_mass * 0.4 * _DEPTH
     rocking = (weight - against) / arm
-    found = build_block(_typical()).critical_accelerations()
+    critical = build_block(_typical()).critical_accelerations()
     equation = "Zhu (2004), equation 4.3.12, by hand"
-    yield Row("sliding downstream [g]", sliding / _G, found.sliding_downstream / _G, 1e-12, remark=equation)
-    yield Row("rocking about the toe [g]", rocking / _G, found.rocking_downstream / _G, 1e-12)
+    yield Row("sliding downstream [g]", sliding / _G, critical.sliding_downstream / _G, 1e-12, remark=equation)
+    yield Row("rocking about the toe [g]", rocking / _G, critical.rocking_downstream / _G, 1e-12)
     for part, moves in ((0.999, 0.0), (1.001, 1.0)):
         peak = part * sliding / _G
         step = {"points": [["0 s", "0 g"], ["1 s", f"{-peak} g"], ["1 s", "0 g"], ["2 s", "0 g"]]}

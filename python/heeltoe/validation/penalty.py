@@ -43,7 +43,7 @@ def penalty() -> Iterator[Row]:
         yield Row(
             f"{name}, gamma 0.5: the result says so (1)",
             1.0,
-            float(wild.outcome != "ok" or any(each.code == "energy-made" for each in wild.warnings)),
+            float(wild.outcome != "ok" or any(warning.code == "energy-made" for warning in wild.warnings)),
             0.0,
             kind="condition",
         )

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.kernel.block import BlockRun, block, run_block
 from heeltoe.kernel.shaking import Shaking
 
@@ -55,5 +55,5 @@ def run(
     start: list[list[float]] | None = None,
 ) -> BlockRun:
     """Run the kernel."""
-    wanted = np.empty(0) if output_times is None else output_times
-    return run_block(block, Shaking(time, np.ascontiguousarray(ground)), wanted, start=start)
+    times = np.empty(0) if output_times is None else output_times
+    return run_block(block, Shaking(time, np.ascontiguousarray(ground)), times, start=start)

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
 from heeltoe.kernel.block import BlockRun, Limits, run_block
@@ -134,7 +134,7 @@ def _anchor(rng: np.random.Generator, width: float) -> dict[str, Any]:
 def _ground(rng: np.random.Generator, block: Block) -> Shaking:
     g, size = block.gravity, block.height + block.width
     critical = block.critical_accelerations()
-    least = max(0.05 * g, min(abs(critical.sliding_downstream), abs(critical.rocking_downstream), 5.0 * g))
+    lowest = max(0.05 * g, min(abs(critical.sliding_downstream), abs(critical.rocking_downstream), 5.0 * g))
     pace = math.sqrt(size / 10.0)
     count, step = 40, float(rng.choice([0.01, 0.04, 0.2])) * pace
     across = rng.normal(size=count) * rng.uniform(0.5, 3.0)
@@ -150,7 +150,7 @@ def _ground(rng: np.random.Generator, block: Block) -> Shaking:
 
     return Shaking(
         np.repeat(time, 2)[1:] if in_steps else time,
-        series(across, least),
+        series(across, lowest),
         series(rng.normal(size=count - 1), 0.3 * g) if rng.random() < 0.5 else None,
         series(rng.normal(size=count - 1), 0.1 * g / size) if rng.random() < 0.1 else None,
     )
@@ -162,7 +162,7 @@ def random_blocks() -> Iterator[Row]:
     for seed in range(COUNT):
         run = draw(seed).run()
         cycling += run.outcome == "cycling"
-        unexplained = max(unexplained, run.summary["energy_residual"])
+        unexplained = max(unexplained, run.summary.energy_residual)
     remark = (
         "a part of the weight from a billionth up is left by the water, anchors are stiff, cracks open by micrometres"
     )

@@ -15,11 +15,11 @@ def run_all(name: str | None, console: Console) -> bool:
     if name is not None and name not in CASES:
         run_case(name)
     passed = failed = deviating = informing = skipped = 0
-    for each in [name] if name else CASES:
-        console.print(f"\n[bold]{each}[/bold]  {escape(CASES[each].title)}")
-        console.print(f"  [dim]{escape(CASES[each].source)}[/dim]")
+    for title in [name] if name else CASES:
+        console.print(f"\n[bold]{title}[/bold]  {escape(CASES[title].title)}")
+        console.print(f"  [dim]{escape(CASES[title].source)}[/dim]")
         try:
-            rows = run_case(each)
+            rows = run_case(title)
         except Skipped as reason:
             console.print(f"  [yellow]skipped[/yellow]: {reason}")
             skipped += 1

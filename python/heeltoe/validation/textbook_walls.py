@@ -20,22 +20,22 @@ _DRY = {"uplift": {"pattern": "none"}}
 def sarkar() -> Iterator[Row]:
     """Sarkar, chapter 14: dams of 3 to 30 m without uplift, their stresses, widths and sliding factor."""
     height = 10.0**0.5
-    found = _dam([(0.0, 0.0), (2.0, 0.0), (2.0, height), (0.0, height)], 25.0, height, 10.0, friction=0.5)
-    yield _row("14.1, a wall 2 m wide as high as no tension allows, stress at heel [kPa]", 0.0, _heel(found), 1e-6)
-    yield _row("14.1, its sliding factor", 1.58, found.sliding_factor, 0.006)
-    found = _dam(_trapezium(1.0, 4.0, 6.0), 22.4, 5.5, 10.0)
-    yield _row("14.3, stress at toe [kPa]", 112.38, _toe(found), 0.006)
-    yield _row("14.3, stress at heel [kPa]", 55.62, _heel(found), 0.006)
-    found = _dam(_trapezium(5.13, 17.08, 30.0), 22.56, 29.0, 9.81)
+    load_case = _dam([(0.0, 0.0), (2.0, 0.0), (2.0, height), (0.0, height)], 25.0, height, 10.0, friction=0.5)
+    yield _row("14.1, a wall 2 m wide as high as no tension allows, stress at heel [kPa]", 0.0, _heel(load_case), 1e-6)
+    yield _row("14.1, its sliding factor", 1.58, load_case.sliding_factor, 0.006)
+    load_case = _dam(_trapezium(1.0, 4.0, 6.0), 22.4, 5.5, 10.0)
+    yield _row("14.3, stress at toe [kPa]", 112.38, _toe(load_case), 0.006)
+    yield _row("14.3, stress at heel [kPa]", 55.62, _heel(load_case), 0.006)
+    load_case = _dam(_trapezium(5.13, 17.08, 30.0), 22.56, 29.0, 9.81)
     rounded = "on the way to the widths 27.17 stands for 27.21, 0.16 % of an arm, which is 1.3 kPa"
-    yield _row("14.5, 30 m, widths of no tension, stress at toe [kPa]", 880.0, _toe(found), 1.4, rounded)
-    yield _row("14.5, 30 m, widths of no tension, stress at heel [kPa]", 0.0, _heel(found), 1.4, rounded)
-    found = _dam(_trapezium(1.0, 4.13, 8.0), 22.4, 7.5, 9.81, friction=0.6)
-    yield _row("14.7, sliding factor of the least width for it", 1.0, found.sliding_factor, 0.001)
+    yield _row("14.5, 30 m, widths of no tension, stress at toe [kPa]", 880.0, _toe(load_case), 1.4, rounded)
+    yield _row("14.5, 30 m, widths of no tension, stress at heel [kPa]", 0.0, _heel(load_case), 1.4, rounded)
+    load_case = _dam(_trapezium(1.0, 4.13, 8.0), 22.4, 7.5, 9.81, friction=0.6)
+    yield _row("14.7, sliding factor of the least width for it", 1.0, load_case.sliding_factor, 0.001)
     battered = [(0.0, 0.0), (7.0, 0.0), (2.0, 10.0), (1.0, 10.0)]
-    found = _dam(battered, 19.62, 10.0, 9.81)
-    yield _row("14.8, battered, stress at toe [kPa]", 228.23, _toe(found), 0.006)
-    yield _row("14.8, battered, stress at heel [kPa]", 10.01, _heel(found), 0.006)
+    load_case = _dam(battered, 19.62, 10.0, 9.81)
+    yield _row("14.8, battered, stress at toe [kPa]", 228.23, _toe(load_case), 0.006)
+    yield _row("14.8, battered, stress at heel [kPa]", 10.01, _heel(load_case), 0.006)
 
 
 def _trapezium(top: float, base: float, height: float) -> list[tuple[float, float]]:
@@ -51,12 +51,12 @@ def _dam(
     return case_of(fields)
 
 
-def _toe(found: LoadCase) -> float | None:
-    return None if found.toe_stress_pa is None else found.toe_stress_pa / 1e3
+def _toe(load_case: LoadCase) -> float | None:
+    return None if load_case.toe_stress_pa is None else load_case.toe_stress_pa / 1e3
 
 
-def _heel(found: LoadCase) -> float | None:
-    return None if found.heel_stress_pa is None else found.heel_stress_pa / 1e3
+def _heel(load_case: LoadCase) -> float | None:
+    return None if load_case.heel_stress_pa is None else load_case.heel_stress_pa / 1e3
 
 
 def _row(what: str, printed: float, ours: float | None, good: float, reason: str = "") -> Row:

@@ -38,13 +38,15 @@ def dam(corners: list[tuple[float, float]], weight: float, water: float, frictio
 
 
 def case_of(fields: Any, name: str = "usual") -> LoadCase:
-    return next(each for each in statics(read_case(fields)).cases if each.name == name)
+    return next(load_case for load_case in statics(read_case(fields)).cases if load_case.name == name)
 
 
-def _stresses(label: str, found: LoadCase, toe: float, heel: float, example: str, good: float = 0.06) -> Iterator[Row]:
+def _stresses(
+    label: str, load_case: LoadCase, toe: float, heel: float, example: str, good: float = 0.06
+) -> Iterator[Row]:
     """Return stresses at toe and heel beside printed ones [kPa], good for the last digit unless said otherwise."""
     remark = _PRINTED.format(example)
-    for end, printed, ours in (("toe", toe, found.toe_stress_pa), ("heel", heel, found.heel_stress_pa)):
+    for end, printed, ours in (("toe", toe, load_case.toe_stress_pa), ("heel", heel, load_case.heel_stress_pa)):
         assert ours is not None
         yield Row(
             f"{label}, stress at {end} [kPa]", printed, ours / 1e3, good, relative=False, remark=remark, kind="book"
@@ -59,11 +61,11 @@ def _factor(label: str, printed: float, ours: float | None, good: float, example
     return Row(label, printed, ours, good, relative=False, remark=remark, kind="book", **more)
 
 
-def _overturning_apart(found: LoadCase) -> float:
+def _overturning_apart(load_case: LoadCase) -> float:
     """Return stabilising over overturning moments about the toe, horizontal and vertical parts of each force apart."""
     parts = [
         moment
-        for line in found.sheet("toe").lines
+        for line in load_case.sheet("toe").lines
         for moment in ((line.distance_m or 0.0) * line.vertical_n, -(line.height_m or 0.0) * line.horizontal_n)
     ]
     return sum(part for part in parts if part > 0.0) / -sum(part for part in parts if part < 0.0)
@@ -83,10 +85,10 @@ def punmia_walls() -> Iterator[Row]:
     without = case_of(dam(slim, 20.0, 6.0, 0.6, uplift={"pattern": "none"}))
     yield _factor("8.11, no uplift, sliding factor", 1.074, without.sliding_factor, 6e-4, "8.11")
     sloped = [(0.0, 0.0), (8.25, 0.0), (2.0, 10.0), (1.0, 10.0)]
-    found = case_of(dam(sloped, 22.4, 10.0, 0.75))
-    yield from _stresses("8.14", found, 170.7, -5.8, "8.14")
-    yield _factor("8.14, sliding factor", 1.04, found.sliding_factor, 0.006, "8.14")
-    yield _factor("8.14, overturning factor", 1.47, _overturning_apart(found), 0.006, "8.14", reason=_APART)
+    load_case = case_of(dam(sloped, 22.4, 10.0, 0.75))
+    yield from _stresses("8.14", load_case, 170.7, -5.8, "8.14")
+    yield _factor("8.14, sliding factor", 1.04, load_case.sliding_factor, 0.006, "8.14")
+    yield _factor("8.14, overturning factor", 1.47, _overturning_apart(load_case), 0.006, "8.14", reason=_APART)
 
 
 def punmia_dams() -> Iterator[Row]:
@@ -118,23 +120,23 @@ def punmia_dams() -> Iterator[Row]:
     yield _factor("8.15, overturning factor", 1.439, apart, 6e-4, "8.15", explained=0.03, reason=reason)
     high = [(0.0, 0.0), (56.0, 0.0), (6.0, 75.0), (6.0, 84.0), (0.0, 84.0)]
     drains = {"pattern": "drained", "drain_position": 8.0 / 56.0, "drain_efficiency": 2.0 / 3.0}
-    found = case_of(dam(high, 23.5, 80.0, 0.7, uplift=drains, tailwater={"depth": "6 m"}))
-    yield from _stresses("8.20, drains and tailwater", found, 1586.7, -49.3, "8.20")
+    load_case = case_of(dam(high, 23.5, 80.0, 0.7, uplift=drains, tailwater={"depth": "6 m"}))
+    yield from _stresses("8.20, drains and tailwater", load_case, 1586.7, -49.3, "8.20")
 
 
-def _shaken(label: str, found: LoadCase, printed: tuple[float, float, float], example: str) -> Iterator[Row]:
+def _shaken(label: str, load_case: LoadCase, printed: tuple[float, float, float], example: str) -> Iterator[Row]:
     """Return stresses at toe and heel [kPa] and sliding factor under a seismic coefficient beside printed ones."""
-    assert found.toe_stress_pa is not None
-    assert found.heel_stress_pa is not None
+    assert load_case.toe_stress_pa is not None
+    assert load_case.heel_stress_pa is not None
     reason = f"{_PRINTED.format(example)}; {_BY_THE_BOOK}"
-    ours = found.toe_stress_pa / 1e3, found.heel_stress_pa / 1e3
+    ours = load_case.toe_stress_pa / 1e3, load_case.heel_stress_pa / 1e3
     for end, of_book, value in zip(("toe", "heel"), printed[:2], ours, strict=True):
         what = f"{label}, seismic, stress at {end} [kPa]"
         yield Row(what, of_book, value, 0.06, relative=False, remark=reason, kind="book", explained=0.02 * printed[0])
     yield _factor(
         f"{label}, seismic, sliding factor",
         printed[2],
-        found.sliding_factor,
+        load_case.sliding_factor,
         6e-4,
         example,
         explained=0.01,
@@ -180,10 +182,10 @@ def elementary() -> Iterator[Row]:
     for share in (0.0, 0.5, 1.0):
         base = height / (weight - share) ** 0.5
         triangle = [(0.0, 0.0), (base, 0.0), (0.0, height)]
-        found = case_of(dam(triangle, weight * G, height, 0.7, uplift={"intensity": share}))
+        load_case = case_of(dam(triangle, weight * G, height, 0.7, uplift={"intensity": share}))
         remark = "Asawa, Irrigation and Water Resources Engineering, section 16.5: b^2 (s - c) = h^2 leaves no tension"
-        assert found.heel_stress_pa is not None
-        ours = found.heel_stress_pa / 1e3
+        assert load_case.heel_stress_pa is not None
+        ours = load_case.heel_stress_pa / 1e3
         what = f"uplift {share:g}, stress at heel [kPa]"
         yield Row(what, 0.0, ours, 1e-6, relative=False, remark=remark, kind="book")
     friction = 0.75

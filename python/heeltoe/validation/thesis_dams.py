@@ -9,7 +9,7 @@ from typing import Any
 
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.models.run import rigid
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.records import read_record
@@ -39,11 +39,11 @@ def taft() -> Iterator[Row]:
     for friction, row in _TAFT.items():
         for depth, printed, prototype in zip(_DEPTHS, row, _PROTOTYPE[friction], strict=True):
             case = _typical(depth, friction)
-            least, ours, most = (_slip_mm(case, record, 0.4 * scale) for scale in (0.99, 1.0, 1.01))
+            low, ours, high = (_slip_mm(case, record, 0.4 * scale) for scale in (0.99, 1.0, 1.01))
             label = f"friction {friction}, water {depth:g} m"
             # A printed 3.6 mm has two digits only.
             good = 0.10 if printed < 10.0 else 0.07
-            yield Row(label, printed, ours, good, remark=_ANOTHER_VERSION, kind="thesis", spread=(least, most))
+            yield Row(label, printed, ours, good, remark=_ANOTHER_VERSION, kind="thesis", spread=(low, high))
             yield Row(label, prototype, ours, 1e-3, remark="the same record, exact events", kind="prototype")
 
 

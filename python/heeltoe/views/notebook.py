@@ -7,11 +7,11 @@ from html import escape
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
+from heeltoe.errors.sanitize import plain
 from heeltoe.models.statics.model import Statics
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.plain import plain
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.verdict import verdict

@@ -10,13 +10,13 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError, shown
+from heeltoe.errors.error import InputError, shown
+from heeltoe.errors.suggestion import near
 from heeltoe.models.statics.model import Statics
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.near import near
 from heeltoe.result.response import Response
-from heeltoe.study.overturning import OverturningMap
-from heeltoe.study.small import SmallStudy
+from heeltoe.study.small.overturning import OverturningMap
+from heeltoe.study.small.run_table import SmallStudy
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.systems import unit_system
 from heeltoe.views.figures.all import Figures, all_figures
@@ -27,7 +27,7 @@ _ENDINGS = (".png", ".svg", ".pdf")
 
 
 def plot(thing: object, name: str | None, path: str | PathLike[str] | None, units: str | None) -> Figure:
-    """Return a figure of a thing, and write it where a path is given; see :meth:`heeltoe.shown.Shown.plot`."""
+    """Return a figure of a thing, and write it where a path is given; see :meth:`heeltoe.base.display.Shown.plot`."""
     units = unit_system(units or (thing.units if isinstance(thing, Case) else "si")).name
     place = None if path is None else Path(path)
     if place is not None and place.suffix.lower() not in _ENDINGS:

@@ -13,9 +13,9 @@ from heeltoe import GroundMotion, InputError, build_block, read_case, response_s
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.decoupled.chain import Chain, attached_mass, bonded_chain, chain, face_shares, plane_fit
 from heeltoe.models.decoupled.crack_motion import STRAIGHT, accelerations, crack_motion
-from heeltoe.models.flexible.elastic import dofs
+from heeltoe.models.flexible.body.elastic import dofs
+from heeltoe.models.flexible.body.modes import intact_periods
 from heeltoe.models.flexible.mesh.dam import dam_mesh
-from heeltoe.models.flexible.modes import intact_periods
 from heeltoe.motion.earthquake import Earthquake
 from shared.dams import BASE, KOYNA
 

@@ -8,13 +8,13 @@ from dataclasses import replace
 import pytest
 
 from heeltoe import InputError
-from heeltoe.models.flexible import bonded
-from heeltoe.models.flexible.cost import building, part_of, parts_of
-from heeltoe.models.flexible.expected import analysing, running
-from heeltoe.models.flexible.reduced import _build
-from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.models.flexible.body import bonded
+from heeltoe.models.flexible.body.cost import building, part_of, parts_of
+from heeltoe.models.flexible.body.reduced import _build
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
+from heeltoe.models.flexible.run.expected import analysing, running
 from heeltoe.models.run import cost_of, earthquake
-from heeltoe.study.analysis import analyse
+from heeltoe.study.small.analysis import analyse
 from shared.dams import example
 
 
@@ -70,7 +70,7 @@ def test_a_spread_that_takes_too_long_is_refused_before_anything_runs(monkeypatc
     case = example("typical-base", "flexible.evidence=none", "flexible.elements_across=2", "motion.duration=1s")
     few, many = (cost_of(case, "flexible", spread=runs).seconds for runs in (11, 1000))
     limited = case.with_({"analysis.time_limit": f"{(few + many) / 2.0} s"})
-    monkeypatch.setattr("heeltoe.study.analysis.run", lambda *given, **named: pytest.fail("it ran"))
+    monkeypatch.setattr("heeltoe.study.small.analysis.run", lambda *given, **named: pytest.fail("it ran"))
     with pytest.raises(InputError) as refused:
         analyse(limited, "flexible", spread=1000)
     assert (refused.value.code, refused.value.field) == ("too-costly", "--spread")

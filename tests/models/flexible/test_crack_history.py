@@ -9,8 +9,8 @@ import pyarrow.csv as csv
 import pytest
 
 from heeltoe import flexible, read_case
-from heeltoe.models.flexible.elastic import dofs
-from heeltoe.models.flexible.history import CrackHistory, crack_table
+from heeltoe.models.flexible.body.elastic import dofs
+from heeltoe.models.flexible.result.history import CrackHistory, crack_table
 from shared.shaken import EXAMPLES, shaken
 
 

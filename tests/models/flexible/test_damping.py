@@ -10,9 +10,9 @@ import scipy.linalg
 
 from heeltoe import InputError, read_case
 from heeltoe.kernel.dam import CrackedDam, only_crack
-from heeltoe.models.flexible.elastic import dofs, side_by_side
-from heeltoe.models.flexible.modes import lowest
-from heeltoe.models.flexible.reduced import build_flexible_dam
+from heeltoe.models.flexible.body.elastic import dofs, side_by_side
+from heeltoe.models.flexible.body.modes import lowest
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
 
 CHOICES = ["relative", "stiffness", "modal", "deformation", "thesis"]
 
@@ -132,7 +132,7 @@ def decay(one, number):
     places = np.split(moved, [one.upper.load.size])
     y = sum(q @ (basis.shapes.T @ piece) for q, basis, piece in zip(state, one.modes, places, strict=False))
     # Nothing slipped or opened on the way.
-    assert np.ptp(found.frames["slip"]) < 1e-5
+    assert np.ptp(found.frames.slip) < 1e-5
     y = y[int(1.05 * length / h) :]
     peaks = np.flatnonzero((y[1:-1] > y[:-2]) & (y[1:-1] >= y[2:]) & (y[1:-1] > 1e-3 * y.max())) + 1
     curve = np.log(y[peaks])
@@ -166,7 +166,7 @@ def test_dashpots_step_as_the_full_matrix_does(choice, elevation):
     up = np.array([[0.0, -30.0]] * 40)  # the ground falls away and the part above flies
     h, theta = 2e-3, 0.6
     found = one.kernel.run(up, h, theta, stride=1)
-    opened = int(np.argmax(found.frames["touching"] == 0.0)) + 1
+    opened = int(np.argmax(found.frames.touching == 0.0)) + 1
     assert 0 < opened < 20
     q = np.hstack([table for table in found.modes if table.size])
     square = np.concatenate([part.omega_squared for part in one.reduced])
@@ -195,9 +195,9 @@ def test_energy_closes_with_dashpots():
     t = 1e-3 * np.arange(800)
     a = np.column_stack([6.0 * np.sin(30.0 * t), 3.0 * np.sin(47.0 * t)])
     row = one.kernel.run(a, 1e-3, 0.52).summary
-    assert abs(row["slip"]) > 1e-3
-    assert row["energy_damping"] > 0.0
-    assert row["energy_residual"] < 1e-11
+    assert abs(row.slip) > 1e-3
+    assert row.energy_damping > 0.0
+    assert row.energy_residual < 1e-11
 
 
 def test_parts_must_agree_in_their_dashpots():

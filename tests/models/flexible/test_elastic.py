@@ -8,9 +8,9 @@ import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.mechanics import loads
-from heeltoe.models.flexible.elastic import dam, dofs, principal, stresses
+from heeltoe.models.flexible.body.elastic import dam, dofs, principal, stresses
 from heeltoe.models.flexible.mesh.checks import boundary_edges
 from heeltoe.models.flexible.mesh.dam import dam_mesh
 from shared.dams import RECTANGLE, TRIANGLE, TYPICAL
@@ -241,7 +241,7 @@ def test_modulus_missing():
 
 @pytest.mark.parametrize("modulus", ["20 kPa", "1e8 GPa"])
 def test_absurd_modulus(modulus):
-    with pytest.raises(InputError, match=r"concrete\.modulus: .* is no modulus of a solid; give 1 MPa to 1e7 GPa"):
+    with pytest.raises(InputError, match=r"concrete\.modulus: .* is not the modulus of a solid; give 1 MPa to 1e7 GPa"):
         built(TYPICAL, concrete={"modulus": modulus})
 
 

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from heeltoe import InputError, flexible, read_case
-from heeltoe.models.flexible import refinement
-from heeltoe.models.flexible.evidence import Evidence, Worth
-from heeltoe.models.flexible.reduced import build_flexible_dam
-from heeltoe.models.flexible.refinement import _finer
-from heeltoe.models.flexible.shaken import ShakenDam
-from heeltoe.models.flexible.trials import SCALES, Level, Trials, with_mesh
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
+from heeltoe.models.flexible.evidence import refinement
+from heeltoe.models.flexible.evidence.evidence import Evidence, Worth
+from heeltoe.models.flexible.evidence.refinement import _finer
+from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials, with_mesh
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
 
@@ -23,6 +23,8 @@ FIELDS = {
     # Other runs beside it are of the same length.
     "analysis": {"silence": "0 s"},
 }
+# Where a crack has corners [of its length].
+FIVE = (0.15, 0.3, 0.45, 0.6, 0.75)
 TIME = np.linspace(0.0, 2.0, 201)
 MOTION = GroundMotion.from_points(TIME, 5.0 * np.sin(2.0 * np.pi * 2.0 * TIME))
 
@@ -97,6 +99,7 @@ def test_what_is_refined(moved, given, finer):
         other_step=2e-4,
         across=8,
         other_across=4,
+        third_across=None,
         failed=0,
         slips=(),
         runs=8,
@@ -122,10 +125,31 @@ def test_where_runs_scatter_the_numbers_are_means(monkeypatch):
     assert found["value_is"] == "mean"
     assert response.residual_slip_m == worth["value"] == pytest.approx(np.mean(members[4]), abs=1e-12)
     assert worth["mesh"] == pytest.approx(abs(np.mean(members[4]) - np.mean(members[2])), abs=1e-12)
-    assert worth["shaking"] == pytest.approx(np.std(members[4], ddof=1), abs=1e-12)
+    # The larger of those of both meshes.
+    deviations = [np.std(slips, ddof=1) for slips in members.values()]
+    assert worth["shaking"] == pytest.approx(max(deviations), abs=1e-12)
     assert worth["run"] == pytest.approx(response.histories["slip_m"][-1], abs=1e-12) != worth["value"]
     assert any("single runs scatter" in str(each) for each in response.warnings)
-    assert "give or take" in response.to_json()["verdict"]
+    assert "numerically ±" in response.to_json()["verdict"]
+
+
+def test_kinks_that_fewer_elements_cannot_follow_are_compared_with_more():
+    kinks = [[f"{20.0 * share} m", f"{0.2 * (1 + place % 2)} m"] for place, share in enumerate(FIVE)]
+    crack = {"elevation": "6 m", "friction": 0.7, "kinks": kinks}
+    case = read_case(FIELDS | {"crack": crack, "flexible": {"elements_across": 8}})
+    found = flexible(case, MOTION).evidence
+    assert (found["elements_across"], found["other_elements_across"]) == (8, 16)
+
+
+def test_means_are_compared_with_a_third_mesh_where_two_may_agree_by_chance(monkeypatch):
+    monkeypatch.setattr(refinement, "_scatter", lambda slips, step: True)
+    response = flexible(dam(elements_across=8), MOTION)
+    longer = f"{2.0 * response.time_step_s} s"
+    means = [np.mean([slip(s, elements_across=n, time_step=longer) for s in SCALES]) for n in (8, 4, 2)]
+    moved = np.abs(np.diff(means))
+    assert moved[0] < moved[1] / 4.0
+    assert response.evidence["third_elements_across"] == 2
+    assert response.evidence["residual_slip_m"]["mesh"] == pytest.approx(moved[1] / 4.0, abs=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,8 @@ import pytest
 import scipy.linalg
 
 from heeltoe import GroundMotion, flexible, read_case
-from heeltoe.models.flexible.growth import growth_of
-from heeltoe.models.flexible.reduced import build_flexible_dam, damped
+from heeltoe.models.flexible.body.reduced import build_flexible_dam, damped
+from heeltoe.models.flexible.evidence.growth import growth_of
 
 TYPICAL = [(0.0, 0.0), (80.0, 0.0), (8.0, 90.0), (8.0, 100.0), (0.0, 100.0)]
 
@@ -45,7 +45,7 @@ def in_all_modes(one, friction, way):
 @pytest.mark.parametrize(("friction", "growth"), [(0.8, 0.10), (1.0, 2.62), (1.2, 4.55)])
 def test_of_the_typical_dam_as_an_independent_program_has_it(friction, growth):
     one = build_flexible_dam(typical(friction, 8, damping="deformation"))
-    assert growth_of(one, friction)[0] == pytest.approx(growth, abs=0.01)
+    assert growth_of(one, [friction])[0] == pytest.approx(growth, abs=0.01)
 
 
 @pytest.mark.parametrize("elevation", [0.0, 80.0])
@@ -53,12 +53,43 @@ def test_of_the_typical_dam_as_an_independent_program_has_it(friction, growth):
 def test_few_modes_with_static_shapes_tell_it(elevation, damping):
     one = build_flexible_dam(typical(1.2, 4, elevation, damping))
     expected = max(in_all_modes(one, 1.2, way) for way in (1.0, -1.0))
-    assert growth_of(one, 1.2)[0] == pytest.approx(expected, rel=1e-3, abs=1e-3)
+    assert growth_of(one, [1.2])[0] == pytest.approx(expected, rel=1e-3, abs=1e-3)
+
+
+def two_cracks(friction=1.2, upper=1.2, damping=0.05):
+    case = typical(friction, 8, ratio=damping)
+    data = case.model_dump(mode="json", exclude_unset=True)
+    return read_case(data | {"further_cracks": [{"elevation": "40 m", "friction": upper}]})
+
+
+def test_a_crack_that_sticks_is_none():
+    """A crack more that sticks leaves the growth as it is, but for the mesh."""
+    one, two = build_flexible_dam(typical(1.2, 8)), build_flexible_dam(two_cracks())
+    assert growth_of(two, [None, 1.2])[0] == pytest.approx(growth_of(one, [1.2])[0], rel=0.03)
+    upper = build_flexible_dam(typical(1.2, 8, 40.0))
+    # What the base adds is bonded to the rock in one dam, and sticks in the other.
+    assert growth_of(two, [1.2, None])[0] == pytest.approx(growth_of(upper, [1.2])[0], rel=0.1, abs=0.2)
+
+
+def test_cracks_that_slide_together_are_those_of_the_crack_that_slides_alone_above_stiff_slabs():
+    """Both ways round of each crack are tried: at least the fastest of the two by themselves, with no friction none."""
+    two = build_flexible_dam(two_cracks())
+    assert growth_of(two, [1e-9, 1e-9])[0] < 0.0
+    assert growth_of(two, [1.2, 1.2])[0] > 0.0
+
+
+def test_several_cracks_say_where_their_slip_depends_on_damping():
+    response = flexible(two_cracks(upper=1.4), pushed(0.3, 2.0))
+    excited = response.self_excitation
+    assert excited["growth_1_s"] * excited["sliding_time_s"] > 1.0
+    more = flexible(two_cracks(upper=1.4, damping=0.1), pushed(0.3, 2.0))
+    assert excited["twice_damped_slip_m"] == pytest.approx(more.residual_slip_m, rel=1e-6)
+    assert any(notice.code == "self-excited" for notice in response.warnings)
 
 
 def test_more_damping_takes_it_away():
     one = build_flexible_dam(typical())
-    growths = [growth_of(damped(typical(), one, factor), 1.2)[0] for factor in (0.5, 1.0, 2.0, 8.0)]
+    growths = [growth_of(damped(typical(), one, factor), [1.2])[0] for factor in (0.5, 1.0, 2.0, 8.0)]
     assert growths == sorted(growths, reverse=True)
     assert growths[-1] < 0.0 < growths[1]
 

@@ -14,10 +14,10 @@ from heeltoe.case.model import Case
 from heeltoe.geometry.axes import along_and_across, places
 from heeltoe.mechanics import loads
 from heeltoe.mechanics.block import build_block
-from heeltoe.models.flexible.elastic import dam, dofs
+from heeltoe.models.flexible.body.elastic import dam, dofs
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.mesh.checks import check_elements, check_pieces
 from heeltoe.models.flexible.mesh.dam import dam_mesh
-from heeltoe.models.flexible.reduced import build_flexible_dam
 from shared.dams import BASE, TYPICAL, polygon
 from shared.elastic import CONCRETE, bonded, resultant
 from shared.meshes import area, bodies, flat, on_polyline

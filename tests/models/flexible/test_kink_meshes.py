@@ -15,7 +15,7 @@ LINES, slips = TABLE["LINES"], TABLE["slips"]
 @pytest.mark.slow
 @pytest.mark.parametrize(("line", "good"), [("10°, 0.8", 0.04), ("27°, 0.9", 0.05), ("45°, 0.9", 0.03)])
 def test_a_step_converges_with_step_and_mesh(line, good):
-    """Parts of the table of docs/crack-line.md: 24 and 32 across, and half the step with 16."""
+    """Parts of the table of docs/kinks.md: 24 and 32 across, and half the step with 16."""
     usual, finer = (slips(*LINES[line], across, 2e-4) for across in (24, 32))
     assert finer[0] == pytest.approx(usual[0], rel=good)
     coarse, smaller = (slips(*LINES[line], 16, step) for step in (2e-4, 1e-4))

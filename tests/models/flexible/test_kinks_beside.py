@@ -8,9 +8,9 @@ import pytest
 from heeltoe import InputError, flexible, read_case, read_study
 from heeltoe.models.statics.cases import usual
 from heeltoe.motion.records import read_record
-from heeltoe.study import parts
-from heeltoe.study.plan import plan_of
-from heeltoe.study.spread import with_spread
+from heeltoe.study.plan.plan import plan_of
+from heeltoe.study.run import batches as parts
+from heeltoe.study.small.spread import with_spread
 from shared.studies import study_file
 
 PULSES = [["0 s", "0 g"], ["0.15 s", "-0.6 g"], ["0.4 s", "0.5 g"], ["0.65 s", "-0.5 g"], ["0.8 s", "0 g"]]
@@ -50,6 +50,7 @@ model = {model}
 [vary]
 "crack.friction" = [0.7, 0.9]
 [motions]
+both_signs = false
 files = ["quakes/quake-a-000.txt"]
 scale = {{ measure = "pga", values = ["0.4 g", "0.9 g"] }}
 """
@@ -121,7 +122,7 @@ def test_each_run_of_a_study_is_the_one_by_hand(tmp_path):
 
 @pytest.mark.parametrize("model", ['"rigid"', '["flexible", "decoupled"]'])
 def test_studies_of_blocks_refuse_kinks(tmp_path, model):
-    with pytest.raises(InputError, match=r"crack\.kinks: a study of blocks knows straight cracks alone"):
+    with pytest.raises(InputError, match=r"crack\.kinks: a study of blocks does not support kinks"):
         plan_of(read_study(study_file(tmp_path, STUDY.format(model=model), case=FILE)))
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from heeltoe import InputError, flexible, read_case, rigid
 from heeltoe.geometry.axes import places
-from heeltoe.models.flexible.reduced import build_flexible_dam
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from shared.two_cracks import DAM, bonded, shaken
 
 STEP, TOOTH = [["20 m", "0 m"], ["23 m", "1.5 m"]], [["2 m", "-0.4 m"], ["4 m", "0.3 m"]]
@@ -27,7 +27,7 @@ def dam(lower=STEP, upper=TOOTH, **blocks):
 def test_both_faces_of_each_crack_follow_its_line():
     case = dam()
     built = build_flexible_dam(case)
-    for place, alone in enumerate(case.cracks):
+    for place, alone in enumerate(case.single_crack_cases):
         upper, lower = built.bodies[place].mesh, built.bodies[place + 1].mesh
         faces = upper.nodes[upper.faces[-1]], lower.nodes[lower.faces[0]]
         np.testing.assert_allclose(*faces, rtol=0.0, atol=1e-9)
@@ -43,33 +43,33 @@ def test_both_faces_of_each_crack_follow_its_line():
 def test_kinks_of_no_height_are_none():
     flat = dam(lower=[["20 m", "0 m"]], upper=[["2 m", "0 m"]])
     for one, other in zip(shaken(flat).all_frames, shaken(dam(lower=[], upper=[])).all_frames, strict=True):
-        assert one["slip"].tobytes() == other["slip"].tobytes()
+        assert one.slip.tobytes() == other.slip.tobytes()
 
 
 def test_the_neck_alone_where_the_other_crack_is_bonded():
     # The part below is drawn over to the other crack's line, so that its mesh is another one than the whole dam's.
     case = dam(lower=[])
-    two, alone = shaken(bonded(case, 20.0)), shaken(case.cracks[0])
-    largest = np.abs(alone.frames["slip"]).max()
+    two, alone = shaken(bonded(case, 20.0)), shaken(case.single_crack_cases[0])
+    largest = np.abs(alone.frames.slip).max()
     assert largest > 1e-3
-    assert np.abs(two.all_frames[1]["slip"]).max() < 1e-8
+    assert np.abs(two.all_frames[1].slip).max() < 1e-8
     # Rows of elements lie elsewhere below.
-    assert two.all_frames[0]["slip"] == pytest.approx(alone.frames["slip"], abs=0.1 * largest)
+    assert two.all_frames[0].slip == pytest.approx(alone.frames.slip, abs=0.1 * largest)
 
 
 def test_contact_is_met_and_the_ledger_closes():
     run = shaken(dam(flexible={"elements_across": 4, "evidence": "none"}))
     for each in run.summaries:
-        assert each["contact_residual"] < 1e-9
-        assert each["energy_residual"] < 1e-12
-        assert each["energy_gained"] < 1e-9 * each["energy_turnover"]
+        assert each.contact_residual < 1e-9
+        assert each.energy_residual < 1e-12
+        assert each.energy_gained < 1e-9 * each.energy_turnover
     straight = shaken(dam([], [], flexible={"elements_across": 4, "evidence": "none"}))
-    assert abs(run.summaries[1]["slip"]) < abs(straight.summaries[1]["slip"])
+    assert abs(run.summaries[1].slip) < abs(straight.summaries[1].slip)
 
 
 def test_a_mirrored_dam_slides_the_other_way():
     case = dam(flexible={"elements_across": 4, "evidence": "none"})
-    widths = [each.cut.crack_width for each in case.cracks]
+    widths = [each.cut.crack_width for each in case.single_crack_cases]
     polygon = [[f"{-x!r} m", f"{z!r} m"] for x, z in np.array(case.section.vertices()).tolist()[::-1]]
 
     def turned(kinks, width):
@@ -86,7 +86,7 @@ def test_a_mirrored_dam_slides_the_other_way():
         }
     )
     for one, other in zip(shaken(case).all_frames, shaken(image).all_frames, strict=True):
-        assert one["slip"] == pytest.approx(-other["slip"], abs=1e-6)
+        assert one.slip == pytest.approx(-other.slip, abs=1e-6)
 
 
 def test_laws_and_anchors_go_with_them():
@@ -100,5 +100,5 @@ def test_laws_and_anchors_go_with_them():
 
 
 def test_two_rigid_blocks_refuse_kinks_by_name():
-    with pytest.raises(InputError, match=r"further_cracks\[0\]\.kinks: .*straight cracks alone"):
+    with pytest.raises(InputError, match=r"further_cracks\[0\]\.kinks: .*does not support kinks"):
         rigid(dam(lower=[]))

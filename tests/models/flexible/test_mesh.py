@@ -5,7 +5,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.models.flexible.mesh.checks import (
     CORNERS,
     MIDDLES,

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from heeltoe.case.read import read_case
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.models.flexible.mesh.checks import (
     boundary_edges,
     check_pieces,
@@ -282,7 +282,7 @@ def test_missing_file(tmp_path):
 def test_missing_package(tmp_path, own, monkeypatch):
     path = write(tmp_path / "own.vtu", *numbered(own.upper))
     monkeypatch.setitem(sys.modules, "meshio", None)
-    with pytest.raises(InputError, match=r"own\.vtu: .* pip install heeltoe\[mesh\]"):
+    with pytest.raises(InputError, match=r"own\.vtu: .* pip install meshio"):
         meshed(TYPICAL, 60.0, mesh_above=path)
 
 

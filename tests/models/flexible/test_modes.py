@@ -7,8 +7,8 @@ import pytest
 import scipy.linalg
 
 from heeltoe import flexible, read_case
-from heeltoe.models.flexible.elastic import dofs
-from heeltoe.models.flexible.modes import (
+from heeltoe.models.flexible.body.elastic import dofs
+from heeltoe.models.flexible.body.modes import (
     ENOUGH,
     enough_modes,
     error_frequency,
@@ -18,7 +18,7 @@ from heeltoe.models.flexible.modes import (
     reduce,
     residual_error,
 )
-from heeltoe.models.flexible.reduced import build_flexible_dam
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from shared.dams import BASE, TYPICAL
 from shared.elastic import bonded, built, deep, parts
 

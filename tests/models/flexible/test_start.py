@@ -7,8 +7,8 @@ import pytest
 
 from heeltoe import GroundMotion, flexible, read_case
 from heeltoe.mechanics.block import build_block
-from heeltoe.models.flexible.elastic import dofs
-from heeltoe.models.flexible.reduced import build_flexible_dam
+from heeltoe.models.flexible.body.elastic import dofs
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
 
 QUIET = GroundMotion.from_points(np.array([0.0, 0.5]), np.array([0.0, 0.0]), name="quiet")
 

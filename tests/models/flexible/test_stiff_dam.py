@@ -5,7 +5,7 @@ import pytest
 import scipy.linalg
 
 from heeltoe import GroundMotion, flexible, read_case, rigid
-from heeltoe.models.flexible.reduced import build_flexible_dam
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from shared.dams import TYPICAL, polygon
 
 G = 9.80665

@@ -34,6 +34,15 @@ def test_the_numbers_shipped_are_those_of_the_study(program):
     assert all(not by_regime for by_regime in found.values())
 
 
+def test_numbers_and_figure_go_where_the_user_says(program, tmp_path, capsys):
+    shipped = files("heeltoe.models.rigid").joinpath("criterion.json")
+    before = shipped.read_bytes()
+    program["main"](tmp_path / "fit")
+    assert {path.name for path in (tmp_path / "fit").iterdir()} == {"criterion.json", "rigid-or-flexible.png"}
+    assert shipped.read_bytes() == before
+    assert "margin" in capsys.readouterr().out
+
+
 def test_neither_dams_nor_earthquakes_of_one_half_are_in_the_other():
     table = pq.read_table(STUDY / "runs.parquet")
     assert table.num_rows > 1000
@@ -77,6 +86,12 @@ def test_a_line_says_what_it_is():
         str(fit.outside({"period": 2.5})) == "first period over the mean period of the motion is 2.5, studied 0.1 to 2"
     )
     assert fit.outside({"period": math.nan}) is not None
+
+
+def test_a_number_on_the_limit_of_the_study_is_inside_and_one_beyond_it_shows():
+    fit = Fit(0.0, {"friction": 1.0}, 1.0, 0.0, (0.0, 1.0), {"friction": (0.6, 1.2)}, 7, {})
+    assert fit.outside({"friction": 1.2 * (1.0 + 1e-15)}) is None
+    assert str(fit.outside({"friction": 1.203})) == "coefficient of friction is 1.203, studied 0.6 to 1.2"
 
 
 def test_a_block_that_slides_far_is_less_wrong():

@@ -43,14 +43,14 @@ def test_a_weakening_slider_under_a_rectangular_pulse_by_hand():
     k = math.sqrt(0.3 * G / slip)
     at = np.linspace(0.0, 0.11, 12)
     run = walked(case, [0.0, 0.3, 0.3, 5.0], [-0.8 * G, -0.8 * G, 0.0, 0.0], WEAKENING, at=at)
-    assert run.histories["slip"] == pytest.approx(0.2 * slip / 0.3 * (np.cosh(k * at) - 1.0), abs=1e-12)
+    assert run.histories.slip == pytest.approx(0.2 * slip / 0.3 * (np.cosh(k * at) - 1.0), abs=1e-12)
     corner = math.acosh(1.0 + 0.3 / 0.2) / k
     speed, left = 0.2 * slip / 0.3 * k * math.sinh(k * corner), 0.3 - corner
     way = slip + speed * left + 0.25 * G * left**2 + (speed + 0.5 * G * left) ** 2 / (0.6 * G)
-    assert run.summary["slip"] == pytest.approx(way, abs=1e-12)
+    assert run.summary.slip == pytest.approx(way, abs=1e-12)
     lost = weight(case) * (0.45 * slip + 0.3 * (way - slip))
-    assert run.summary["energy_friction"] == pytest.approx(lost, rel=1e-12)
-    assert run.summary["energy_residual"] < 1e-14
+    assert run.summary.energy_friction == pytest.approx(lost, rel=1e-12)
+    assert run.summary.energy_residual < 1e-14
     assert run.worn.integrated == run.worn.error == 0.0
 
 
@@ -64,15 +64,15 @@ def test_a_slide_that_stops_on_the_way_up_to_the_corner_by_hand():
     p, q = 0.1 * G, -0.2 * G / length
     t = np.array([0.02, 0.05, 0.1])
     expected = p * (np.cosh(k * t) - 1.0) / k**2 + q * (np.sinh(k * t) - k * t) / k**3
-    assert run.histories["slip"] == pytest.approx(expected, abs=1e-15)
+    assert run.histories.slip == pytest.approx(expected, abs=1e-15)
     s0, v0 = expected[2], p * math.sinh(k * length) / k + q * (math.cosh(k * length) - 1.0) / k**2
     # s'' = -0.9 g + k^2 s from there: s - e = (s0 - e) cosh + v0/k sinh, at rest where tanh = -v0/k / (s0 - e).
     rest = 0.9 * G / k**2
     stop = math.atanh(-v0 / k / (s0 - rest)) / k
     end = rest + (s0 - rest) * math.cosh(k * stop) + v0 / k * math.sinh(k * stop)
-    assert run.summary["slip"] == pytest.approx(end, abs=1e-15)
+    assert run.summary.slip == pytest.approx(end, abs=1e-15)
     assert 0.0 < end < slip
-    assert run.events["time"][-1] == pytest.approx(length + stop, abs=1e-14)
+    assert run.events.time[-1] == pytest.approx(length + stop, abs=1e-14)
 
 
 @pytest.mark.parametrize("up", [False, True])
@@ -102,14 +102,14 @@ def test_the_walk_by_integration_agrees_on_a_real_record(name, up, records):
     assert (closed.worn.integrated == 0.0) == exact
     assert closed.worn.error <= judge.worn.error
     assert judge.worn.error > 0.0
-    assert judge.worn.integrated == pytest.approx(judge.summary["time_sliding"])
+    assert judge.worn.integrated == pytest.approx(judge.summary.time_sliding)
     assert closed.worn.end > 0.005
     allowed = judge.worn.error + 1e-12  # of the events
-    assert closed.summary["slip"] == pytest.approx(judge.summary["slip"], abs=allowed)
+    assert closed.summary.slip == pytest.approx(judge.summary.slip, abs=allowed)
     assert closed.worn.end == pytest.approx(judge.worn.end, abs=allowed)
-    assert closed.summary["energy_friction"] == pytest.approx(judge.summary["energy_friction"], rel=1e-9)
+    assert closed.summary.energy_friction == pytest.approx(judge.summary.energy_friction, rel=1e-9)
     if exact:
-        assert closed.summary["energy_residual"] < 1e-13
+        assert closed.summary.energy_residual < 1e-13
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -119,11 +119,11 @@ def test_coulomb_as_the_limit_of_a_linear_law(seed):
     law = friction_law("linear slip weakening", NUMBERS | {"peak": mu, "residual": mu})
     found = walked(case, time, ground, law, up)
     assert found.outcome == exact.outcome
-    slides = exact.summary["time_rocking"] + exact.summary["time_slide_rocking"] + exact.summary["time_drifting"] == 0.0
+    slides = exact.summary.time_rocking + exact.summary.time_slide_rocking + exact.summary.time_drifting == 0.0
     if slides:
         assert found.worn.integrated == 0.0
-        assert found.summary["slip"] == pytest.approx(exact.summary["slip"], rel=1e-13, abs=1e-14)
-    assert found.summary["slip"] == pytest.approx(exact.summary["slip"], rel=1e-10, abs=1e-12)
+        assert found.summary.slip == pytest.approx(exact.summary.slip, rel=1e-13, abs=1e-14)
+    assert found.summary.slip == pytest.approx(exact.summary.slip, rel=1e-10, abs=1e-12)
 
 
 @pytest.mark.parametrize("seed", range(40))
@@ -140,5 +140,5 @@ def test_random_dams_agree_with_the_walk_by_integration(seed):
     )
     assert closed.outcome == judge.outcome
     assert closed.worn.integrated <= judge.worn.integrated
-    if closed.summary["impacts"] == 0.0:
-        assert closed.summary["slip"] == pytest.approx(judge.summary["slip"], rel=1e-9, abs=judge.worn.error + 1e-9)
+    if closed.summary.impacts == 0.0:
+        assert closed.summary.slip == pytest.approx(judge.summary.slip, rel=1e-9, abs=judge.worn.error + 1e-9)

@@ -48,12 +48,12 @@ def test_a_weakening_slider_under_a_pulse_by_hand():
     run = walked(case, *PULSE, linear(slip=slip), at=at)
     expected = 0.2 * slip / 0.3 * (np.cosh(k * at) - 1.0)
     assert expected[-1] < slip
-    assert run.histories["slip"] == pytest.approx(expected, abs=1e-10)
+    assert run.histories.slip == pytest.approx(expected, abs=1e-10)
     # The work of friction is that of the curve; that of the pulse ends with it.
-    way = run.summary["slip"]
+    way = run.summary.slip
     assert way > slip
     lost = weight(case) * (0.45 * slip + 0.3 * (way - slip))
-    assert run.summary["energy_friction"] == pytest.approx(lost, rel=1e-10)
+    assert run.summary.energy_friction == pytest.approx(lost, rel=1e-10)
     assert run.worn.end == way
 
 
@@ -61,9 +61,9 @@ def test_exponential_weakening_loses_the_work_under_its_curve():
     case, slip = read_case(rectangle(20.0, 1.0, 0.6)), 0.05
     law = friction_law("exponential slip weakening", {"peak": 0.6, "residual": 0.3, "scale": slip})
     run = walked(case, *PULSE, law)
-    way = run.summary["slip"]
+    way = run.summary.slip
     lost = weight(case) * (0.3 * way + 0.3 * slip * -math.expm1(-way / slip))
-    assert run.summary["energy_friction"] == pytest.approx(lost, rel=1e-10)
+    assert run.summary.energy_friction == pytest.approx(lost, rel=1e-10)
 
 
 def test_cohesion_is_lost_under_its_curve_or_at_once():
@@ -71,10 +71,10 @@ def test_cohesion_is_lost_under_its_curve_or_at_once():
     for loss, work in ((slip, 0.5 * cohesion * 20.0 * slip), (0.0, 0.0)):
         law = friction_law("constant", {"peak": 0.3, "residual": 0.3, "cohesion": cohesion, "loss": loss})
         run = walked(case, *PULSE, law)
-        way = run.summary["slip"]
+        way = run.summary.slip
         assert way > slip
         # The corner of the curve lies within a step, the shortest of which is a thousand-millionth of the time scale.
-        assert run.summary["energy_friction"] == pytest.approx(weight(case) * 0.3 * way + work, rel=1e-9)
+        assert run.summary.energy_friction == pytest.approx(weight(case) * 0.3 * way + work, rel=1e-9)
 
 
 def test_a_bond_holds_what_friction_does_not():
@@ -82,15 +82,15 @@ def test_a_bond_holds_what_friction_does_not():
     needed = (0.8 - 0.3) * weight(case) / 20.0
     for cohesion, moves in ((0.999 * needed, True), (1.001 * needed, False)):
         run = walked(case, *PULSE, friction_law("constant", {"peak": 0.3, "residual": 0.3, "cohesion": cohesion}))
-        assert (run.summary["slip"] > 0.0) == moves
+        assert (run.summary.slip > 0.0) == moves
 
 
 def test_speed_weakening_comes_to_its_steady_acceleration():
     case, speed = read_case(rectangle(20.0, 1.0, 0.6)), 0.01
     law = friction_law("speed weakening", {"peak": 0.6, "residual": 0.3, "scale": speed})
     run = walked(case, *PULSE, law, at=[0.25])
-    assert run.histories["slip_acceleration"][0] == pytest.approx(0.5 * G, rel=1e-10)
-    assert run.histories["friction_force"][0] == pytest.approx(-0.3 * weight(case), rel=1e-10)
+    assert run.histories.slip_acceleration[0] == pytest.approx(0.5 * G, rel=1e-10)
+    assert run.histories.friction_force[0] == pytest.approx(-0.3 * weight(case), rel=1e-10)
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -108,8 +108,8 @@ def test_every_law_reduced_to_coulomb_gives_coulombs_result(seed):
         found = walked(case, time, ground, law, up)
         assert found.outcome == exact.outcome
         for name in ("slip", "rotation_min", "rotation_max"):
-            assert found.summary[name] == pytest.approx(exact.summary[name], rel=1e-10, abs=1e-12)
-            assert found.summary[name] == pytest.approx(plain.summary[name], rel=1e-12, abs=1e-14)
+            assert getattr(found.summary, name) == pytest.approx(getattr(exact.summary, name), rel=1e-10, abs=1e-12)
+            assert getattr(found.summary, name) == pytest.approx(getattr(plain.summary, name), rel=1e-12, abs=1e-14)
 
 
 def test_a_lift_joint_is_basic_friction_and_what_is_rough():
@@ -181,7 +181,7 @@ def test_a_program_of_small_steps_agrees_on_a_real_record(name, records):
     keep = time <= 12.0
     time, ground = time[keep], ground[keep]
     run = walked(case, time, ground, friction_law(shape, numbers, points))
-    found, path_slipped = run.summary["slip"], run.worn.end
+    found, path_slipped = run.summary.slip, run.worn.end
 
     def law(stress, path, speed):
         return hand_written(name, stress, path, speed)
@@ -212,11 +212,11 @@ def check_random(seed):
     case, time, ground, up = random_dam(seed, anchored=seed % 5 == 0)
     found = walked(case, time, ground, random_law(np.random.default_rng(seed + 10**6)), up, at=time)
     raw = found.summary
-    assert np.isfinite(list(raw.values())).all()
+    assert np.isfinite(list(raw.by_name().values())).all()
     assert np.isfinite(found.worn.error)
-    assert all(np.isfinite(column).all() for column in found.histories.values())
-    assert raw["energy_friction"] >= -1e-9 * abs(raw["energy_input"])
-    assert raw["energy_residual"] < 1e-7
+    assert all(np.isfinite(column).all() for column in found.histories.by_name().values())
+    assert raw.energy_friction >= -1e-9 * abs(raw.energy_input)
+    assert raw.energy_residual < 1e-7
     assert (np.diff(found.worn.path) >= 0.0).all()
     return found.outcome
 
@@ -234,9 +234,9 @@ def test_friction_that_jams_a_slowing_slip_ends_it(seed):
 
 
 @pytest.mark.slow
-def test_ten_thousand_random_blocks_with_random_laws_end():
-    ends = [check_random(seed) for seed in range(10_000)]
-    assert ends.count("ok") > 7500
+def test_five_thousand_random_blocks_with_random_laws_end():
+    ends = [check_random(seed) for seed in range(5_000)]
+    assert ends.count("ok") > 3750
     assert set(ends) <= {"ok", "unstable"}
 
 
@@ -322,7 +322,7 @@ def test_a_law_stands_beside_nothing_that_says_the_same():
         typical(WEAKENING, crack={"friction": 1.0, "law": WEAKENING})
     with pytest.raises(InputError) as refused:
         typical(COHESION, statics={"bonded": 0.5, "cohesion": "0.1 MPa"})
-    assert refused.value.code == "law-twice"
+    assert refused.value.code == "combination"
 
 
 def test_coefficients_that_are_given_take_the_place_of_a_law():
@@ -345,5 +345,5 @@ def test_a_law_beyond_its_range_is_warned_about():
 
 
 def test_the_app_has_no_slider_for_a_law():
-    assert sliders(typical(WEAKENING), "si")[0].off.endswith("slip weakening.")
+    assert sliders(typical(WEAKENING), "si")[0].off == "The law slip weakening gives the friction of the crack."
     assert not sliders(typical(WEAKENING).with_("crack.friction=0.9"), "si")[0].off

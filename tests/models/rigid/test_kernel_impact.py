@@ -36,17 +36,17 @@ def strike(block: np.ndarray, velocity, gaps=(0.0, 0.0)) -> Blow:
     """Let the block arrive with a velocity (slip, heel gap, toe gap) and return its first impact."""
     result = run(block, [0.0, 1e-9], [0.0, 0.0], start=[[0.0, *gaps], list(velocity)], event_limit=1000)
     first = next(k for k, kind in enumerate(result.kinds) if kind in STRIKES)
-    assert result.events["time"][first] == 0.0
+    assert result.events.time[first] == 0.0
 
     def pick(*names):
-        return np.array([result.events[name][first] for name in names])
+        return np.array([getattr(result.events, name)[first] for name in names])
 
     return Blow(
         before=pick("approach_slip_velocity", "approach_velocity_heel", "approach_velocity_toe"),
         after=pick("slip_velocity", "gap_velocity_heel", "gap_velocity_toe"),
         impulse=pick("impulse_friction", "impulse_heel", "impulse_toe"),
-        energy_lost=float(result.events["energy_lost"][first]),
-        limited=bool(result.summary["energy_limited_impacts"]),
+        energy_lost=float(result.events.energy_lost[first]),
+        limited=bool(result.summary.energy_limited_impacts),
     )
 
 

@@ -111,25 +111,31 @@ def test_every_run_is_sound(examples):
         assert one.outcome in ("ok", "event limit") or (one.outcome == "paradox" and paradox_possible(case.block))
         assert (len(one.modes) == at.size) == (one.outcome == "ok")
         for table in (s, events, histories):
-            assert all(np.isfinite(column).all() for column in table.values())
+            assert all(np.isfinite(column).all() for column in table.by_name().values())
         # The ledger closes and no impact creates energy.
-        energy = kinetic_energy(case.block, *(histories[name] for name in VELOCITIES)).max(initial=s["energy_kinetic"])
-        books = s["energy_kinetic"] - s["energy_input"] + s["energy_friction"] + s["energy_impact"]
-        assert abs(books) <= 1e-9 * (energy + s["energy_friction"] + s["energy_impact"])
-        before = kinetic_energy(case.block, *(events[f"approach_{name.removeprefix('gap_')}"] for name in VELOCITIES))
-        assert (events["energy_lost"] >= -1e-11 * before).all()
+        energy = kinetic_energy(case.block, *(getattr(histories, name) for name in VELOCITIES)).max(
+            initial=s.energy_kinetic
+        )
+        books = s.energy_kinetic - s.energy_input + s.energy_friction + s.energy_impact
+        assert abs(books) <= 1e-9 * (energy + s.energy_friction + s.energy_impact)
+        before = kinetic_energy(
+            case.block, *(getattr(events, f"approach_{name.removeprefix('gap_')}") for name in VELOCITIES)
+        )
+        assert (events.energy_lost >= -1e-11 * before).all()
         # Nothing goes into the crack plane.
-        assert min(histories["gap_heel"].min(initial=0.0), histories["gap_toe"].min(initial=0.0)) >= 0.0
-        assert min(events["gap_heel"].min(initial=0.0), events["gap_toe"].min(initial=0.0)) >= 0.0
+        assert min(histories.gap_heel.min(initial=0.0), histories.gap_toe.min(initial=0.0)) >= 0.0
+        assert min(events.gap_heel.min(initial=0.0), events.gap_toe.min(initial=0.0)) >= 0.0
         # Parts add up, extremes contain everything.
-        parts = [s["slip_sliding"], s["slip_slide_rocking"], s["slip_drifting"]]
-        assert sum(parts) == pytest.approx(s["slip"], abs=1e-12 * (1.0 + np.abs(parts).sum()) + 1e-13 * s["events"])
-        assert sum(s[name] for name in s if name.startswith("time_")) == pytest.approx(s["end_time"], rel=1e-11)
+        parts = [s.slip_sliding, s.slip_slide_rocking, s.slip_drifting]
+        assert sum(parts) == pytest.approx(s.slip, abs=1e-12 * (1.0 + np.abs(parts).sum()) + 1e-13 * s.events)
+        assert sum(value for name, value in s.by_name().items() if name.startswith("time_")) == pytest.approx(
+            s.end_time, rel=1e-11
+        )
         for low, high, column in (("slip_min", "slip_max", "slip"), (None, "largest_gap_toe", "gap_toe")):
-            values = np.append(histories[column], s[column])
-            slack = 1e-12 * (1.0 + s[high])
-            assert values.max() <= s[high] + slack
-            assert low is None or values.min() >= s[low] - slack
+            values = np.append(getattr(histories, column), getattr(s, column))
+            slack = 1e-12 * (1.0 + getattr(s, high))
+            assert values.max() <= getattr(s, high) + slack
+            assert low is None or values.min() >= getattr(s, low) - slack
 
 
 def test_a_mirrored_run_is_the_mirror_image(examples):
@@ -138,7 +144,7 @@ def test_a_mirrored_run_is_the_mirror_image(examples):
     @for_all(examples, cases(wild=False))
     def law(case):
         one = case.run()
-        assume(one.summary["impacts"] <= 3)
+        assume(one.summary.impacts <= 3)
         flipped = dict(case.block)
         flipped["heel_distance"], flipped["toe_distance"] = case.block["toe_distance"], case.block["heel_distance"]
         for name in ("static_horizontal", "static_moment"):
@@ -146,11 +152,11 @@ def test_a_mirrored_run_is_the_mirror_image(examples):
         other = Case(flipped, case.time, -case.horizontal, case.vertical, case.limit).run()
         assert other.outcome == one.outcome
         a, b = one.summary, other.summary
-        scale = 1e-9 * max(a["slip_max"] - a["slip_min"], a["largest_gap_heel"], a["largest_gap_toe"], 1e-6)
+        scale = 1e-9 * max(a.slip_max - a.slip_min, a.largest_gap_heel, a.largest_gap_toe, 1e-6)
         pairs = [("slip", "slip"), ("slip_min", "slip_max"), ("rotation_min", "rotation_max")]
         for name, mirror in (*pairs, *[pair[::-1] for pair in pairs[1:]]):
-            assert a[name] == pytest.approx(-b[mirror], abs=scale)
-        assert a["largest_gap_heel"] == pytest.approx(b["largest_gap_toe"], abs=scale)
+            assert getattr(a, name) == pytest.approx(-getattr(b, mirror), abs=scale)
+        assert a.largest_gap_heel == pytest.approx(b.largest_gap_toe, abs=scale)
 
 
 def test_length_and_time_scale_to_the_last_bit(examples):
@@ -167,7 +173,7 @@ def test_length_and_time_scale_to_the_last_bit(examples):
         block = {name: value * factors[name] for name, value in case.block.items()}
         a = case.run().summary
         b = Case(block, case.time * time, case.horizontal, case.vertical, case.limit).run().summary
-        for name, value in a.items():
+        for name, value in a.by_name().items():
             unit = 1.0
             if name.startswith("energy_") and not name.startswith(("energy_residual", "energy_limited")):
                 unit = mass * length
@@ -175,7 +181,7 @@ def test_length_and_time_scale_to_the_last_bit(examples):
                 unit = time
             elif name.startswith(("slip", "gap_", "largest_gap")) and name != "slip_stops":
                 unit = length
-            assert b[name] == unit * value, name
+            assert getattr(b, name) == unit * value, name
 
 
 def test_ensembles_give_the_same_bits(examples):
@@ -192,8 +198,8 @@ def test_ensembles_give_the_same_bits(examples):
         blocks, which = [rows(one.block) for one in many], np.arange(len(many))
         motions = [Shaking(one.time, one.horizontal, one.vertical) for one in many]
         order = list(which)
-        single = np.array([list(one.run().summary.values()) for one in many])
-        watched = np.array([list(one.run(at=[0.0, one.time[-1]]).summary.values()) for one in many])
+        single = np.array([list(one.run().summary.by_name().values()) for one in many])
+        watched = np.array([list(one.run(at=[0.0, one.time[-1]]).summary.by_name().values()) for one in many])
         # In histories rest is walked through sample by sample: the clock's sums are rounded differently.
         clocks = [SUMMARY.index("time_rest")]
         assert (np.delete(single, clocks, axis=1) == np.delete(watched, clocks, axis=1)).all()
@@ -219,9 +225,9 @@ def test_the_settling_velocity_does_not_matter():
         block = rectangle(width, tall, friction, water=0.6 * tall, uplift=0.5, restitution=restitution)
         ground = GRAVITY * rng.uniform(0.2, 0.8) * rng.uniform(-1.0, 1.0, time.size)
         runs = [run(block, time, ground, settle=settle).summary for settle in (1e-7, 1e-8, 1e-9)]
-        bouncing += runs[0]["impacts"] > 10
-        if np.ptp([one["slip"] for one in runs]) >= 1e-5:
-            near = [run(block, time, ground * (1.0 + d)).summary["slip"] for d in (0.0, 1e-9, -1e-9, 1e-10, -1e-10)]
+        bouncing += runs[0].impacts > 10
+        if np.ptp([one.slip for one in runs]) >= 1e-5:
+            near = [run(block, time, ground * (1.0 + d)).summary.slip for d in (0.0, 1e-9, -1e-9, 1e-10, -1e-10)]
             assert np.ptp(near) >= 1e-5
             chaotic += 1
     assert bouncing > 0.3 * count
@@ -245,8 +251,8 @@ def test_an_hour_just_below_the_limit_moves_nothing(seed):
     ground = np.where(noise < 0.0, -noise * low, noise * high)
     time = 0.01 * np.arange(noise.size)
     below = run(rows(block), time, 0.9999 * ground)
-    assert below.summary["slip"] == below.summary["events"] == 0.0
-    assert not any(below.summary[name] for name in ("slip_min", "slip_max", "rotation_min", "rotation_max"))
-    assert below.summary["time_rest"] == pytest.approx(3600.0)
+    assert below.summary.slip == below.summary.events == 0.0
+    assert not any(getattr(below.summary, name) for name in ("slip_min", "slip_max", "rotation_min", "rotation_max"))
+    assert below.summary.time_rest == pytest.approx(3600.0)
     above = run(rows(block), time, 1.0001 * ground).summary
-    assert above["slip_max"] - above["slip_min"] > 0.0 or above["rotation_max"] - above["rotation_min"] > 0.0
+    assert above.slip_max - above.slip_min > 0.0 or above.rotation_max - above.rotation_min > 0.0

@@ -130,15 +130,15 @@ def draw(seed: int, n: int, wrong: tuple[str, float] | None = None) -> Sample:
     runs = [run(one, *ground.samples(k), at=samples * ground.length[k], jam=True) for k, one in enumerate(rows(given))]
     if not wrong:
         assert {one.outcome for one in runs} == {"ok"}
-        assert not any(one.summary["jams"] for one in runs)
-    free = [k for k, one in enumerate(runs) if one.outcome == "ok" and not one.summary["energy_limited_impacts"]]
+        assert not any(one.summary.jams for one in runs)
+    free = [k for k, one in enumerate(runs) if one.outcome == "ok" and not one.summary.energy_limited_impacts]
     assert len(free) > 0.94 * len(runs)
     return Sample(
         block={name: value[free] for name, value in block.items()},
         ground=ground.take(np.array(free)),
         width=(block["heel_distance"] + block["toe_distance"])[free],
-        summary={name: np.array([runs[k].summary[name] for k in free]) for name in runs[0].summary},
-        state=np.moveaxis([[runs[k].histories[name] for name in STATE] for k in free], 0, -1).reshape(
+        summary={name: np.array([getattr(runs[k].summary, name) for k in free]) for name in runs[0].summary.by_name()},
+        state=np.moveaxis([[getattr(runs[k].histories, name) for name in STATE] for k in free], 0, -1).reshape(
             2, 3, samples.size, len(free)
         ),
     )

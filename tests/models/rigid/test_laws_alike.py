@@ -39,10 +39,10 @@ def test_a_mirrored_motion_mirrors_the_slip(name, height):
     rng = np.random.default_rng(3)
     time, ground = np.arange(60) * 0.05, np.append(rng.normal(size=58) * 8.0, [0.0, 0.0])
     one, other = (walked(case, time, way * ground, laws()[name]) for way in (1.0, -1.0))
-    assert one.summary["slip"] != 0.0
-    assert one.summary["slip"] == pytest.approx(-other.summary["slip"], rel=1e-9)
+    assert one.summary.slip != 0.0
+    assert one.summary.slip == pytest.approx(-other.summary.slip, rel=1e-9)
     assert one.worn.end == pytest.approx(other.worn.end, rel=1e-9)
-    assert one.summary["rotation_max"] == pytest.approx(-other.summary["rotation_min"], rel=1e-9)
+    assert one.summary.rotation_max == pytest.approx(-other.summary.rotation_min, rel=1e-9)
 
 
 @pytest.mark.parametrize("name", laws())
@@ -55,6 +55,6 @@ def test_a_larger_block_slides_as_much_further(name, height):
     for size in (1.0, 4.0):
         case = read_case(rectangle(4.0 * size, height * size, 0.6, crack={"restitution": 0.3}))
         time = np.arange(40) * 0.05 * math.sqrt(size)
-        found.append(walked(case, time, ground, laws(size)[name]).summary["slip"] / size)
+        found.append(walked(case, time, ground, laws(size)[name]).summary.slip / size)
     assert found[0] != 0.0
     assert found[1] == pytest.approx(found[0], rel=1e-8)

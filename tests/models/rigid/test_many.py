@@ -25,7 +25,7 @@ def refused(numbers=None, motions=(PUSH,), **more):
 def test_a_number_that_is_none_is_refused(name, value):
     numbers = np.tile(DAM, (3, 1))
     numbers[1, BLOCK.index(name)] = value
-    assert refused(numbers).startswith(f"blocks[1].{name}: {value:g} is no number of a block")
+    assert refused(numbers).startswith(f"blocks[1].{name}: {value:g} is out of range for a block")
 
 
 @pytest.mark.parametrize(
@@ -45,22 +45,22 @@ def test_a_number_that_is_none_is_refused(name, value):
 def test_a_number_out_of_its_range_is_refused(name, value):
     numbers = np.tile(DAM, (3, 1))
     numbers[2, BLOCK.index(name)] = value
-    assert refused(numbers).startswith(f"blocks[2].{name}: {value:g} is no number of a block")
+    assert refused(numbers).startswith(f"blocks[2].{name}: {value:g} is out of range for a block")
 
 
 def test_what_goes_with_the_blocks_is_checked():
-    assert refused(scales=[1.0, np.nan, 1.0]).startswith("scales[1]: nan is no factor")
+    assert refused(scales=[1.0, np.nan, 1.0]).startswith("scales[1]: nan is not a factor")
     assert refused(scales=[[1.0, 1.0], [1.0, 1.0], [np.inf, 1.0]]).startswith("scales[2]: inf")
     assert refused(scales=[1.0]).startswith("scales: 1 for 3 blocks")
     assert refused(motion_of=[0, 0]).startswith("motion_of: 2 for 3 blocks")
-    assert refused(motion_of=[0, 1, 0]).startswith("motion_of[1]: 1 is none of the motions; give 0 to 0")
+    assert refused(motion_of=[0, 1, 0]).startswith("motion_of[1]: 1 is not one of the motions; give 0 to 0")
     assert refused(motion_of=[0, 0, 0.5]).startswith("motion_of[2]: 0.5")
-    assert refused(motions=[]).startswith("motion_of[0]: 0 is none of the motions; give a motion")
-    assert refused(motions=["taft"]).startswith("motions[0]: str is none of the motions")
-    assert refused(np.tile(DAM[:-1], (3, 1))).startswith("blocks: 3 x 20 of float64 is no table")
-    assert refused(["a dam"]).startswith("blocks[0]: str is no table")
-    assert refused(limits=Limits(settle=np.nan)).startswith("limits.settle: nan ends nothing")
-    assert refused(limits=Limits(event_limit=0)).startswith("limits.event_limit: 0 ends nothing")
+    assert refused(motions=[]).startswith("motion_of[0]: 0 is not one of the motions; give a motion")
+    assert refused(motions=["taft"]).startswith("motions[0]: str is not one of the motions")
+    assert refused(np.tile(DAM[:-1], (3, 1))).startswith("blocks: 3 x 20 of float64 is not a table")
+    assert refused(["a dam"]).startswith("blocks[0]: str is not a table")
+    assert refused(limits=Limits(settle=np.nan)).startswith("limits.settle: nan is out of range")
+    assert refused(limits=Limits(event_limit=0)).startswith("limits.event_limit: 0 is out of range")
 
 
 VARYING = {
@@ -114,8 +114,8 @@ def test_what_is_seen_of_a_block_changes_no_bit_of_it():
     assert together["impacts"].max() > 0
     for row, numbers in enumerate(blocks):
         seen = run_block(numbers, shaking, time)
-        assert list(seen.summary.values()) == [column[row] for column in together.values()]
+        assert list(seen.summary.by_name().values()) == [column[row] for column in together.values()]
         # Where it rests it holds: no force is missing, and nothing moves.
         rests = seen.mode == MODES.index("rest")
-        assert seen.histories["normal_force_heel"][rests].min() >= 0.0
-        assert not seen.histories["slip_acceleration"][rests].any()
+        assert seen.histories.normal_force_heel[rests].min() >= 0.0
+        assert not seen.histories.slip_acceleration[rests].any()

@@ -43,30 +43,30 @@ def ends(run):
 def test_a_block_that_cycled_comes_to_its_end(seed):
     run = draw(seed).run()
     assert run.outcome == "ok"
-    assert run.summary["events"] < 5_000
-    assert run.summary["energy_residual"] < 1e-6
+    assert run.summary.events < 5_000
+    assert run.summary.energy_residual < 1e-6
 
 
 @named(PASSED_OVER)
 def test_no_step_passes_over_what_happens_between_its_stages(seed):
     run = draw(seed).run()
     assert run.outcome == "ok"
-    assert run.summary["energy_residual"] < 1e-9
+    assert run.summary.energy_residual < 1e-9
 
 
 def test_a_slip_that_friction_jams_on_its_way_ends_there():
     # It turns into Painlevé's paradox while it slides and rocks; a walk that went on without the forces overturned it.
     run = draw(322683).run()
     assert run.outcome == "paradox"
-    assert run.summary["energy_residual"] < 1e-9
+    assert run.summary.energy_residual < 1e-9
 
 
 @named(FLOATS_EXACTLY)
 def test_a_block_that_all_but_floats_comes_to_its_end_exactly(seed):
     run = draw(seed).run(exact=True)
     assert run.outcome == "ok"
-    assert run.summary["events"] < 100
-    assert run.summary["energy_residual"] < 1e-11
+    assert run.summary.events < 100
+    assert run.summary.energy_residual < 1e-11
 
 
 @pytest.mark.slow

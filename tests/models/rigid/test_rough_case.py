@@ -67,10 +67,10 @@ def test_the_chain_knows_a_rough_crack():
 @pytest.mark.parametrize(
     ("roughness", "more", "code"),
     [
-        ({}, {"analysis": {"rotation": "finite"}}, "rough-other"),
-        ({}, {"uplift": {"pattern": "uniform", "during_shaking": "zero while open"}}, "rough-other"),
-        ({}, {"anchors": [{"distance": "4 m", "axial_stiffness": "20 MN/m/m"}]}, "rough-other"),
-        ({}, {"anchors": [{"distance": "4 m", "shear_stiffness": "20 MN/m/m"}]}, "rough-other"),
+        ({}, {"analysis": {"rotation": "finite"}}, "combination"),
+        ({}, {"uplift": {"pattern": "uniform", "during_shaking": "zero while open"}}, "combination"),
+        ({}, {"anchors": [{"distance": "4 m", "axial_stiffness": "20 MN/m/m"}]}, "combination"),
+        ({}, {"anchors": [{"distance": "4 m", "shear_stiffness": "20 MN/m/m"}]}, "combination"),
         ({"asperity_height": "0.5 m"}, {"crack": {"friction": 3.0}}, "rough-locks"),
         (
             {},
@@ -80,9 +80,9 @@ def test_the_chain_knows_a_rough_crack():
                     "law": {"name": "barton-bandis", "jrc": 5, "jcs": "10 MPa", "residual_angle": "30 deg"},
                 }
             },
-            "rough-law",
+            "combination",
         ),
-        ({}, {"further_cracks": [{"elevation": "50 m"}]}, "one-crack-only"),
+        ({}, {"further_cracks": [{"elevation": "50 m"}]}, "combination"),
         ({"wear": "1 mm"}, {}, "wrong-quantity"),
     ],
 )
@@ -96,7 +96,7 @@ def test_the_flexible_model_refuses_a_rough_crack():
     case = typical(concrete={"density": "2650 kg/m^3", "modulus": "20 GPa"})
     with pytest.raises(InputError) as refused:
         flexible(case, SHAKEN)
-    assert refused.value.code == "rough-model"
+    assert refused.value.code == "unsupported"
 
 
 @pytest.mark.parametrize(

@@ -51,17 +51,17 @@ def test_a_block_pushed_up_a_flank_and_held_there(side):
     at = np.linspace(0.0, 0.29, 13)
     run = walked(slider(mu, rough(k)), PULSE[0], side * PULSE[1], at=at)
     up = (0.8 - strength) * G / (1.0 + strength * k)
-    assert run.histories["slip"] == pytest.approx(side * 0.5 * up * at**2, abs=1e-10)
-    assert run.rough.kept[:, 0] == pytest.approx(k * abs(run.histories["slip"]), abs=1e-10)
+    assert run.histories.slip == pytest.approx(side * 0.5 * up * at**2, abs=1e-10)
+    assert run.rough.kept[:, 0] == pytest.approx(k * abs(run.histories.slip), abs=1e-10)
     normal = 20.0 * DENSITY * (G + k * up)
-    assert run.histories["normal_force_heel"] + run.histories["normal_force_toe"] == pytest.approx(normal, rel=1e-10)
-    assert run.histories["friction_force"] == pytest.approx(-side * strength * normal, rel=1e-10)
+    assert run.histories.normal_force_heel + run.histories.normal_force_toe == pytest.approx(normal, rel=1e-10)
+    assert run.histories.friction_force == pytest.approx(-side * strength * normal, rel=1e-10)
     # It comes to a stop by itself, and the flank, less steep than its friction, holds it.
     speed, back = up * 0.3, strength * G / (1.0 + strength * k)
     end = 0.5 * up * 0.3**2 + speed**2 / (2.0 * back)
-    assert run.summary["slip"] == pytest.approx(side * end, rel=1e-10)
+    assert run.summary.slip == pytest.approx(side * end, rel=1e-10)
     assert run.rough.end[0] == pytest.approx(k * end, rel=1e-10)
-    assert run.summary["energy_residual"] < 1e-13
+    assert run.summary.energy_residual < 1e-13
 
 
 def test_a_flank_steeper_than_friction_brings_the_block_back_to_its_valley():
@@ -77,17 +77,17 @@ def test_a_flank_steeper_than_friction_brings_the_block_back_to_its_valley():
     home = stop + math.sqrt(2.0 * top / fall)
     at = np.linspace(stop, home, 7)[:-1]
     run = walked(case, time, PULSE[1], at=at)
-    assert run.histories["slip"] == pytest.approx(top - 0.5 * fall * (at - stop) ** 2, abs=1e-10)
+    assert run.histories.slip == pytest.approx(top - 0.5 * fall * (at - stop) ** 2, abs=1e-10)
     # In the valley it strikes the other flank, and without restitution the blow takes what is normal to it.
-    struck = next(k for k, blow in enumerate(run.events["impulse_heel"]) if blow > 0.0)
-    assert run.events["time"][struck] == pytest.approx(home, rel=1e-10)
+    struck = next(k for k, blow in enumerate(run.events.impulse_heel) if blow > 0.0)
+    assert run.events.time[struck] == pytest.approx(home, rel=1e-10)
     speed = fall * (home - stop)
     turned = speed / math.cos(i)
     normal, along = turned * math.sin(2.0 * i), turned * math.cos(2.0 * i)
     after = (along - min(mu * normal, along)) * math.cos(i)
-    assert run.events["slip_velocity"][struck] == pytest.approx(-after, rel=1e-10)
-    assert run.summary["energy_residual"] < 1e-13
-    assert run.summary["slip"] == pytest.approx(0.0, abs=2.0 * top)
+    assert run.events.slip_velocity[struck] == pytest.approx(-after, rel=1e-10)
+    assert run.summary.energy_residual < 1e-13
+    assert run.summary.slip == pytest.approx(0.0, abs=2.0 * top)
 
 
 def test_a_block_flies_off_a_peak():
@@ -116,7 +116,7 @@ def test_the_limit_of_dilation_is_reached_and_not_passed():
         assert dilation.min() >= -1e-15
         assert dilation.max() <= height * (1.0 + 1e-12)
         assert run.rough.highest == pytest.approx(height, rel=1e-9) if wear == 0.0 else run.rough.highest < height
-        assert run.summary["energy_residual"] < 1e-12
+        assert run.summary.energy_residual < 1e-12
 
 
 def test_nothing_wears_without_work():
@@ -125,7 +125,7 @@ def test_nothing_wears_without_work():
     for factor, moves in ((0.999, False), (1.001, True)):
         ground = factor * strength * G * np.array([0.0, -1.0, 1.0, -1.0, 0.0])
         run = walked(slider(mu, rough(k, wear=1e-5)), [0.0, 0.5, 1.0, 1.5, 3.0], ground)
-        worn = (run.summary["slip_max"], -run.summary["slip_min"], run.rough.end[2], math.atan(k) - run.rough.end[1])
+        worn = (run.summary.slip_max, -run.summary.slip_min, run.rough.end[2], math.atan(k) - run.rough.end[1])
         assert all(value > 0.0 for value in worn) if moves else worn == (0.0, 0.0, 0.0, 0.0)
     critical = build_block(slider(mu, rough(k))).critical_accelerations()
     assert critical.sliding_downstream == pytest.approx(strength * G, rel=1e-12)
@@ -138,15 +138,15 @@ def test_the_angle_wears_with_the_work_of_friction():
     at = np.linspace(0.0, 5.0, 501)
     run = walked(case, *PULSE, at=at)
     _, angle, work = run.rough.end
-    assert work == pytest.approx(run.summary["energy_friction"] / 20.0, rel=1e-12)
+    assert work == pytest.approx(run.summary.energy_friction / 20.0, rel=1e-12)
     assert angle == pytest.approx(math.atan(0.2) * math.exp(-wear * work), rel=1e-12)
     assert angle < 0.95 * math.atan(0.2)
     assert (np.diff(run.rough.kept[:, 1]) <= 0.0).all()
     # The books are as good as the steps of the integration, 1e-12 each.
-    assert run.summary["energy_residual"] < 1e-11
+    assert run.summary.energy_residual < 1e-11
     # More slip than without wear, less than on the flanks' friction alone.
-    fast, slow = (walked(slider(0.3, rough(*of)), *PULSE).summary["slip"] for of in ((1e-4, 0.01), (0.2, 0.05)))
-    assert slow < run.summary["slip"] < fast
+    fast, slow = (walked(slider(0.3, rough(*of)), *PULSE).summary.slip for of in ((1e-4, 0.01), (0.2, 0.05)))
+    assert slow < run.summary.slip < fast
 
 
 @pytest.mark.parametrize("seed", range(8))
@@ -156,7 +156,7 @@ def test_without_height_it_is_coulombs_flat_crack(seed):
     found, exact = walked(flat, time, ground, up), exactly(case, time, ground, up)
     assert found.outcome == exact.outcome
     for name in ("slip", "rotation_min", "rotation_max"):
-        assert found.summary[name] == pytest.approx(exact.summary[name], rel=1e-10, abs=1e-12)
+        assert getattr(found.summary, name) == pytest.approx(getattr(exact.summary, name), rel=1e-10, abs=1e-12)
 
 
 def small_steps(time, ground, mu, k, height, wear, substeps):
@@ -211,9 +211,9 @@ def test_a_program_of_small_steps_agrees_on_a_real_record(wear, records):
     time, ground = shaking.time[keep], shaking.horizontal[keep]
     found = walked(case, time, ground)
     coarse, fine = (small_steps(time, ground, mu, k, height, wear, count) for count in (40, 80))
-    assert abs(found.summary["slip"]) > 1e-3
-    assert found.summary["slip"] == pytest.approx(fine, abs=2.0 * abs(fine - coarse) + 1e-6)
-    assert abs(fine - coarse) < 0.1 * abs(found.summary["slip"])
+    assert abs(found.summary.slip) > 1e-3
+    assert found.summary.slip == pytest.approx(fine, abs=2.0 * abs(fine - coarse) + 1e-6)
+    assert abs(fine - coarse) < 0.1 * abs(found.summary.slip)
 
 
 def test_a_mirrored_motion_mirrors_all():
@@ -221,9 +221,9 @@ def test_a_mirrored_motion_mirrors_all():
     rng = np.random.default_rng(3)
     time, ground = np.arange(30) * 0.05, np.append(rng.normal(size=28) * 7.0, [0.0, 0.0])
     one, other = (walked(case, time, way * ground) for way in (1.0, -1.0))
-    assert abs(one.summary["slip"]) > 0.01
-    assert one.summary["slip"] == pytest.approx(-other.summary["slip"], rel=1e-8)
-    assert one.summary["rotation_max"] == pytest.approx(-other.summary["rotation_min"], rel=1e-8)
+    assert abs(one.summary.slip) > 0.01
+    assert one.summary.slip == pytest.approx(-other.summary.slip, rel=1e-8)
+    assert one.summary.rotation_max == pytest.approx(-other.summary.rotation_min, rel=1e-8)
     assert one.rough.end == pytest.approx(other.rough.end, rel=1e-8)
 
 
@@ -234,7 +234,7 @@ def test_a_larger_block_on_a_larger_profile_slides_as_much_farther():
     for size in (1.0, 4.0):
         case = slider(0.4, rough(0.2, 0.01 * size, 1e-6 / size**2), size)
         run = walked(case, np.arange(40) * 0.05 * math.sqrt(size), ground)
-        found.append([run.summary["slip"] / size, run.rough.end[0] / size, run.rough.end[1]])
+        found.append([run.summary.slip / size, run.rough.end[0] / size, run.rough.end[1]])
     assert abs(found[0][0]) > 1e-3
     assert found[1] == pytest.approx(found[0], rel=1e-8)
 
@@ -257,12 +257,12 @@ def check_random(seed):
     asperities = rough(slope, height, float(rng.choice([0.0, 10.0 ** rng.uniform(-8.0, -3.0)])))
     found = walked(case.with_({"crack.roughness": asperities}), time, ground, up, at=time)
     raw = found.summary
-    assert np.isfinite(list(raw.values())).all()
+    assert np.isfinite(list(raw.by_name().values())).all()
     assert np.isfinite(found.rough.kept).all()
-    assert all(np.isfinite(column).all() for column in found.histories.values())
-    assert raw["energy_friction"] >= -1e-9 * abs(raw["energy_input"])
-    assert raw["energy_impact"] >= -1e-9 * abs(raw["energy_input"])
-    assert raw["energy_residual"] < 1e-5
+    assert all(np.isfinite(column).all() for column in found.histories.by_name().values())
+    assert raw.energy_friction >= -1e-9 * abs(raw.energy_input)
+    assert raw.energy_impact >= -1e-9 * abs(raw.energy_input)
+    assert raw.energy_residual < 1e-5
     dilation, angle, work = found.rough.kept.T
     assert dilation.max(initial=0.0) <= height * (1.0 + 1e-9)
     assert dilation.min(initial=0.0) >= -1e-9 * height
@@ -279,8 +279,8 @@ def test_random_blocks_on_random_asperities_end():
 
 
 @pytest.mark.slow
-def test_ten_thousand_random_blocks_on_random_asperities_end():
-    ends = [check_random(seed) for seed in range(10_000)]
-    assert ends.count("ok") > 7000
+def test_five_thousand_random_blocks_on_random_asperities_end():
+    ends = [check_random(seed) for seed in range(5_000)]
+    assert ends.count("ok") > 3500
     assert ends.count("cycling") == 0
-    assert ends.count("paradox") + ends.count("event limit") < 100
+    assert ends.count("paradox") + ends.count("event limit") < 50

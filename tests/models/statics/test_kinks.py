@@ -16,7 +16,7 @@ import pytest
 import heeltoe
 from heeltoe import read_case
 from heeltoe.mechanics.loads import static_forces
-from heeltoe.models.flexible.reduced import build_flexible_dam
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.statics.contact import Settled
 from heeltoe.models.statics.pieces import borne, pieces_between
 from shared.statics import CLOSE, only

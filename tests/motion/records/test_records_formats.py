@@ -192,7 +192,7 @@ def test_a_unit_and_a_step_are_assumed_only_on_request():
         with pytest.raises(InputError, match=r"say so in motion\.(unit|time_step)"):
             read(bare, **hints)
     told = channels(bare, unit="m/s^2", time_step=0.02)[0]
-    assert (told.units_as_read, told.dt, told.warnings) == ("m/s^2 (as told)", 0.02, ())
+    assert (told.units_as_read, told.dt, told.warnings) == ("m/s^2 (as given)", 0.02, ())
 
 
 # Small print of columns

@@ -9,14 +9,10 @@
 //! with `w` mass-normalised, `f` the static loads, `a` the ground and `p` the forces on the nodes of the crack, which
 //! are counted along it (all first) and across it, away from the lower part.
 
-use super::wide::Wide;
-/// Modes are kept in groups this wide, so that one instruction works on a group.
-pub(super) const LANES: usize = 8;
+use super::simd::Group;
+use super::simd::LANES;
 /// Groups are worked on in bundles of so many, so that their sums run side by side.
 pub(super) const BUNDLE: usize = 4;
-/// One number for each mode of a group.
-pub(super) type Group = [f64; LANES];
-
 /// The numbers of one body in its modes; they do not change during a run, and many runs may share them.
 pub struct ReducedBody {
     /// Number of modes, without those that fill up the last group.
@@ -225,76 +221,4 @@ fn grouped(values: &[f64]) -> Vec<Group> {
         groups[k / LANES][k % LANES] = *value;
     }
     groups
-}
-
-/// Add `sum_k x_k rows_k`, where each row has as many groups as `sum`.
-#[inline(always)]
-pub(super) fn combine<W: Wide>(rows: &[Group], x: &[f64], sum: &mut [Group]) {
-    let stride = sum.len();
-    let mut first = 0;
-    // What is summed up stays in registers.
-    while first < stride {
-        first += match stride - first {
-            1 => columns::<W, 1>(rows, x, first, sum),
-            2 => columns::<W, 2>(rows, x, first, sum),
-            3 => columns::<W, 3>(rows, x, first, sum),
-            4 => columns::<W, 4>(rows, x, first, sum),
-            _ => columns::<W, 5>(rows, x, first, sum),
-        }
-    }
-}
-
-/// The same for so many groups of each row from the `first` one on; returns how many.
-#[inline(always)]
-fn columns<W: Wide, const N: usize>(rows: &[Group], x: &[f64], first: usize, sum: &mut [Group]) -> usize {
-    // Closures would be compiled for any machine, so these are loops. Two sums in turn do not wait for each other.
-    let mut new = [[W::all(0.0); N]; 2];
-    for n in 0..N {
-        new[0][n] = W::load(&sum[first + n]);
-    }
-    let stride = sum.len();
-    let (pairs, last) = x.as_chunks::<2>();
-    for (x, rows) in pairs.iter().zip(rows.chunks_exact(2 * stride)) {
-        if x[0] != 0.0 || x[1] != 0.0 {
-            let (even, odd) = (&rows[first..first + N], &rows[stride + first..][..N]);
-            let x = [W::all(x[0]), W::all(x[1])];
-            for n in 0..N {
-                new[0][n] = x[0].fma(W::load(&even[n]), new[0][n]);
-                new[1][n] = x[1].fma(W::load(&odd[n]), new[1][n]);
-            }
-        }
-    }
-    for x in last {
-        let row = &rows[2 * pairs.len() * stride + first..][..N];
-        for n in 0..N {
-            new[0][n] = W::all(*x).fma(W::load(&row[n]), new[0][n]);
-        }
-    }
-    for n in 0..N {
-        new[0][n].add(new[1][n]).store(&mut sum[first + n]);
-    }
-    N
-}
-
-/// `sum a b`, lane by lane: a plain sum waits for each addition.
-#[inline(always)]
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let ((wide_a, rest_a), (wide_b, rest_b)) = (a.as_chunks::<LANES>(), b.as_chunks::<LANES>());
-    let mut lanes = [0.0; LANES];
-    for (a, b) in wide_a.iter().zip(wide_b) {
-        for l in 0..LANES {
-            lanes[l] += a[l] * b[l];
-        }
-    }
-    lanes.iter().sum::<f64>() + rest_a.iter().zip(rest_b).map(|(a, b)| a * b).sum::<f64>()
-}
-
-/// `a b + c`, in one rounding where the machine has it.
-#[inline(always)]
-pub(super) fn fma<W: Wide>(a: f64, b: f64, c: f64) -> f64 {
-    if W::FUSED {
-        a.mul_add(b, c)
-    } else {
-        a * b + c
-    }
 }

@@ -13,8 +13,10 @@
 
 use std::ops::Range;
 
+use super::crack_line::{Line, Span};
+use super::faces::{Face, Faces, Meeting};
 use super::kinks::{Corners, Turn};
-use super::sides::{Face, Faces, Line, Meeting, Place, Span};
+use super::place::Place;
 
 /// Weights of the nodes of both bodies in the motion of the upper face of a crack against the lower one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -9,15 +9,17 @@
 //! as [`super::coulomb`] needs them; with dashpots (see [`super::dampers`]) less what they hold back, `G -= V N V^T` with
 //! `V = B W_cd`.
 
+use super::compliance::Compliance;
 use std::ops::Range;
 
-use super::body::Group;
+use super::bodies::Sides;
 use super::contact::{Contacts, Pair};
-use super::coulomb::{Problem, Report, Solver};
+use super::coulomb::{Problem, Report, Solver, MANY};
 use super::dam::Dam;
+use super::faces::Faces;
 use super::kinks::Turn;
 use super::law::Laws;
-use super::sides::{Faces, Place, Sides};
+use super::place::Place;
 use super::status::Status;
 
 /// The contact problem of a step, in terms of both bodies.
@@ -40,13 +42,14 @@ pub(super) struct Crack {
 impl Crack {
     /// `dampers` is the number of dashpots that hold the crack back.
     pub(super) fn new(dam: &Dam, dampers: usize) -> Self {
-        let contacts = Contacts::new(dam.contactors, &Place::all(dam), &dam.cracks);
+        let contacts = Contacts::new(dam.contactors, &Place::all(&dam.cracks), &dam.cracks);
         let m = contacts.len();
         let friction: Vec<[f64; 2]> = contacts
             .of_cracks()
             .zip(&dam.cracks)
             .flat_map(|(range, line)| range.map(|_| line.friction))
             .collect();
+        let laws = Laws::new(dam, &contacts);
         Crack {
             problem: Problem {
                 g: vec![0.0; 4 * m * m],
@@ -57,11 +60,15 @@ impl Crack {
                 scale: vec![0.0; 2 * m],
                 added: Vec::new(),
             },
-            solver: Solver::new(m),
+            solver: if m >= MANY && laws.is_none() {
+                Solver::with_inverse(m)
+            } else {
+                Solver::new(m)
+            },
             blocks: Blocks::new(m, dampers),
             before: vec![0.0; 2 * m],
             closed: vec![true; m],
-            laws: Laws::new(dam, &contacts),
+            laws,
             contacts,
             damping: None,
             friction,
@@ -75,7 +82,7 @@ impl Crack {
         &mut self,
         position: Faces,
         damping: usize,
-        answers: impl Fn() -> Sides<Answer<'w>>,
+        answers: impl Fn() -> Sides<Compliance<'w>>,
     ) {
         let status = &self.solver.status;
         self.contacts.update(position, |k| status[k] == Status::Stick);
@@ -128,7 +135,7 @@ impl Crack {
     }
 
     /// Put all of `G` together.
-    pub(super) fn fill(&mut self, answers: Sides<Answer>, softness: f64) {
+    pub(super) fn fill(&mut self, answers: Sides<Compliance>, softness: f64) {
         let (g, contacts) = (&mut self.problem.g, &self.contacts);
         self.blocks.fill(g, contacts, answers, &[], softness, |_| true);
     }
@@ -166,38 +173,6 @@ impl Crack {
             let (t, n) = turn.back(along[k], across[k]);
             [sum[0] + t, sum[1] + n]
         })
-    }
-}
-
-/// How the crack nodes of a body answer to impulses on them, and then its dashpots, row by row.
-#[derive(Clone, Copy)]
-pub(super) struct Answer<'a> {
-    pub w: &'a [Group],
-    pub nodes: usize,
-    /// Groups in a row.
-    pub stride: usize,
-}
-
-impl Answer<'_> {
-    /// What a pair's nodes in a face feel, in a direction, in a row of `w`.
-    #[inline(always)]
-    fn felt(&self, row: usize, nodes: &[(usize, f64); 2], direction: usize) -> f64 {
-        let row = &self.w[row * self.stride..][..self.stride].as_flattened()[direction * self.nodes..];
-        nodes[0].1 * row[nodes[0].0] + nodes[1].1 * row[nodes[1].0]
-    }
-
-    /// Add what the nodes of one contact feel of those of another.
-    #[inline(always)]
-    fn couple(&self, block: &mut [[f64; 2]; 2], one: &[(usize, f64); 2], other: &[(usize, f64); 2]) {
-        for &(node, weight) in one {
-            if weight != 0.0 {
-                for (r, row) in block.iter_mut().enumerate() {
-                    for (c, value) in row.iter_mut().enumerate() {
-                        *value += weight * self.felt(r * self.nodes + node, other, c);
-                    }
-                }
-            }
-        }
     }
 }
 
@@ -240,7 +215,12 @@ impl Blocks {
 
     /// Note by what to measure contacts: how they answer to themselves where they first meet something.
     #[inline(always)]
-    fn measure<'w>(&self, scale: &mut [f64], contacts: &Contacts, answers: impl Fn() -> Sides<Answer<'w>>) {
+    fn measure<'w>(
+        &self,
+        scale: &mut [f64],
+        contacts: &Contacts,
+        answers: impl Fn() -> Sides<Compliance<'w>>,
+    ) {
         let m = contacts.len();
         for (k, pair) in contacts.pairs.iter().enumerate() {
             if let (Some(pair), 0.0) = (pair, scale[k]) {
@@ -257,34 +237,53 @@ impl Blocks {
         &mut self,
         g: &mut [f64],
         contacts: &Contacts,
-        answers: Sides<Answer>,
+        answers: Sides<Compliance>,
         gain: &[f64],
         softness: f64,
         wanted: impl Fn(usize) -> bool,
     ) {
+        for contact in (0..contacts.len()).filter(|contact| wanted(*contact)) {
+            let others = (0..=contact).filter(|other| wanted(*other));
+            self.fill_row(g, contacts, &answers, gain, softness, contact, others);
+        }
+    }
+
+    /// The same of one contact with `others`.
+    #[inline(always)]
+    #[allow(clippy::too_many_arguments)]
+    pub(super) fn fill_row(
+        &mut self,
+        g: &mut [f64],
+        contacts: &Contacts,
+        answers: &Sides<Compliance>,
+        gain: &[f64],
+        softness: f64,
+        i: usize,
+        others: impl Iterator<Item = usize>,
+    ) {
         let m = contacts.len();
-        for (i, one) in contacts.pairs.iter().enumerate() {
-            let (true, Some(one)) = (wanted(i), one) else {
+        let Some(one) = &contacts.pairs[i] else {
+            return;
+        };
+        self.feel(i, one, answers, gain);
+        for j in others {
+            let Some(other) = &contacts.pairs[j] else {
                 continue;
             };
-            self.feel(i, one, &answers, gain);
-            for (j, other) in contacts.pairs[..=i].iter().enumerate() {
-                let (true, Some(other)) = (wanted(j), other) else {
-                    continue;
-                };
-                if self.known[i * m + j] >= self.moved[i].max(self.moved[j]) {
-                    continue;
-                }
-                self.known[i * m + j] = self.now;
-                let block = block(one, other, &answers);
-                for (a, row) in block.iter().enumerate() {
-                    for (b, value) in row.iter().enumerate() {
-                        let held = self.held_back(a * m + i, b * m + j);
-                        let own = if (i, a) == (j, b) { softness } else { 0.0 };
-                        let value = value - held + own;
-                        g[(a * m + i) * 2 * m + b * m + j] = value;
-                        g[(b * m + j) * 2 * m + a * m + i] = value;
-                    }
+            let known = &mut self.known[i.max(j) * m + i.min(j)];
+            if *known >= self.moved[i].max(self.moved[j]) {
+                continue;
+            }
+            *known = self.now;
+            self.feel(j, other, answers, gain);
+            let block = block(one, other, answers);
+            for (a, row) in block.iter().enumerate() {
+                for (b, value) in row.iter().enumerate() {
+                    let held = self.held_back(a * m + i, b * m + j);
+                    let own = if (i, a) == (j, b) { softness } else { 0.0 };
+                    let value = value - held + own;
+                    g[(a * m + i) * 2 * m + b * m + j] = value;
+                    g[(b * m + j) * 2 * m + a * m + i] = value;
                 }
             }
         }
@@ -292,7 +291,7 @@ impl Blocks {
 
     /// Find what the dashpots feel of a contact.
     #[inline(always)]
-    fn feel(&mut self, contact: usize, pair: &Pair, answers: &Sides<Answer>, gain: &[f64]) {
+    fn feel(&mut self, contact: usize, pair: &Pair, answers: &Sides<Compliance>, gain: &[f64]) {
         let d = self.dampers;
         if d == 0 || self.felt[contact] >= self.moved[contact] {
             return;
@@ -332,7 +331,7 @@ impl Blocks {
 
 /// How a contact answers to another, but for dashpots.
 #[inline(always)]
-fn block(one: &Pair, other: &Pair, answers: &Sides<Answer>) -> [[f64; 2]; 2] {
+fn block(one: &Pair, other: &Pair, answers: &Sides<Compliance>) -> [[f64; 2]; 2] {
     let mut block = [[0.0; 2]; 2];
     answers.upper.couple(&mut block, &one.upper, &other.upper);
     if let Some(lower) = &answers.lower {

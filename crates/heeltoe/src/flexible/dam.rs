@@ -1,14 +1,14 @@
 //! What is shaken, and how.
 
-use super::acting::{FaceAnchor, Inside, RisingWater};
+use super::bodies::Sides;
 use super::body::ReducedBody;
+use super::crack_forces::{FaceAnchor, Inside, RisingWater};
+use super::crack_line::Line;
 use super::envelope::Stressed;
-use super::idce::Penalty;
-use super::sides::{Line, Sides};
-use super::start::{self, Still};
+use super::still::Still;
 use crate::stop::Stop;
 
-/// Two bodies, and the cracks between them: of several, see the module `sides`.
+/// Two bodies, and the cracks between them: of several, see the module `bodies`.
 pub struct Dam {
     /// Above and below the crack; of several, every other part.
     pub bodies: Sides<ReducedBody>,
@@ -20,7 +20,7 @@ pub struct Dam {
     pub contactors: u8,
     /// What acts in the only crack beside contact.
     pub inside: Inside,
-    /// The state before the earthquake, see [`Dam::rested`]; none where friction does not hold the dam, which then starts
+    /// The state before the earthquake, see [`super::rest`]; none where friction does not hold the dam, which then starts
     /// from the state with its crack bonded.
     pub still: Option<Still>,
 }
@@ -29,12 +29,6 @@ pub struct Dam {
 const SOFTNESS: f64 = 1e-9;
 
 impl Dam {
-    /// Find the state before the earthquake; a search that is stopped has found none.
-    pub fn rested(mut self, stop: Stop) -> Self {
-        self.still = start::find(&self, stop);
-        self
-    }
-
     /// What to add to the answer of a contact to itself, as a share of the largest.
     pub(super) fn softness(&self) -> f64 {
         let kinked = self.cracks.iter().any(|line| !line.angles[0].is_empty());
@@ -107,15 +101,6 @@ pub struct Shaking<'a> {
     pub rising: &'a [RisingWater],
 }
 
-/// How to step through time.
-#[derive(Clone, Copy, Debug)]
-pub enum Scheme {
-    /// Exact contact, with this weight of the new state within a step, 0.5 to 1.
-    Exact(f64),
-    /// Springs at the contacts, for comparison; knows neither water nor anchors that follow the crack.
-    Penalty(Penalty),
-}
-
 /// What is wanted of a run beside its summary.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Wanted<'a> {
@@ -125,6 +110,22 @@ pub struct Wanted<'a> {
     pub modes: bool,
     /// Stresses whose extremes are wanted.
     pub stresses: Option<Stressed<'a>>,
+    /// Where a dam that is at rest ends its run; it needs frames.
+    pub rest: Option<UntilRest>,
     /// What ends the run before its time.
     pub stop: Stop<'a>,
+}
+
+/// When a run looks whether its dam is at rest: where slip and openings of all cracks change by less than `moved` in the
+/// last `seconds`, or in the second half of a shorter run, it ends.
+#[derive(Clone, Copy, Debug)]
+pub struct UntilRest {
+    /// After so many steps for the first time.
+    pub first: usize,
+    /// And every so many steps from then on.
+    pub every: usize,
+    /// (s)
+    pub seconds: f64,
+    /// (m)
+    pub moved: f64,
 }

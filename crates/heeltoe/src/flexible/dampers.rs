@@ -15,9 +15,10 @@
 //!
 //! The answers of the parts have the dashpots behind the crack nodes, and so have their velocities.
 
-use super::moving::{Moving, TimeStep};
-use super::sides::Sides;
-use super::wide::Wide;
+use super::bodies::Sides;
+use super::modal_stepper::ModalStepper;
+use super::scheme::TimeStep;
+use super::simd::Lanes;
 
 /// The dashpots of a run.
 #[derive(Default)]
@@ -36,7 +37,7 @@ pub(super) struct Dampers {
 }
 
 impl Dampers {
-    pub(super) fn new(bodies: &Sides<Moving>, step: TimeStep) -> Self {
+    pub(super) fn new(bodies: &Sides<ModalStepper>, step: TimeStep) -> Self {
         let count = bodies.upper.body.dampers;
         let weight = step.dt * step.theta;
         let signs = &bodies.upper.body.damper_signs;
@@ -70,7 +71,7 @@ impl Dampers {
     /// Change the velocities without contact by what the dashpots do of themselves; what acts in the crack beside contact
     /// is known by now.
     #[inline(always)]
-    pub(super) fn begin<W: Wide>(&mut self, bodies: &mut Sides<Moving>, damping: usize) {
+    pub(super) fn begin<W: Lanes>(&mut self, bodies: &mut Sides<ModalStepper>, damping: usize) {
         let late = (1.0 - self.theta) / self.theta;
         for (room, rate) in self.room.iter_mut().zip(&self.rate) {
             *room = late * rate;
@@ -86,7 +87,7 @@ impl Dampers {
 
     /// Change the answers to impulses of contact, which the parts have, by what the dashpots do about them.
     #[inline(always)]
-    pub(super) fn follow<W: Wide>(&mut self, bodies: &mut Sides<Moving>, damping: usize) {
+    pub(super) fn follow<W: Lanes>(&mut self, bodies: &mut Sides<ModalStepper>, damping: usize) {
         self.room.fill(0.0);
         for body in bodies.iter() {
             add(&mut self.room, body.rates(&body.answer));
@@ -99,7 +100,7 @@ impl Dampers {
 
     /// Hand the impulses of the dashpots to the parts, whose velocities are final, and book what they take.
     #[inline(always)]
-    pub(super) fn finish(&mut self, bodies: &mut Sides<Moving>) {
+    pub(super) fn finish(&mut self, bodies: &mut Sides<ModalStepper>) {
         add(&mut self.pull, &self.further);
         self.room.fill(0.0);
         for body in bodies.iter_mut() {

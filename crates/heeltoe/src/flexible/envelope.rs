@@ -3,9 +3,8 @@
 //! A stress is linear in the modes, `(xx, zz, xz) = rows q`. States are gathered until there are [`BLOCK`] of them, so that
 //! the rows, which are far larger than anything a step reads, are read once for all of these; nothing else is kept.
 
-use super::body::{Group, LANES};
-use super::sides::Sides;
-use super::wide::{Plain, Wide};
+use super::bodies::Sides;
+use super::simd::{Group, Lanes, Plain, LANES};
 use crate::table::columns;
 
 /// Groups of states, and states, that are worked on at once.
@@ -125,7 +124,7 @@ impl<'a> Envelope<'a> {
 
     /// Take a state into account.
     #[inline(always)]
-    pub(super) fn add<W: Wide>(&mut self, moment: f64, modes: &Sides<&[Group]>) {
+    pub(super) fn add<W: Lanes>(&mut self, moment: f64, modes: &Sides<&[Group]>) {
         let place = self.moments.len();
         for (states, modes) in self.states.iter_mut().zip(modes.iter()) {
             for (state, amplitude) in states.iter_mut().zip(modes.as_flattened()) {
@@ -140,7 +139,7 @@ impl<'a> Envelope<'a> {
 
     /// Look at the states gathered.
     #[inline(always)]
-    fn look<W: Wide>(&mut self) {
+    fn look<W: Lanes>(&mut self) {
         let bodies = self.extremes.iter_mut().zip(self.states.iter());
         for ((extremes, states), of) in bodies.zip(self.wanted.bodies.iter()) {
             for (extreme, rows) in extremes.iter_mut().zip(of.rows.chunks_exact(of.modes)) {
@@ -161,7 +160,7 @@ impl<'a> Envelope<'a> {
 
 /// The stresses at one place in all states.
 #[inline(always)]
-fn product<W: Wide>(rows: &[[f64; 3]], states: &[[Group; GROUPS]]) -> [[Group; GROUPS]; 3] {
+fn product<W: Lanes>(rows: &[[f64; 3]], states: &[[Group; GROUPS]]) -> [[Group; GROUPS]; 3] {
     let mut sums = [[W::all(0.0); GROUPS]; 3];
     for (row, state) in rows.iter().zip(states) {
         let state: [W; GROUPS] = [W::load(&state[0]), W::load(&state[1])];

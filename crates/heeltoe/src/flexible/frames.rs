@@ -1,13 +1,15 @@
 //! Frames: what is kept of a run at equal distances in time. Forces are means since the frame before,
 //! `sum of impulses / time`.
 
-use super::body::{Group, ReducedBody};
+use super::bodies::Sides;
+use super::body::ReducedBody;
 use super::dam::Dam;
+use super::faces::Faces;
 use super::ledger::Ledger;
 use super::observe::Motion;
-use super::result::Summary;
-use super::sides::{Faces, Sides};
+use super::simd::Group;
 use super::status::Status;
+use super::summary::Summary;
 use crate::table::columns;
 
 /// States of the run at equal distances in time, beginning with the start.
@@ -48,6 +50,28 @@ impl Frames {
         let rate = since.rate();
         self.force.extend(since.nodes.iter().map(|p| p * rate));
         self.status.extend(status.iter().map(|s| *s as u8));
+    }
+
+    /// Whether slip and openings of all `cracks` change by less than `moved` in the last `seconds`, or in the second half
+    /// of a shorter run.
+    pub(super) fn rest(&self, cracks: usize, seconds: f64, moved: f64) -> bool {
+        let column = |name: &str| Self::FIELDS.iter().position(|field| *field == name);
+        let at = |name| column(name).expect("a frame has it");
+        let (time, watched) = (at("time"), ["slip", "opening_heel", "opening_toe"].map(at));
+        let Some(end) = self.rows.last().map(|row| row[time]) else {
+            return false;
+        };
+        let since = (end - seconds).max(end / 2.0);
+        (0..cracks).all(|crack| {
+            watched.iter().all(|&column| {
+                let late = self.rows.iter().skip(crack).step_by(cracks).rev();
+                let values = late.take_while(|row| row[time] >= since).map(|row| row[column]);
+                let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
+                    [low.min(value), high.max(value)]
+                });
+                high - low < moved
+            })
+        })
     }
 
     /// Add the amplitudes of the modes of both bodies to a frame.

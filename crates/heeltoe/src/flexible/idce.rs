@@ -24,27 +24,20 @@
 //! step. Nothing here bounds the energy: with average acceleration contact makes some at every blow, and the ledger
 //! shows it.
 
+use super::bodies::Sides;
+use super::compliance::Compliance;
 use super::coulomb::Known;
-use super::coupling::{Answer, Crack};
+use super::coupling::Crack;
 use super::dam::{Dam, Shaking, Wanted};
+use super::faces::Faces;
 use super::ledger::Ledger;
-use super::newmark::{Before, Moving};
-use super::result::{Outcome, Run};
-use super::sides::{Faces, Sides};
+use super::newmark::{Before, NewmarkStepper};
+use super::result::Run;
+use super::scheme::Penalty;
+use super::simd::Plain;
 use super::status::Status;
+use super::summary::Outcome;
 use super::walk::Walk;
-use super::wide::Plain;
-
-/// The numbers of the method.
-#[derive(Clone, Copy, Debug)]
-pub struct Penalty {
-    /// Stiffness of the spring at a contact (N/m).
-    pub stiffness: f64,
-    /// Newmark's gamma.
-    pub gamma: f64,
-    /// Newmark's beta.
-    pub beta: f64,
-}
 
 /// Contact that has made so much of all the energy that the dam has lost by honest means has driven it; sound runs stay
 /// below a third. The turnover alone is no measure, as it grows with what is made, but where nothing is lost the second
@@ -82,7 +75,7 @@ pub(super) fn simulate(dam: &Dam, shaking: &Shaking, penalty: &Penalty, wanted: 
         if newmark.walk.stressed(step) {
             newmark.stress();
         }
-        if newmark.walk.lost() {
+        if newmark.walk.ends(step) {
             break;
         }
     }
@@ -93,7 +86,7 @@ pub(super) fn simulate(dam: &Dam, shaking: &Shaking, penalty: &Penalty, wanted: 
 /// The dam on its way.
 struct Newmark<'a> {
     walk: Walk<'a>,
-    bodies: Sides<Moving<'a>>,
+    bodies: Sides<NewmarkStepper<'a>>,
     ledger: Ledger,
     /// State of damping.
     damping: usize,
@@ -103,7 +96,7 @@ struct Newmark<'a> {
 
 impl<'a> Newmark<'a> {
     fn new(dam: &'a Dam, dt: f64, penalty: &'a Penalty, wanted: Wanted<'a>) -> Self {
-        let bodies = dam.bodies.map(|body| Moving::new(body, penalty, dt));
+        let bodies = dam.bodies.map(|body| NewmarkStepper::new(body, penalty, dt));
         let start = energy(&bodies);
         Newmark {
             walk: Walk::new(dam, dt, wanted, dam.bodies.faces(|body| &body.position)),
@@ -160,7 +153,7 @@ impl<'a> Newmark<'a> {
         let (bodies, damping, dt) = (&self.bodies, self.damping, self.dt);
         let stiffness = self.penalty.stiffness;
         let answers = || {
-            bodies.map(|body| Answer {
+            bodies.map(|body| Compliance {
                 w: &body.w[damping],
                 nodes: body.body.nodes,
                 stride: body.body.stride(),
@@ -221,7 +214,7 @@ fn spring_energy(crack: &Crack, penalty: f64) -> [f64; 2] {
     [along, across].map(|forces| forces.iter().map(|force| force * force).sum::<f64>() / (2.0 * penalty))
 }
 
-fn energy(bodies: &Sides<Moving>) -> f64 {
-    let of = |body: &Moving| body.body.energy(&body.q, &body.v);
+fn energy(bodies: &Sides<NewmarkStepper>) -> f64 {
+    let of = |body: &NewmarkStepper| body.body.energy(&body.q, &body.v);
     of(&bodies.upper) + bodies.lower.as_ref().map_or(0.0, of)
 }

@@ -9,7 +9,7 @@
 //!
 //! in every step. What is left over in the end is the residual: rounding, or a mistake.
 
-use super::body::{Group, LANES};
+use super::simd::{Group, LANES};
 
 /// Energies since the start; losses are positive.
 #[derive(Clone, Copy, Debug, Default)]

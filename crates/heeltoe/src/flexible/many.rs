@@ -1,8 +1,9 @@
 //! Many runs of one dam side by side, each in the same ground with other factors on it.
 
-use super::dam::{Dam, Scheme, Shaking, Wanted};
-use super::result::Summary;
-use super::simulate;
+use super::dam::{Dam, Shaking, Wanted};
+use super::scheme::Scheme;
+use super::simulate::simulate;
+use super::summary::Summary;
 use crate::parallel::each;
 use crate::stop::Stop;
 

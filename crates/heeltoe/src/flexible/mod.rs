@@ -3,54 +3,57 @@
 //! Each mode obeys `w'' + c w' + omega^2 w = f - gamma a(t) + shapes^T p`, with the forces p of contact found in every step,
 //! so that nothing passes through the crack and friction is Coulomb's.
 
-mod acting;
-mod answering;
+mod bodies;
 mod body;
+mod compliance;
 mod contact;
+mod contact_operator;
 mod coulomb;
 mod coupling;
+mod crack_forces;
+mod crack_line;
 mod dam;
 mod dampers;
 mod envelope;
+mod faces;
 mod frames;
 mod idce;
 mod kinks;
 mod law;
 mod ledger;
 pub mod many;
-mod moving;
+mod modal_stepper;
 mod newmark;
 mod observe;
+mod place;
 mod result;
-mod sides;
-mod stance;
+mod rocking_thresholds;
+mod scheme;
+mod simd;
+mod simulate;
 mod start;
 mod status;
 mod step;
+mod still;
+mod summary;
 #[cfg(test)]
 mod tests;
 mod walk;
-mod wide;
 
-pub use acting::{FaceAnchor, FollowingWater, Inside, Point, RisingWater};
+pub use bodies::Sides;
 pub use body::{Modes, ReducedBody};
-pub use dam::{Dam, Scheme, Shaking, Wanted};
+pub use crack_forces::{FaceAnchor, FollowingWater, Inside, Point, RisingWater};
+pub use crack_line::{Line, RockingThresholds, Span};
+pub use dam::{Dam, Shaking, UntilRest, Wanted};
 pub use envelope::{Extreme, Stressed, Stresses};
 pub use frames::Frames;
-pub use idce::Penalty;
-pub use law::Worked;
+pub use law::worked::Worked;
 pub use ledger::Ledger;
 pub use observe::State;
-pub use result::{Outcome, Run, Summary};
-pub use sides::{Line, Sides, Span};
-pub use stance::Give;
-pub use start::Still;
+pub use result::Run;
+pub use scheme::{Penalty, Scheme};
+pub use simulate::simulate;
+pub use start::rest;
 pub use status::Status;
-
-/// Shake a dam.
-pub fn simulate(dam: &Dam, shaking: &Shaking, scheme: &Scheme, wanted: Wanted) -> Run {
-    match scheme {
-        Scheme::Exact(theta) => step::simulate(dam, shaking, *theta, wanted),
-        Scheme::Penalty(penalty) => idce::simulate(dam, shaking, penalty, wanted),
-    }
-}
+pub use still::Still;
+pub use summary::{Outcome, Summary};

@@ -1,16 +1,16 @@
 //! One body of the dam on its way through time by Newmark's scheme; the equations are those of [`super::idce`].
 
-use super::body::{combine, Group, ReducedBody, LANES};
-use super::idce::Penalty;
+use super::body::ReducedBody;
 use super::ledger::Ledger;
-use super::wide::Plain;
+use super::scheme::Penalty;
+use super::simd::{combine, Group, Plain, LANES};
 
 /// The state of a body.
-pub(super) struct Moving<'a> {
+pub(super) struct NewmarkStepper<'a> {
     pub body: &'a ReducedBody,
     /// Share of the right-hand side that becomes acceleration, for both states of damping.
     gain: [Vec<Group>; 2],
-    /// Answer of the crack nodes to forces on them.
+    /// Compliance of the crack nodes to forces on them.
     pub w: [Vec<Group>; 2],
     pub q: Vec<Group>,
     pub v: Vec<Group>,
@@ -23,7 +23,7 @@ pub(super) struct Moving<'a> {
     force_before: Vec<f64>,
 }
 
-impl<'a> Moving<'a> {
+impl<'a> NewmarkStepper<'a> {
     pub(super) fn new(body: &'a ReducedBody, penalty: &Penalty, dt: f64) -> Self {
         let gain = [0, 1].map(|state: usize| {
             let pairs = body.damping[state].iter().zip(&body.omega_squared);
@@ -42,7 +42,7 @@ impl<'a> Moving<'a> {
         });
         let at_start = body.at_crack(&body.start);
         let zeros = vec![0.0; body.columns()];
-        Moving {
+        NewmarkStepper {
             body,
             gain,
             w,

@@ -6,7 +6,8 @@
 //!
 //! with t along the crack and n across it; both are zero at the start.
 
-use super::sides::{Face, Meeting};
+use super::faces::Meeting;
+use super::faces::{chord, height, mean_along};
 use crate::table::named;
 
 /// The motion of the upper face against the lower one.
@@ -38,33 +39,8 @@ impl Motion {
     }
 }
 
-/// Mean of the positions, or velocities, along the crack; zero for a rigid plane.
-#[inline(always)]
-pub(super) fn mean_along(face: Face) -> f64 {
-    face.along.iter().sum::<f64>() / face.along.len().max(1) as f64
-}
-
-/// Rotation of the line from heel to toe.
-#[inline(always)]
-fn chord(face: Face) -> f64 {
-    let last = face.along.len() - 1;
-    (face.across[last] - face.across[0]) / (face.along[last] - face.along[0])
-}
-
-/// Height of the lower face at `t`; beyond its ends that of the end, and zero on a rigid plane.
-#[inline(always)]
-pub(super) fn height(face: Face, t: f64) -> f64 {
-    let Face { along, across } = face;
-    if along.is_empty() {
-        return 0.0;
-    }
-    let j = along.partition_point(|a| *a <= t).clamp(1, along.len() - 1) - 1;
-    let s = ((t - along[j]) / (along[j + 1] - along[j])).clamp(0.0, 1.0);
-    across[j] + s * (across[j + 1] - across[j])
-}
-
 named! {
-    /// What the part above the crack may be doing; see the module `stance`.
+    /// What the part above the crack may be doing; see the module `rocking_thresholds`.
     #[derive(Default)]
     State {
         /// It stands.

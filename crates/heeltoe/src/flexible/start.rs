@@ -9,18 +9,20 @@
 //! with the conditions of contact and Coulomb on the motion of the step, as in [`super::coulomb`], until nothing moves
 //! any more. The small `s` holds a part that is free; it plays no part in the state that is found.
 
+use super::still::Still;
 use std::ops::Range;
 
-use super::body::{Group, ReducedBody};
+use super::bodies::Sides;
+use super::body::ReducedBody;
+use super::compliance::Compliance;
 use super::coulomb::{Known, Report};
-use super::coupling::{Answer, Crack};
+use super::coupling::Crack;
 use super::dam::Dam;
-use super::law::Worked;
-use super::moving::TimeStep;
-use super::observe::mean_along;
-use super::sides::{Place, Sides};
+use super::faces::mean_along;
+use super::place::Place;
+use super::scheme::TimeStep;
+use super::simd::{Group, Plain};
 use super::status::Status;
-use super::wide::Plain;
 use crate::stop::Stop;
 
 /// What holds a free part, as a share of the smallest squared frequency.
@@ -31,38 +33,6 @@ const ONE: TimeStep = TimeStep { dt: 1.0, theta: 1.0 };
 /// Six steps in turn that move the crack by less than this share of its static deformation have done all they can: each
 /// leaves a hundredth of the one before at most, and rounding leaves some 1e-11.
 const NOTHING: f64 = 1e-8;
-
-/// A dam at rest.
-#[derive(Clone, Debug)]
-pub struct Still {
-    /// Modes of both parts.
-    pub(super) modes: [Vec<Group>; 2],
-    /// Positions of the crack nodes of both faces.
-    pub(super) position: [Vec<f64>; 2],
-    /// Forces of contact on them.
-    pub force: [Vec<f64>; 2],
-    /// Force and state of each contact.
-    pub(super) contact: Vec<f64>,
-    pub(super) status: Vec<Status>,
-    /// What contacts of cracks with a law have been through.
-    pub(super) worked: Vec<Worked>,
-    /// By how much each crack has slipped since it was bonded, from the crest down.
-    pub slip: Vec<f64>,
-    /// Number of contacts of each that are open.
-    pub open: Vec<usize>,
-}
-
-impl Still {
-    /// Amplitudes of the modes of a body, the upper one or the lower.
-    pub fn amplitudes(&self, dam: &Dam) -> [Vec<f64>; 2] {
-        let kept = |body: &ReducedBody, modes: &[Group]| modes.as_flattened()[..body.modes].to_vec();
-        let lower = dam.bodies.lower.as_ref();
-        [
-            kept(&dam.bodies.upper, &self.modes[0]),
-            lower.map_or(Vec::new(), |body| kept(body, &self.modes[1])),
-        ]
-    }
-}
 
 /// One part under way.
 struct Side<'a> {
@@ -93,8 +63,8 @@ impl<'a> Side<'a> {
         }
     }
 
-    fn answer(&self) -> Answer<'_> {
-        Answer {
+    fn answer(&self) -> Compliance<'_> {
+        Compliance {
             w: &self.w,
             nodes: self.body.nodes,
             stride: self.body.stride(),
@@ -131,8 +101,14 @@ impl<'a> Side<'a> {
     }
 }
 
+/// Put a dam into its state before the earthquake; a search that is stopped finds none.
+pub fn rest(mut dam: Dam, stop: Stop) -> Dam {
+    dam.still = find(&dam, stop);
+    dam
+}
+
 /// Find the dam at rest; none where friction does not hold it.
-pub(super) fn find(dam: &Dam, stop: Stop) -> Option<Still> {
+fn find(dam: &Dam, stop: Stop) -> Option<Still> {
     let squares = dam
         .bodies
         .iter()
@@ -145,7 +121,7 @@ pub(super) fn find(dam: &Dam, stop: Stop) -> Option<Still> {
     }
     let mut sides = dam.bodies.map(|body| Side::new(body, HOLD * lowest));
     let mut crack = Crack::new(dam, 0);
-    let places = Place::all(dam);
+    let places = Place::all(&dam.cracks);
     let bonded = slips(&places, &sides);
     let stretched = dam
         .bodies

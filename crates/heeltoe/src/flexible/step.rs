@@ -18,22 +18,23 @@
 //! be thrown back so that contact would do positive work. Nothing rebounds at a node: the waves in the concrete do
 //! that.
 
-use super::acting::Acting;
-use super::answering::FacesAnswer;
-use super::body::dot;
+use super::bodies::Sides;
+use super::contact_operator::FacesOperator;
 use super::coulomb::Report;
+use super::crack_forces::CrackForces;
 use super::dam::{Dam, Shaking, Wanted};
 use super::dampers::Dampers;
 use super::ledger::Ledger;
-use super::moving::{Drive, Moving, TimeStep};
+use super::modal_stepper::{Drive, ModalStepper};
 use super::result::Run;
-use super::sides::Sides;
-use super::start::Still;
-use super::status::Status;
-use super::walk::Walk;
+use super::scheme::TimeStep;
+use super::simd::dot;
 #[cfg(target_arch = "x86_64")]
-use super::wide::x86;
-use super::wide::{Plain, Wide};
+use super::simd::x86;
+use super::simd::{Lanes, Plain};
+use super::status::Status;
+use super::still::Still;
+use super::walk::Walk;
 
 /// Shake the dam; `theta` is the weight of the new state within a step.
 pub(super) fn simulate(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run {
@@ -64,7 +65,7 @@ fn simulate_avx2(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Ru
 }
 
 #[inline(always)]
-fn run<W: Wide>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run {
+fn run<W: Lanes>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run {
     let mut moreau = Moreau::new(dam, shaking, theta, wanted);
     moreau.go_on::<W>(None, 0, 0);
     if moreau.walk.observed() {
@@ -92,20 +93,20 @@ fn run<W: Wide>(dam: &Dam, shaking: &Shaking, theta: f64, wanted: Wanted) -> Run
         if moreau.walk.stressed(step) {
             moreau.stress::<W>();
         }
-        if moreau.walk.lost() {
+        if moreau.walk.ends(step) {
             break;
         }
     }
     let ledger = moreau.balance();
-    let tensions = moreau.acting.map_or_else(Vec::new, |acting| acting.peaks);
-    moreau.walk.end(ledger, &tensions)
+    let anchors = moreau.acting.map_or_else(Vec::new, |acting| acting.peaks);
+    moreau.walk.end(ledger, &anchors)
 }
 
 /// The dam on its way.
 struct Moreau<'a> {
     walk: Walk<'a>,
-    bodies: Sides<Moving<'a>>,
-    acting: Option<Acting<'a>>,
+    bodies: Sides<ModalStepper<'a>>,
+    acting: Option<CrackForces<'a>>,
     dampers: Dampers,
     still: Option<&'a Still>,
     /// Whether nothing moves the dam in this step.
@@ -122,12 +123,12 @@ impl<'a> Moreau<'a> {
         let step = TimeStep { dt, theta };
         let still = dam.still.as_ref();
         let bodies = Sides {
-            upper: Moving::new(&dam.bodies.upper, still, 0, step),
+            upper: ModalStepper::new(&dam.bodies.upper, still, 0, step),
             lower: dam
                 .bodies
                 .lower
                 .as_ref()
-                .map(|body| Moving::new(body, still, 1, step)),
+                .map(|body| ModalStepper::new(body, still, 1, step)),
         };
         let start = energy(&bodies);
         let faces = bodies.faces(|body| &body.position);
@@ -140,7 +141,7 @@ impl<'a> Moreau<'a> {
         }
         Moreau {
             walk,
-            acting: Acting::new(&dam.inside, shaking.rising, faces),
+            acting: CrackForces::new(&dam.inside, shaking.rising, faces),
             dampers: Dampers::new(&bodies, step),
             still,
             quiet: false,
@@ -161,7 +162,7 @@ impl<'a> Moreau<'a> {
 
     /// Let the modes finish the step `now`, unless this is the start, and begin another with this state of damping.
     #[inline(always)]
-    fn go_on<W: Wide>(&mut self, now: Option<Drive>, next: usize, damping: usize) {
+    fn go_on<W: Lanes>(&mut self, now: Option<Drive>, next: usize, damping: usize) {
         let Shaking {
             ground, dt, scale, ..
         } = self.shaking;
@@ -177,14 +178,14 @@ impl<'a> Moreau<'a> {
 
     /// Write the contact problem of the step, with what else acts in the crack.
     #[inline(always)]
-    fn set_up<W: Wide>(&mut self) {
+    fn set_up<W: Lanes>(&mut self) {
         let (bodies, damping) = (&self.bodies, self.drive.damping);
         let position = bodies.faces(|body| &body.position);
         let crack = &mut self.walk.crack;
         crack.meet(position, damping, || bodies.map(|body| body.answers(damping)));
         self.act();
         // A dam that stands under loads that do not change goes on standing, to the last bit.
-        self.quiet = self.still.is_some() && self.bodies.iter().all(Moving::rests);
+        self.quiet = self.still.is_some() && self.bodies.iter().all(ModalStepper::rests);
         if self.quiet {
             return;
         }
@@ -229,7 +230,7 @@ impl<'a> Moreau<'a> {
 
     /// Let the crack feel what acts beside contact, the forces that the start has in it, and the dashpots.
     #[inline(always)]
-    fn push<W: Wide>(&mut self) {
+    fn push<W: Lanes>(&mut self) {
         let (alone, damping) = (self.acting.is_none(), self.drive.damping);
         let pushed = !alone || self.still.is_some();
         for body in self.bodies.iter_mut() {
@@ -260,18 +261,19 @@ impl<'a> Moreau<'a> {
 
     /// Solve the contact problem and move the nodes; the bodies get their impulses, the ledger its works.
     #[inline(always)]
-    fn contact<W: Wide>(&mut self) {
+    fn contact<W: Lanes>(&mut self) {
         let crack = &mut self.walk.crack;
         let softness = crack.softness(self.walk.dam.softness());
-        let report = match self.still.filter(|_| self.quiet) {
+        let (report, softness) = match self.still.filter(|_| self.quiet) {
             Some(still) => {
                 let report = crack.hold(&still.contact, self.step.dt);
                 let (upper, lower) = self.bodies.both_mut(|body| &mut body.impulse);
                 crack.impulses(upper, lower);
-                report
+                // Nothing moves, and nothing yields.
+                (report, 0.0)
             }
             None => {
-                let mut faces = FacesAnswer {
+                let mut faces = FacesOperator {
                     contacts: &crack.contacts,
                     blocks: &mut crack.blocks,
                     bodies: &mut self.bodies,
@@ -288,7 +290,7 @@ impl<'a> Moreau<'a> {
                         .as_mut()
                         .is_none_or(|laws| laws.met(problem, solver, &crack.before, self.step, &mut report));
                     if met {
-                        break report;
+                        break (report, softness);
                     }
                 }
             }
@@ -362,15 +364,15 @@ impl<'a> Moreau<'a> {
 
     /// Look at the stresses.
     #[inline(always)]
-    fn stress<W: Wide>(&mut self) {
-        let total = self.bodies.map(Moving::amplitudes);
+    fn stress<W: Lanes>(&mut self) {
+        let total = self.bodies.map(ModalStepper::amplitudes);
         self.walk.stress::<W>(&total.map(|modes| &modes[..]));
     }
 
     /// Keep a frame.
     fn keep(&mut self, ledger: &Ledger) {
         let position = self.bodies.faces(|body| &body.position);
-        let total = self.bodies.map(Moving::amplitudes);
+        let total = self.bodies.map(ModalStepper::amplitudes);
         self.walk.keep(position, &total.map(|modes| &modes[..]), ledger);
     }
 
@@ -387,7 +389,7 @@ impl<'a> Moreau<'a> {
     }
 }
 
-fn energy(bodies: &Sides<Moving>) -> f64 {
-    let of = |body: &Moving| body.body.energy(&body.amplitudes(), &body.v);
+fn energy(bodies: &Sides<ModalStepper>) -> f64 {
+    let of = |body: &ModalStepper| body.body.energy(&body.amplitudes(), &body.v);
     of(&bodies.upper) + bodies.lower.as_ref().map_or(0.0, of)
 }

@@ -1,16 +1,20 @@
 //! The contact problem against its own conditions, on random problems and on those with a known answer.
 
-use super::acting::Inside;
-use super::body::{Group, Modes, ReducedBody};
+use super::bodies::Sides;
+use super::body::{Modes, ReducedBody};
+use super::compliance::Compliance;
 use super::contact::Contacts;
 use super::coulomb::{Known, Problem, Report, Solver};
-use super::coupling::{Answer, Crack};
+use super::coupling::Crack;
+use super::crack_forces::Inside;
+use super::crack_line::{Line, RockingThresholds};
 use super::dam::Dam;
+use super::faces::Faces;
 use super::observe::State;
-use super::sides::{Faces, Line, Place, Sides};
-use super::stance::{Give, Stance};
+use super::place::Place;
+use super::rocking_thresholds::Stance;
+use super::simd::{Group, Plain};
 use super::status::Status;
-use super::wide::Plain;
 
 /// Numbers from -1 to 1 that are the same each time.
 struct Dice(u64);
@@ -103,6 +107,49 @@ fn the_answer_does_not_depend_on_where_the_search_starts() {
     }
 }
 
+#[test]
+fn an_inverse_that_follows_gives_what_factors_give() {
+    let mut dice = Dice(11);
+    let contacts = 24;
+    let mut problem = random(&mut dice, contacts, 0.08, 0.5);
+    let (mut factors, mut inverse) = (Solver::new(contacts), Solver::with_inverse(contacts));
+    let mut seen = [0; 4];
+    for round in 0..3000 {
+        // A step changes little; now and then everything does, and friction.
+        let much = if round % 100 == 99 { 1.0 } else { 0.1 };
+        problem
+            .b
+            .iter_mut()
+            .for_each(|b| *b += much * dice.roll() - 0.02 * *b);
+        if round % 7 == 0 {
+            let mu = 0.5 + 0.2 * dice.roll();
+            problem.mu_stick.fill(mu);
+            problem.mu_slip.fill(mu);
+            // Factors do not last; an inverse is corrected.
+            factors.forget(&vec![true; contacts]);
+            inverse.forget(&vec![true; contacts]);
+        }
+        let reports =
+            [&mut factors, &mut inverse].map(|solver| solver.solve::<Plain>(&mut problem, &mut Known));
+        for report in reports {
+            assert!(report.residual < 1e-9, "round {round}: {report:?}");
+        }
+        assert_eq!(factors.status, inverse.status, "round {round}");
+        for (one, other) in factors.p.iter().zip(&inverse.p) {
+            assert!((one - other).abs() < 1e-9, "round {round}: {one} {other}");
+        }
+        for (seen, status) in seen.iter_mut().zip([
+            Status::Open,
+            Status::Stick,
+            Status::SlipDownstream,
+            Status::SlipUpstream,
+        ]) {
+            *seen += usize::from(factors.status.contains(&status));
+        }
+    }
+    assert!(seen.iter().all(|rounds| *rounds > 1000), "{seen:?}");
+}
+
 /// One contact with `G` the unit matrix.
 fn single(b: [f64; 2], mu: f64) -> (Status, Vec<f64>, Report) {
     let mut problem = Problem {
@@ -174,7 +221,7 @@ fn stands(first: usize, slope: f64, status: Status) -> State {
     let mut contacts = Contacts::new(3, &[place], &[]);
     let faces = |upper| Faces { upper, lower: &[] };
     contacts.update(faces(&turned), |_| false);
-    let give = Give {
+    let give = RockingThresholds {
         rotation: 1e-3,
         gap: 1e-4,
     };
@@ -230,8 +277,8 @@ fn answers(dice: &mut Dice) -> [Vec<Group>; 2] {
     [(); 2].map(|()| (0..20).map(|_| std::array::from_fn(|_| dice.roll())).collect())
 }
 
-fn faces(answers: &[Vec<Group>; 2]) -> Sides<Answer<'_>> {
-    let [upper, lower] = [0, 1].map(|k| Answer {
+fn faces(answers: &[Vec<Group>; 2]) -> Sides<Compliance<'_>> {
+    let [upper, lower] = [0, 1].map(|k| Compliance {
         w: &answers[k],
         nodes: 5,
         stride: 2,
@@ -251,7 +298,7 @@ fn what_has_not_moved_keeps_its_answer() {
                 upper: body(&mut dice),
                 lower: Some(body(&mut dice)),
             },
-            cracks: vec![Line::only([5, 5], [0.6; 2], Give::default())],
+            cracks: vec![Line::only([5, 5], [0.6; 2], RockingThresholds::default())],
             contactors,
             inside: Inside::default(),
             still: None,

@@ -5,18 +5,21 @@
 
 use std::ops::Range;
 
-use super::body::Group;
+use super::bodies::Sides;
 use super::contact::Contactor;
 use super::coupling::Crack;
+use super::crack_line::RockingThresholds;
 use super::dam::{Dam, Wanted};
 use super::envelope::Envelope;
+use super::faces::{mean_along, Faces};
 use super::frames::{Frames, Since, Snapshot};
 use super::ledger::Ledger;
-use super::observe::{mean_along, Motion};
-use super::result::{Outcome, Run, Summary};
-use super::sides::{Faces, Place, Sides};
-use super::stance::{Give, Stance};
-use super::wide::Wide;
+use super::observe::Motion;
+use super::place::Place;
+use super::result::Run;
+use super::rocking_thresholds::Stance;
+use super::simd::{Group, Lanes};
+use super::summary::{Outcome, Summary};
 
 /// A slip or opening of so many widths of the crack is off any scale.
 const REACH: f64 = 100.0;
@@ -40,7 +43,7 @@ impl Watch {
         place: Place,
         contacts: Range<usize>,
         contactors: &[Contactor],
-        give: Give,
+        give: RockingThresholds,
         start: Faces,
     ) -> Self {
         let faces = place.of(start);
@@ -126,7 +129,7 @@ impl<'a> Walk<'a> {
         let mut crack = Crack::new(dam, dam.bodies.upper.dampers);
         crack.solver.lasting = dam.cracks.len() > 1;
         let contactors = &crack.contacts.contactors;
-        let cracks = Place::all(dam)
+        let cracks = Place::all(&dam.cracks)
             .into_iter()
             .zip(crack.contacts.of_cracks())
             .zip(&dam.cracks);
@@ -213,15 +216,31 @@ impl<'a> Walk<'a> {
 
     /// Take the stresses of a state into account, where they are wanted.
     #[inline(always)]
-    pub(super) fn stress<W: Wide>(&mut self, modes: &Sides<&[Group]>) {
+    pub(super) fn stress<W: Lanes>(&mut self, modes: &Sides<&[Group]>) {
         if let Some(envelope) = &mut self.envelope {
             envelope.add::<W>(self.cracks[0].summary.end_time, modes);
         }
     }
 
-    /// Whether a part above a crack is off any scale, which the outcome says, or somebody has stopped the run.
+    /// Whether the run ends after this step: the dam is at rest, a part above a crack is off any scale, which the outcome
+    /// says, or somebody has stopped the run.
     #[inline(always)]
-    pub(super) fn lost(&mut self) -> bool {
+    pub(super) fn ends(&mut self, step: usize) -> bool {
+        self.lost() || self.rests(step + 1)
+    }
+
+    /// Whether the dam is at rest, at a moment at which that is asked.
+    #[inline(always)]
+    fn rests(&self, steps: usize) -> bool {
+        self.wanted.rest.is_some_and(|rest| {
+            steps >= rest.first
+                && (steps - rest.first).is_multiple_of(rest.every)
+                && self.frames.rest(self.cracks.len(), rest.seconds, rest.moved)
+        })
+    }
+
+    #[inline(always)]
+    fn lost(&mut self) -> bool {
         let mut here = true;
         for Watch { motion, reach, .. } in &self.cracks {
             if motion.slip.abs() < *reach && motion.opening_heel.abs() < *reach {
@@ -238,11 +257,11 @@ impl<'a> Walk<'a> {
     }
 
     /// Hand over what there is to tell.
-    pub(super) fn end(self, ledger: Ledger, tensions: &[f64]) -> Run {
+    pub(super) fn end(self, ledger: Ledger, anchors: &[[f64; 2]]) -> Run {
         let steps = &self.steps;
         let told = |watch: Watch| Summary {
             ledger,
-            tensions: tensions.to_vec(),
+            anchors: anchors.to_vec(),
             outcome: steps.outcome,
             steps: steps.steps,
             iterations: steps.iterations,

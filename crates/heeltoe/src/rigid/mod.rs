@@ -9,6 +9,7 @@
 
 mod block;
 mod choice;
+mod course;
 mod event;
 pub mod exact;
 mod impact;

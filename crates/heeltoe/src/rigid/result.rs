@@ -132,8 +132,8 @@ pub struct Run {
     pub moments: Vec<Moment>,
     /// What happened, if that was asked for.
     pub events: Vec<Event>,
-    /// Largest tension of each anchor that stretches (N/m); the exact walk knows none.
-    pub tensions: Vec<f64>,
+    /// Largest tension and largest force of each anchor that stretches (N/m); the exact walk knows none.
+    pub anchors: Vec<[f64; 2]>,
     /// What the crack has been through, where its friction goes by a law.
     pub worn: Option<Wear>,
     /// What the asperities have been through, where the crack is rough.

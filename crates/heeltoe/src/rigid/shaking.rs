@@ -21,7 +21,7 @@ pub struct Shaking<'a> {
 }
 
 /// Least and largest of some numbers.
-type Range = [f64; 2];
+pub(super) type Range = [f64; 2];
 
 impl<'a> Shaking<'a> {
     /// Horizontal (downstream) and, if there is one, vertical (upward) acceleration in m/s2 at each `time` in s, which
@@ -99,15 +99,29 @@ impl<'a> Shaking<'a> {
     }
 
     /// The first sample from `k` on at which the smallest of `limits` is negative, or the number of samples.
-    pub(super) fn first_below(&self, limits: &[Affine; 4], mut k: usize) -> usize {
+    pub(super) fn first_below(&self, limits: &[Affine; 4], k: usize) -> usize {
+        self.first_beyond(
+            k,
+            |ranges| limits.iter().all(|limit| limit.least(ranges) >= 0.0),
+            |ground| limits.iter().all(|limit| limit.at(ground) >= 0.0),
+        )
+    }
+
+    /// The first sample from `k` on that is not `within` some limits, or the number of samples; `all_within` says it of
+    /// all accelerations between the least and the largest ones.
+    pub(super) fn first_beyond(
+        &self,
+        mut k: usize,
+        all_within: impl Fn([Range; 2]) -> bool,
+        within: impl Fn([f64; 2]) -> bool,
+    ) -> usize {
         let n = self.time.len();
         while k < n {
             let end = n.min(k - k % STRETCH + STRETCH);
             // Rounding keeps order: what holds at the ends of the ranges holds at every sample in them.
             let ranges = [0, 1].map(|i| self.stretches[k / STRETCH][i].map(|a| a * self.scale[i]));
-            if limits.iter().any(|limit| limit.least(ranges) < 0.0) {
-                let below = |k: &usize| limits.iter().any(|limit| limit.at(self.at(*k)) < 0.0);
-                if let Some(found) = (k..end).find(below) {
+            if !all_within(ranges) {
+                if let Some(found) = (k..end).find(|k| !within(self.at(*k))) {
                     return found;
                 }
             }
@@ -154,6 +168,16 @@ impl<const N: usize> Piece<N> {
             ground: [0.0; N],
             rate: [0.0; N],
             left,
+        }
+    }
+
+    /// What is left of it after so many seconds.
+    #[inline(always)]
+    pub(super) fn rest(&self, since: f64) -> Self {
+        Piece {
+            ground: self.after(since),
+            left: self.left - since,
+            ..*self
         }
     }
 

@@ -6,8 +6,9 @@
 //!
 //! with the reactions that hold them. An event is where a normal force, what is left of the friction cone
 //! `mu_s (N_h + N_t) -/+ T`, the slip velocity or a gap falls through zero. Between two events [`super::exact`] and
-//! [`super::varying`] carry the block, each in its own way. At an event, here, a corner strikes by the law of
-//! [`super::impact`], and the first mode that is admissible is the next one; where none is, friction may jam.
+//! [`super::varying`] carry a block on one crack, and [`super::stack`] two blocks with a crack below either, each in its own
+//! way. At an event, here, corners strike, and the first modes that are admissible are the next ones; where none are,
+//! friction may jam. One block strikes and jams by the law of [`super::impact`].
 
 use std::borrow::Cow;
 
@@ -15,14 +16,15 @@ use super::block::{Block, Vector, HEEL, SLIP, TOE};
 use super::impact::{impact, jam, Impact};
 use super::mode::Mode;
 use super::result::{Event, EventKind, Moment, Outcome, Run, Summary};
+use super::shaking::Piece;
 use crate::stop::Stop;
 
 /// A slip slower than this many times the bound of bounces may jam unasked; it would end within a nanometre or so.
 pub(super) const CRAWL: f64 = 100.0;
 /// Events in which time does not move, after which it never will.
-pub(super) const STANDING: u32 = 1000;
+const STANDING: u32 = 1000;
 /// Corners nearer than this part of the width touch: it is rounding.
-pub(super) const NEAR: f64 = 1e-13;
+const NEAR: f64 = 1e-13;
 
 /// How a block is to move.
 #[derive(Clone, Copy, Debug)]
@@ -57,7 +59,17 @@ pub(super) enum Cause {
     Turn,
 }
 
-/// What every walk knows, and what it has seen.
+/// What ended a piece before its time, in which crack.
+pub(super) type Ended = (usize, Cause);
+
+/// What a blow or a jam has done in each of the cracks: what it is called there, its impulses, the energy lost.
+pub(super) struct Blow<const N: usize> {
+    pub kinds: [Option<EventKind>; N],
+    pub impulse: [Vector; N],
+    pub energy_lost: [f64; N],
+}
+
+/// What every walk knows of a crack, and what it has seen there.
 pub(super) struct Walk<'a> {
     pub block: &'a Block,
     pub options: Options,
@@ -68,7 +80,8 @@ pub(super) struct Walk<'a> {
     wanted: Wanted<'a>,
     moments: Vec<Moment>,
     events: Vec<Event>,
-    /// Events since time last moved.
+    /// All events of the run, and those since time last moved; of several cracks the first one has them.
+    count: u64,
     pub standing: u32,
 }
 
@@ -90,12 +103,13 @@ impl<'a> Walk<'a> {
             wanted,
             moments: Vec::with_capacity(wanted.times.len()),
             events: Vec::new(),
+            count: 0,
             standing: 0,
         }
     }
 
     /// Hand over what there is to tell.
-    pub(super) fn end(self, kinetic_energy: f64, tensions: Vec<f64>) -> Run {
+    pub(super) fn end(self, kinetic_energy: f64, anchors: Vec<[f64; 2]>) -> Run {
         let summary = Summary {
             kinetic_energy,
             ..self.summary
@@ -104,7 +118,7 @@ impl<'a> Walk<'a> {
             summary,
             moments: self.moments,
             events: self.events,
-            tensions,
+            anchors,
             worn: None,
             rough: None,
         }
@@ -135,18 +149,6 @@ impl<'a> Walk<'a> {
         self.moments.push(moment);
     }
 
-    /// Count an event that ended a piece; false where there have been too many, of all or in one moment.
-    pub(super) fn count(&mut self, moved: bool) -> bool {
-        self.standing = if moved { 0 } else { self.standing + 1 };
-        self.summary.events += 1;
-        if self.summary.events >= self.options.event_limit {
-            self.summary.outcome = Outcome::EventLimit;
-        } else if self.standing > STANDING {
-            self.summary.outcome = Outcome::Cycling;
-        }
-        self.summary.outcome == Outcome::Done && !self.stopped()
-    }
-
     /// Whether somebody has stopped the run.
     #[inline(always)]
     pub(super) fn stopped(&self) -> bool {
@@ -154,8 +156,155 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// A block that is carried from event to event.
-pub(super) trait Carried<'a> {
+/// Blocks above N cracks that are carried from event to event.
+pub(super) trait Carried<'a, const N: usize> {
+    /// The ground from here on.
+    type Piece;
+
+    /// What is known of each crack.
+    fn walks(&mut self) -> &mut [Walk<'a>; N];
+
+    /// Velocities of slip and gaps at each.
+    fn velocities(&self) -> [Vector; N];
+
+    /// The modes in which the blocks can go on; what it takes to begin in them is kept. `None` is a Painlevé paradox.
+    fn find_modes(&mut self, piece: &Self::Piece) -> Option<[Mode; N]>;
+
+    /// Begin to move in the modes that have been chosen; slips and gaps stand in the summaries then.
+    fn enter(&mut self);
+
+    /// Let corners strike where a gap has closed; `None` is a paradox.
+    fn collide(&mut self, gap: usize) -> Option<Blow<N>>;
+
+    /// Let friction jam where that is asked for, or where a slip is too slow to matter.
+    fn seize(&mut self) -> Option<Blow<N>>;
+
+    /// End the run.
+    fn give_up(&mut self, outcome: Outcome) -> bool {
+        for walk in self.walks() {
+            walk.summary.outcome = outcome;
+        }
+        false
+    }
+
+    /// Note what time it is.
+    #[inline(always)]
+    fn set_time(&mut self, time: f64) {
+        for walk in self.walks() {
+            walk.summary.end_time = time;
+        }
+    }
+
+    /// Count an event that ended a piece; false where there have been too many, of all or in one moment.
+    fn count(&mut self, moved: bool) -> bool {
+        let walk = &mut self.walks()[0];
+        walk.standing = if moved { 0 } else { walk.standing + 1 };
+        walk.count += 1;
+        if N == 1 {
+            // Of several cracks an event counts for those where it has done something.
+            walk.summary.events += 1;
+        }
+        if walk.count >= walk.options.event_limit {
+            return self.give_up(Outcome::EventLimit);
+        }
+        if walk.standing > STANDING {
+            return self.give_up(Outcome::Cycling);
+        }
+        walk.summary.outcome == Outcome::Done && !walk.stopped()
+    }
+
+    /// Deal with what ended the last piece and choose the modes of the next; false where the run cannot continue.
+    fn choose(&mut self, piece: &Self::Piece, cause: Option<Ended>) -> bool {
+        let approach = self.velocities();
+        let mut blow: Option<Blow<N>> = None;
+        if let Some((_, Cause::Gap(gap))) = cause {
+            blow = self.collide(gap);
+            if blow.is_none() {
+                return self.give_up(Outcome::Paradox);
+            }
+        }
+        let mut after = self.find_modes(piece);
+        if after.is_none() {
+            if let Some(stop) = self.seize() {
+                blow = Some(stop);
+                after = self.find_modes(piece);
+            }
+        }
+        let Some(after) = after else {
+            return self.give_up(Outcome::Paradox);
+        };
+        let walks = self.walks();
+        let before: [Mode; N] =
+            std::array::from_fn(|crack| std::mem::replace(&mut walks[crack].mode, after[crack]));
+        for (walk, after) in walks.iter_mut().zip(after) {
+            walk.summary.mode = after;
+        }
+        self.enter();
+        // A mode may also change at a sample, where a jump of the ground acceleration is the cause.
+        self.walks()[0].count += u64::from(cause.is_none() && (after != before || blow.is_some()));
+        for crack in 0..N {
+            let own = cause.and_then(|(place, why)| (place == crack).then_some(why));
+            let struck = blow.as_ref().and_then(|blow| blow.kinds[crack]);
+            let (before, after) = (before[crack], after[crack]);
+            if own.is_none() && struck.is_none() && before == after {
+                continue;
+            }
+            let walk = &mut self.walks()[crack];
+            walk.summary.events += u64::from(N > 1 || cause.is_none());
+            let kind = struck.unwrap_or_else(|| describe(before, after, own));
+            walk.summary.slip_stops += u64::from(kind == EventKind::SlipStops);
+            if walk.wanted.events {
+                walk.events.push(Event {
+                    time: walk.summary.end_time,
+                    kind,
+                    before,
+                    after,
+                    position: walk.summary.position,
+                    velocity: walk.summary.velocity,
+                    approach: approach[crack],
+                    impulse: blow.as_ref().map_or([0.0; 3], |blow| blow.impulse[crack]),
+                    energy_lost: blow.as_ref().map_or(0.0, |blow| blow.energy_lost[crack]),
+                });
+            }
+        }
+        true
+    }
+}
+
+/// Blocks whose motion between two events has a closed form.
+pub(super) trait Exactly<'a, const N: usize>: Carried<'a, N, Piece = Piece<2>> {
+    /// Move to the next event or to the end of the piece; returns the time that took and what ended it.
+    fn advance(&mut self, piece: &Piece<2>, time: f64) -> (f64, Option<Ended>);
+
+    /// Go from event to event to the end of a piece that begins at `time`; false where the run cannot continue.
+    #[inline(always)]
+    fn cross(&mut self, whole: &Piece<2>, time: f64) -> bool {
+        let mut local = 0.0;
+        let mut cause = None;
+        loop {
+            let piece = whole.rest(local);
+            self.set_time(time + local);
+            if !self.choose(&piece, cause) {
+                return false;
+            }
+            let (step, ended) = self.advance(&piece, time + local);
+            // A step may be too short to move the clock.
+            let moved = local + step > local;
+            local += step;
+            if ended.is_none() {
+                return true;
+            }
+            cause = ended;
+            if !self.count(moved) {
+                self.set_time(time + local);
+                return false;
+            }
+        }
+    }
+}
+
+/// A block above one crack: what is asked of it beside its motion, so that it strikes and jams as one block does.
+pub(super) trait Single<'a> {
     /// The ground from here on.
     type Piece;
 
@@ -181,55 +330,6 @@ pub(super) trait Carried<'a> {
 
     /// Begin to move in the mode that has been chosen.
     fn begin(&mut self);
-
-    /// Deal with what ended the last piece and choose the mode of the next; false where the run cannot continue.
-    fn choose(&mut self, piece: &Self::Piece, cause: Option<Cause>) -> bool {
-        let approach = self.velocity();
-        let mut blow: Option<(EventKind, Impact)> = None;
-        if let Some(Cause::Gap(gap)) = cause {
-            blow = self.strike(gap);
-            if blow.is_none() {
-                self.walk().summary.outcome = Outcome::Paradox;
-                return false;
-            }
-        }
-        let mut after = self.pick(piece);
-        if after.is_none() {
-            if let Some(stop) = self.jam() {
-                blow = Some((EventKind::Jams, stop));
-                after = self.pick(piece);
-            }
-        }
-        let walk = self.walk();
-        let Some(after) = after else {
-            walk.summary.outcome = Outcome::Paradox;
-            return false;
-        };
-        let before = std::mem::replace(&mut walk.mode, after);
-        walk.summary.mode = after;
-        self.begin();
-        // A mode may also change at a sample, where a jump of the ground acceleration is the cause.
-        if cause.is_some() || after != before || blow.is_some() {
-            let walk = self.walk();
-            walk.summary.events += u64::from(cause.is_none());
-            let kind = blow.map_or_else(|| describe(before, after, cause), |(kind, _)| kind);
-            walk.summary.slip_stops += u64::from(kind == EventKind::SlipStops);
-            if walk.wanted.events {
-                walk.events.push(Event {
-                    time: walk.summary.end_time,
-                    kind,
-                    before,
-                    after,
-                    position: walk.summary.position,
-                    velocity: walk.summary.velocity,
-                    approach,
-                    impulse: blow.map_or([0.0; 3], |(_, i)| i.impulse),
-                    energy_lost: blow.map_or(0.0, |(_, i)| i.energy_lost),
-                });
-            }
-        }
-        true
-    }
 
     /// Let the corner of this gap strike, with the other if that is as near; `None` is a paradox.
     fn strike(&mut self, gap: usize) -> Option<(EventKind, Impact)> {
@@ -284,8 +384,49 @@ pub(super) trait Carried<'a> {
     }
 }
 
+impl<'a, T: Single<'a>> Carried<'a, 1> for T {
+    type Piece = <T as Single<'a>>::Piece;
+
+    #[inline(always)]
+    fn walks(&mut self) -> &mut [Walk<'a>; 1] {
+        std::array::from_mut(self.walk())
+    }
+
+    #[inline(always)]
+    fn velocities(&self) -> [Vector; 1] {
+        [self.velocity()]
+    }
+
+    #[inline(always)]
+    fn find_modes(&mut self, piece: &<T as Single<'a>>::Piece) -> Option<[Mode; 1]> {
+        self.pick(piece).map(|mode| [mode])
+    }
+
+    #[inline(always)]
+    fn enter(&mut self) {
+        self.begin();
+    }
+
+    fn collide(&mut self, gap: usize) -> Option<Blow<1>> {
+        self.strike(gap).map(|(kind, impact)| alone(kind, &impact))
+    }
+
+    fn seize(&mut self) -> Option<Blow<1>> {
+        self.jam().map(|stop| alone(EventKind::Jams, &stop))
+    }
+}
+
+/// What an impact of one block has done.
+fn alone(kind: EventKind, impact: &Impact) -> Blow<1> {
+    Blow {
+        kinds: [Some(kind)],
+        impulse: [impact.impulse],
+        energy_lost: [impact.energy_lost],
+    }
+}
+
 /// The name of an event in which nothing strikes.
-pub(super) fn describe(before: Mode, after: Mode, cause: Option<Cause>) -> EventKind {
+fn describe(before: Mode, after: Mode, cause: Option<Cause>) -> EventKind {
     let (was, is) = (before.contacts(), after.contacts());
     if cause == Some(Cause::Turn) {
         EventKind::AsperityPassed

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING, Any
 
 from heeltoe.app.case.files import as_sent, of_this_machine, unsent
 from heeltoe.case.changes import apply
+from heeltoe.case.lists import as_blocks
 from heeltoe.case.model import problems
-from heeltoe.case.sequence import with_motions_apart
-from heeltoe.errors import InputError
-from heeltoe.plain import harmless
+from heeltoe.errors.error import InputError
+from heeltoe.errors.sanitize import harmless
 
 if TYPE_CHECKING:
     from heeltoe.app.sessions import Session
@@ -107,7 +107,7 @@ def start(session: Session, fields: Mapping[str, Any]) -> None:
     InputError
         Where there are too many of them.
     """
-    plain = _plain(with_motions_apart(fields))
+    plain = _plain(as_blocks(fields))
     _settle(session)
     draft = session.draft
     if draft is not None:
@@ -207,10 +207,10 @@ def _set(fields: dict[str, Any], path: str, value: Any) -> None:
     *blocks, name = path.split(".")
     if value is not None:
         block = fields
-        for each in blocks:
-            if not isinstance(block.get(each), dict):
-                block[each] = {}
-            block = block[each]
+        for part in blocks:
+            if not isinstance(block.get(part), dict):
+                block[part] = {}
+            block = block[part]
         if isinstance(value, Mapping):
             block[name] = dict(value)
         else:
@@ -224,8 +224,8 @@ def _set(fields: dict[str, Any], path: str, value: Any) -> None:
 def valued(fields: dict[str, Any], path: str) -> Any:
     """Return what stands at a path; None where nothing does."""
     here: Any = fields
-    for each in path.split("."):
-        here = here.get(each) if isinstance(here, dict) else None
+    for part in path.split("."):
+        here = here.get(part) if isinstance(here, dict) else None
     return here
 
 
@@ -249,9 +249,9 @@ def _plain(fields: Mapping[str, Any]) -> dict[str, Any]:
 
 def _sayable(value: Any) -> Any:
     if isinstance(value, Mapping):
-        return {harmless(str(name)): _sayable(each) for name, each in value.items()}
+        return {harmless(str(name)): _sayable(entry) for name, entry in value.items()}
     if isinstance(value, list | tuple):
-        return [_sayable(each) for each in value]
+        return [_sayable(entry) for entry in value]
     if isinstance(value, float) and not abs(value) < float("inf"):
         return str(value)
     return harmless(value) if isinstance(value, str) else value

@@ -50,7 +50,7 @@ def _shapes(case: Case, size: float) -> Iterator[tuple[str, list[Any]]]:
     yield "ground", _rings(shapely.box(left - far, base - size, right + far, base))
     yield "below", _rings(case.outline)
     yield "above", [case.above.polygon.tolist()]
-    for crack in case.cracks:
+    for crack in case.single_crack_cases:
         uplift = _uplift(crack, size)
         if uplift:
             yield "uplift", [uplift]
@@ -65,11 +65,11 @@ def _rings(shape: shapely.Geometry) -> list[Any]:
 def _uplift(case: Case, size: float) -> list[list[float]]:
     """Return the diagram of the uplift below the crack; nothing where there is none."""
     profile = uplift_profile(case)
-    most = float(np.abs(profile[:, 1]).max())
-    if not most:
+    largest = float(np.abs(profile[:, 1]).max())
+    if not largest:
         return []
     section = case.cut
-    points = [(0.0, 0.0), *((at, -_UPLIFT * size * pressure / most) for at, pressure in profile.tolist())]
+    points = [(0.0, 0.0), *((at, -_UPLIFT * size * pressure / largest) for at, pressure in profile.tolist())]
     points.append((section.crack_width, 0.0))
     corners = [section.from_crack_frame(along, across) for along, across in points]
     return [[section.heel[0] + x, section.heel[1] + z] for x, z in corners]
@@ -77,8 +77,8 @@ def _uplift(case: Case, size: float) -> list[list[float]]:
 
 def _lines(case: Case, size: float) -> Iterator[tuple[str, list[list[float]]]]:
     section = case.cut
-    for crack in case.cracks:
-        kind = "crack" if crack is case.cracks[case.asked] else "further-crack"
+    for crack in case.single_crack_cases:
+        kind = "crack" if crack is case.single_crack_cases[case.asked] else "further-crack"
         yield kind, crack.crack_line.tolist()
     position = case.uplift_at_crack.drain_position
     if position is not None:

@@ -1,4 +1,5 @@
-"""The fields of a case as a form shows them, from the schema of the case: meaning, kind, choices, default, units."""
+"""The fields of a case as a form shows them, from the schema of the case, and what is typed into them, as a case file
+would have it."""
 
 from __future__ import annotations
 
@@ -9,7 +10,7 @@ from functools import cache
 from typing import Any
 
 from heeltoe.case.crack.law import LAW_FIELDS
-from heeltoe.case.read import case_schema
+from heeltoe.case.model import Case
 from heeltoe.units.parse import DIMENSIONS, parse
 
 # What a plain number means, by the system of units that is chosen; both where there is one alone.
@@ -120,22 +121,22 @@ def form(units: str) -> list[dict[str, Any]]:
     """Return all blocks as the page shows them, with defaults and examples in the units that are chosen."""
     shown = []
     for block in blocks():
-        told = asdict(block)
-        told["fields"] = [_shown(field, units) for field in block.fields]
-        shown.append(told)
+        row = asdict(block)
+        row["fields"] = [_shown(field, units) for field in block.fields]
+        shown.append(row)
     return shown
 
 
 def _shown(field: Field, units: str) -> dict[str, Any]:
-    told = asdict(field)
+    row = asdict(field)
     unit = unit_of(field, units)
-    told["unit"] = unit
+    row["unit"] = unit
     for name, digits in (("default", 6), ("example", 3)):
-        if unit and told[name]:
-            told[name] = in_unit(parse(told[name], field.quantity, field.path), field, units, digits)
-    told["inner"] = [_shown(each, units) for each in field.inner]
-    told["blocks"] = {name: [_shown(each, units) for each in fields] for name, fields in field.blocks}
-    return told
+        if unit and row[name]:
+            row[name] = in_unit(parse(row[name], field.quantity, field.path), field, units, digits)
+    row["inner"] = [_shown(inner, units) for inner in field.inner]
+    row["blocks"] = {name: [_shown(inner, units) for inner in fields] for name, fields in field.blocks}
+    return row
 
 
 def in_unit(value: float, field: Field, units: str, digits: int = 6) -> str:
@@ -151,64 +152,64 @@ def field_of(path: str) -> Field | None:
 
 @cache
 def _by_path() -> dict[str, Field]:
-    return {each.path: each for block in blocks() for field in block.fields for each in _all(field)}
+    return {inner.path: inner for block in blocks() for field in block.fields for inner in _all(field)}
 
 
 def _all(field: Field) -> Iterator[Field]:
     yield field
     if field.kind in ("blocks", "block"):
-        for each in (*field.inner, *(inner for _, fields in field.blocks for inner in fields)):
-            yield from _all(each)
+        for nested in (*field.inner, *(inner for _, fields in field.blocks for inner in fields)):
+            yield from _all(nested)
 
 
 @cache
 def blocks() -> tuple[Block, ...]:
     """Return the blocks of a case in their order, that of its own fields first."""
-    schema = case_schema()
+    schema = Case.model_json_schema()
     return tuple(_walk(schema, schema, "", optional=False, meaning=""))
 
 
 def _walk(here: Schema, schema: Schema, path: str, *, optional: bool, meaning: str) -> Iterator[Block]:
     own: list[Field] = []
     others: list[Iterable[Block]] = []
-    for name, given in here["properties"].items():
+    for name, entry in here["properties"].items():
         at = f"{path}.{name}" if path else name
-        inner = _block_in(given, schema)
+        inner = _block_in(entry, schema)
         if inner is None:
-            field = _field(given, schema, at, needed=name in here.get("required", ()))
+            field = _field(entry, schema, at, needed=name in here.get("required", ()))
             if field.kind == "blocks" and not path:
                 others.append([Block(field.path, field.label, field.meaning, False, (field,))])
             else:
                 own.append(field)
         else:
-            may_miss = any(each.get("type") == "null" for each in given.get("anyOf", ()))
-            others.append(_walk(inner, schema, at, optional=may_miss, meaning=_said(given)))
+            may_miss = any(option.get("type") == "null" for option in entry.get("anyOf", ()))
+            others.append(_walk(inner, schema, at, optional=may_miss, meaning=_said(entry)))
     yield Block(path, _label(path), meaning, optional, tuple(own))
-    for each in others:
-        yield from each
+    for inner_blocks in others:
+        yield from inner_blocks
 
 
-def _block_in(given: Schema, schema: Schema) -> Schema | None:
+def _block_in(entry: Schema, schema: Schema) -> Schema | None:
     """Return the block that a field holds; None of one that holds a value."""
-    for each in (given, *given.get("anyOf", ())):
-        found = _named(each["$ref"], schema) if "$ref" in each else {}
-        if "properties" in found:
-            return found
+    for option in (entry, *entry.get("anyOf", ())):
+        target = _named(option["$ref"], schema) if "$ref" in option else {}
+        if "properties" in target:
+            return target
     return None
 
 
-def _field(given: Schema, schema: Schema, path: str, *, needed: bool) -> Field:
-    meant = next((each for each in given.get("anyOf", ()) if each.get("type") != "null"), given)
+def _field(entry: Schema, schema: Schema, path: str, *, needed: bool) -> Field:
+    meant = next((option for option in entry.get("anyOf", ()) if option.get("type") != "null"), entry)
     # Only what stands in a list comes here with a block: others are blocks of the form.
-    held = _block_in(given, schema)
+    held = _block_in(entry, schema)
     kind, quantity = "block" if held else _kind(meant), str(meant.get("quantity", ""))
     inner: tuple[Field, ...] = ()
     kinds: tuple[tuple[str, tuple[Field, ...]], ...] = ()
     if kind == "pairs":
         labels = _CELLS.get(_MOTIONS.sub("motion", path), ("First", "Second"))
         inner = tuple(
-            replace(_field(each, schema, f"{path}[][{place}]", needed=True), label=label)
-            for place, (label, each) in enumerate(zip(labels, meant["items"]["prefixItems"], strict=True))
+            replace(_field(cell, schema, f"{path}[][{place}]", needed=True), label=label)
+            for place, (label, cell) in enumerate(zip(labels, meant["items"]["prefixItems"], strict=True))
         )
     elif held is not None:
         inner = _fields_of(held, schema, path)
@@ -221,23 +222,23 @@ def _field(given: Schema, schema: Schema, path: str, *, needed: bool) -> Field:
             for name, reference in sorted(mapping.items())
         )
     choices = tuple(map(str, meant.get("enum", (meant["const"],) if "const" in meant else ())))
-    default = given.get("default")
+    default = entry.get("default")
     return Field(
-        path, _label(path), _said(given), kind, quantity, choices, _default(default, quantity),
+        path, _label(path), _said(entry), kind, quantity, choices, _default(default, quantity),
         str(next(iter(meant.get("examples", ())), "")), needed, inner, kinds, _only(path),
     )  # fmt: skip
 
 
 def _fields_of(block: Schema, schema: Schema, path: str) -> tuple[Field, ...]:
     return tuple(
-        _field(given, schema, f"{path}.{name}", needed=name in block.get("required", ()))
-        for name, given in block["properties"].items()
+        _field(entry, schema, f"{path}.{name}", needed=name in block.get("required", ()))
+        for name, entry in block["properties"].items()
     )
 
 
 def _named(reference: str, schema: Schema) -> Schema:
-    found: Schema = schema["$defs"][reference.rpartition("/")[2]]
-    return found
+    definition: Schema = schema["$defs"][reference.rpartition("/")[2]]
+    return definition
 
 
 def _only(path: str) -> tuple[str, ...]:
@@ -275,5 +276,63 @@ def _label(path: str) -> str:
     return _LABELS.get(name) or name.replace("_", " ").capitalize()
 
 
-def _said(given: Schema) -> str:
-    return " ".join(str(given.get("description", "")).replace("`", "").split())
+def _said(entry: Schema) -> str:
+    return " ".join(str(entry.get("description", "")).replace("`", "").split())
+
+
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?")
+_WHOLE = re.compile(r"[+-]?\d{1,15}")
+_TRUTHS = {"yes": True, "no": False}
+
+
+def typed(entry: object, field: Field, units: str) -> Any:
+    """Return what stands in the case where this is typed; None where nothing is.
+
+    A number without a unit is in the units that are chosen. What cannot be read stays as it is, for the readers of the
+    package to say why."""
+    if isinstance(entry, list):
+        return _list(entry, field, units)
+    if isinstance(entry, Mapping) and field.kind == "block":
+        return _block(entry, field, units)
+    if not isinstance(entry, str):
+        return entry
+    text = entry.strip()
+    if field.kind == "text":
+        return entry if text else None
+    if not text:
+        return None
+    if field.kind == "whole" and _WHOLE.fullmatch(text):
+        return int(text)
+    if field.kind == "truth":
+        return _TRUTHS.get(text, text)
+    if field.kind == "quantity" and _NUMBER.fullmatch(text):
+        unit = unit_of(field, units)
+        return f"{text} {unit}" if unit else float(text)
+    return text
+
+
+def _list(entries: list[Any], field: Field, units: str) -> Any:
+    if field.kind == "pairs":
+        rows = [
+            [_cell(cell, inner, units) for cell, inner in zip(row, field.inner, strict=False)]
+            if isinstance(row, list)
+            else row
+            for row in entries
+        ]
+        return rows or None
+    if field.kind == "blocks":
+        return [_block(entry, field, units) if isinstance(entry, Mapping) else entry for entry in entries] or None
+    return entries
+
+
+def _cell(entry: object, field: Field, units: str) -> Any:
+    value = typed(entry, field, units)
+    # A cell that is empty is one that is missing, and must not move the next one to its place.
+    return "" if value is None else value
+
+
+def _block(entries: Mapping[str, Any], field: Field, units: str) -> dict[str, Any]:
+    fields = dict(field.blocks).get(str(entries.get("step")), ()) if field.blocks else field.inner
+    known = {field.path.rpartition(".")[2]: field for field in fields}
+    made = {name: typed(value, known[name], units) if name in known else value for name, value in entries.items()}
+    return {name: value for name, value in made.items() if value is not None}

@@ -10,9 +10,9 @@ from collections.abc import Iterator
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.motion.records import catalog
-from heeltoe.motion.scenario import PREFIX
+from heeltoe.motion.records.catalog import PREFIX
 
 if TYPE_CHECKING:
     from heeltoe.app.sessions import Session
@@ -25,13 +25,13 @@ _PLACES = re.compile(r"\[\d+\]")
 
 def unsent(session: Session, fields: dict[str, Any]) -> list[InputError]:
     """Return an error at each field that names a file which this tab has not sent."""
-    found = []
+    errors = []
     for path, block, name in named(fields):
         known = _PLACES.sub("[]", path) in _RECORDS and (block[name].startswith(PREFIX) or is_catalogued(block[name]))
         sent = block[name] in session.sent or block[name] in session.sent.values()
         if block[name] and not known and not sent:
-            found.append(InputError("file-not-sent", path, block[name]))
-    return found
+            errors.append(InputError("file-not-sent", path, block[name]))
+    return errors
 
 
 def as_sent(session: Session, fields: dict[str, Any]) -> dict[str, Any]:
@@ -71,12 +71,12 @@ def _blocks(here: Any, names: list[str], at: str = "") -> Iterator[tuple[str, di
         return
     first, *rest = names
     name = first.removesuffix("[]")
-    path, found = f"{at}.{name}".removeprefix("."), here.get(name)
+    path, content = f"{at}.{name}".removeprefix("."), here.get(name)
     if name == first:
-        yield from _blocks(found, rest, path)
-    elif isinstance(found, list):
-        for place, each in enumerate(found):
-            yield from _blocks(each, rest, f"{path}[{place}]")
+        yield from _blocks(content, rest, path)
+    elif isinstance(content, list):
+        for place, entry in enumerate(content):
+            yield from _blocks(entry, rest, f"{path}[{place}]")
 
 
 def is_catalogued(name: str) -> bool:

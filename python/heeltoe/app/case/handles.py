@@ -67,8 +67,8 @@ class Handle:
 
 def handles(case: Case, units: str) -> list[Handle]:
     """Return the handles of a case."""
-    found = [*(_corners(case, units) if case.section.polygon else _dimensions(case, units))]
-    return [*found, *_levels(case, units), *_along_crack(case, units)]
+    shape = [*(_corners(case, units) if case.section.polygon else _dimensions(case, units))]
+    return [*shape, *_levels(case, units), *_along_crack(case, units)]
 
 
 def moved(
@@ -81,7 +81,7 @@ def moved(
 ) -> dict[str, Any]:
     """Return what changes in a case, by paths, where a handle is put to x and z [m], or moved by so many steps; nothing
     where it is not there. `fields` are those of the case as they were typed."""
-    handle = next((each for each in handles(case, units) if each.name == name), None)
+    handle = next((handle for handle in handles(case, units) if handle.name == name), None)
     if handle is None:
         return {}
     changes: dict[str, Any] = {}
@@ -92,21 +92,21 @@ def moved(
             changes[way.field] = way.text(way.value + by[way.axis] * way.step)
     if any("[" in path for path in changes):
         own = case.model_dump(mode="json", exclude_unset=True)
-        given = fields or own
-        if case.section.polygon is not None and "polygon" not in given["section"]:
+        own_fields = fields or own
+        if case.section.polygon is not None and "polygon" not in own_fields["section"]:
             # Corners from a file are the case's own from now on.
-            given = {**given, "section": own["section"]}
-        return _in_lists(given, changes)
+            own_fields = {**own_fields, "section": own["section"]}
+        return _in_lists(own_fields, changes)
     return changes
 
 
 def told(handle: Handle) -> dict[str, Any]:
     """Return a handle as the page shows it."""
-    texts = [f"{each.value:.5g} {each.unit}".strip() for each in handle.ways]
+    texts = [f"{way.value:.5g} {way.unit}".strip() for way in handle.ways]
     text = f"x {texts[0]}, z {texts[1]}" if len(texts) > 1 else texts[0]
     last = handle.ways[-1]
     return {
-        "name": handle.name, "label": handle.label, "at": handle.at, "axes": [each.axis for each in handle.ways],
+        "name": handle.name, "label": handle.label, "at": handle.at, "axes": [way.axis for way in handle.ways],
         "text": text, "value": last.value, "least": last.least, "most": last.most,
     }  # fmt: skip
 
@@ -120,13 +120,13 @@ def _value(case: Case, way: Way, at: float) -> float:
 
 def _in_lists(fields: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
     """Return changes of corners and anchors as changes of the whole lists they stand in."""
-    found: dict[str, Any] = {}
+    lists: dict[str, Any] = {}
     for path, value in changes.items():
         name, *places = path.replace("[", ".[").split(".[")
         block: Any = fields
-        for each in name.split("."):
-            block = block[each]
-        kept = found.setdefault(name, copy.deepcopy(block))
+        for part in name.split("."):
+            block = block[part]
+        kept = lists.setdefault(name, copy.deepcopy(block))
         place, _, last = places[0].partition("].")
         if last:
             kept[int(place)][last] = value
@@ -134,7 +134,7 @@ def _in_lists(fields: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str
             row = list(kept[int(place.rstrip("]"))])
             row[int(places[1].rstrip("]"))] = value
             kept[int(place.rstrip("]"))] = row
-    return found
+    return lists
 
 
 def length_text(case: Case, units: str, part: float) -> str:
@@ -148,7 +148,7 @@ def length_text(case: Case, units: str, part: float) -> str:
 def corners_of(case: Case, units: str) -> list[list[str]]:
     """Return the corners of a section as they are typed."""
     metres, unit = _Lengths(case, units).metres, _Lengths(case, units).unit
-    return [[f"{each / metres:.8g} {unit}" for each in corner] for corner in case.section.vertices()]
+    return [[f"{length / metres:.8g} {unit}" for length in corner] for corner in case.section.vertices()]
 
 
 class _Lengths:
@@ -162,7 +162,7 @@ class _Lengths:
         self.size = max(self.height, self.right - self.left)
         rough = self.size / self.metres / 200.0
         power = 10.0 ** math.floor(math.log10(rough))
-        self.step = next(each * power for each in (1.0, 2.0, 5.0, 10.0) if each * power >= rough * 0.999)
+        self.step = next(factor * power for factor in (1.0, 2.0, 5.0, 10.0) if factor * power >= rough * 0.999)
 
     def way(self, axis: str, field: str, value: float, ends: tuple[float, float], start: float = 0.0) -> Way:
         """Return a way whose field is a length: value and ends in metres."""
@@ -176,8 +176,8 @@ def _dimensions(case: Case, units: str) -> Iterator[Handle]:
     height, crest, base = section.height or 0.0, section.crest_width or 0.0, section.base_width or 0.0
     neck = section.neck_height or 0.0
     small, wide = lengths.step * lengths.metres, 3.0 * lengths.size
-    depths = [each.depth for each in (case.reservoir, case.tailwater, case.silt) if each is not None]
-    depths += [each for each in (case.statics.flood_depth, case.statics.flood_tailwater) if each is not None]
+    depths = [water.depth for water in (case.reservoir, case.tailwater, case.silt) if water is not None]
+    depths += [depth for depth in (case.statics.flood_depth, case.statics.flood_tailwater) if depth is not None]
     breaks = [level for face in (section.upstream, section.downstream) for level, _ in face or ()]
     lowest = max(neck, *(level + small for level in breaks), case.crack.elevation + small, *depths, small)
     yield Handle(

@@ -6,7 +6,7 @@ from typing import Any
 
 from heeltoe.case.crack.law import Law
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.mechanics.law_curve import SAMPLES, LawCurve, curve_of
 from heeltoe.units.sentences import written
 from heeltoe.units.systems import unit_system
@@ -26,19 +26,19 @@ def law(case: Case, units: str) -> dict[str, Any] | None:
         return None
 
 
-def _drawn(found: LawCurve, units: str, samples: list[str]) -> dict[str, Any]:
-    scale = unit_system(units).scale(_KINDS[found.over], float(found.at[-1]))
-    kept = [*range(0, len(found.at) - 1, _EVERY), len(found.at) - 1]
-    stress = written("{stress_pa:.3g MPa}", units, stress_pa=found.normal_stress_pa)
-    said = f"The dot: before any slip {found.at_rest:.3g}, under {stress} from the static loads."
+def _drawn(curve: LawCurve, units: str, samples: list[str]) -> dict[str, Any]:
+    scale = unit_system(units).scale(_KINDS[curve.over], float(curve.at[-1]))
+    kept = [*range(0, len(curve.at) - 1, _EVERY), len(curve.at) - 1]
+    stress = written("{stress_pa:.3g MPa}", units, stress_pa=curve.normal_stress_pa)
+    sentence = f"The dot: before any slip {curve.at_rest:.3g}, under {stress} from the static loads."
     if samples:
-        said += f" Sample numbers, those of no dam: {', '.join(samples)}. Give your own."
+        sentence += f" Sample numbers, those of no dam: {', '.join(samples)}. Give your own."
     return {
-        "over": f"{found.over} [{scale.unit}]",
-        "at": [float(f"{value:.5g}") for value in scale(found.at[kept])],
-        "friction": [float(f"{value:.5g}") for value in found.friction[kept]],
-        "dot": [float(scale(found.normal_stress_pa)) if found.over == "normal stress" else 0.0, found.at_rest],
-        "said": said,
+        "over": f"{curve.over} [{scale.unit}]",
+        "at": [float(f"{value:.5g}") for value in scale(curve.at[kept])],
+        "friction": [float(f"{value:.5g}") for value in curve.friction[kept]],
+        "dot": [float(scale(curve.normal_stress_pa)) if curve.over == "normal stress" else 0.0, curve.at_rest],
+        "said": sentence,
     }
 
 

@@ -6,22 +6,22 @@ from collections.abc import Callable
 from pathlib import PurePath
 from typing import Any
 
-from heeltoe.app.actions import Asked, BadRequestError, Desk, Entry, text
+from heeltoe.app.desk import Asked, BadRequestError, Desk, Entry, text
 from heeltoe.app.motion.sequence import MOST
 from heeltoe.app.sessions import Session
-from heeltoe.app.uploads import forget, upload_path
+from heeltoe.app.transfers import forget, upload_path
 from heeltoe.app.workers import WorkerLostError
-from heeltoe.errors import InputError
-from heeltoe.plain import plain
+from heeltoe.errors.error import InputError
+from heeltoe.errors.sanitize import plain
 
 _LONGEST_NAME = 80
 _SLOW = "Reading takes too long, or more memory than there is: it has been ended. Send the part that matters, in a \
 common format."
 
 
-async def begin(desk: Desk, asked: Asked) -> dict[str, Any]:
+async def begin(desk: Desk, request: Asked) -> dict[str, Any]:
     """Return what the page begins with: what can be chosen, and what the case has."""
-    return {"of": "motion", **await desk.workers.quick(_begin, desk.session, _place(asked))}
+    return {"of": "motion", **await desk.workers.quick(_begin, desk.session, _place(request))}
 
 
 def _begin(session: Session, place: int) -> dict[str, Any]:
@@ -30,15 +30,15 @@ def _begin(session: Session, place: int) -> dict[str, Any]:
     from heeltoe.app.motion.sequence import listed
 
     fields, errors = fields_of(session)
-    motions = listed(fields, {each.field: f"{plain(each.problem)}; {plain(each.remedy)}" for each in errors})
+    motions = listed(fields, {error.field: f"{plain(error.problem)}; {plain(error.remedy)}" for error in errors})
     place = min(place, max(len(motions) - 1, 0))
-    told = {"motions": motions, "most": MOST, "place": place, "form": form_of(session, place)}
-    return told | {"records": _records(session), "catalogue": _catalogue()}
+    payload = {"motions": motions, "most": MOST, "place": place, "form": form_of(session, place)}
+    return payload | {"records": _records(session), "catalogue": _catalogue()}
 
 
-def _place(asked: Asked, name: str = "place") -> int:
+def _place(request: Asked, name: str = "place") -> int:
     """Return which motion of the case a page means."""
-    place = asked.get(name, 0)
+    place = request.get(name, 0)
     if isinstance(place, bool) or not isinstance(place, int) or not 0 <= place < MOST:
         raise BadRequestError(f"{name} is that of a motion of the case")
     return place
@@ -55,29 +55,29 @@ def _catalogue() -> list[str]:
     return list(dict.fromkeys(name for name, where in available() if (name, where) != MADE_TO_ORDER))
 
 
-async def record(desk: Desk, asked: Asked) -> dict[str, Any]:
+async def record(desk: Desk, request: Asked) -> dict[str, Any]:
     """Read a file that was sent as a record; what is none is thrown away."""
     from heeltoe.app.motion.look import channels
 
-    session, called = desk.session, text(asked, "called")
-    path = upload_path(session, text(asked, "file"))
+    session, called = desk.session, text(request, "called")
+    path = upload_path(session, text(request, "file"))
     if path is None or path.name in session.sent.values():
         raise BadRequestError("there is no such file")
     name = await desk.workers.quick(_free_name, session, called)
     try:
-        found = await desk.workers.read(desk.settings.longest_reading_s, channels, path, name)
+        channel_list = await desk.workers.read(desk.settings.longest_reading_s, channels, path, name)
     except WorkerLostError:
-        found = {"error": {"field": name, "text": f"{name}: {_SLOW}", "problem": _SLOW, "remedy": ""}}
-    if "error" in found:
+        channel_list = {"error": {"field": name, "text": f"{name}: {_SLOW}", "problem": _SLOW, "remedy": ""}}
+    if "error" in channel_list:
         forget(session, path)
-        return {"of": "record", "called": name, **found}
-    session.sent[name], session.records[name] = path.name, found["channels"]
-    return {"of": "record", "called": name, "records": _records(session), **found}
+        return {"of": "record", "called": name, **channel_list}
+    session.sent[name], session.records[name] = path.name, channel_list["channels"]
+    return {"of": "record", "called": name, "records": _records(session), **channel_list}
 
 
 def _free_name(session: Session, called: str) -> str:
     """Return what a file is called in the case: as its sender calls it, unless that means something else there."""
-    from heeltoe.motion.scenario import PREFIX
+    from heeltoe.motion.records.catalog import PREFIX
 
     bare = plain(PurePath(called.replace("\\", "/")).name, _LONGEST_NAME).replace(":", "-")
     path = PurePath(bare if bare.strip(". ") else "record")
@@ -89,38 +89,37 @@ def _free_name(session: Session, called: str) -> str:
     return name
 
 
-async def look(desk: Desk, asked: Asked) -> dict[str, Any]:
+async def look(desk: Desk, request: Asked) -> dict[str, Any]:
     """Return what would shake the dam."""
     from heeltoe.app.motion.look import look as seen
 
-    return {"of": "motion look", **await _read(desk, asked, seen, desk.session.units)}
+    return {"of": "motion look", **await _read(desk, request, seen, desk.session.units)}
 
 
-async def use(desk: Desk, asked: Asked) -> dict[str, Any]:
+async def use(desk: Desk, request: Asked) -> dict[str, Any]:
     """Shake the case of the tab by what stands on the page: at the place of one of its motions, or after all."""
     from heeltoe.app.motion.look import refusal
     from heeltoe.app.motion.sequence import listed, with_one
 
-    session, place, to = desk.session, _place(asked), _place(asked, "to")
-    found = await _read(desk, asked, refusal)
-    if found:
-        return {"of": "motion used", **found}
+    session, place, to = desk.session, _place(request), _place(request, "to")
+    payload = await _read(desk, request, refusal)
+    if payload:
+        return {"of": "motion used", **payload}
 
     def changes(fields: dict[str, Any]) -> dict[str, Any]:
         if to > min(len(listed(fields)), MOST - 1):
             raise BadRequestError("to is the place of a motion, or that after all")
-        return with_one(fields, to, _motion(session, asked["form"], place))
+        return with_one(fields, to, _motion(session, request["form"], place))
 
     return {**await _changed(desk, changes), "place": to}
 
 
-async def change(desk: Desk, asked: Asked) -> dict[str, Any]:
+async def change(desk: Desk, request: Asked) -> dict[str, Any]:
     """Change the list of the case's motions: move one, remove one, or say the pause before it."""
-    from heeltoe.app.case.fields import field_of
-    from heeltoe.app.case.typed import typed
+    from heeltoe.app.case.fields import field_of, typed
     from heeltoe.app.motion.sequence import listed, moved, paused, without
 
-    session, place, what = desk.session, _place(asked), asked.get("what")
+    session, place, what = desk.session, _place(request), request.get("what")
 
     def changes(fields: dict[str, Any]) -> dict[str, Any]:
         count = len(listed(fields))
@@ -133,7 +132,7 @@ async def change(desk: Desk, asked: Asked) -> dict[str, Any]:
             return without(fields, place)
         field = field_of("aftershocks[].pause")
         if what == "pause" and field is not None:
-            return paused(fields, place, typed(text(asked, "pause"), field, session.units))
+            return paused(fields, place, typed(text(request, "pause"), field, session.units))
         raise BadRequestError("what is up, down, remove or pause")
 
     return await _changed(desk, changes)
@@ -151,20 +150,20 @@ async def _changed(desk: Desk, changes: Callable[[dict[str, Any]], dict[str, Any
         edit(session, changes(fields_of(session)[0]))
         return next(map(refused, draft_of(session).errors), {})
 
-    found: dict[str, Any] = await desk.workers.quick(changed)
+    payload: dict[str, Any] = await desk.workers.quick(changed)
     await desk.tell(await desk.workers.quick(state, session))
-    return {"of": "motion used", **found}
+    return {"of": "motion used", **payload}
 
 
-def _motion(session: Session, given: object, place: int) -> dict[str, Any]:
+def _motion(session: Session, entry: object, place: int) -> dict[str, Any]:
     """Return the motion of a form as a file has it."""
     from heeltoe.app.case.files import as_sent
     from heeltoe.app.motion.draft import motion_fields, read_form
 
-    form = read_form(given)
+    form = read_form(entry)
     assert form is not None
-    found: dict[str, Any] = as_sent(session, {"motion": motion_fields(form, _had(session, place), session.sent)})
-    return dict(found["motion"])
+    fields: dict[str, Any] = as_sent(session, {"motion": motion_fields(form, _had(session, place), session.sent)})
+    return dict(fields["motion"])
 
 
 def _had(session: Session, place: int) -> Any:
@@ -174,25 +173,25 @@ def _had(session: Session, place: int) -> Any:
     return motions[place] if place < len(motions) else None
 
 
-async def _read(desk: Desk, asked: Asked, compute: Any, *arguments: Any) -> dict[str, Any]:
+async def _read(desk: Desk, request: Asked, compute: Any, *arguments: Any) -> dict[str, Any]:
     """Compute with the case and the motion that the page asks for, where files are read."""
     from heeltoe.app.live import refused
     from heeltoe.app.motion.draft import motion_fields, read_form
 
-    session, form = desk.session, read_form(asked.get("form"))
+    session, form = desk.session, read_form(request.get("form"))
     if form is None or session.case is None:
         raise BadRequestError("a motion is chosen by the fields of its page")
     try:
-        fields = motion_fields(form, _had(session, _place(asked)), session.sent)
+        fields = motion_fields(form, _had(session, _place(request)), session.sent)
     except InputError as error:
         return {"usable": False, "motions": [], **refused(error)}
-    read, most = desk.workers.read, desk.settings.longest_reading_s
+    read, longest = desk.workers.read, desk.settings.longest_reading_s
     try:
-        found: dict[str, Any] = await read(most, compute, session.case, fields, session.folder, *arguments)
+        payload: dict[str, Any] = await read(longest, compute, session.case, fields, session.folder, *arguments)
     except WorkerLostError:
-        said = {"field": "motion", "text": _SLOW, "problem": _SLOW, "remedy": ""}
-        return {"usable": False, "motions": [], "error": said}
-    return found
+        too_slow = {"field": "motion", "text": _SLOW, "problem": _SLOW, "remedy": ""}
+        return {"usable": False, "motions": [], "error": too_slow}
+    return payload
 
 
 ACTIONS = {

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from heeltoe.app.case.files import is_catalogued
-from heeltoe.app.motion.pulses import KINDS, pulse_points
-from heeltoe.errors import InputError
-from heeltoe.motion.scenario import PREFIX
+from heeltoe.errors.error import InputError
+from heeltoe.motion.records.catalog import PREFIX
 from heeltoe.units.parse import parse
 
 if TYPE_CHECKING:
@@ -28,24 +28,24 @@ _OWN = "case"
 Form = Mapping[str, Any]
 
 
-def read_form(given: object) -> dict[str, Any] | None:
+def read_form(entry: object) -> dict[str, Any] | None:
     """Return what a page says of the motion, None where no page of this app says so."""
-    if not isinstance(given, Mapping):
+    if not isinstance(entry, Mapping):
         return None
-    ways = {way: _way(given.get(way)) for way in ("horizontal", "vertical")}
-    cuts = {name: given.get(name, "") for name in ("start", "end")}
-    if ways["horizontal"] is None or not all(isinstance(each, str) and len(each) <= _LONGEST for each in cuts.values()):
+    ways = {way: _way(entry.get(way)) for way in ("horizontal", "vertical")}
+    cuts = {name: entry.get(name, "") for name in ("start", "end")}
+    if ways["horizontal"] is None or not all(isinstance(cut, str) and len(cut) <= _LONGEST for cut in cuts.values()):
         return None
     return {**ways, **cuts}
 
 
-def _way(given: object) -> dict[str, Any] | None:
-    if not isinstance(given, Mapping) or not given.get("source"):
+def _way(entry: object) -> dict[str, Any] | None:
+    if not isinstance(entry, Mapping) or not entry.get("source"):
         return None
-    texts = {name: given.get(name, "") for name in _TEXTS}
-    if not all(isinstance(each, str) and len(each) <= _LONGEST for each in texts.values()):
+    texts = {name: entry.get(name, "") for name in _TEXTS}
+    if not all(isinstance(text, str) and len(text) <= _LONGEST for text in texts.values()):
         return None
-    return {**{name: each.strip() for name, each in texts.items()}, "reverse": given.get("reverse") is True}
+    return {**{name: text.strip() for name, text in texts.items()}, "reverse": entry.get("reverse") is True}
 
 
 def motions_of(case: Case | None) -> tuple[Motion, ...]:
@@ -78,8 +78,8 @@ def form_of(session: Session, place: int = 0) -> dict[str, Any]:
 
 
 def _window(fields: Form) -> dict[str, Any]:
-    found: dict[str, Any] = next((each for each in fields.get("processing", ()) if each["step"] == _WINDOW), {})
-    return found
+    window: dict[str, Any] = next((step for step in fields.get("processing", ()) if step["step"] == _WINDOW), {})
+    return window
 
 
 def motion_fields(form: Form, had: Motion | None, sent: Mapping[str, str]) -> dict[str, Any]:
@@ -103,9 +103,9 @@ def motion_fields(form: Form, had: Motion | None, sent: Mapping[str, str]) -> di
     had_window = bool(_window(own))
     if start:
         cut = {"step": _WINDOW, "start": start, **({"end": end} if end else {})}
-        for each in (fields, fields.get("vertical")):
-            if each is not None:
-                each["processing"] = [cut, *each.get("processing", ())]
+        for part in (fields, fields.get("vertical")):
+            if part is not None:
+                part["processing"] = [cut, *part.get("processing", ())]
         if not had_window or form["horizontal"]["source"] != _OWN:
             fields.pop("duration", None)
     elif end:
@@ -119,41 +119,54 @@ def _source(way: Form, own: Form, sent: Mapping[str, str], field: str) -> dict[s
     """Return one direction: its source, or that which the case has, with the scale and the sign of the page."""
     source, _, name = way["source"].partition(":")
     if source == _OWN:
-        steps = [each for each in own.get("processing", ()) if each["step"] != _WINDOW]
-        found = {**own, "processing": steps}
+        steps = [step for step in own.get("processing", ()) if step["step"] != _WINDOW]
+        content = {**own, "processing": steps}
         if not steps:
-            del found["processing"]
+            del content["processing"]
         for key in ("pga", "reverse", *(() if "points" in own else ("unit", "time_step"))):
-            found.pop(key, None)
+            content.pop(key, None)
     elif source == "record":
         if name not in sent:
             raise InputError("record-not-found", f"{field}.file", name, hint="this tab has not sent it:")
-        found = {"file": sent[name]}
+        content = {"file": sent[name]}
     elif source == "name":
         if not is_catalogued(name):
             raise InputError("record-not-found", f"{field}.file", name, hint="the catalogue does not have it:")
-        found = {"file": name}
+        content = {"file": name}
     elif source == "synthetic":
         distance = _with_unit(way["distance"], "km").replace(" ", "")
-        found = {"file": f"{PREFIX}M{way['magnitude']},{distance},seed={way['seed']}"}
+        content = {"file": f"{PREFIX}M{way['magnitude']},{distance},seed={way['seed']}"}
     elif source == "pulse" and name in KINDS:
         period = parse(_with_unit(way["period"], "s"), "duration", f"{field}.period")
-        found = {"points": pulse_points(name, period)}
+        content = {"points": pulse_points(name, period)}
     else:
         raise InputError("motion-source", field)
     reads = source in ("record", "name") or (source == _OWN and "file" in own)
-    said = {"channel": way["channel"], "unit": way["unit"], "time_step": _with_unit(way["time_step"], "s")}
+    entries = {"channel": way["channel"], "unit": way["unit"], "time_step": _with_unit(way["time_step"], "s")}
     if reads:
-        found |= {key: each for key, each in said.items() if each}
-    if found.get("channel", "").isdigit():
-        found["channel"] = int(found["channel"])
+        content |= {key: entry for key, entry in entries.items() if entry}
+    if content.get("channel", "").isdigit():
+        content["channel"] = int(content["channel"])
     if pga := _with_unit(way["pga"], "g"):
-        found["pga"] = pga
+        content["pga"] = pga
     if way["reverse"]:
-        found["reverse"] = True
-    return found
+        content["reverse"] = True
+    return content
 
 
 def _with_unit(text: str, unit: str) -> str:
     """Return a number without a unit with the one that the page shows beside it."""
     return f"{text} {unit}" if _NUMBER.fullmatch(text) else text
+
+
+KINDS = ("sine", "half-sine", "cosine")
+# Straight pieces of a whole period.
+_PIECES = 40
+
+
+def pulse_points(kind: str, period: float) -> list[list[str]]:
+    """Return a pulse of one g as the points of a case: one sine, half of one, or one cosine of a period [s]."""
+    count = _PIECES // 2 if kind == "half-sine" else _PIECES
+    wave = math.cos if kind == "cosine" else math.sin
+    values = [wave(2.0 * math.pi * place / _PIECES) for place in range(count + 1)]
+    return [[f"{period * k / _PIECES:.9g} s", f"{0.0 if abs(v) < 1e-12 else v:.9g} g"] for k, v in enumerate(values)]

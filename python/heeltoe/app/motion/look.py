@@ -8,19 +8,19 @@ from pathlib import Path
 from typing import Any
 
 from heeltoe.app.live import refused
-from heeltoe.app.thinned import thinned
+from heeltoe.app.response_payload import thinned
 from heeltoe.case.model import Case
 from heeltoe.case.motion import Source
 from heeltoe.case.shaking import resolve
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
+from heeltoe.errors.sanitize import plain
 from heeltoe.motion.check import check_record
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import husid, velocity_displacement
 from heeltoe.motion.records import read_channels, read_record
-from heeltoe.motion.records.catalog import find
-from heeltoe.motion.scenario import PREFIX, synthetic
+from heeltoe.motion.records.catalog import PREFIX, find
+from heeltoe.motion.scenario import synthetic
 from heeltoe.motion.spectrum import response_spectrum
-from heeltoe.plain import plain
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.systems import unit_system
 from heeltoe.views.animation.page import packed
@@ -38,31 +38,33 @@ def channels(path: Path, called: str) -> dict[str, Any]:
     known = True
     try:
         try:
-            found = read_channels(path)
+            motions = read_channels(path)
         except InputError as error:
             if error.code != "record-unit-missing":
                 raise
             # It is asked for where the record is used.
-            found, known = read_channels(path, unit="m/s^2"), False
+            motions, known = read_channels(path, unit="m/s^2"), False
     except InputError as error:
         return refused(_renamed(error, {str(path): called, path.name: called}))
     listed = [
         {
-            "channel": each.channel if len(found) > 1 else "",
-            "component": plain(each.component),
-            "vertical": _is_vertical(replace(each, name=called)),
-            "pga": f"{each.pga / STANDARD_GRAVITY:.3g} g" if known else "in a unit that it does not state",
-            "duration": f"{each.duration:.4g} s",
-            "format": each.format,
+            "channel": motion.channel if len(motions) > 1 else "",
+            "component": plain(motion.component),
+            "vertical": _is_vertical(replace(motion, name=called)),
+            "pga": f"{motion.pga / STANDARD_GRAVITY:.3g} g" if known else "in a unit that it does not state",
+            "duration": f"{motion.duration:.4g} s",
+            "format": motion.format,
         }
-        for each in found[:MOST_CHANNELS]
+        for motion in motions[:MOST_CHANNELS]
     ]
     return {"channels": listed}
 
 
 def _is_vertical(motion: GroundMotion) -> bool:
     try:
-        return any(each.code == "component-vertical" for each in check_record(motion, STANDARD_GRAVITY, upward=False))
+        return any(
+            notice.code == "component-vertical" for notice in check_record(motion, STANDARD_GRAVITY, upward=False)
+        )
     except InputError:
         return False
 
@@ -70,9 +72,9 @@ def _is_vertical(motion: GroundMotion) -> bool:
 def refusal(case: Case, motion: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     """Return why a motion cannot be used, read once as an analysis reads it; nothing where it can."""
     try:
-        found = _with_motion(case, motion, folder)
-        assert found.motion is not None
-        resolve(found.motion, found.gravity, found.base_directory)
+        problem = _with_motion(case, motion, folder)
+        assert problem.motion is not None
+        resolve(problem.motion, problem.gravity, problem.base_directory)
     except InputError as error:
         return refused(_placed(error, motion))
     return {}
@@ -87,13 +89,13 @@ def look(case: Case, motion: Mapping[str, Any], folder: Path, units: str) -> dic
     """Return what would shake a case: as an analysis takes it, or, where that cannot be, each record as it was read and
     why it cannot be used."""
     try:
-        found = _with_motion(case, motion, folder)
-        assert found.motion is not None
-        pair = resolve(found.motion, found.gravity, found.base_directory)
+        problem = _with_motion(case, motion, folder)
+        assert problem.motion is not None
+        pair = resolve(problem.motion, problem.gravity, problem.base_directory)
     except InputError as error:
-        said = refused(_placed(error, motion))
+        payload = refused(_placed(error, motion))
         seen = [_as_read(source, case.gravity, folder) for source in (motion, motion.get("vertical"))]
-        return {**said, "usable": False, "motions": _shown(seen, case.gravity, units, doubts=True)}
+        return {**payload, "usable": False, "motions": _shown(seen, case.gravity, units, doubts=True)}
     return {"usable": True, "motions": _shown(list(pair), case.gravity, units, doubts=False)}
 
 
@@ -110,8 +112,8 @@ def _as_read(source: Mapping[str, Any] | None, gravity: float, folder: Path) -> 
         path = find(own.file, folder)
         try:
             unit, step = source.get("unit"), source.get("time_step")
-            told = Source.model_validate({"file": own.file, **({"time_step": step} if step else {})}).time_step
-            return read_record(path, own.channel, unit=unit, time_step=told, gravity=gravity, assume=True)
+            stated = Source.model_validate({"file": own.file, **({"time_step": step} if step else {})}).time_step
+            return read_record(path, own.channel, unit=unit, time_step=stated, gravity=gravity, assume=True)
         except (InputError, ValueError):
             return read_record(path, own.channel, gravity=gravity, assume=True)
     except (InputError, ValueError):
@@ -129,7 +131,7 @@ def _shown(motions: list[GroundMotion | None], gravity: float, units: str, *, do
 
 def drawn_motion(motion: GroundMotion, gravity: float, units: str, *, doubts: bool) -> dict[str, Any]:
     """Return facts, warnings and curves of a motion; with `doubts`, also what an analysis would say about it."""
-    warnings = [each.text(units) for each in motion.warnings]
+    warnings = [warning.text(units) for warning in motion.warnings]
     if doubts:
         warnings += suspicions(motion, units, gravity)
     facts = about_motion(motion, units, gravity)
@@ -153,7 +155,7 @@ def drawn_motion(motion: GroundMotion, gravity: float, units: str, *, doubts: bo
     }
     return {
         "facts": [(label, plain(text)) for label, text in facts],
-        "warnings": [plain(each, 500) for each in warnings],
+        "warnings": [plain(warning, 500) for warning in warnings],
         "end": motion.duration,
         "curves": {
             name: {"unit": unit, "values": packed(values, "float32")} for name, (values, unit) in curves.items()

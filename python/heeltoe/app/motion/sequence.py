@@ -59,11 +59,11 @@ def paused(fields: Fields, place: int, pause: str | None) -> dict[str, Any]:
 def _taken_apart(fields: Fields) -> tuple[list[Fields], list[Any]]:
     """Return the motions, and the pause before each, None where none is said."""
     aftershocks = fields.get("aftershocks")
-    given = [fields["motion"]] if fields.get("motion") is not None else []
-    given += aftershocks if isinstance(aftershocks, list) else []
-    blocks = [each if isinstance(each, Mapping) else {} for each in given]
-    motions = [{name: value for name, value in each.items() if name != "pause"} for each in blocks]
-    return list(motions), [None if not place else each.get("pause") for place, each in enumerate(blocks)]
+    motions_in_file = [fields["motion"]] if fields.get("motion") is not None else []
+    motions_in_file += aftershocks if isinstance(aftershocks, list) else []
+    blocks = [block if isinstance(block, Mapping) else {} for block in motions_in_file]
+    motions = [{name: value for name, value in block.items() if name != "pause"} for block in blocks]
+    return list(motions), [None if not place else block.get("pause") for place, block in enumerate(blocks)]
 
 
 def _changes(motions: Sequence[Fields], pauses: Sequence[Any]) -> dict[str, Any]:

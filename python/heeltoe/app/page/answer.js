@@ -4,7 +4,7 @@ import { Spread, StaticChecks } from "./checks.js";
 import { DamInMotion } from "./dam.js";
 import { byId, element } from "./dom.js";
 import { FlexibleRun } from "./flexible.js";
-import { cursor, draw, loadPlotly, onMoment } from "./plot.js";
+import { cursor, draw, loadPlotly, onMoment } from "./plot/plot.js";
 import { KINDS } from "./plot/lines.js";
 import { showSliders } from "./sliders.js";
 
@@ -73,7 +73,7 @@ export function answerPage(talk) {
     const order = model === "flexible" ? [flexible.card, cards.rigid, cards.decoupled] : [cards.rigid, cards.decoupled, flexible.card];
     for (const part of /** @type {const} */ (["root", "details"])) {
       const place = order[0][part].parentElement;
-      if (place && place.firstElementChild !== order[0][part]) place.append(...order.map((each) => each[part]));
+      if (place && place.firstElementChild !== order[0][part]) place.append(...order.map((card) => card[part]));
     }
   }
 
@@ -149,7 +149,7 @@ export function answerPage(talk) {
     const serial = answers.rigid && answers.rigid.serial;
     const start = began.get(serial);
     if (start === undefined) return;
-    for (const each of began.keys()) if (each <= serial) began.delete(each);
+    for (const number of began.keys()) if (number <= serial) began.delete(number);
     requestAnimationFrame(() => setTimeout(() => performance.measure("slider to plot", { start, end: performance.now() })));
   }
 
@@ -179,8 +179,8 @@ export function answerPage(talk) {
       }
       key.append(dotted);
       const all = [cards.rigid, cards.decoupled, flexible.card];
-      const verdicts = element("div", { class: "cards" }, ...all.map((each) => each.root));
-      const details = element("div", { class: "cards" }, ...all.map((each) => each.details));
+      const verdicts = element("div", { class: "cards" }, ...all.map((card) => card.root));
+      const details = element("div", { class: "cards" }, ...all.map((card) => card.details));
       const over = element("div", {}, plot, key);
       const more = element("div", { class: "cards" }, spread.root, statics.root);
       root.append(element("div", { class: "answer" }, controls, element("div", {}, verdicts, element("div", { class: "over-time" }, over, dam.root), details, more)));

@@ -7,16 +7,16 @@ const NAMES = /** @type {Record<string, string>} */ ({ rigid: "Rigid block", dec
 
 /** @param {any} answer */
 function numbers(answer) {
-  const rows = answer.numbers.map((/** @type {any} */ each) => element("tr", { "data-key": each.key }, element("th", { scope: "row" }, each.label), element("td", {}, each.text)));
+  const rows = answer.numbers.map((/** @type {any} */ number) => element("tr", { "data-key": number.key }, element("th", { scope: "row" }, number.label), element("td", {}, number.text)));
   return element("table", { class: "numbers", "aria-label": "Results" }, element("tbody", {}, ...rows));
 }
 
 /** @param {any} answer */
 function slips(answer) {
-  const rows = answer.slips.map((/** @type {any} */ each) => {
+  const rows = answer.slips.map((/** @type {any} */ share) => {
     const bar = element("div", {});
-    bar.style.width = `${Math.round(100 * each.share)}%`;
-    return element("tr", {}, element("th", { scope: "row" }, `slip in ${each.kind}`), element("td", {}, each.text), element("td", { class: "bar", "aria-hidden": "true" }, bar));
+    bar.style.width = `${Math.round(100 * share.share)}%`;
+    return element("tr", {}, element("th", { scope: "row" }, `slip in ${share.kind}`), element("td", {}, share.text), element("td", { class: "bar", "aria-hidden": "true" }, bar));
   });
   return element("table", { class: "numbers", "aria-label": "Slip by mode of motion" }, element("tbody", {}, ...rows));
 }
@@ -31,7 +31,7 @@ function further(answer) {
 /** @param {any} answer */
 function warnings(answer) {
   if (!answer.warnings.length) return [];
-  const items = answer.warnings.map((/** @type {any} */ each) => element("li", { class: each.severity }, each.text));
+  const items = answer.warnings.map((/** @type {any} */ warning) => element("li", { class: warning.severity }, warning.text));
   return [element("h3", {}, "What to know before using these numbers"), element("ul", { class: "warnings" }, ...items)];
 }
 
@@ -43,7 +43,7 @@ export class Card {
     this.content = element("div", { class: "content" });
     this.root = element("section", { class: "card", "data-model": model, "aria-label": `${NAMES[model]}: verdict` }, element("h2", {}, NAMES[model], this.states[0]), this.verdict);
     this.details = element("section", { class: "card", "data-details": model, "aria-label": `${NAMES[model]}: numbers` }, element("h2", {}, NAMES[model], this.states[1]), this.content);
-    for (const each of [this.root, this.details]) each.style.setProperty("--of", `var(--${model})`);
+    for (const part of [this.root, this.details]) part.style.setProperty("--of", `var(--${model})`);
     this.details.hidden = true;
   }
 
@@ -66,7 +66,7 @@ export class Card {
 
   /** @param {string} why Why it is not of the sliders as they stand; empty where it is. */
   mark(why) {
-    for (const each of [this.root, this.details]) each.classList.toggle("stale", why !== "");
-    for (const each of this.states) each.textContent = why;
+    for (const part of [this.root, this.details]) part.classList.toggle("stale", why !== "");
+    for (const state of this.states) state.textContent = why;
   }
 }

@@ -5,7 +5,7 @@ import { table } from "./table.js";
 const MODELS = /** @type {Record<string, string>} */ ({ rigid: "rigid block", decoupled: "rigid block on an elastic part", flexible: "elastic dam" });
 
 /** @param {string[]} texts */
-const items = (texts) => (texts.length ? [element("ul", { class: "warnings" }, ...texts.map((each) => element("li", {}, each)))] : []);
+const items = (texts) => (texts.length ? [element("ul", { class: "warnings" }, ...texts.map((text) => element("li", {}, text)))] : []);
 
 /** Static checks: while they are open they follow the sliders. */
 export class StaticChecks {
@@ -32,7 +32,7 @@ export class StaticChecks {
       this.content.replaceChildren(element("p", { class: "bad" }, found.error.text));
       return;
     }
-    const rows = found.checks.map((/** @type {any} */ { cells, met }) => element("tr", {}, ...cells.map((/** @type {string} */ each) => element("td", {}, each)), element("td", { class: met ? "" : "bad" }, met ? "met" : "fails")));
+    const rows = found.checks.map((/** @type {any} */ { cells, met }) => element("tr", {}, ...cells.map((/** @type {string} */ cell) => element("td", {}, cell)), element("td", { class: met ? "" : "bad" }, met ? "met" : "fails")));
     const basis = found.basis.map((/** @type {[string, string]} */ [label, text]) => element("tr", {}, element("th", { scope: "row" }, label), element("td", {}, text)));
     this.content.replaceChildren(
       element("p", { class: found.ok ? "" : "bad" }, found.verdict, found.failed.length ? ": " : "", found.failed.join("; ")),
@@ -55,7 +55,7 @@ export class Spread {
     this.bar = /** @type {HTMLProgressElement} */ (element("progress", { hidden: true, "aria-label": "The spread is computed" }));
     this.said = element("p", { class: "faint", role: "status" });
     this.content = element("div", { class: "content" });
-    this.root = element("details", { class: "card more", "data-checks": "spread" }, element("summary", {}, "Spread: the same with a little weaker and stronger shaking"), element("div", { class: "in-line" }, element("label", { for: "spread-model" }, "of the"), this.model, this.start, this.cancel), this.bar, this.said, this.content);
+    this.root = element("details", { class: "card more", "data-checks": "spread" }, element("summary", {}, "Spread: the same run with slightly weaker and stronger shaking"), element("div", { class: "in-line" }, element("label", { for: "spread-model" }, "of the"), this.model, this.start, this.cancel), this.bar, this.said, this.content);
     talk.on("job", (job) => this.take(job));
     talk.on("job refused", ({ what, text }) => {
       if (what !== "spread") return;
@@ -67,7 +67,7 @@ export class Spread {
   begin(models) {
     this.content.replaceChildren();
     this.said.textContent = "";
-    this.model.replaceChildren(...models.map((each) => element("option", { value: each }, MODELS[each])));
+    this.model.replaceChildren(...models.map((model) => element("option", { value: model }, MODELS[model])));
   }
 
   /** The sliders have moved: the result, if there is one, is of where they were. */
@@ -90,7 +90,7 @@ export class Spread {
     const { rows, columns, said, warnings } = job.result;
     this.root.classList.remove("stale");
     this.said.textContent = `${MODELS[job.result.model]}: ${said}`;
-    const lines = rows.map((/** @type {string[]} */ [label, ...cells]) => element("tr", {}, element("th", { scope: "row" }, label), ...cells.map((each) => element("td", {}, each))));
+    const lines = rows.map((/** @type {string[]} */ [label, ...cells]) => element("tr", {}, element("th", { scope: "row" }, label), ...cells.map((cell) => element("td", {}, cell))));
     this.content.replaceChildren(...(rows.length ? [table("Spread", ["", ...columns], lines)] : []), ...items(warnings));
   }
 }

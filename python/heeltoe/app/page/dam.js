@@ -1,6 +1,6 @@
-/** The dam in motion: its two parts as a model moves them, with play, a time to drag, speed and magnification. */
+/** The dam in motion: its parts as a model moves them, with play, a time to drag, speed and magnification. */
 import { element } from "./dom.js";
-import { unpack } from "./unpack.js";
+import { drawnPoints, momentAt, picked, readPart, unpacked, waterOutline } from "../scene.js";
 
 const SVG = "http://www.w3.org/2000/svg";
 const NAMES = /** @type {Record<string, string>} */ ({ rigid: "rigid block", decoupled: "rigid block on an elastic part", flexible: "elastic dam: its top as a block" });
@@ -39,9 +39,9 @@ export class DamInMotion {
     this.scrub = /** @type {HTMLInputElement} */ (element("input", { type: "range", min: 0, step: 0.01, value: 0, "aria-label": "Moment shown", oninput: () => this.goTo(Number(this.scrub.value)) }));
     this.model = this.choice("Shown", () => this.draw());
     this.speed = this.choice("Speed", () => {});
-    this.speed.replaceChildren(...SPEEDS.map((each) => element("option", { value: each, selected: each === 1 }, `${each} ×`)));
+    this.speed.replaceChildren(...SPEEDS.map((speed) => element("option", { value: speed, selected: speed === 1 }, `${speed} ×`)));
     this.size = this.choice("Displacements drawn", () => this.draw());
-    this.size.replaceChildren(element("option", { value: "" }, "as fits"), ...MAGNIFICATIONS.map((each) => element("option", { value: each }, each === 1 ? "to scale" : `× ${each}`)));
+    this.size.replaceChildren(element("option", { value: "" }, "as fits"), ...MAGNIFICATIONS.map((size) => element("option", { value: size }, size === 1 ? "to scale" : `× ${size}`)));
     this.says = element("p", { class: "faint", id: "dam-says" });
     const labelled = (/** @type {HTMLElement} */ select) => element("label", {}, `${select.getAttribute("data-label")} `, select);
     this.root = element("section", { class: "card moving", "aria-label": "The dam in motion" }, element("h2", {}, "The dam in motion"), this.svg, element("div", { class: "in-line" }, this.play, ...[this.model, this.speed, this.size].map(labelled)), this.scrub, this.says);
@@ -60,7 +60,7 @@ export class DamInMotion {
     this.shown = there;
     if (!there.length) return;
     const names = there.map(({ model }) => model);
-    if (names.join() !== [...this.model.options].map((each) => each.value).join()) {
+    if (names.join() !== [...this.model.options].map((option) => option.value).join()) {
       const before = this.model.value;
       this.model.replaceChildren(...names.map((name) => element("option", { value: name }, NAMES[name])));
       this.model.value = names.includes(before) ? before : names[0];
@@ -114,28 +114,32 @@ export class DamInMotion {
   }
 
   draw() {
-    const { answer, model } = this.shown.find((each) => each.model === this.model.value) || {};
+    const { answer, model } = this.shown.find((item) => item.model === this.model.value) || {};
     if (!answer) return;
-    const dam = unpacked(answer);
+    const dam = read(answer.dam);
     const times = Number(this.size.value) || dam.exaggeration;
-    const upper = standing(dam, this.time, times);
-    this.view(dam);
-    this.parts.upper.setAttribute("d", upper.map(path).join(""));
-    this.parts.still.setAttribute("d", dam.blocks.map((/** @type {any} */ { points }) => path(points)).join(""));
-    this.parts.lower.setAttribute("d", path(dam.lower));
-    const kind = (answer.ribbon.find((/** @type {any} */ each) => each.start <= this.time && this.time <= each.end) || {}).kind || "rest";
+    const moment = momentAt(dam.times, this.time);
+    const positions = dam.parts.map((/** @type {any} */ part) => drawnPoints(part, moment, times));
+    /** @param {boolean} moving @param {(place: number) => any} points */
+    const outlines = (moving, points) => dam.parts.map((/** @type {any} */ part, /** @type {number} */ place) => (part.shapeCount > 0 === moving ? path(picked(points(place), part.outline)) : "")).join("");
+    this.view(dam, positions);
+    this.parts.upper.setAttribute("d", outlines(true, (place) => positions[place]));
+    this.parts.still.setAttribute("d", outlines(true, (place) => dam.parts[place].points));
+    this.parts.lower.setAttribute("d", outlines(false, (place) => positions[place]));
+    const blocks = dam.parts.filter((/** @type {any} */ { shapeCount }) => shapeCount > 0).length;
+    const kind = (answer.ribbon.find((/** @type {any} */ span) => span.start <= this.time && this.time <= span.end) || {}).kind || "rest";
     this.scrub.value = String(this.time);
     const now = `${this.time.toFixed(2)} s`;
     this.scrub.setAttribute("aria-valuetext", `${now}, ${kind}`);
     const size = times === 1 ? "displacements drawn to scale" : `displacements drawn × ${times}`;
-    const text = `${now}: ${kind}; ${size}, relative to ${upper.length > 1 ? "the ground" : "the part below the crack"}${model === "flexible" ? ", without what the concrete itself gives" : ""}`;
+    const text = `${now}: ${kind}; ${size}, relative to ${blocks > 1 ? "the ground" : "the part below the crack"}${model === "flexible" ? ", without what the concrete itself gives" : ""}`;
     if (this.says.textContent !== text) this.says.textContent = text;
     this.moved(this.time);
   }
 
-  /** @param {any} dam */
-  view(dam) {
-    const all = /** @type {number[][]} */ ([...dam.blocks.flatMap((/** @type {any} */ { points }) => points), ...dam.lower]);
+  /** @param {any} dam @param {any[]} positions Where the points of its parts are. */
+  view(dam, positions) {
+    const all = /** @type {number[][]} */ (dam.parts.flatMap((/** @type {any} */ part) => picked(part.points, part.outline)));
     const xs = all.map(([x]) => x);
     const zs = all.map(([, z]) => z);
     const [left, right, base, top] = [Math.min(...xs), Math.max(...xs), Math.min(dam.base, ...zs), Math.max(...zs)];
@@ -144,52 +148,19 @@ export class DamInMotion {
     this.svg.setAttribute("viewBox", `${left - 2.4 * margin} ${-top - 0.6 * margin} ${right - left + 4.8 * margin} ${top - base + 1.2 * margin}`);
     this.svg.style.strokeWidth = String(size / 260);
     this.parts.still.setAttribute("stroke-dasharray", String(size / 100));
-    // Behind the section, which covers what of it reaches below a batter.
-    const crest = all.filter(([, z]) => z >= top - 1e-6 * size).map(([x]) => x).sort((one, other) => one - other);
-    const bath = (/** @type {number | null} */ level, /** @type {number} */ from, /** @type {number} */ to) => (level === null || level <= base ? "" : path([[from, base], [to, base], [to, level], [from, level]]));
-    this.parts.water.setAttribute("d", bath(dam.water, left - 2.4 * margin, crest[0]));
-    this.parts.tailwater.setAttribute("d", bath(dam.tailwater, crest[crest.length - 1], right + 2.4 * margin));
+    for (const [name, edge] of /** @type {[string, number][]} */ ([["water", left - 2.4 * margin], ["tailwater", right + 2.4 * margin]])) {
+      const level = dam[name];
+      const wet = level !== null && level > base;
+      this.parts[name].setAttribute("d", wet ? path(waterOutline(dam.parts, positions, level, name === "water", edge).outline) : "");
+    }
   }
 }
 
-/** @type {WeakMap<object, any>} */
+/** Parts with their arrays unpacked, which is done once. @type {WeakMap<object, any>} */
 const known = new WeakMap();
 
-/** @param {any} answer */
-function unpacked(answer) {
-  const found = known.get(answer.dam) || { ...answer.dam, time: unpack(answer.dam.time), blocks: answer.dam.blocks.map((/** @type {any} */ each) => ({ ...each, motion: unpack(each.motion) })) };
-  known.set(answer.dam, found);
-  return found;
-}
-
-/**
- * Where the corners of each part stand: moved by its own crack, and by those below it, which carry it.
- * @param {any} dam @param {number} time @param {number} times How many times as far it is drawn.
- * @returns {number[][][]}
- */
-function standing(dam, time, times) {
-  const moves = dam.blocks.map((/** @type {any} */ { motion }) => at(dam.time, motion, time));
-  return dam.blocks.map((/** @type {any} */ { points }, /** @type {number} */ place) => points.map(([x, z]) => {
-    let [right, up] = [x, z];
-    for (let below = place; below < dam.blocks.length; below += 1) {
-      const { heel, e, n } = dam.blocks[below];
-      const [along, across, shrink, turn] = moves[below];
-      const [a, b] = [x - heel[0], z - heel[1]];
-      right += times * (along * e[0] + across * n[0] + shrink * a - turn * b);
-      up += times * (along * e[1] + across * n[1] + shrink * b + turn * a);
-    }
-    return [right, up];
-  }));
-}
-
-/** The four amplitudes of a part at a moment, straight between those that were sent. @param {Float32Array} times @param {Float32Array} motion @param {number} time */
-function at(times, motion, time) {
-  let [low, high] = [0, times.length - 1];
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (times[middle] <= time) low = middle;
-    else high = middle;
-  }
-  const share = times[high] > times[low] ? Math.min(1, Math.max(0, (time - times[low]) / (times[high] - times[low]))) : 1;
-  return [0, 1, 2, 3].map((k) => (1 - share) * motion[4 * low + k] + share * motion[4 * high + k]);
+/** @param {any} dam */
+function read(dam) {
+  if (!known.has(dam)) known.set(dam, { ...dam, times: unpacked(dam.times), parts: dam.parts.map(readPart) });
+  return known.get(dam);
 }

@@ -1,9 +1,9 @@
 /** The start of the page: connection, tabs, and what stands above all of them. */
 import { answerPage } from "./answer.js";
-import { casePage } from "./case.js";
-import { awayPage } from "./away/page.js";
+import { casePage } from "./case/page.js";
+import { exportPage } from "./export/page.js";
 import { byId, element } from "./dom.js";
-import { motionPage } from "./motion.js";
+import { motionPage } from "./motion/page.js";
 import { studiesPage } from "./studies/page.js";
 import { showTabs } from "./tabs.js";
 import { Talk } from "./talk.js";
@@ -17,7 +17,7 @@ const pages = [
   motion,
   answer,
   studiesPage(talk),
-  awayPage(talk),
+  exportPage(talk),
 ];
 
 /** @param {string} text Nothing hides it. */
@@ -39,8 +39,8 @@ talk.on("state", (state) => {
   units.value = state.units;
 });
 talk.on("connected", () => notice(""));
-talk.on("lost", ({ reason }) => notice(reason || "The app is not running any more, or cannot be reached. The page goes on as soon as it is back."));
-talk.on("bad request", ({ text }) => notice(`The page has asked for something that the app does not know: ${text}. Reload it.`));
+talk.on("lost", ({ reason }) => notice(reason || "The app has stopped or cannot be reached. The page continues when the app is back."));
+talk.on("bad request", ({ text }) => notice(`The app does not know a request of this page: ${text}. Reload the page.`));
 /** Number of the question that was refused last; its notice goes with the first later one that is not. */
 let refused = Infinity;
 talk.on("refused", ({ text, serial }) => {

@@ -18,7 +18,7 @@ export function showTabs(pages, first) {
 
   /** @param {string} name */
   function choose(name) {
-    const wanted = made.some((each) => each.name === name) ? name : first;
+    const wanted = made.some((page) => page.name === name) ? name : first;
     for (const { name: own, tab, root, shown } of made) {
       const chosen = own === wanted;
       tab.setAttribute("aria-selected", String(chosen));

@@ -1,1 +1,1 @@
-"""The page of the studies: what a form asks for as a study file, its runs, its answers, what is taken away."""
+"""The page of the studies: what a form asks for as a study file, its runs, its answers, its export."""

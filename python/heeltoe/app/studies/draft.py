@@ -7,17 +7,16 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
 
-from heeltoe.app.actions import BadRequestError
 from heeltoe.app.bundle import sent_files
 from heeltoe.app.case.draft import case_of, fields_in_force
-from heeltoe.app.case.fields import blocks, field_of, in_unit, unit_of
-from heeltoe.app.case.typed import typed
+from heeltoe.app.case.fields import blocks, field_of, in_unit, typed, unit_of
+from heeltoe.app.desk import BadRequestError
 from heeltoe.app.open_case import models_for
 from heeltoe.case.paths import value_of
-from heeltoe.errors import InputError
-from heeltoe.motion.records.catalog import MADE_TO_ORDER, available
-from heeltoe.motion.scenario import PREFIX, order_of, scenario_parameters
-from heeltoe.study.file import Distribution, Measure, Method, Model, Scale
+from heeltoe.errors.error import InputError
+from heeltoe.motion.records.catalog import MADE_TO_ORDER, PREFIX, available
+from heeltoe.motion.scenario import order_of, scenario_parameters
+from heeltoe.study.plan.file import Distribution, Measure, Method, Model, Scale
 
 if TYPE_CHECKING:
     from heeltoe.app.case.fields import Field
@@ -68,8 +67,8 @@ def _shown(field: Field, block: str, case: Case | None, units: str) -> dict[str,
     now = "" if value is None else str(value)
     if field.quantity and isinstance(value, float):
         now = in_unit(value, field, units).strip()
-    told = {"path": field.path, "block": block or "Case", "label": field.label, "meaning": field.meaning, "now": now}
-    return told | {"unit": unit_of(field, units), "choices": list(field.choices), "drawn": bool(field.quantity)}
+    row = {"path": field.path, "block": block or "Case", "label": field.label, "meaning": field.meaning, "now": now}
+    return row | {"unit": unit_of(field, units), "choices": list(field.choices), "drawn": bool(field.quantity)}
 
 
 def _records(session: Session) -> list[dict[str, Any]]:
@@ -79,21 +78,21 @@ def _records(session: Session) -> list[dict[str, Any]]:
     for name in dict.fromkeys(names):
         groups.setdefault(_parts(name)[0], []).append(name)
     return [
-        {"event": event, "records": [{"name": name, "vertical": _is_vertical(name)} for name in each]}
-        for event, each in groups.items()
+        {"event": event, "records": [{"name": name, "vertical": _is_vertical(name)} for name in names]}
+        for event, names in groups.items()
     ]
 
 
 def _parts(name: str) -> tuple[str, str]:
-    found = _LAST.fullmatch(_SOURCE.sub("", name.rpartition(".")[0] if name.count(".") == 1 else name))
-    return (found[1], found[2]) if found else (name, "")
+    match = _LAST.fullmatch(_SOURCE.sub("", name.rpartition(".")[0] if name.count(".") == 1 else name))
+    return (match[1], match[2]) if match else (name, "")
 
 
 def _is_vertical(name: str) -> bool:
     return bool(_VERTICAL.fullmatch(_parts(name)[1]))
 
 
-def study_asked(asked: object, session: Session) -> tuple[dict[str, Any], dict[str, Any], dict[str, Path]]:
+def study_asked(request: object, session: Session) -> tuple[dict[str, Any], dict[str, Any], dict[str, Path]]:
     """Return the case of a tab and the study of its form, both as files have them, and the files that it has sent.
 
     Raises
@@ -103,55 +102,61 @@ def study_asked(asked: object, session: Session) -> tuple[dict[str, Any], dict[s
     InputError
         Where something cannot be taken into a study.
     """
-    form = _mapping(asked)
-    found: dict[str, Any] = {"title": _text(form, "title").strip(), "case": "case.toml"}
-    found["model"] = _words(form, "models")
-    found["method"] = _text(form, "method")
+    form = _mapping(request)
+    content: dict[str, Any] = {"title": _text(form, "title").strip(), "case": "case.toml"}
+    content["model"] = _words(form, "models")
+    content["method"] = _text(form, "method")
     for name in ("samples", "seed"):
-        given = _text(form, name).strip()
-        if given:
-            found[name] = _whole(given)
-    found["vary"] = _vary(_list(form, "vary", MOST_FIELDS), session.units)
-    found["correlation"] = _correlation(_text(form, "correlation"))
+        text = _text(form, name).strip()
+        if text:
+            content[name] = _whole(text)
+    content["vary"] = _vary(_list(form, "vary", MOST_FIELDS), session.units)
+    content["correlation"] = _correlation(_text(form, "correlation"))
     motions = _motions(form, session)
     if motions:
-        found["motions"] = motions
+        content["motions"] = motions
     limits = {name: _split(_text(form, f"limit.{name}")) for name in _LIMITS}
     if any(limits.values()):
-        found["fragility"] = {
+        content["fragility"] = {
             "limits": {name: values for name, values in limits.items() if values},
             "measure": _text(form, "fragility.measure") or "pga",
             **_given(form, "fragility.period", "period"),
-            **{name: _numeric(given) for name, given in _given(form, "fragility.confidence", "confidence").items()},
+            **{name: _numeric(text) for name, text in _given(form, "fragility.confidence", "confidence").items()},
         }
-    study = {name: value for name, value in found.items() if value not in ("", {}, [])}
-    return fields_in_force(session), study, sent_files(session)
+    study = {name: value for name, value in content.items() if value not in ("", {}, [])}
+    case = fields_in_force(session)
+    if not motions and not form.get("both_signs") and isinstance(case.get("motion"), dict):
+        # Of the motion of the case one sign alone is wanted: the one that it has.
+        turned = bool(case["motion"].get("reverse")) or case["motion"].get("sign") == "reversed"
+        kept = {name: value for name, value in case["motion"].items() if name not in ("reverse", "sign")}
+        case = {**case, "motion": {**kept, "sign": "reversed" if turned else "recorded"}}
+    return case, study, sent_files(session)
 
 
 def _vary(rows: list[Any], units: str) -> dict[str, Any]:
-    found: dict[str, Any] = {}
+    axes: dict[str, Any] = {}
     for row in map(_mapping, rows):
         path = _text(row, "path")
         field = field_of(path)
-        if field is None or path not in {each.path for _, each in _fields()}:
+        if field is None or path not in {known.path for _, known in _fields()}:
             raise BadRequestError("path is a field that can vary")
-        if path in found:
+        if path in axes:
             raise InputError("study-twice", f"vary.{path}", path)
         kind = _text(row, "kind")
         if kind == "list":
-            found[path] = [typed(each, field, units) for each in _split(_text(row, "values"))]
+            axes[path] = [typed(value, field, units) for value in _split(_text(row, "values"))]
         elif kind in _KINDS:
-            told = {name: typed(_text(row, name), field, units) for name in _numbers()}
-            told |= {"count": _whole(_text(row, "count").strip())} if _text(row, "count").strip() else {}
-            found[path] = {"distribution": kind} | {name: each for name, each in told.items() if each is not None}
+            entries = {name: typed(_text(row, name), field, units) for name in _numbers()}
+            entries |= {"count": _whole(_text(row, "count").strip())} if _text(row, "count").strip() else {}
+            axes[path] = {"distribution": kind} | {name: value for name, value in entries.items() if value is not None}
         else:
             raise BadRequestError("kind is a list or a distribution")
-    return found
+    return axes
 
 
 def _correlation(text: str) -> list[list[str | float]]:
     """Return pairs of fields with what they have to do with each other."""
-    pairs = [[part.strip() for part in each.split(",")] for each in text.split(";") if each.strip()]
+    pairs = [[part.strip() for part in pair.split(",")] for pair in text.split(";") if pair.strip()]
     return [[*parts[:2], *map(_numeric, parts[2:])] for parts in pairs]
 
 
@@ -177,20 +182,21 @@ def _motions(form: Mapping[str, Any], session: Session) -> dict[str, Any]:
         read = {name: _text(form, f"motions.{name}").strip() for name in ("unit", "time_step")}
         events = _events(chosen, vertical=bool(form.get("vertical")))
         # Each order is an earthquake of its own, whatever its name ends with.
-        ordered = [each.strip() for each in _text(form, "ordered").split(";") if each.strip()]
-        events += [*({"horizontal": [each]} for each in ordered), *_scenario(form)]
+        ordered = [name.strip() for name in _text(form, "ordered").split(";") if name.strip()]
+        events += [*({"horizontal": [name]} for name in ordered), *_scenario(form)]
         chosen += ordered
     known = {name for name, _ in available()} | session.sent.keys()
     for name in chosen:
         if name not in known and not name.startswith(PREFIX):
             raise InputError("record-not-found", "motions", name, hint="choose one of those shown;")
-    told: dict[str, Any] = {"events": events, **{name: each for name, each in read.items() if each}}
-    told |= {name: True for name in ("pairs", "vertical", "both_signs") if form.get(name)}
+    motions: dict[str, Any] = {"events": events, **{name: value for name, value in read.items() if value}}
+    motions |= {name: True for name in ("pairs", "vertical") if form.get(name)}
+    motions["both_signs"] = bool(form.get("both_signs"))
     if form.get("every"):
-        told["every"] = True
+        motions["every"] = True
     if scale:
-        told["scale"] = scale
-    return told
+        motions["scale"] = scale
+    return motions
 
 
 def _scenario(form: Mapping[str, Any]) -> list[dict[str, Any]]:
@@ -202,8 +208,8 @@ def _scenario(form: Mapping[str, Any]) -> list[dict[str, Any]]:
     if not isinstance(count, int) or not 1 <= count <= MOST_RECORDS:
         raise InputError("study-scenario-count", "scenario.count", count, most=MOST_RECORDS)
     far = distance.removesuffix("km").strip()
-    given = [*([f"M{magnitude}"] if magnitude else []), *([f"{far}km"] if far else [])]
-    names = [f"{PREFIX}{','.join(given)},seed={seed},scatter=yes" for seed in range(1, count + 1)]
+    parts = [*([f"M{magnitude}"] if magnitude else []), *([f"{far}km"] if far else [])]
+    names = [f"{PREFIX}{','.join(parts)},seed={seed},scatter=yes" for seed in range(1, count + 1)]
     # What cannot be made is said at its field, before it stands in the file under the name of an event.
     order = order_of(names[0], field="scenario")
     try:
@@ -252,7 +258,7 @@ def _scale(form: Mapping[str, Any]) -> dict[str, Any]:
         return {}
     low, high = _text(form, "scale.from").strip(), _text(form, "scale.to").strip()
     drawn = {"from": _numeric(low), "to": _numeric(high)} if _text(form, "scale.kind") == "drawn" else None
-    values = drawn or [_numeric(each) for each in _split(_text(form, "scale.values"))]
+    values = drawn or [_numeric(value) for value in _split(_text(form, "scale.values"))]
     return {"measure": measure, "values": values, **_given(form, "scale.period", "period")}
 
 
@@ -275,36 +281,36 @@ def _whole(text: str) -> int | str:
 
 
 def _split(text: str) -> list[str]:
-    found = [each.strip() for each in text.split(",") if each.strip()]
-    if len(found) > MOST_VALUES:
-        raise InputError("study-many", "vary", len(found), most=MOST_VALUES)
-    return found
+    parts = [part.strip() for part in text.split(",") if part.strip()]
+    if len(parts) > MOST_VALUES:
+        raise InputError("study-many", "vary", len(parts), most=MOST_VALUES)
+    return parts
 
 
-def _mapping(given: object) -> Mapping[str, Any]:
-    if not isinstance(given, Mapping):
+def _mapping(entry: object) -> Mapping[str, Any]:
+    if not isinstance(entry, Mapping):
         raise BadRequestError("study is what its form says")
-    return given
+    return entry
 
 
-def _list(form: Mapping[str, Any], name: str, most: int) -> list[Any]:
-    given = form.get(name, [])
-    if not isinstance(given, list):
+def _list(form: Mapping[str, Any], name: str, limit: int) -> list[Any]:
+    entries = form.get(name, [])
+    if not isinstance(entries, list):
         raise BadRequestError(f"{name} is a list")
-    if len(given) > most:
-        raise InputError("study-many", name, len(given), most=most)
-    return given
+    if len(entries) > limit:
+        raise InputError("study-many", name, len(entries), most=limit)
+    return entries
 
 
-def _words(form: Mapping[str, Any], name: str, most: int = 10) -> list[str]:
-    given = _list(form, name, most)
-    if not all(isinstance(each, str) for each in given):
+def _words(form: Mapping[str, Any], name: str, limit: int = 10) -> list[str]:
+    words = _list(form, name, limit)
+    if not all(isinstance(word, str) for word in words):
         raise BadRequestError(f"{name} are texts")
-    return list(given)
+    return list(words)
 
 
 def _text(form: Mapping[str, Any], name: str) -> str:
-    given = form.get(name, "")
-    if not isinstance(given, str) or len(given) > 20_000:
+    entry = form.get(name, "")
+    if not isinstance(entry, str) or len(entry) > 20_000:
         raise BadRequestError(f"{name} is a text")
-    return given
+    return entry

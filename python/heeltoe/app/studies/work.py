@@ -1,7 +1,8 @@
-"""What of a study is computed: never in the process of the server."""
+"""What of a study is computed, never in the process of the server, and its report as plain blocks for the page."""
 
 from __future__ import annotations
 
+import base64
 import json
 import os
 import shutil
@@ -11,13 +12,29 @@ from typing import TYPE_CHECKING, Any
 
 from heeltoe.app.bundle import Sent, copied, lay_out, zipped
 from heeltoe.app.live import refused
-from heeltoe.case.written import toml_text
-from heeltoe.errors import InputError
-from heeltoe.study.file import Study, read_study
+from heeltoe.case.toml_writer import toml_text
+from heeltoe.errors.error import InputError
+from heeltoe.errors.sanitize import harmless
+from heeltoe.study.plan.file import Study, read_study
+from heeltoe.views.content.tree import (
+    Block,
+    Code,
+    Document,
+    FigureBlock,
+    Inline,
+    Listing,
+    Notes,
+    Paragraph,
+    Section,
+    Strong,
+    Symbol,
+    Table,
+)
+from heeltoe.views.words.numbers import Value
 
 if TYPE_CHECKING:
-    from heeltoe.study.plan import Plan
-    from heeltoe.study.run import Progress
+    from heeltoe.study.plan.plan import Plan
+    from heeltoe.study.run.run import Progress
 
 STUDY, OUT = "study.toml", "study"
 _CORES = os.cpu_count() or 1
@@ -36,27 +53,27 @@ def lay_study(case: Fields, study: Fields, sent: Sent, folder: Path) -> Study:
         Where something in it cannot be used.
     """
     shutil.rmtree(folder, ignore_errors=True)
-    lay_out(case, sent, folder)
+    lay_out(case, sent, folder, listed=False)
     events = study.get("motions", {}).get("events", ())
-    wanted = [name for event in events for name in (*event["horizontal"], event.get("vertical"))]
-    names = {name: copied(sent[name], name, folder) for name in dict.fromkeys(wanted) if name in sent}
+    names_of_records = [name for event in events for name in (*event["horizontal"], event.get("vertical"))]
+    names = {name: copied(sent[name], name, folder) for name in dict.fromkeys(names_of_records) if name in sent}
     for event in events:
-        event["horizontal"] = [names.get(each, each) for each in event["horizontal"]]
+        event["horizontal"] = [names.get(name, name) for name in event["horizontal"]]
         if "vertical" in event:
             event["vertical"] = names.get(event["vertical"], event["vertical"])
     (folder / STUDY).write_text(toml_text(study, Study, _HEAD), encoding="utf-8")
     return read_study(folder / STUDY)
 
 
-def look(asked: Asked, folder: Path, most: int) -> dict[str, Any]:
+def look(request: Asked, folder: Path, limit: int) -> dict[str, Any]:
     """Return how many runs a study has and about how long they take, or what is wrong with it."""
     try:
-        return {"outlook": _outlook(_laid(asked, folder, most))}
+        return {"outlook": _outlook(_laid(request, folder, limit))}
     except InputError as error:
         return refused(error)
 
 
-def lay(asked: Asked, folder: Path, most: int) -> None:
+def lay(request: Asked, folder: Path, limit: int) -> None:
     """Write a study into a folder, where it waits for being run.
 
     Raises
@@ -64,27 +81,27 @@ def lay(asked: Asked, folder: Path, most: int) -> None:
     InputError
         Where it cannot run, or has more runs than that.
     """
-    _laid(asked, folder, most)
+    _laid(request, folder, limit)
 
 
-def _laid(asked: Asked, folder: Path, most: int) -> Plan:
-    from heeltoe.study.plan import plan_of
+def _laid(request: Asked, folder: Path, limit: int) -> Plan:
+    from heeltoe.study.plan.plan import plan_of
 
-    plan = plan_of(lay_study(*asked, folder))
-    if plan.count > most:
-        raise InputError("study-many", "study", f"{plan.count:,} runs", most=f"{most:,}")
+    plan = plan_of(lay_study(*request, folder))
+    if plan.count > limit:
+        raise InputError("study-many", "study", f"{plan.count:,} runs", most=f"{limit:,}")
     return plan
 
 
 def _outlook(plan: Plan) -> str:
     """Say what a study will be; runs that take long to try are estimated as a single one is."""
-    from heeltoe.models.flexible.expected import analysing, frame_step_of
-    from heeltoe.study.run import Outlook, outlook
+    from heeltoe.models.flexible.run.expected import analysing, frame_step_of
+    from heeltoe.study.run.run import Outlook, outlook
     from heeltoe.views.terminal.study import outlook_text
 
     if "flexible" not in plan.study.model:
         return outlook_text(outlook(plan, _CORES))
-    case = plan.case.model_copy(update={"flexible": plan.case.flexible.with_evidence("none")})
+    case = plan.case.without_evidence()
     end = plan.earthquakes[0].run_end
     cost = analysing(case, end, frame_step_of(end, None))
     return outlook_text(Outlook(plan, cost.seconds / len(plan.study.model), _CORES))
@@ -92,7 +109,7 @@ def _outlook(plan: Plan) -> str:
 
 def run(say: Callable[..., None], folder: Path, resume: bool, units: str) -> dict[str, Any]:
     """Run a study, or what is left of it, and write what it says."""
-    from heeltoe.study.run import run_study
+    from heeltoe.study.run.run import run_study
     from heeltoe.views.terminal.study import outlook_text, progress_text
 
     def told(progress: Progress) -> None:
@@ -100,11 +117,11 @@ def run(say: Callable[..., None], folder: Path, resume: bool, units: str) -> dic
         say(done, progress.done / progress.of)
 
     say("reading the study")
-    there = (folder / OUT / "study.json").exists()
+    started = (folder / OUT / "study.json").exists()
     run_study(
         folder / STUDY,
         folder / OUT,
-        resume=resume and there,
+        resume=resume and started,
         progress=told,
         before=lambda expected: say(outlook_text(expected)),
     )
@@ -115,31 +132,30 @@ def run(say: Callable[..., None], folder: Path, resume: bool, units: str) -> dic
 
 def answers(folder: Path, units: str) -> dict[str, Any]:
     """Return what a study says, as far as it has come, and keep it beside its runs."""
-    from heeltoe.app.studies.told import told_document
-    from heeltoe.study.opened import open_study
-    from heeltoe.views.report.study import study_document, study_subject
+    from heeltoe.study.answers.study_results import open_study
+    from heeltoe.views.content.study import study_document, study_subject
 
     try:
-        found = open_study(folder / OUT)
-        subject = study_subject(found, folder, units, command(), None)
+        results = open_study(folder / OUT)
+        subject = study_subject(results, folder, units, command(), None)
     except InputError as error:
         return refused(error)
-    said = {"complete": found.complete, **told_document(study_document(subject))}
-    if found.complete:
-        text = json.dumps(said, allow_nan=False)
+    payload = {"complete": results.complete, **told_document(study_document(subject))}
+    if results.complete:
+        text = json.dumps(payload, allow_nan=False)
         fresh = folder / f"answers-{units}.fresh"
         fresh.write_text(text, encoding="utf-8")
         fresh.replace(folder / f"answers-{units}.json")
-    return said
+    return payload
 
 
 def kept_answers(folder: Path, units: str) -> dict[str, Any] | None:
     """Return what a study has said in these units; None where that is not there."""
     try:
-        found: dict[str, Any] = json.loads((folder / f"answers-{units}.json").read_text(encoding="utf-8"))
+        payload: dict[str, Any] = json.loads((folder / f"answers-{units}.json").read_text(encoding="utf-8"))
     except FileNotFoundError:
         return None
-    return found
+    return payload
 
 
 def command() -> str:
@@ -148,7 +164,7 @@ def command() -> str:
 
 
 def packed(folder: Path, what: str, units: str) -> tuple[Path, str]:
-    """Write something to take away of a study, and return where it is and what it is called.
+    """Write an export of a study, and return where it is and what it is called.
 
     Parameters
     ----------
@@ -159,33 +175,33 @@ def packed(folder: Path, what: str, units: str) -> tuple[Path, str]:
     units
         Of the report and its figures.
     """
-    from heeltoe.study.opened import open_study
+    from heeltoe.study.answers.study_results import open_study
     from heeltoe.views.files.write import write_study
     from heeltoe.views.report.write import check_packages, write_study_report
 
-    found = open_study(folder / OUT)
+    results = open_study(folder / OUT)
     if what == "csv":
-        return _csv(found, folder), "runs.csv"
+        return _csv(results, folder), "runs.csv"
     if what == "study":
-        write_study(found, folder / OUT, units)
+        write_study(results, folder / OUT, units)
         aside = ("runs.csv", "study.zip", "answers-si.json", "answers-us.json")
         return zipped(folder, folder / "study.zip", without=aside), "study.zip"
     check_packages((what,), "report")
     aside_ = folder / "report"
     shutil.rmtree(aside_, ignore_errors=True)
     aside_.mkdir()
-    write_study_report(found, aside_, base=folder, units=units, command=command())
+    write_study_report(results, aside_, base=folder, units=units, command=command())
     return aside_ / f"report.{what}", f"study-report.{what}"
 
 
-def _csv(found: Any, folder: Path) -> Path:
+def _csv(results: Any, folder: Path) -> Path:
     """Write the runs as a table, a part at a time."""
     import pyarrow as pa
     import pyarrow.csv
 
     path, writer = folder / "runs.csv", None
     try:
-        for batch in found.batches():
+        for batch in results.batches():
             plain = pa.table(
                 {
                     name: column.cast(pa.string()) if pa.types.is_dictionary(column.type) else column
@@ -198,3 +214,52 @@ def _csv(found: Any, folder: Path) -> Path:
         if writer is not None:
             writer.close()
     return path
+
+
+def told_document(document: Document) -> dict[str, Any]:
+    """Return a document; what a page does not show, as references and appendices, is left out."""
+    return {"title": document.title, "subtitle": document.subtitle, "blocks": _blocks(document.blocks)}
+
+
+def _blocks(blocks: tuple[Block, ...]) -> list[dict[str, Any]]:
+    return [content for content in map(_block, blocks) if content]
+
+
+def _block(block: Block) -> dict[str, Any]:
+    if isinstance(block, Section):
+        if block.title.startswith("Appendix"):
+            return {}
+        inner = _blocks(block.blocks)
+        return {"kind": "section", "title": block.title, "blocks": inner} if inner else {}
+    if isinstance(block, Paragraph):
+        return {"kind": "paragraph", "parts": _parts(block.parts)}
+    if isinstance(block, Notes):
+        items = [_parts(item) for item in block.items]
+        return {"kind": "notes", "grave": block.kind, "title": block.title, "items": items}
+    if isinstance(block, Table):
+        rows = [[_parts((cell,)) for cell in row] for row in block.rows]
+        return {"kind": "table", "head": list(block.head), "rows": rows, "caption": block.caption, "align": block.align}
+    if isinstance(block, FigureBlock):
+        data = base64.b64encode(block.svg).decode("ascii")
+        return {
+            "kind": "figure",
+            "name": block.name,
+            "caption": block.caption,
+            "svg": data,
+            "width": block.share * block.size[0],
+        }
+    if isinstance(block, Listing):
+        return {"kind": "listing", "text": block.text}
+    return {}
+
+
+def _parts(parts: tuple[Inline, ...]) -> list[dict[str, str]]:
+    return [_part(part) for part in parts]
+
+
+def _part(part: Inline) -> dict[str, str]:
+    if isinstance(part, Code | Strong):
+        return {"as": "code" if isinstance(part, Code) else "strong", "text": harmless(part.text)}
+    if isinstance(part, Symbol):
+        return {"as": "", "text": part.letter + part.index}
+    return {"as": "", "text": part.text if isinstance(part, Value) else harmless(part)}

@@ -11,7 +11,7 @@ from pydantic import Field, model_validator
 from heeltoe.case.fields import Fields, FrictionCoefficient
 from heeltoe.case.quantities import Angle, DimensionlessNumber, Length, Pressure, Velocity
 from heeltoe.case.sentences import gathered
-from heeltoe.errors import InputError, shown
+from heeltoe.errors.error import InputError, shown
 
 LawName = Literal["slip weakening", "speed weakening", "cohesion", "barton-bandis", "lift joint"]
 
@@ -62,12 +62,12 @@ class Law(Fields):
     @gathered
     def _options_of_the_law(self) -> Iterator[InputError]:
         needed, allowed = LAW_FIELDS[self.name]
-        given = {field for field in self.model_fields_set - {"name"} if getattr(self, field) is not None}
+        stated = {field for field in self.model_fields_set - {"name"} if getattr(self, field) is not None}
         for field in type(self).model_fields:
-            if field in given - {*needed, *allowed}:
+            if field in stated - {*needed, *allowed}:
                 known = ", ".join((*needed, *allowed))
                 yield InputError("law-option-foreign", field, shown(getattr(self, field)), law=self.name, known=known)
-            if field in {*needed} - given:
+            if field in {*needed} - stated:
                 yield InputError("law-option-missing", field, law=self.name)
         peak, residual = self.peak_friction, self.residual_friction
         if peak is not None and residual is not None and peak < residual:

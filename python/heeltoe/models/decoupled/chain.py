@@ -1,7 +1,7 @@
 """The motion of the crack: the part below it, elastic, carries the part above as a rigid body that does not slip.
 
 What the part above does when it slides and rocks does not act back on the part below; that is the price of the
-decoupled chain, and what the flexible model is for (docs/koyna.md)."""
+decoupled chain, and what the flexible model is for (docs/decoupled.md)."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from typing import Any
 import numpy as np
 import scipy.sparse as sparse
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
+from heeltoe.base.cache import Kept
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError
-from heeltoe.kept import Kept
+from heeltoe.errors.error import InputError
 from heeltoe.mechanics.block import Block, build_block
-from heeltoe.models.flexible.bonded import fingerprints
-from heeltoe.models.flexible.cost import Part, building, check_cost, parts_of
-from heeltoe.models.flexible.elastic import Sparse, dam, dofs, side_by_side
-from heeltoe.models.flexible.loads import edge_shapes
+from heeltoe.models.flexible.body.bonded import fingerprints
+from heeltoe.models.flexible.body.cost import Part, building, check_cost, parts_of
+from heeltoe.models.flexible.body.elastic import Sparse, dam, dofs, side_by_side
+from heeltoe.models.flexible.body.loads import edge_shapes
+from heeltoe.models.flexible.body.modes import lowest
 from heeltoe.models.flexible.mesh.dam import BodyMesh, dam_mesh
-from heeltoe.models.flexible.modes import lowest
 
 #: Modes that are kept: the lowest, up to so many, and none with a shorter period [s]. Nothing in an accelerogram is as
 #: fast; faster modes move with the ground, as all that is left out does.

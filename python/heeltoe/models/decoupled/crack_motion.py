@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.decoupled.chain import Chain
@@ -121,7 +121,7 @@ def accelerations(chain: Chain, shaking: Shaking, step: float) -> tuple[Floats, 
 
     On a piece of length h with the load p0 + p1 s of a mode, q = (p0 + p1 s)/w^2 - 2 d p1/w^3 + Re(c exp(l s)) with
     l = -d w + i w sqrt(1 - d^2), so that the state is exact from moment to moment and the acceleration of the mode is
-    Re(c l^2 exp(l s)) anywhere between them; there is no time step (docs/koyna.md, equations 4 to 6).
+    Re(c l^2 exp(l s)) anywhere between them; there is no time step (docs/decoupled.md, equations 4 to 6).
 
     Parameters
     ----------

@@ -9,8 +9,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from heeltoe.base.cache import Kept
 from heeltoe.case.model import Case
-from heeltoe.kept import Kept
 from heeltoe.models.decoupled.chain import Chain, chain
 from heeltoe.models.decoupled.crack_motion import CrackMotion, crack_motion
 from heeltoe.models.decoupled.model import of_the_chain, step_of

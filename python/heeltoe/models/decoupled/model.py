@@ -8,23 +8,26 @@ from typing import Any
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
+from heeltoe.base.blas import one_blas_thread
 from heeltoe.case.model import Case
 from heeltoe.case.warnings import concrete_warnings
 from heeltoe.mechanics.block import build_block
-from heeltoe.models.decoupled.chain import Chain, bonded_chain, chain
+from heeltoe.mechanics.references import cited
+from heeltoe.models.decoupled.chain import Chain as Part
+from heeltoe.models.decoupled.chain import bonded_chain, chain
 from heeltoe.models.decoupled.crack_motion import FIRST_STEP, CrackMotion, crack_motion, crack_motion_at, relative
 from heeltoe.models.decoupled.response import DecoupledResponse
-from heeltoe.models.flexible.cost import Cost, check_cost
+from heeltoe.models.flexible.body.cost import Cost, check_cost
 from heeltoe.models.rigid.model import run_rigid
 from heeltoe.models.rigid.walk import walk
-from heeltoe.models.silence import reach_of_block, until_rest
+from heeltoe.models.runner import reach_of_block, until_rest
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.spectrum import response_spectrum
-from heeltoe.references import cited
 from heeltoe.result.contract import JOINT_METER_M
+from heeltoe.result.numbers import BondedMotion, Chain, CrackLevel, CrackMotionConvergence, CrackSpectrum
 from heeltoe.result.response import Response
-from heeltoe.warnings import Notice
+from heeltoe.warnings.notice import Notice
 
 #: Damping ratio of the response spectra.
 SPECTRUM_DAMPING = 0.05
@@ -80,22 +83,23 @@ def run_decoupled(case: Case, earthquake: Earthquake, output_step: float | None 
     part, block = chain(case), build_block(case)
     last = until_rest(run, lambda each: reach_of_block(each.found), earthquake, case.analysis.silence, swings=True)
     found, earthquake, at_crack = last.found, last.earthquake, last.at_crack
-    if not found.summary:
+    if not found.started:
         return of_the_chain(found, earthquake)
     rough = crack_motion_at(part, earthquake, 2.0 * at_crack.step)
     coarser = walk(case, block, rough.felt(case, earthquake).shaking)
-    level = _crack_level(case, part, at_crack, earthquake)
-    level["convergence"] = {
-        "step_s": at_crack.step,
-        "straightness": last.straightness,
-        "half_the_modes": _of_half_the_modes(part, at_crack, earthquake),
-        **_change(found.residual_slip_m, coarser.summary["slip"], rough.step),
-    }
+    convergence = CrackMotionConvergence(
+        step_s=at_crack.step,
+        straightness=last.straightness,
+        half_the_modes=_of_half_the_modes(part, at_crack, earthquake),
+        coarser_step_s=rough.step,
+        coarser_residual_slip_m=coarser.summary.slip,
+        change=_change(found.residual_slip_m, coarser.summary.slip),
+    )
+    level = _crack_level(case, part, at_crack, earthquake, convergence)
     return of_the_chain(
-        found,
+        found.with_crack(histories=_histories(found, at_crack, earthquake)),
         earthquake,
-        summary={**found.summary, "crack_level": level},
-        histories=_histories(found, at_crack, earthquake),
+        dam=Chain(crack_level=level),
         warnings=(*found.warnings, *concrete_warnings(case), *_warnings(level)),
         references=(*found.references, *cited("decoupled", "piecewise exact")),
     )
@@ -116,13 +120,16 @@ def of_the_chain(block: Response, earthquake: Earthquake, **changes: Any) -> Dec
     return DecoupledResponse(**(found | changes))
 
 
+@one_blas_thread()
 def crack_earthquake(case: Case, earthquake: Earthquake) -> Earthquake:
     """Return what shakes the block where `earthquake` shakes the ground."""
     found, _ = crack_motion(chain(case), earthquake)
     return found.felt(case, earthquake)
 
 
-def _crack_level(case: Case, part: Chain, found: CrackMotion, earthquake: Earthquake) -> dict[str, Any]:
+def _crack_level(
+    case: Case, part: Part, found: CrackMotion, earthquake: Earthquake, convergence: CrackMotionConvergence
+) -> CrackLevel:
     g, motion = case.gravity, earthquake.motion
     own = part.periods[:_SHOWN]
     bonded = bonded_chain(case)
@@ -137,43 +144,43 @@ def _crack_level(case: Case, part: Chain, found: CrackMotion, earthquake: Earthq
         for name, each in (("ground", motion), ("crack", found.horizontal))
     }
     beside = crack_motion_at(bonded, earthquake, found.step)
-    return {
-        "peak_horizontal_g": found.horizontal.pga / g,
-        "peak_vertical_g": found.vertical.pga / g,
-        "peak_rotation_rad_s2": found.rotation.pga,
-        "ground_peak_g": motion.pga / g,
-        "amplification": found.horizontal.pga / motion.pga if motion.pga else None,
-        "felt": felt,
-        "upper_part": case.decoupled.upper_part,
-        "periods_s": own.tolist(),
-        "damping_ratio": part.damping,
-        "modes": int(part.omega.size),
-        "spectrum": {
-            "damping_ratio": SPECTRUM_DAMPING,
-            "periods_s": periods.tolist(),
+    return CrackLevel(
+        peak_horizontal_g=found.horizontal.pga / g,
+        peak_vertical_g=found.vertical.pga / g,
+        peak_rotation_rad_s2=found.rotation.pga,
+        ground_peak_g=motion.pga / g,
+        amplification=found.horizontal.pga / motion.pga if motion.pga else None,
+        felt=felt,
+        upper_part=case.decoupled.upper_part,
+        periods_s=own.tolist(),
+        damping_ratio=part.damping,
+        modes=int(part.omega.size),
+        spectrum=CrackSpectrum(
+            damping_ratio=SPECTRUM_DAMPING,
+            periods_s=periods.tolist(),
             **spectra,
-            "transfer": part.transfer(periods).tolist(),
-            "bonded_transfer": bonded.transfer(periods).tolist(),
-        },
-        "bonded": {
-            "periods_s": bonded.periods[:_SHOWN].tolist(),
-            "peak_horizontal_g": beside.horizontal.pga / g,
-            "amplification": beside.horizontal.pga / motion.pga if motion.pga else None,
-        },
-    }
+            transfer=part.transfer(periods).tolist(),
+            bonded_transfer=bonded.transfer(periods).tolist(),
+        ),
+        bonded=BondedMotion(
+            periods_s=bonded.periods[:_SHOWN].tolist(),
+            peak_horizontal_g=beside.horizontal.pga / g,
+            amplification=beside.horizontal.pga / motion.pga if motion.pga else None,
+        ),
+        convergence=convergence,
+    )
 
 
-def _of_half_the_modes(part: Chain, found: CrackMotion, earthquake: Earthquake) -> float:
+def _of_half_the_modes(part: Part, found: CrackMotion, earthquake: Earthquake) -> float:
     """Return what the slower half of the modes misses of the horizontal motion, over its peak."""
     less = crack_motion_at(part.slower_half(), earthquake, found.asked).horizontal.acceleration
     exact = found.horizontal.acceleration
     return relative(less, exact, exact[None])
 
 
-def _change(slip: float, coarser: float, step: float) -> dict[str, float]:
-    """Return what a step of the crack's motion twice as long does to the slip."""
-    change = abs(slip - coarser) / max(abs(slip), JOINT_METER_M / _CHANGE)
-    return {"coarser_step_s": step, "coarser_residual_slip_m": coarser, "change": change}
+def _change(slip: float, coarser: float) -> float:
+    """Return by how much a step of the crack's motion twice as long changes the slip, as a share."""
+    return abs(slip - coarser) / max(abs(slip), JOINT_METER_M / _CHANGE)
 
 
 def _histories(block: Response, found: CrackMotion, earthquake: Earthquake) -> dict[str, Floats]:
@@ -193,9 +200,15 @@ def _histories(block: Response, found: CrackMotion, earthquake: Earthquake) -> d
     return result | {name: values for name, values in histories.items() if name not in result}
 
 
-def _warnings(level: dict[str, Any]) -> tuple[Notice, ...]:
-    found = level["convergence"]
-    if not found["change"] > _CHANGE:
+def _warnings(level: CrackLevel) -> tuple[Notice, ...]:
+    convergence = level.convergence
+    if not convergence.change > _CHANGE:
         return ()
-    steps = {name: found[name] for name in ("coarser_step_s", "step_s")}
-    return (Notice("sampling-matters", coarser_slip_m=found["coarser_residual_slip_m"], **steps),)
+    return (
+        Notice(
+            "sampling-matters",
+            coarser_slip_m=convergence.coarser_residual_slip_m,
+            coarser_step_s=convergence.coarser_step_s,
+            step_s=convergence.step_s,
+        ),
+    )

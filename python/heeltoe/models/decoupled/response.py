@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
+from heeltoe.result.numbers import CrackLevel
 from heeltoe.result.response import Of, Response
 
 
@@ -17,4 +16,4 @@ class DecoupledResponse(Response):
     ground; critical accelerations belong to the crack.
     """
 
-    crack_level = Of[Mapping[str, Any]]("How the crack moves that shakes the block, and how well that is known.")
+    crack_level = Of[CrackLevel]()

@@ -3,44 +3,48 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from typing import NamedTuple
 
+from heeltoe.case.combinations import check
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.kernel.dam import DamRun
 from heeltoe.mechanics.block import Block, build_block, static_state
-from heeltoe.models.flexible.cost import check_cost
-from heeltoe.models.flexible.excitation import self_excitation
-from heeltoe.models.flexible.expected import analysing, frame_step_of
-from heeltoe.models.flexible.law.worn import Worn, check_law, law_found, law_warnings, worn_of
-from heeltoe.models.flexible.reduced import FlexibleDam, build_flexible_dam
-from heeltoe.models.flexible.refinement import Answer, answer
-from heeltoe.models.flexible.response import FlexibleResponse
-from heeltoe.models.flexible.shaken import ShakenDam
-from heeltoe.models.flexible.stress.envelope import envelope_of
-from heeltoe.models.flexible.stress.tension import tension_of, tension_warnings
-from heeltoe.models.flexible.tables import (
-    at_cracks,
-    energy_of,
-    histories_of,
-    histories_of_cracks,
-    modes_of,
-    penetration_of,
-    several_of,
-    summary_of,
-)
-from heeltoe.models.flexible.warnings import outcome_of, stands, warnings_of
-from heeltoe.models.silence import until_rest
+from heeltoe.mechanics.references import cited
+from heeltoe.models.flexible.body.cost import check_cost
+from heeltoe.models.flexible.body.reduced import FlexibleDam, build_flexible_dam
+from heeltoe.models.flexible.evidence.excitation import self_excitation
+from heeltoe.models.flexible.evidence.refinement import Answer, answer
+from heeltoe.models.flexible.result.envelope import envelope_of
+from heeltoe.models.flexible.result.response import FlexibleResponse
+from heeltoe.models.flexible.result.tables import crack_responses, dam_numbers, energy_of, histories_of_cracks
+from heeltoe.models.flexible.result.tension import tension_of, tension_warnings
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
+from heeltoe.models.flexible.run.expected import analysing, frame_step_of
+from heeltoe.models.flexible.run.slip_history import Worn, law_warnings, worn_of
+from heeltoe.models.flexible.warnings import judge_outcome, stands, warnings_of
+from heeltoe.models.runner import STEP, severity, until_rest
 from heeltoe.motion.earthquake import Earthquake
-from heeltoe.references import cited
+from heeltoe.result.contract import leading_crack
+from heeltoe.result.numbers import SignNumbers
 from heeltoe.result.rest import LAST_S, last_change, still_since
 from heeltoe.units.sentences import Sentence
-from heeltoe.warnings import Notice
+from heeltoe.warnings.notice import Notice
 
 _SHORTEST_FRAME_STEP = 1e-3
+# Which columns of the kernel the limits of a case are held against.
+_LIMITED = {
+    "residual_slip": ("slip",),
+    "peak_slip": ("slip_max", "slip_min"),
+    "opening_upstream": ("opening_heel",),
+    "opening_downstream": ("opening_toe",),
+}
 
 
-def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None = None) -> FlexibleResponse:
+def run_flexible(
+    case: Case, earthquake: Earthquake, output_step: float | None = None, first: Rested | None = None
+) -> FlexibleResponse:
     """Run the flexible model on a case, on through silence until the dam is at rest.
 
     Parameters
@@ -51,13 +55,15 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
         What shakes the ground.
     output_step
         Spacing of the histories [s]; 0.01 s where it is not given.
+    first
+        The run without evidence, where it has been made before.
 
     Raises
     ------
     InputError
         Where the case has no modulus or a mesh or a step that cannot be used.
     """
-    check_law(case)
+    check(case, "flexible")
     end = earthquake.end
     if output_step is not None and not _SHORTEST_FRAME_STEP <= output_step <= end:
         raise InputError(
@@ -67,86 +73,200 @@ def run_flexible(case: Case, earthquake: Earthquake, output_step: float | None =
     frame_step = frame_step_of(end, output_step)
     silence = max(case.analysis.silence - earthquake.silence, 0.0)
     check_cost(case, analysing(case, earthquake.run_end, frame_step, silence=silence))
-    found, earthquake = _answer(case, block, earthquake, frame_step)
-    shaken, run, evidence = found.shaken, found.run, found.evidence
+    found, earthquake = answer_at_rest(case, block, earthquake, frame_step, first)
+    shaken, run = found.shaken, found.run
     # Its mesh may be finer by now.
     case, dam = shaken.case, shaken.dam
-    outcome, advice = outcome_of(dam, block, run)
-    # One that slides by itself needs no vibration to go on.
-    growth = None if outcome == "unstable" else self_excitation(shaken, run)
-    cracks, envelope = histories_of_cracks(case, dam, run), envelope_of(dam, run)
-    history = cracks[dam.asked]
-    worn = [worn_of(alone, place, dam, run) for place, alone in enumerate(case.cracks)]
-    own = worn[dam.asked]
+    outcome, advice = judge_outcome(dam, block, run)
+    histories, envelope = histories_of_cracks(case, dam, run), envelope_of(dam, run)
+    worn = [worn_of(alone, place, dam, run) for place, alone in enumerate(case.single_crack_cases)]
     tension = None if outcome == "unstable" else tension_of(found, envelope)
+    cracks = tuple(crack_responses(found, histories, static_state(block)))
+    leads = leading_crack([crack.residual_slip_m for crack in cracks], dam.asked)
+    # One that slides by itself needs no vibration to go on.
+    growth = None if outcome == "unstable" else self_excitation(shaken, run, leads)
     return FlexibleResponse(
         model="flexible",
         title=case.title,
         outcome=outcome,
         advice=advice,
         warnings=(
-            *warnings_of(shaken, run, cracks, found.evidences, growth, block.sliding_safety_factor, outcome),
+            *warnings_of(shaken, run, histories, found.evidences, growth, block.sliding_safety_factor, outcome, leads),
             *tension_warnings(tension),
             *_about_the_laws(case, worn),
         ),
-        summary=summary_of(shaken, run, evidence)
-        | {
-            "self_excitation": None if growth is None else growth.to_json(),
-            "tension": tension,
-            "friction_law": None if own is None else law_found(own, run, dam.asked),
-            "penetration_m": penetration_of(run, history),
-            **several_of(found, cracks),
-        },
         energy=energy_of(run),
         motion=earthquake.motion,
         vertical=earthquake.vertical,
         gravity=case.gravity,
-        histories=histories_of(shaken.shaking, run, dam.asked, law=own is not None),
-        mode=modes_of(run, dam.asked),
-        event_log={},
-        static=static_state(block),
+        cracks=cracks,
+        asked=leads,
+        dam=dam_numbers(shaken, run, growth, tension),
         references=_references(case, dam),
         silence_s=earthquake.silence,
-        crack=history,
         envelope=envelope,
-        at_cracks=at_cracks(found, cracks),
     )
 
 
-def _answer(case: Case, block: Block, earthquake: Earthquake, frame_step: float) -> tuple[Answer, Earthquake]:
-    """Run a dam until it is at rest, and gather evidence up to there; return the earthquake with its silence, too."""
-    dam = build_flexible_dam(case)
+class Rested(NamedTuple):
+    """A run of a dam until it is at rest.
 
-    def run(through: Earthquake) -> tuple[Earthquake, ShakenDam, DamRun]:
+    Attributes
+    ----------
+    earthquake
+        With the silence that it took.
+    shaken, run
+        The dam with its earthquake, and what it did.
+    outcome, advice
+        How the run ended, and what to do about it where there is no result.
+    """
+
+    earthquake: Earthquake
+    shaken: ShakenDam
+    run: DamRun
+    outcome: str
+    advice: Sentence | None
+
+    @property
+    def reach(self) -> float:
+        """What :func:`until_rest` asks of a run."""
+        if self.outcome != "ok":
+            return -math.inf
+        reach = -math.inf
+        for frames in self.run.all_frames:
+            moved = (frames.time, frames.slip, frames.opening_heel, frames.opening_toe)
+            reach = max(reach, still_since(*moved) + LAST_S if last_change(*moved).rest else math.inf)
+        return reach
+
+    @property
+    def leads(self) -> int:
+        """Which of its cracks slips most."""
+        return leading_crack([summary.slip for summary in self.run.summaries], self.shaken.dam.asked)
+
+    def limits_not_met(self, case: Case) -> int:
+        """Return how many of the limits of the case it does not meet."""
+        worst = {
+            name: max(abs(getattr(row, column)) for row in self.run.summaries for column in columns)
+            for name, columns in _LIMITED.items()
+        }
+        limits = {name: getattr(case.limits, name) for name in _LIMITED}
+        return sum(limit is not None and worst[name] > limit for name, limit in limits.items())
+
+    def badness(self, case: Case) -> tuple[int, int, float]:
+        """Return by what the worse of two runs is told, see :func:`heeltoe.models.runner.badness`."""
+        slip = max(abs(row.slip) for row in self.run.summaries)
+        return severity(self.outcome), self.limits_not_met(case), slip
+
+    def sign_numbers(self, case: Case, sign: str) -> SignNumbers:
+        """Return what it says of the sign of its motion that does not govern."""
+        known, rows, section = self.outcome == "ok", self.run.summaries, self.shaken.dam.sections[self.leads]
+        return SignNumbers(
+            sign=sign,
+            governs=False,
+            outcome=self.outcome,
+            elevation_m=section.heel[1] - section.base_elevation if known else None,
+            residual_slip_m=rows[self.leads].slip if known else None,
+            opening_m=max(max(row.opening_heel, row.opening_toe) for row in rows) if known else None,
+            limits_not_met=self.limits_not_met(case),
+        )
+
+
+def run_until_rest(
+    case: Case,
+    dam: FlexibleDam,
+    block: Block,
+    earthquake: Earthquake,
+    frame_step: float,
+    *,
+    step_of: Callable[[ShakenDam], float] = ShakenDam.first_step,
+    stresses: bool = True,
+) -> Rested:
+    """Run a dam, without evidence, until it is at rest: what single runs, rows of studies and drains between motions
+    are made of.
+
+    Parameters
+    ----------
+    case, dam, block
+        The dam, its elastic parts, and the part above its crack as a block.
+    earthquake
+        What shakes the ground.
+    frame_step
+        Spacing of the frames [s], by which rest is told.
+    step_of
+        Says the time step [s].
+    stresses
+        Whether the extremes of the stresses are wanted, too.
+
+    Raises
+    ------
+    InputError
+        Where the step cannot be used, or the run takes too much.
+    """
+
+    def run(through: Earthquake) -> Rested:
         shaken = ShakenDam(case, dam, through.shaking)
-        step = shaken.first_step()
+        step = step_of(shaken)
         # Water and anchors may have made it shorter than could be expected.
         check_cost(case, analysing(case, through.run_end, frame_step, step))
-        return through, shaken, shaken.run(step, frame_step)
+        found = shaken.run(step, frame_step, stresses=stresses)
+        return Rested(through, shaken, found, *judge_outcome(dam, block, found))
 
-    def reach(first: tuple[Earthquake, ShakenDam, DamRun]) -> float:
-        return _reach(dam, block, first[-1])
+    longest = case.analysis.silence
+    shaken = ShakenDam(case, dam, earthquake.shaking)
+    step = step_of(shaken)
+    pauses = shaken.pauses(step, STEP, longest) if longest and not earthquake.silence else None
+    if pauses is None:
+        return until_rest(run, lambda rested: rested.reach, earthquake, longest)
+    # One run goes on from where it is, and ends where the dam is at rest.
+    check_cost(case, analysing(case, earthquake.run_end + longest, frame_step, step))
+    found = shaken.run(step, frame_step, stresses=stresses, pauses=pauses)
+    seconds = STEP * math.ceil((found.summary.end_time - earthquake.end) / STEP - 0.5)
+    through = earthquake.silent(min(max(seconds, 0.0), longest))
+    outcome = judge_outcome(dam, block, found)
+    return Rested(through, ShakenDam(case, dam, through.shaking), found, *outcome)
 
-    earthquake, shaken, first = until_rest(run, reach, earthquake, case.analysis.silence)
+
+def rest_of(
+    case: Case,
+    earthquake: Earthquake,
+    *,
+    output_step: float | None = None,
+    step_of: Callable[[ShakenDam], float] = ShakenDam.first_step,
+    stresses: bool = False,
+) -> Callable[[Earthquake], Rested]:
+    """Return what runs a dam until it is at rest, its elastic parts built once.
+
+    Raises
+    ------
+    InputError
+        Where the case has no modulus or a mesh that cannot be used.
+    """
+    check(case, "flexible")
+    dam, block = build_flexible_dam(case), build_block(case)
+    frame_step = frame_step_of(earthquake.end, output_step)
+
+    def run(through: Earthquake) -> Rested:
+        return run_until_rest(case, dam, block, through, frame_step, step_of=step_of, stresses=stresses)
+
+    return run
+
+
+def answer_at_rest(
+    case: Case, block: Block, earthquake: Earthquake, frame_step: float, first: Rested | None = None
+) -> tuple[Answer, Earthquake]:
+    """Run a dam until it is at rest, and gather evidence up to there; return the earthquake with its silence, too.
+    `first` is the run without evidence, where it has been made before."""
+    dam = build_flexible_dam(case) if first is None else first.shaken.dam
+    first = first or run_until_rest(case, dam, block, earthquake, frame_step)
     # A dam that does not stand has no slip to be certain of; one run shows how it goes.
     asked = case.flexible.evidence if stands(dam, block) else "none"
-    found = answer(shaken, frame_step, asked, first)
-    if _reach(dam, block, found.run) < math.inf or earthquake.silence >= case.analysis.silence:
-        return found, earthquake
+    found = answer(first.shaken, frame_step, asked, first.run)
+    rested = first._replace(run=found.run, outcome=judge_outcome(dam, block, found.run)[0])
+    if rested.reach < math.inf or first.earthquake.silence >= case.analysis.silence:
+        return found, first.earthquake
     # Its mesh or step is finer now, and it takes longer.
-    earthquake, shaken, first = run(earthquake.silent(case.analysis.silence))
-    return answer(shaken, frame_step, asked, first), earthquake
-
-
-def _reach(dam: FlexibleDam, block: Block, run: DamRun) -> float:
-    """Return what :func:`until_rest` asks of a run."""
-    if outcome_of(dam, block, run)[0] != "ok":
-        return -math.inf
-    reach = -math.inf
-    for frames in run.all_frames:
-        moved = tuple(frames[name] for name in ("time", "slip", "opening_heel", "opening_toe"))
-        reach = max(reach, still_since(*moved) + LAST_S if last_change(*moved).rest else math.inf)
-    return reach
+    longer = run_until_rest(case, dam, block, earthquake.silent(case.analysis.silence), frame_step)
+    return answer(longer.shaken, frame_step, asked, longer.run), longer.earthquake
 
 
 def _references(case: Case, dam: FlexibleDam) -> tuple[str, ...]:
@@ -160,13 +280,13 @@ def _references(case: Case, dam: FlexibleDam) -> tuple[str, ...]:
         keys.append(case.uplift.during_shaking)
     if case.concrete.tensile_strength is not None:
         keys.append("dynamic tension")
-    keys += [f"law: {alone.crack.law.name}" for alone in case.cracks if alone.crack.law is not None]
+    keys += [f"law: {alone.crack.law.name}" for alone in case.single_crack_cases if alone.crack.law is not None]
     return cited(*dict.fromkeys(keys))
 
 
 def _about_the_laws(case: Case, worn: Sequence[Worn | None]) -> Iterator[Notice]:
     """Say of each crack with a law where that is used beyond what it was made for."""
-    for alone, each in zip(case.cracks, worn, strict=True):
+    for alone, each in zip(case.single_crack_cases, worn, strict=True):
         if each is not None:
             where = Sentence.of(" at {at_m:g m}", at_m=alone.crack.elevation) if case.further_cracks else ""
             yield from law_warnings(each, where)

@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 
 from heeltoe.case.crack.kinks import climbs
 from heeltoe.case.model import Case
 from heeltoe.case.warnings import concrete_warnings
-from heeltoe.kernel.dam import DamRun
+from heeltoe.kernel.dam import DamRun, DamSummary
 from heeltoe.mechanics.block import Block, instability
 from heeltoe.mechanics.loads import water_above_crack
-from heeltoe.models.flexible.evidence import MOVED_BY, Evidence
-from heeltoe.models.flexible.growth import Growth
-from heeltoe.models.flexible.history import CrackHistory
-from heeltoe.models.flexible.modes import ENOUGH
-from heeltoe.models.flexible.reduced import FlexibleDam
-from heeltoe.models.flexible.shaken import ShakenDam
-from heeltoe.models.flexible.tables import anchors_of
+from heeltoe.models.flexible.body.modes import ENOUGH
+from heeltoe.models.flexible.body.reduced import FlexibleDam
+from heeltoe.models.flexible.evidence.evidence import MOVED_BY, Evidence
+from heeltoe.models.flexible.evidence.growth import Growth
+from heeltoe.models.flexible.result.history import CrackHistory
+from heeltoe.models.flexible.result.tables import anchors_of
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
+from heeltoe.models.runner import about_the_anchors, largest_rotation, outcome_of
 from heeltoe.result.contract import LARGEST_ROTATION, TOO_FAR
 from heeltoe.units.sentences import Sentence
-from heeltoe.warnings import Notice
+from heeltoe.warnings.notice import Notice
 
 #: A mesh that misses corners of the section by more than this part of its height is told.
 _MISSED = 1e-3
@@ -39,7 +40,7 @@ def stands(dam: FlexibleDam, block: Block) -> bool:
     return bool(dam.anchors) or (instability(block) is None and dam.start.stands)
 
 
-def outcome_of(dam: FlexibleDam, block: Block, run: DamRun) -> tuple[str, Sentence | None]:
+def judge_outcome(dam: FlexibleDam, block: Block, run: DamRun) -> tuple[str, Sentence | None]:
     """Return how a run ended, and what to do about it; none where there is a result to trust.
 
     A dam that slides, overturns or floats under its static loads is none that an earthquake moves; anchors with
@@ -50,23 +51,24 @@ def outcome_of(dam: FlexibleDam, block: Block, run: DamRun) -> tuple[str, Senten
         why = instability(block)
         remedied = None if why is None else Sentence.of("{why}: {remedy}", why=why, remedy=_STAND)
         return "unstable", remedied or _stopped("unstable", raw)
-    largest = max(max(-each["rotation_min"], each["rotation_max"]) for each in run.summaries)
-    if run.outcome == "ok" and largest > LARGEST_ROTATION:
+    largest = max(float(largest_rotation(summary.by_name())) for summary in run.summaries)
+    outcome = outcome_of(run.outcome, largest)
+    if outcome == TOO_FAR:
         text = (
             "it rotates by {rotation_rad:.3g rad}; beyond {largest_rad:g rad} a rotation is not small, and the "
             "flexible model knows no other: no setting of it has a result here, and a rigid block with "
             'analysis.rotation = "finite" says whether it overturns'
         )
-        return TOO_FAR, Sentence.of(text, rotation_rad=largest, largest_rad=LARGEST_ROTATION)
-    return run.outcome, _stopped(run.outcome, raw) if run.outcome in _REMEDIES else None
+        return outcome, Sentence.of(text, rotation_rad=largest, largest_rad=LARGEST_ROTATION)
+    return outcome, _stopped(outcome, raw) if outcome in _REMEDIES else None
 
 
-def _stopped(outcome: str, raw: Mapping[str, float]) -> Sentence:
+def _stopped(outcome: str, raw: DamSummary) -> Sentence:
     """Say where a run stopped, and what to do."""
     return Sentence.of(
         "stopped at {time_s:.3f s} with slip {slip_m:.4g m}: {remedy}",
-        time_s=raw["end_time"],
-        slip_m=raw["slip"],
+        time_s=raw.end_time,
+        slip_m=raw.slip,
         remedy=_REMEDIES[outcome],
     )
 
@@ -79,18 +81,19 @@ def warnings_of(
     growth: Growth | None,
     safety: float | None,
     outcome: str,
+    leads: int = 0,
 ) -> list[Notice]:
-    """Return what a reader of a flexible run must know; `safety` is that against sliding under the static loads, and
-    `outcome` that of :func:`outcome_of`."""
+    """Return what a reader of a flexible run must know; `safety` is that against sliding under the static loads,
+    `outcome` that of :func:`judge_outcome`, and `leads` the place of the crack that leads."""
     case, dam = shaken.case, shaken.dam
     return [
         # What does not stand has no result that evidence could be of.
-        *(_about_the_evidences(evidences, dam) if outcome != "unstable" else ()),
+        *(_about_the_evidences(evidences, dam, leads) if outcome != "unstable" else ()),
         *_about_the_start(case, dam, safety),
-        *_about_the_growth(growth, run.summary),
+        *_about_the_growth(growth, run.summaries[leads]),
         *_about_the_mesh(dam),
         *_about_the_concrete(case, dam),
-        *_about_the_anchors(case, run),
+        *about_the_anchors(anchors_of(case, run)),
         *_about_the_contact(case, run, histories),
     ]
 
@@ -109,13 +112,13 @@ def _about_the_start(case: Case, dam: FlexibleDam, safety: float | None) -> Iter
         yield Notice("no-rest")
 
 
-def _about_the_evidences(evidences: Sequence[Evidence], dam: FlexibleDam) -> Iterator[Notice]:
+def _about_the_evidences(evidences: Sequence[Evidence], dam: FlexibleDam, leads: int) -> Iterator[Notice]:
     if not evidences:
         yield Notice("evidence-none")
         return
-    yield from _about_the_evidence(evidences[dam.asked])
+    yield from _about_the_evidence(evidences[leads])
     for place, evidence in enumerate(evidences):
-        if place == dam.asked:
+        if place == leads:
             continue
         section = dam.sections[place]
         for _ in _about_the_evidence(evidence):
@@ -146,13 +149,13 @@ def _about_the_evidence(evidence: Evidence) -> Iterator[Notice]:
         yield Notice("runs-scatter", slip_m=slip.value, scatter_m=slip.shaking or 0.0, runs=len(evidence.slips))
 
 
-def _about_the_growth(growth: Growth | None, raw: Mapping[str, float]) -> Iterator[Notice]:
+def _about_the_growth(growth: Growth | None, raw: DamSummary) -> Iterator[Notice]:
     if growth is not None and growth.damped_slip is not None:
         yield Notice(
             "self-excited",
             growth_1_s=growth.rate,
             sliding_s=growth.sliding_time,
-            slip_m=raw["slip"],
+            slip_m=raw.slip,
             damped_slip_m=growth.damped_slip,
         )
 
@@ -166,21 +169,14 @@ def _about_the_concrete(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
         yield Notice("modes-few", error=dam.basis_error)
 
 
-def _about_the_anchors(case: Case, run: DamRun) -> Iterator[Notice]:
-    for number, anchor in enumerate(anchors_of(case, run), start=1):
-        tension, capacity = anchor["peak_tension_n"] or 0.0, anchor["capacity_n"]
-        if capacity is not None and tension > capacity:
-            yield Notice("anchor-yields", number=number, tension_n=tension, capacity_n=capacity)
-
-
 def _about_the_contact(case: Case, run: DamRun, histories: Sequence[CrackHistory]) -> Iterator[Notice]:
     raw, sections = run.summary, histories[0].dam.sections
     depth = max(each.deepest_penetration() for each in histories)
     if depth > 1e-3 * min(section.crack_width for section in sections):
         yield Notice("faces-penetrate", depth_m=depth, contactors=case.flexible.contactors)
-    if raw["contact_residual"] > 1e-6:
-        yield Notice("contact-loose", residual=raw["contact_residual"])
-    if raw["energy_residual"] > 1e-9:
-        yield Notice("energy-open", residual=raw["energy_residual"])
-    if raw["energy_gained"] > 1e-4 * raw["energy_turnover"]:
-        yield Notice("energy-made", gained_j=raw["energy_gained"], turnover_j=raw["energy_turnover"])
+    if raw.contact_residual > 1e-6:
+        yield Notice("contact-loose", residual=raw.contact_residual)
+    if raw.energy_residual > 1e-9:
+        yield Notice("energy-open", residual=raw.energy_residual)
+    if raw.energy_gained > 1e-4 * raw.energy_turnover:
+        yield Notice("energy-made", gained_j=raw.energy_gained, turnover_j=raw.energy_turnover)

@@ -25,6 +25,8 @@ LEAST_M = 1e-3
 FAR_M = 10e-3
 #: Share of the cases fitted that lie within what is said.
 SHARE = 0.7
+# Numbers that differ by less than this part of a limit are on it.
+_ROUNDING = 1e-9
 #: How a spectral displacement adds to the slip of a block, see :func:`regressor`.
 _ADDED = 10.0
 #: No line is nearer than this in the mean, as a logarithm.
@@ -98,9 +100,13 @@ class Fit:
     def outside(self, numbers: Mapping[str, float]) -> Sentence | None:
         """Say which number is none of those studied."""
         for name, (low, high) in self.ranges.items():
-            if not low <= numbers[name] <= high:
-                text = "{what} is {value:.2g}, studied {ends:.2g|to}"
-                return Sentence.of(text, what=NAMES[name], value=numbers[name], ends=(low, high))
+            value, slack = numbers[name], _ROUNDING * max(abs(low), abs(high))
+            if not low - slack <= value <= high + slack:
+                # As many digits as tell the number from both ends.
+                ends = {f"{end:.2g}" for end in (low, high)}
+                digits = next((count for count in range(2, 16) if f"{value:.{count}g}" not in ends), 16)
+                text = f"{{what}} is {{value:.{digits}g}}, studied {{ends:.2g|to}}"
+                return Sentence.of(text, what=NAMES[name], value=value, ends=(low, high))
         return None
 
     def _quantile(self, share: float) -> float:

@@ -8,12 +8,12 @@ from dataclasses import replace
 from time import monotonic
 
 import numpy as np
-from numpy.typing import NDArray
 from rich.console import Console
 from rich.progress import Progress
 
-from heeltoe.arrays import Floats, Integers
+from heeltoe.base.arrays import Floats, Integers
 from heeltoe.case.model import Case
+from heeltoe.errors.error import InputError
 from heeltoe.kernel.block import MODES, OUTCOMES, SUMMARY, USUAL, Limits, run_blocks
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import Block
@@ -21,12 +21,13 @@ from heeltoe.mechanics.drains import close_by_slip
 from heeltoe.models.rigid.rows import Rows, check_limits, rows_of
 from heeltoe.models.rigid.varying import varies
 from heeltoe.models.rigid.walk import limits_of, walk
-from heeltoe.models.silence import STEP
+from heeltoe.models.runner import largest_rotation, rows_until_rest
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.result.contract import LARGEST_ROTATION
 
-# What ends blocks that run together, and whether they are walked exactly.
-_Kind = tuple[Limits, bool]
+# What ends blocks that run together, whether they are walked exactly, and whether rotations may be of any size.
+_Kind = tuple[Limits, bool, bool]
 _OK, _REST = OUTCOMES.index("ok"), MODES.index("rest")
 # Large enough to keep all cores busy, small enough for a progress bar to move.
 _CHUNK = 4096
@@ -77,6 +78,8 @@ def rigid_many(
         Naming field, row and value, where the numbers are those of no block, motions, factors or limits cannot be used,
         or lengths do not agree.
     """
+    if isinstance(threads, bool) or not isinstance(threads, int) or threads < 0:
+        raise InputError("blocks-limit", "threads", threads, bounds="0 for all cores, or how many")
     rows = rows_of(blocks, motions, motion_of, scales)
     pairs = [motion if isinstance(motion, tuple) else (motion, None) for motion in motions]
     earthquakes = [Earthquake(across, up, across.duration) for across, up in pairs]
@@ -101,7 +104,8 @@ def run_rows(
     table = {name: np.zeros(len(rows.numbers)) for name in SUMMARY}
     follow = any(each.motion.parts for each in earthquakes)
     for part, kind in _parts(rows, limits, _CHUNK if progress else len(rows.numbers), sequences=follow):
-        for some, found in _until_rest(rows, part, earthquakes, kind, threads):
+        run = _runner(rows, earthquakes, kind, threads)
+        for some, found in rows_until_rest(run, _reach(finite=kind[2]), part, kind[0].silence):
             for name, values in found.items():
                 table[name][some] = values
         if progress is not None:
@@ -114,52 +118,43 @@ def _parts(rows: Rows, limits: Limits | None, most: int, *, sequences: bool) -> 
     kinds: dict[_Kind, list[int]] = {}
     for row, block in enumerate(rows.blocks):
         exact = not varies(block.case) and not (sequences and close_by_slip(block.case))
-        kinds.setdefault((limits or limits_of(block.case), exact), []).append(row)
+        finite = block.case.analysis.rotation == "finite"
+        kinds.setdefault((limits or limits_of(block.case), exact, finite), []).append(row)
     together = {kind: np.array(alike) for kind, alike in kinds.items()}
     if not rows.blocks:
-        together[limits or USUAL, True] = np.arange(len(rows.numbers))
+        together[limits or USUAL, True, False] = np.arange(len(rows.numbers))
     for kind, alike in together.items():
         check_limits(kind[0])
         for start in range(0, alike.size, max(most, 1)):
             yield alike[start : start + most], kind
 
 
-def _until_rest(
-    rows: Rows, part: Integers, earthquakes: Sequence[Earthquake], kind: _Kind, threads: int
-) -> Iterator[tuple[Integers, dict[str, Floats]]]:
-    """Run some rows, and those that still move again, as :func:`heeltoe.models.silence.until_rest` does; what
-    comes later takes the place of what came before."""
-    limits, exact = kind
+def _runner(
+    rows: Rows, earthquakes: Sequence[Earthquake], kind: _Kind, threads: int
+) -> Callable[[Integers, float], dict[str, Floats]]:
+    """Return what runs some of the rows with some silence after their motions."""
+    limits, exact, _ = kind
 
     def run(some: Integers, silence: float) -> dict[str, Floats]:
         used, place = np.unique(rows.which[some], return_inverse=True)
         which = place.astype(np.int64)
-        shakings = [earthquakes[each].silent(silence).shaking for each in used.tolist()]
+        shakings = [earthquakes[motion].silent(silence).shaking for motion in used.tolist()]
         if exact:
             return run_blocks(rows.numbers[some], shakings, which, rows.scales[some], limits, threads)
         return _integrated(rows, some, which, shakings, limits, threads)
 
-    found = run(part, 0.0)
-    yield part, found
-    left = part[_move(found)]
-    if not left.size or not limits.silence:
-        return
-    found = run(left, limits.silence)
-    yield left, found
-    # What ends in another way, or never, has nothing to wait for.
-    left = left[~_move(found) & (found["outcome"] == _OK)]
-    silence = STEP
-    while left.size and silence < limits.silence:
-        found = run(left, silence)
-        moves = _move(found)
-        yield left[~moves], {name: values[~moves] for name, values in found.items()}
-        left, silence = left[moves], silence + STEP
+    return run
 
 
-def _move(found: dict[str, Floats]) -> NDArray[np.bool_]:
-    """Return which blocks still move when their runs end."""
-    moves: NDArray[np.bool_] = (found["outcome"] == _OK) & (found["final_mode"] != _REST)
-    return moves
+def _reach(*, finite: bool) -> Callable[[dict[str, Floats]], Floats]:
+    """Return what says of blocks whether they are at rest, see :func:`rows_until_rest`."""
+
+    def reach(table: dict[str, Floats]) -> Floats:
+        far = (largest_rotation(table) > LARGEST_ROTATION) & (not finite)
+        moves = np.where(table["final_mode"] != _REST, np.inf, 0.0)
+        return np.where((table["outcome"] == _OK) & ~far, moves, -np.inf)
+
+    return reach
 
 
 def _integrated(
@@ -172,7 +167,7 @@ def _integrated(
         block, (across, up) = rows.blocks[row], rows.scales[row]
         vertical = None if shaking.up is None else up * shaking.up
         shaken = replace(shaking, horizontal=across * shaking.horizontal, up=vertical)
-        return list(walk(block.case, block, shaken, limits=limits).summary.values())
+        return list(walk(block.case, block, shaken, limits=limits).summary.by_name().values())
 
     with ThreadPoolExecutor(threads or None) as pool:
         summaries = np.array(list(pool.map(run, range(part.size))))

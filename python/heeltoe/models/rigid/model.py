@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError
-from heeltoe.kernel.block import MODES
-from heeltoe.mechanics.block import Block, build_block, static_state
-from heeltoe.models.rigid.tables import energy_of, events_of, histories_of, references_of, summary_of
-from heeltoe.models.rigid.walk import walk
-from heeltoe.models.rigid.warnings import advice_of, outcome_of, warnings_of
+from heeltoe.errors.error import InputError
+from heeltoe.mechanics.block import Block, build_block
+from heeltoe.models.rigid.tables import crack_response, energy_of, references_of
+from heeltoe.models.rigid.walk import walk_with_drainage
+from heeltoe.models.rigid.warnings import advice_of, warnings_of
+from heeltoe.models.runner import largest_rotation, outcome_of
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.response import Response
 
@@ -41,14 +41,16 @@ def run_rigid(
     block = block or build_block(case)
     shaking = earthquake.shaking
     moments = moments_of(earthquake, output_step)
-    run = walk(case, block, shaking, moments)
+    run, drainage = walk_with_drainage(case, block, shaking, moments)
     moments = moments[: run.mode.size]
-    end = run.summary["end_time"]
+    end = run.summary.end_time
     if run.outcome == "overturned" and moments[-1] < end:
         # Where it lies is between two moments: the last one is that just before, which a walk still passes.
-        run = walk(case, block, shaking, np.append(moments, np.nextafter(end, 0.0)))
+        run, drainage = walk_with_drainage(case, block, shaking, np.append(moments, np.nextafter(end, 0.0)))
         moments = np.append(moments, end)
-    outcome = outcome_of(case, run)
+    outcome = outcome_of(
+        run.outcome, float(largest_rotation(run.summary.by_name())), finite=case.analysis.rotation == "finite"
+    )
     started = outcome != "unstable"
     return Response(
         model="rigid",
@@ -56,22 +58,16 @@ def run_rigid(
         outcome=outcome,
         advice=advice_of(block, run, outcome),
         warnings=tuple(warnings_of(case, block, run)),
-        summary=summary_of(case, block, run) if started else {},
         energy=energy_of(run) if started else None,
         motion=earthquake.motion,
         vertical=earthquake.vertical,
         gravity=case.gravity,
-        histories=histories_of(case, block, shaking, moments, run) if started else {},
-        mode=tuple(MODE_NAMES.take(run.mode).tolist()) if started else (),
-        event_log=events_of(run),
-        static=static_state(block),
+        cracks=(crack_response(case, block, shaking, moments, run, started=started, drainage=drainage),),
         references=references_of(case, block, run),
         silence_s=earthquake.silence,
     )
 
 
-#: Modes of motion by their numbers.
-MODE_NAMES = np.array(MODES, dtype=object)
 #: Moments that a history may have: each takes some 200 bytes, here and in the file.
 MOST_MOMENTS = 2_000_000
 # In the silence after it there are samples as far apart as those of the record, within these bounds [s].

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.mechanics.beam import Swing, swing_of
 from heeltoe.models.rigid.criterion import FAR_M, LEAST_M, Fit, Likeness, fits
 from heeltoe.result.response import Response
 from heeltoe.units.sentences import Sentence
-from heeltoe.warnings import AS_ELASTIC, Notice
+from heeltoe.warnings.notice import AS_ELASTIC, Notice
 
 #: Moduli that the concrete of dams usually has [Pa].
 USUAL_MODULI = (15e9, 35e9)

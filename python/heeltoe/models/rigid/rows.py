@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe.arrays import Floats, Integers
-from heeltoe.case.at_crack import one_crack
+from heeltoe.base.arrays import Floats, Integers
+from heeltoe.case.combinations import check
 from heeltoe.case.model import Case
 from heeltoe.case.options import LONGEST_SILENCE
-from heeltoe.errors import InputError, expect
+from heeltoe.errors.error import InputError, expect
 from heeltoe.kernel.block import BLOCK, Limits
 from heeltoe.mechanics.block import Block, build_block
 from heeltoe.motion.ground_motion import GroundMotion
@@ -90,7 +90,7 @@ def check_limits(limits: Limits) -> None:
 
 def _built(each: Block | Case, row: int) -> Block:
     if isinstance(each, Case):
-        one_crack(each, "the rigid model")
+        check(each, "table")
         return build_block(each)
     if not isinstance(each, Block):
         raise InputError("blocks-shape", f"blocks[{row}]", type(each).__name__, columns=len(BLOCK))

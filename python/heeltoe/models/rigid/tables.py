@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.kernel.block import EVENT_KINDS, MODES, SUMMARY, BlockRun
 from heeltoe.kernel.shaking import Shaking
-from heeltoe.mechanics.block import Block
-from heeltoe.models.rigid.worn import law_found, law_histories, roughness_found, roughness_histories
-from heeltoe.references import cited
-from heeltoe.result.contract import HEADLINES, headlines
-from heeltoe.result.response import Energy
+from heeltoe.mechanics.block import Block, static_state
+from heeltoe.mechanics.references import cited
+from heeltoe.models.rigid.slip_history import law_found, law_histories, roughness_found, roughness_histories
+from heeltoe.result.contract import HEADLINES, headlines, slip_by_mode, time_by_mode
+from heeltoe.result.numbers import AnchorForce, BlockNumbers
+from heeltoe.result.response import CrackResponse, Energy
 
+#: Modes of motion by their numbers.
+MODE_NAMES = np.array(MODES, dtype=object)
 #: What :func:`heeltoe.result.contract.headlines` reads of a kernel's table.
 _COLUMNS = tuple({each.column for each in HEADLINES} & set(SUMMARY))
 
@@ -37,9 +41,14 @@ def with_openings(found: dict[str, Floats], case: Case, width: Floats) -> dict[s
     }
 
 
-def tensions(case: Case, run: BlockRun) -> list[float]:
-    """Return the largest tension of each anchor [N/m]: its prestress where nothing varies."""
-    return [anchor.prestress for anchor in case.anchors_at_crack] if run.tension is None else run.tension.tolist()
+def anchors_of(case: Case, run: BlockRun) -> list[AnchorForce]:
+    """Return what each anchor bears at most [N/m], and what it is good for: its prestress where nothing varies."""
+    anchors = case.anchors_at_crack
+    borne = [[anchor.prestress] * 2 for anchor in anchors] if run.anchors is None else run.anchors.tolist()
+    return [
+        AnchorForce(distance_m=anchor.distance, peak_tension_n=tension, peak_force_n=force, capacity_n=anchor.capacity)
+        for anchor, (tension, force) in zip(anchors, borne, strict=True)
+    ]
 
 
 def references_of(case: Case, block: Block, run: BlockRun) -> tuple[str, ...]:
@@ -62,59 +71,69 @@ def references_of(case: Case, block: Block, run: BlockRun) -> tuple[str, ...]:
     return cited(*keys)
 
 
-def summary_of(case: Case, block: Block, run: BlockRun) -> dict[str, Any]:
-    """Return the numbers of the contract."""
-    raw = run.summary
-    table = {name: np.array([raw[name]]) for name in _COLUMNS}
-    first = {
+def numbers_of(case: Case, block: Block, run: BlockRun, drainage: Sequence[float] = ()) -> BlockNumbers:
+    """Return the numbers of a crack below a block; `drainage` is what each motion of a sequence met of its drainage."""
+    raw, row = run.summary, run.summary.by_name()
+    table = {name: np.array([row[name]]) for name in _COLUMNS}
+    first: dict[str, Any] = {
         name: float(value[0]) for name, value in with_openings(headlines(table), case, np.array([block.width])).items()
     }
     about = "toe" if first["rocking_downstream_rad"] > first["rocking_upstream_rad"] else "heel"
-    return first | {
-        "largest_gap_heel_m": raw["largest_gap_heel"],
-        "largest_gap_toe_m": raw["largest_gap_toe"],
-        "slip_by_mode_m": {
-            "sliding": raw["slip_sliding"],
-            "slide_rocking": raw["slip_slide_rocking"],
-            "drifting": raw["slip_drifting"],
-        },
-        "time_by_mode_s": {
-            "rest": raw["time_rest"],
-            "sliding": raw["time_sliding"],
-            "rocking": raw["time_rocking"],
-            "slide_rocking": raw["time_slide_rocking"],
-            "drifting": raw["time_drifting"],
-        },
-        "impacts": int(raw["impacts"]),
-        "largest_impact_velocity_m_s": raw["largest_impact_velocity"],
+    return BlockNumbers(
+        **first,
+        largest_gap_heel_m=raw.largest_gap_heel,
+        largest_gap_toe_m=raw.largest_gap_toe,
+        slip_by_mode_m=slip_by_mode(row),
+        time_by_mode_s=time_by_mode(row),
+        impacts=int(raw.impacts),
+        largest_impact_velocity_m_s=raw.largest_impact_velocity,
         # As many as the log has: the one at which the limit stops a run is not made any more.
-        "events": int(run.events["time"].size),
-        "final_mode": run.final_mode,
-        "final_slip_velocity_m_s": raw["slip_velocity"],
-        "end_time_s": raw["end_time"],
-        "crack_width_m": block.width,
-        "rotation": case.analysis.rotation,
-        "uplift_during_shaking": case.uplift.during_shaking,
-        "drainage_by_motion": list(run.drainage) or None,
-        "friction_law": None if case.crack.law is None else law_found(case, block, run),
-        "roughness": roughness_found(case.crack, run),
-        "overturned_about": about if run.outcome == "overturned" else None,
-        "anchors": [
-            {"distance_m": anchor.distance, "peak_tension_n": float(peak), "capacity_n": anchor.capacity}
-            for anchor, peak in zip(case.anchors_at_crack, tensions(case, run), strict=True)
-        ],
-    }
+        events=int(run.events.time.size),
+        final_mode=run.final_mode,
+        final_slip_velocity_m_s=raw.slip_velocity,
+        end_time_s=raw.end_time,
+        crack_width_m=block.width,
+        rotation=case.analysis.rotation,
+        uplift_during_shaking=case.uplift.during_shaking,
+        drainage_by_motion=list(drainage) or None,
+        friction_law=None if case.crack.law is None else law_found(case, block, run),
+        roughness=roughness_found(case.crack, run),
+        overturned_about=about if run.outcome == "overturned" else None,
+        anchors=anchors_of(case, run),
+    )
+
+
+def crack_response(
+    case: Case,
+    block: Block,
+    shaking: Shaking,
+    moments: Floats,
+    run: BlockRun,
+    *,
+    started: bool = True,
+    drainage: Sequence[float] = (),
+) -> CrackResponse:
+    """Return what the crack below a block did; of a run that never started events and static state alone. `drainage` is
+    what each motion of a sequence met of its drainage."""
+    return CrackResponse(
+        elevation=block.section.heel[1] - block.section.base_elevation,
+        of_crack=numbers_of(case, block, run, drainage) if started else None,
+        histories=histories_of(case, block, shaking, moments, run) if started else {},
+        mode=tuple(MODE_NAMES.take(run.mode).tolist()) if started else (),
+        event_log=events_of(run),
+        static=static_state(block),
+    )
 
 
 def energy_of(run: BlockRun) -> Energy:
     """Return the ledger."""
     raw = run.summary
     return Energy(
-        input_j=raw["energy_input"],
-        friction_j=raw["energy_friction"],
-        impact_j=raw["energy_impact"],
-        kinetic_j=raw["energy_kinetic"],
-        residual=raw["energy_residual"],
+        input_j=raw.energy_input,
+        friction_j=raw.energy_friction,
+        impact_j=raw.energy_impact,
+        kinetic_j=raw.energy_kinetic,
+        residual=raw.energy_residual,
     )
 
 
@@ -126,23 +145,23 @@ def histories_of(case: Case, block: Block, shaking: Shaking, moments: Floats, ru
         result["vertical_ground_acceleration_m_s2"] = np.interp(moments, time, shaking.up)
     if shaking.turning is not None:
         result["ground_rotation_rad_s2"] = np.interp(moments, time, shaking.turning)
-    rotation = (column["gap_toe"] - column["gap_heel"]) / block.width
-    rate = (column["gap_velocity_toe"] - column["gap_velocity_heel"]) / block.width
+    rotation = (column.gap_toe - column.gap_heel) / block.width
+    rate = (column.gap_velocity_toe - column.gap_velocity_heel) / block.width
     if case.analysis.rotation == "finite":
         # The gaps go with its sine.
         rotation = np.arcsin(np.clip(rotation, -1.0, 1.0))
         rate = rate / np.maximum(np.cos(rotation), 1e-9)
     result |= {
-        "slip_m": column["slip"],
-        "slip_velocity_m_s": column["slip_velocity"],
-        "slip_acceleration_m_s2": column["slip_acceleration"],
-        "gap_heel_m": column["gap_heel"],
-        "gap_toe_m": column["gap_toe"],
+        "slip_m": column.slip,
+        "slip_velocity_m_s": column.slip_velocity,
+        "slip_acceleration_m_s2": column.slip_acceleration,
+        "gap_heel_m": column.gap_heel,
+        "gap_toe_m": column.gap_toe,
         "rotation_rad": rotation,
         "rotation_velocity_rad_s": rate,
-        "friction_force_n": column["friction_force"],
-        "normal_force_heel_n": column["normal_force_heel"],
-        "normal_force_toe_n": column["normal_force_toe"],
+        "friction_force_n": column.friction_force,
+        "normal_force_heel_n": column.normal_force_heel,
+        "normal_force_toe_n": column.normal_force_toe,
     }
     if case.crack.law is not None and run.worn is not None:
         result |= law_histories(case, block, run)
@@ -153,25 +172,25 @@ def events_of(run: BlockRun) -> dict[str, Any]:
     """Return the events of the contract."""
     column = run.events
 
-    def named(field: str, names: tuple[str, ...]) -> list[str]:
-        return [names[k] for k in column[field].astype(np.intp).tolist()]
+    def named(places: Floats, names: tuple[str, ...]) -> list[str]:
+        return [names[k] for k in places.astype(np.intp).tolist()]
 
     return {
-        "time_s": column["time"],
-        "kind": named("kind", EVENT_KINDS),
-        "mode_before": named("mode_before", MODES),
-        "mode_after": named("mode_after", MODES),
-        "slip_m": column["slip"],
-        "gap_heel_m": column["gap_heel"],
-        "gap_toe_m": column["gap_toe"],
-        "slip_velocity_m_s": column["slip_velocity"],
-        "gap_velocity_heel_m_s": column["gap_velocity_heel"],
-        "gap_velocity_toe_m_s": column["gap_velocity_toe"],
-        "approach_slip_velocity_m_s": column["approach_slip_velocity"],
-        "approach_velocity_heel_m_s": column["approach_velocity_heel"],
-        "approach_velocity_toe_m_s": column["approach_velocity_toe"],
-        "friction_impulse_n_s": column["impulse_friction"],
-        "heel_impulse_n_s": column["impulse_heel"],
-        "toe_impulse_n_s": column["impulse_toe"],
-        "energy_lost_j": column["energy_lost"],
+        "time_s": column.time,
+        "kind": named(column.kind, EVENT_KINDS),
+        "mode_before": named(column.mode_before, MODES),
+        "mode_after": named(column.mode_after, MODES),
+        "slip_m": column.slip,
+        "gap_heel_m": column.gap_heel,
+        "gap_toe_m": column.gap_toe,
+        "slip_velocity_m_s": column.slip_velocity,
+        "gap_velocity_heel_m_s": column.gap_velocity_heel,
+        "gap_velocity_toe_m_s": column.gap_velocity_toe,
+        "approach_slip_velocity_m_s": column.approach_slip_velocity,
+        "approach_velocity_heel_m_s": column.approach_velocity_heel,
+        "approach_velocity_toe_m_s": column.approach_velocity_toe,
+        "friction_impulse_n_s": column.impulse_friction,
+        "heel_impulse_n_s": column.impulse_heel,
+        "toe_impulse_n_s": column.impulse_toe,
+        "energy_lost_j": column.energy_lost,
     }

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.kernel.block import BlockRun, Limits, run_block
 from heeltoe.kernel.shaking import Shaking
@@ -24,10 +24,18 @@ def limits_of(case: Case) -> Limits:
 def walk(
     case: Case, block: Block, shaking: Shaking, moments: Floats | None = None, limits: Limits | None = None
 ) -> BlockRun:
+    """Run a block as :func:`walk_with_drainage` does; return the run alone."""
+    return walk_with_drainage(case, block, shaking, moments, limits)[0]
+
+
+def walk_with_drainage(
+    case: Case, block: Block, shaking: Shaking, moments: Floats | None = None, limits: Limits | None = None
+) -> tuple[BlockRun, list[float]]:
     """Run the block of a case as the case asks: exactly, or by integration where something varies; motion by motion
     where slip closes drains between those of a sequence.
 
-    `moments` are those of the histories [s]; none without them. `limits` stand in place of those of the case.
+    `moments` are those of the histories [s]; none without them. `limits` stand in place of those of the case. Return
+    how much of its drainage each motion of a sequence met, too; empty where no drains close.
     """
     wanted = np.empty(0) if moments is None else moments
     ends = limits or limits_of(case)
@@ -42,4 +50,4 @@ def walk(
 
     if in_stages(case, shaking):
         return walk_in_stages(case, block, shaking, wanted, run)
-    return run(case, block, shaking, wanted, None)
+    return run(case, block, shaking, wanted, None), []

@@ -8,10 +8,11 @@ from heeltoe.case.model import Case
 from heeltoe.kernel.block import BlockRun
 from heeltoe.mechanics.block import Block, instability
 from heeltoe.mechanics.friction import range_of
-from heeltoe.models.rigid.tables import tensions
+from heeltoe.models.rigid.tables import anchors_of
+from heeltoe.models.runner import about_the_anchors
 from heeltoe.result.contract import LARGEST_ROTATION, TOO_FAR
 from heeltoe.units.sentences import Sentence
-from heeltoe.warnings import Notice
+from heeltoe.warnings.notice import Notice
 
 ADVICE = {
     TOO_FAR: (
@@ -31,14 +32,6 @@ ADVICE = {
 _SHARE_OF_SLENDERNESS = 0.1
 # Less slip [m] changes no decision.
 _SLIP_TO_TALK_ABOUT = 1e-3
-# A slip of this part of the crack's width takes as much off what the block stands on.
-_SHARE_OF_WIDTH = 0.1
-
-
-def outcome_of(case: Case, run: BlockRun) -> str:
-    """Return how a run ended: rotations that are taken for small and are not leave no result."""
-    large = max(run.summary["rotation_max"], -run.summary["rotation_min"]) > LARGEST_ROTATION
-    return TOO_FAR if run.outcome == "ok" and large and case.analysis.rotation != "finite" else run.outcome
 
 
 def law_warnings(case: Case, block: Block) -> list[Notice]:
@@ -63,19 +56,19 @@ def advice_of(block: Block, run: BlockRun, outcome: str) -> Sentence | None:
         why = instability(block) or Sentence("its static loads are at the limit of friction or of overturning")
         return Sentence.of("{why}: {remedy}", why=why, remedy=ADVICE[outcome])
     if outcome == TOO_FAR:
-        largest = max(raw["rotation_max"], -raw["rotation_min"])
+        largest = max(raw.rotation_max, -raw.rotation_min)
         return Sentence.of(
             "it rotates by {rotation_rad:.3g rad}; {remedy}", rotation_rad=largest, remedy=ADVICE[outcome]
         )
     return Sentence.of(
         "stopped at {time_s:.6f s} in mode {mode} with slip {slip_m:.6g m} at {slip_velocity_m_s:.6g m/s}, heel gap "
         "{gap_heel_m:.6g m}, toe gap {gap_toe_m:.6g m}: {remedy}",
-        time_s=raw["end_time"],
+        time_s=raw.end_time,
         mode=repr(run.final_mode),
-        slip_m=raw["slip"],
-        slip_velocity_m_s=raw["slip_velocity"],
-        gap_heel_m=raw["gap_heel"],
-        gap_toe_m=raw["gap_toe"],
+        slip_m=raw.slip,
+        slip_velocity_m_s=raw.slip_velocity,
+        gap_heel_m=raw.gap_heel,
+        gap_toe_m=raw.gap_toe,
         remedy=ADVICE[outcome],
     )
 
@@ -83,21 +76,17 @@ def advice_of(block: Block, run: BlockRun, outcome: str) -> Sentence | None:
 def warnings_of(case: Case, block: Block, run: BlockRun) -> list[Notice]:
     """Return what a reader of a rigid run must know."""
     raw, said = run.summary, []
-    if raw["energy_limited_impacts"]:
-        said.append(Notice("restitution-lowered", impacts=int(raw["energy_limited_impacts"])))
-    if raw["jams"]:
-        said.append(Notice("paradox-jammed", jams=int(raw["jams"])))
+    if raw.energy_limited_impacts:
+        said.append(Notice("restitution-lowered", impacts=int(raw.energy_limited_impacts)))
+    if raw.jams:
+        said.append(Notice("paradox-jammed", jams=int(raw.jams)))
     said += law_warnings(case, block)
     said += _about_rare_choices(case, run)
-    said += _about_the_slip(case, block, run)
+    said += _about_the_slip(case, run)
     # Integration is exact to a part of the crack's width, of which tiny motions are a tiny part.
-    if raw["energy_residual"] > (1e-9 if run.exact else 1e-6):
-        said.append(Notice("energy-open", residual=raw["energy_residual"]))
-    for anchor, peak in zip(case.anchors_at_crack, tensions(case, run), strict=True):
-        if anchor.capacity is not None and peak > anchor.capacity:
-            said.append(
-                Notice("anchor-overloaded", distance_m=anchor.distance, tension_n=peak, capacity_n=anchor.capacity)
-            )
+    if raw.energy_residual > (1e-9 if run.exact else 1e-6):
+        said.append(Notice("energy-open", residual=raw.energy_residual))
+    said += about_the_anchors(anchors_of(case, run))
     if case.analysis.rotation == "small":
         said += _about_the_rotation(block, run)
     return said
@@ -107,7 +96,7 @@ def _about_rare_choices(case: Case, run: BlockRun) -> list[Notice]:
     """Say where a choice for a rare situation is given, and the run never came into one."""
     met = {
         "event_limit": (run.outcome == "event limit", "the run has fewer events"),
-        "paradox": (run.outcome == "paradox" or run.summary["jams"] > 0.0, "no paradox was met"),
+        "paradox": (run.outcome == "paradox" or run.summary.jams > 0.0, "no paradox was met"),
     }
     return [
         Notice("fields-idle", field=f"analysis.{name}", fields=f"analysis.{name}", why=why)
@@ -116,15 +105,12 @@ def _about_rare_choices(case: Case, run: BlockRun) -> list[Notice]:
     ]
 
 
-def _about_the_slip(case: Case, block: Block, run: BlockRun) -> list[Notice]:
-    """Say where the slip is of little use, or too much for what was taken for granted."""
+def _about_the_slip(case: Case, run: BlockRun) -> list[Notice]:
+    """Say where the slip is of little use."""
     raw, said = run.summary, []
-    largest = max(raw["slip_max"], -raw["slip_min"])
-    in_the_air, sliding = abs(raw["slip_drifting"]), abs(raw["slip_sliding"]) + abs(raw["slip_slide_rocking"])
+    in_the_air, sliding = abs(raw.slip_drifting), abs(raw.slip_sliding) + abs(raw.slip_slide_rocking)
     if case.crack.restitution > 0.0 and in_the_air > max(sliding, _SLIP_TO_TALK_ABOUT):
         said.append(Notice("slip-in-the-air", slip_m=in_the_air, restitution=case.crack.restitution))
-    if run.outcome == "ok" and _SHARE_OF_WIDTH * block.width < largest <= block.width:
-        said.append(Notice("slid-far", share=largest / block.width))
     return said
 
 
@@ -132,8 +118,8 @@ def _about_the_rotation(block: Block, run: BlockRun) -> list[Notice]:
     """Say where the block turns so far that its weight pulls it back noticeably less."""
     said = []
     for rotation, distance, corner in (
-        (-run.summary["rotation_min"], block.toe_distance, "toe"),
-        (run.summary["rotation_max"], block.heel_distance, "heel"),
+        (-run.summary.rotation_min, block.toe_distance, "toe"),
+        (run.summary.rotation_max, block.heel_distance, "heel"),
     ):
         slenderness = math.atan2(distance, block.height)
         if rotation > _SHARE_OF_SLENDERNESS * slenderness:

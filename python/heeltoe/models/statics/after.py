@@ -2,14 +2,49 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from heeltoe.case.model import Case
+from heeltoe.errors.sanitize import plain
+from heeltoe.models.statics.joints import Joints, statics_of_sections
 from heeltoe.models.statics.model import Statics, statics
-from heeltoe.plain import plain
 from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest
-from heeltoe.warnings import Notice
+from heeltoe.warnings.notice import Notice
+
+_NO_CRACK = "this joint is no crack of the run, and has not slipped"
+
+
+def joints_after(
+    case: Case, runs: Callable[[], Sequence[Response]], run_alone: Callable[[Case], Sequence[Response]] | None = None
+) -> Joints:
+    """Judge a dam at each of its sections with what its earthquake has left: the slip of a crack is that of the run of
+    the whole dam, by every door.
+
+    Parameters
+    ----------
+    case
+        Dam, cracks, and the choices of ``[statics]``.
+    runs
+        Gives the runs of the whole dam, the better model first.
+    run_alone
+        Runs the dam with a lift joint cracked that is none of its cracks; such a joint has no check after the
+        earthquake where it is not given.
+    """
+
+    def judge(alone: Case, place: int | None) -> Statics:
+        if place is not None:
+            return statics_after(alone, *(run.at_crack(place) if len(run.cracks) > 1 else run for run in runs()))
+        if run_alone is None:
+            still = alone.model_copy(update={"motion": None, "aftershocks": ()})
+            asked = alone.statics.residual_friction is not None and alone.statics.residual_slip is None
+            return statics(still, 0.0, slip_source=_NO_CRACK) if asked else statics(still)
+        found = statics_after(alone, *run_alone(alone))
+        source = found.slip_source and f"{found.slip_source}, run with this joint as the only crack"
+        return replace(found, slip_source=source)
+
+    return statics_of_sections(case, judge)
 
 
 def statics_after(case: Case, *runs: Response) -> Statics:
@@ -35,7 +70,10 @@ def statics_after(case: Case, *runs: Response) -> Statics:
         source = f"the {model} model ends {outcome!r}, zero is taken"
         found = statics(case, 0.0, slip_source=source, beside=beside)
         return replace(found, warnings=(Notice("slip-untold", model=model, outcome=outcome), *found.warnings))
-    source = f"{trusted.model} model, {plain(trusted.motion.name)}, PGA {trusted.motion.pga / trusted.gravity:.4g} g"
-    if not comes_to_rest(trusted):
-        source += ", still moving when the run ends"
-    return statics(case, trusted.residual_slip_m, slip_source=source, beside=beside)
+    return statics(case, trusted.residual_slip_m, slip_source=slip_source(trusted), beside=beside)
+
+
+def slip_source(run: Response) -> str:
+    """Return what says where the residual slip of a run comes from."""
+    source = f"{run.model} model, {plain(run.motion.name)}, PGA {run.motion.pga / run.gravity:.4g} g"
+    return source if comes_to_rest(run) else f"{source}, still moving when the run ends"

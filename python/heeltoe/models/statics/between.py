@@ -6,19 +6,23 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from heeltoe.case.model import Case
+from heeltoe.errors.sanitize import plain
 from heeltoe.mechanics.drains import drainage_left
 from heeltoe.models.statics.model import statics
-from heeltoe.plain import plain
 from heeltoe.result.response import Response
 from heeltoe.result.sequence import Stage, stages
-from heeltoe.warnings import Notice
+from heeltoe.warnings.notice import Notice
 
 _AFTER = "post-seismic"
 
 
 def judged_stages(case: Case, response: Response) -> tuple[Stage, ...]:
     """Return what each motion of a sequence does, and how the dam that it leaves meets the static checks."""
-    return tuple(_judged(case, each) for each in stages(response, response.motion.parts))
+    found = [_judged(case, stage) for stage in stages(response, response.motion.parts)]
+    if response.outcome == "overturned" and found:
+        fallen = f"the motion overturns the block about its {response.overturned_about}: nothing stands after it"
+        found[-1] = replace(found[-1], at_rest=False, static={**found[-1].static, "ok": False, "missed": [fallen]})
+    return tuple(found)
 
 
 def about_the_sequence(
@@ -26,6 +30,9 @@ def about_the_sequence(
 ) -> Iterator[Notice]:
     """Say where a motion meets a dam that is not at rest, that does not stand, or whose drains slip has closed; the run
     has `followed` these, or not. Where there are `several` cracks it is said of which."""
+    parts = len(case.aftershocks) + 1
+    if found and len(found) < parts:
+        yield Notice("sequence-ends", number=len(found), name=found[-1].name, left=parts - len(found))
     where = f" at the crack at {case.crack.elevation:g} m," if several else ""
     for number, each in enumerate(found[:-1]):
         which = f"motion {number + 1}, {each.name},{where}"

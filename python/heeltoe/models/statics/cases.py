@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
+from itertools import product
 
 from heeltoe.case.crack.kinks import climbs
 from heeltoe.case.dam import Reservoir, Water
 from heeltoe.case.model import Case
+from heeltoe.case.options import StaticsEarthquake
+from heeltoe.errors.sanitize import plain
+from heeltoe.mechanics.block import across_crack
 from heeltoe.mechanics.drains import drainage_left, with_drainage
 from heeltoe.mechanics.friction import peak_of, residual_of
-from heeltoe.mechanics.loads import Resultant, concrete_mass, scaled, static_forces
+from heeltoe.mechanics.loads import Resultant, concrete_mass, scaled, static_forces, total
 from heeltoe.mechanics.virtual_water import moving_force
 from heeltoe.models.statics.contact import Contact
 from heeltoe.models.statics.criteria import Loads
@@ -60,40 +65,56 @@ def at_depth(case: Case, depth: float) -> Case:
 
 
 def pseudo_static(case: Case, before: Solved) -> tuple[Solved, ...]:
-    """Return the cases of a seismic coefficient that pushes the block downstream and upstream.
+    """Return the cases of earthquakes that push the block downstream and upstream with their seismic coefficients.
 
     The concrete's inertia acts at its centroid, the water's pressure on the faces, both the same way; the vertical
     coefficient lifts the block or presses it down, a case each, which says what checks it governs. `before` is the
     usual case: the crack that it has opened is open already and no longer bonded.
     """
-    horizontal, vertical = case.statics.seismic_coefficient, case.statics.vertical_seismic_coefficient
-    assert horizontal is not None
     law, source = rules_of(case).uplift
     still = _contact(case)
-    opened = before.settled.heel_crack
+    opened = before.settled.heel_crack, before.settled.toe_crack
     contact = replace(
         still,
-        bonded_from=max(still.bonded_from, still.start + opened),
-        bonded_to=still.end - before.settled.toe_crack,
+        bonded_from=max(still.bonded_from, still.start + opened[0]),
+        bonded_to=still.end - opened[1],
     )
     water = water_in_earthquake(before.settled.profile, still_water(case, still.start, still.end), opened, law)
     found: list[Solved] = []
-    for way, sign in (("downstream", -1.0), ("upstream", 1.0)):
+    ways = (("downstream", -1.0), ("upstream", 1.0))
+    for earthquake, (way, sign) in product(case.statics.pseudo_static, ways):
+        horizontal, vertical = earthquake.seismic_coefficient, earthquake.vertical_seismic_coefficient
+        called = f"{plain(earthquake.name)}, " if earthquake.name else ""
+        loads, taken = _rarity(case, earthquake)
         tried = []
         for name, up in ((", lifting", -1.0), (", pressing", 1.0)) if vertical else (("", 0.0),):
             ground = sign * horizontal, up * vertical
             given = Given(
-                f"pseudo-static {way}{name}",
-                "earthquake",
+                f"{called}pseudo-static {way}{name}",
+                loads,
                 case.crack.apparent_friction,
                 case.statics.cohesion,
-                (Sentence(f"uplift: {source}"),),
+                (Sentence(f"uplift: {source}"), *taken),
                 sources_of(case) | sources_of_inertia(case, *ground),
                 peak_of(case.crack),
             )
             tried.append(solve_case(given, case, (*_dry(case), *_inertia(case, *ground)), contact, water))
         found += governing(tried) if vertical else tried
     return tuple(found)
+
+
+def _rarity(case: Case, earthquake: StaticsEarthquake) -> tuple[Loads, tuple[Sentence, ...]]:
+    """Return the loads that criteria take an earthquake for, and what is to be said of it.
+
+    USACE EM 1110-2-2100 (2005) has the operating basis earthquake among the unusual loads and the maximum design
+    earthquake among the extreme ones; criteria of the user's own may tell them apart, the others do not.
+    """
+    if not earthquake.is_unusual:
+        return "earthquake", ()
+    if case.statics.criteria_file is not None or case.statics.criteria == "USACE":
+        return "unusual", (Sentence.of("{name} is an unusual load", name=plain(earthquake.name)),)
+    text = f"{case.statics.criteria} has one set of factors for every earthquake"
+    return "earthquake", (Sentence(text),)
 
 
 def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
@@ -117,6 +138,10 @@ def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
         "kinetic" if choice.residual_friction is None else "residual",
     )
     law = residual_of(case.crack) if choice.residual_friction is None else None
+    falling = _falls(case, slip)
+    if falling and law is None and choice.residual_friction is None:
+        friction = math.tan(max(math.atan(friction) - falling, 0.0))
+        kind = "kinetic, on a flank of the asperities that falls in the direction of the push, tan(φ - i)"
     told = f"friction {friction:g}, {kind}" if law is None else "friction that all slip leaves, by crack.law"
     said = [
         Sentence.of("slip {slip_m:.4f m} {way}: {source}", slip_m=size, way=way, source=source),
@@ -150,6 +175,20 @@ def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
         said.append(Sentence(text))
     given = Given("post-seismic", "post-earthquake", friction, 0.0, tuple(said), sources_of(case), law, matches)
     return solve_case(given, case, _dry(case), contact, water)
+
+
+def _falls(case: Case, slip: float) -> float:
+    """Return the angle of the flank of a rough crack on which a slip leaves the block [rad], where that falls in the
+    direction in which the static loads push; zero where it rises or the crack is smooth. It is that of a new crack: a
+    worn flank is flatter, and bears more."""
+    rough = case.crack.roughness
+    if rough is None or not slip:
+        return 0.0
+    # Downstream of a valley a flank rises for half a wave, and then falls.
+    place = slip % rough.wave_length / rough.wave_length
+    pushed = total("all", [across_crack(force, case.cut) for force in _dry(case)]).horizontal
+    falls = 0.5 < place < 1.0 if pushed >= 0.0 else 0.0 < place < 0.5
+    return rough.angle if falls else 0.0
 
 
 def _contact(case: Case) -> Contact:

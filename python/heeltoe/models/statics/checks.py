@@ -112,7 +112,7 @@ def _equilibrium(found: LoadCase) -> Check:
             words += f"; the resultant is {{away_m:.2f m}} {'beyond' if beyond > 0.0 else 'inside'} the {end}"
             quantities["away_m"] = abs(beyond)
     met = found.outcome == "stands"
-    sentence = Sentence.of(f"{found.name}: {words}", **quantities)
+    sentence = Sentence.of("{load_case}: " + words, load_case=found.name, **quantities)
     return Check(found.name, "equilibrium", None, None, True, met, "equilibrium", "", sentence)
 
 
@@ -130,7 +130,7 @@ def _factor(found: LoadCase, row: Criterion) -> Check:
     digits = _digits(value - row.required)
     words = (
         f"{name} {value:.{digits}f} is {abs(value - row.required):.{digits}f} {'above' if met else 'below'} "
-        f"the {row.required:.2f} of {row.source}"
+        f"the {row.required:.2f} of {{source}}"
     )
     return _check(found, name, value, row, met, words)
 
@@ -138,9 +138,7 @@ def _factor(found: LoadCase, row: Criterion) -> Check:
 def _resultant(found: LoadCase, row: Criterion) -> Check:
     eccentricity = found.eccentricity_m
     if eccentricity is None:
-        return _check(
-            found, "resultant", None, row, False, f"no resultant, the block floats; {row.source} asks for one"
-        )
+        return _check(found, "resultant", None, row, False, "no resultant, the block floats; {source} asks for one")
     width = found.contact_width_m
     value = abs(eccentricity) / width
     met = value <= row.required * (1.0 + _ROUNDING) and found.outcome == "stands"
@@ -150,7 +148,7 @@ def _resultant(found: LoadCase, row: Criterion) -> Check:
     place = f"{{eccentricity_m:.{digits}f m}} {side} of" if round(abs(eccentricity), digits) else "in"
     words = (
         f"resultant {place} the middle is {{away_m:.{digits}f m}} "
-        f"{'outside' if away > 0.0 else 'inside'} {_zone(row.required)} of {row.source}"
+        f"{'outside' if away > 0.0 else 'inside'} {_zone(row.required)} of {{source}}"
     )
     if found.outcome != "stands":
         words += f", but the block {found.outcome}" if found.outcome == "floats" else ", but the crack opens through"
@@ -159,7 +157,7 @@ def _resultant(found: LoadCase, row: Criterion) -> Check:
 
 def _compression(found: LoadCase, row: Criterion, strength: float) -> Check:
     if found.heel_stress_pa is None or found.toe_stress_pa is None:
-        words = f"no stress to compare with {row.source}: the block does not stand"
+        words = "no stress to compare with {source}: the block does not stand"
         return _check(found, "compression", None, row, False, words)
     stress = max(found.heel_stress_pa, found.toe_stress_pa)
     if row.largest_pa is not None:
@@ -170,7 +168,7 @@ def _compression(found: LoadCase, row: Criterion, strength: float) -> Check:
     words = (
         f"compression {{stress_pa:.{digits}f MPa}} is {{apart_pa:.{digits}f MPa}} "
         f"{'below' if met else 'above'} the {{allowed_pa:.2f MPa}} ({row.required:.3g} of the strength) of "
-        f"{row.source}"
+        "{source}"
     )
     stresses = {"stress_pa": stress, "apart_pa": abs(stress - allowed), "allowed_pa": allowed}
     return _check(found, "compression", value, row, met, words, **stresses)
@@ -183,7 +181,7 @@ def _zone(share: float) -> str:
 def _check(
     found: LoadCase, name: str, value: float | None, row: Criterion, met: bool, words: str, **quantities: float
 ) -> Check:
-    sentence = Sentence.of(f"{found.name}: {words}", **quantities)
+    sentence = Sentence.of("{load_case}: " + words, load_case=found.name, source=row.source, **quantities)
     return Check(found.name, name, value, row.required, row.at_least, met, row.source, row.note, sentence)
 
 

@@ -8,11 +8,15 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
+from numpy.polynomial import Chebyshev
 from scipy.optimize import brentq
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.mechanics.loads import Resultant
 from heeltoe.models.statics.water import StillWater
+
+# Coefficients of a polynomial below this part of its largest one are rounding.
+_ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -175,14 +179,24 @@ class _State:
         places = [*self.water.places, contact.bonded_from, contact.bonded_to]
         lengths = [x - contact.start if side == "heel" else contact.end - x for x in places]
         bends = sorted({0.0, width, *(length for length in lengths if 0.0 < length < width)})
-        degree = self.water.degree
-        share = (np.arange(degree + 1) + 0.5) / (degree + 1)
         for low, high in pairwise(bends):
-            values = [self.margin(float(low + s * (high - low)), side) for s in share]
-            turning = np.roots(np.polyder(np.polyfit(share, values, degree)))
-            inside = sorted(float(t.real) for t in turning if abs(t.imag) < 1e-9 and 0.0 < t.real < 1.0)
-            cuts = [low, *(low + t * (high - low) for t in inside), high]
-            yield from pairwise(cuts)
+            yield from pairwise([low, *self._turning_points(side, low, high), high])
+
+    def _turning_points(self, side: str, low: float, high: float) -> list[float]:
+        """Return the lengths between two bends at which the margin turns from rising to falling or back, ascending.
+
+        Between bends it is a polynomial, which its values at the Chebyshev points determine. One of a lower degree than
+        it may have, as under a uniform pressure, leaves coefficients of rounding at its head: these are no roots.
+        """
+
+        def margins(lengths: Floats) -> Floats:
+            return np.array([self.margin(float(length), side) for length in lengths])
+
+        slope = Chebyshev.interpolate(margins, self.water.degree, [low, high]).deriv()
+        slope = slope.trim(_ROUNDING * float(np.abs(slope.coef).max()))
+        roots: list[complex] = np.asarray(slope.roots(), dtype=np.complex128).tolist()
+        real = [root.real for root in roots if abs(root.imag) < 1e-9 * (high - low)]
+        return sorted(root for root in real if low < root < high)
 
     def settled(self, outcome: str, heel: float, toe: float, iterations: int) -> Settled:
         """Return the state at an opening."""

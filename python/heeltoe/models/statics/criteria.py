@@ -317,7 +317,7 @@ UPLIFT_IN_EARTHQUAKE: dict[str, tuple[str, str]] = {
     "USACE": ("unchanged", f"{_EM_2200}: unchanged by the earthquake"),
     "USBR": ("zero", "USBR, Design of Small Dams, 3rd edition (1987): zero where the earthquake opens the crack"),
     "FERC": ("unchanged", f"{_FERC}: unchanged by the earthquake"),
-    "CDA": ("unchanged", "CDA, Dam Safety Guidelines (1997): unchanged, as where seismicity is low"),
+    "CDA": ("unchanged", "CDSA, Dam Safety Guidelines (1997): unchanged where seismicity is low"),
     "CADAM3D": ("unchanged", f"{_EM_2200}: unchanged by the earthquake, one of the choices of CADAM3D"),
 }
 

@@ -6,14 +6,14 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
+from heeltoe.case.field_usage import unused_fields
 from heeltoe.case.model import Case, misfits
 from heeltoe.case.options import StaticsSection
-from heeltoe.case.use import unused_fields
-from heeltoe.errors import InputError, expect
+from heeltoe.errors.error import InputError, expect
 from heeltoe.models.statics.checks import Check
 from heeltoe.models.statics.model import Statics, statics
 from heeltoe.result.write import build_info
-from heeltoe.warnings import Notice
+from heeltoe.warnings.notice import Notice, by_gravity
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,7 @@ class Joints:
     @property
     def warnings(self) -> tuple[Notice, ...]:
         """What a reader must know, once where joints share it."""
-        return tuple(dict.fromkeys(notice for joint in self.joints for notice in joint.statics.warnings))
+        return by_gravity(dict.fromkeys(notice for joint in self.joints for notice in joint.statics.warnings))
 
     @property
     def ok(self) -> bool:
@@ -112,7 +112,16 @@ class Joints:
         }
 
 
-def statics_of_sections(case: Case, judge: Callable[[Case], Statics] = statics) -> Joints:
+#: Judges a section: the dam with its crack there, and which of its cracks that is from the crest down; None of a joint
+#: that is none of them.
+Judge = Callable[[Case, int | None], Statics]
+
+
+def _by_the_case(case: Case, place: int | None) -> Statics:
+    return statics(case)
+
+
+def statics_of_sections(case: Case, judge: Judge = _by_the_case) -> Joints:
     """Judge the stability of a dam at each of its ``statics.sections``, or at its cracks where it lists none.
 
     Parameters
@@ -120,7 +129,7 @@ def statics_of_sections(case: Case, judge: Callable[[Case], Statics] = statics) 
     case
         Dam, water and the choices of ``[statics]``.
     judge
-        Makes the checks of a section; one that runs an earthquake first gives each its own slip.
+        Makes the checks of a section, of the dam with its crack there, and of which of its cracks it is.
 
     Raises
     ------
@@ -131,8 +140,11 @@ def statics_of_sections(case: Case, judge: Callable[[Case], Statics] = statics) 
     listed = case.statics.sections
     if not listed:
         own = {why: notice for notice in unused_fields(case, ("statics",)) if (why := _unused(notice))}
-        cracks = [(each.crack.elevation, each, _named(judge(each), own)) for each in case.cracks]
-        return Joints(case.title, tuple(Joint(*each) for each in cracks))
+        cracks = [
+            Joint(alone.crack.elevation, alone, _named(judge(alone, place), own))
+            for place, alone in enumerate(case.single_crack_cases)
+        ]
+        return Joints(case.title, tuple(cracks))
     return Joints(case.title, tuple(_joint(case, place, judge) for place in range(len(listed))))
 
 
@@ -144,8 +156,9 @@ def at_section(case: Case, section: StaticsSection, field: str = "statics.sectio
     InputError
         Of the field, where the joint does not cut the section in two, or something of the case has no place there.
     """
+    place = _crack_at(case, section.elevation)
     crack: dict[str, Any] = {"elevation": section.elevation}
-    if section.elevation != case.crack.elevation:
+    if place is None:
         crack |= {"inclination": 0.0, "kinks": ()}
     if section.friction is not None:
         crack |= {"friction": section.friction, "static_friction": None, "kinetic_friction": None, "law": None}
@@ -154,11 +167,11 @@ def at_section(case: Case, section: StaticsSection, field: str = "statics.sectio
         for name in ("bonded", "cohesion", "tensile_strength")
         if (value := getattr(section, name)) is not None
     }
-    moved = case.model_copy(
+    alone = case.single_crack_cases[case.asked if place is None else place]
+    moved = alone.model_copy(
         update={
-            "crack": case.crack.model_copy(update=crack),
+            "crack": alone.crack.model_copy(update=crack),
             "statics": case.statics.model_copy(update={**choice, "sections": ()}),
-            "further_cracks": (),
         }
     )
     for wrong, error in misfits(moved):
@@ -167,10 +180,16 @@ def at_section(case: Case, section: StaticsSection, field: str = "statics.sectio
     return moved
 
 
-def _joint(case: Case, place: int, judge: Callable[[Case], Statics]) -> Joint:
+def _crack_at(case: Case, elevation: float) -> int | None:
+    """Return which crack of a case begins at an elevation [m], from the crest down; None where none does."""
+    levels = [crack.elevation for crack in case.cracks]
+    return levels.index(elevation) if elevation in levels else None
+
+
+def _joint(case: Case, place: int, judge: Judge) -> Joint:
     section = case.statics.sections[place]
     moved = at_section(case, section, f"statics.sections[{place}]")
-    return Joint(section.elevation, moved, judge(moved))
+    return Joint(section.elevation, moved, judge(moved, _crack_at(case, section.elevation)))
 
 
 def _named(found: Statics, own: Mapping[str, Notice]) -> Statics:

@@ -7,23 +7,23 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from heeltoe.base.display import Shown
+from heeltoe.base.pandas import dataframe
+from heeltoe.case.field_usage import unused_fields
 from heeltoe.case.model import Case
-from heeltoe.case.use import unused_fields
 from heeltoe.case.warnings import case_warnings
-from heeltoe.dataframe import dataframe
-from heeltoe.errors import expect
+from heeltoe.errors.error import expect
 from heeltoe.mechanics.block import build_block, static_state, without_bond
 from heeltoe.mechanics.loads import water_above_crack
+from heeltoe.mechanics.references import REFERENCES
 from heeltoe.models.statics.cases import flood, post_seismic, pseudo_static, usual
 from heeltoe.models.statics.checks import Check, check_case, fallen
 from heeltoe.models.statics.criteria import unread
 from heeltoe.models.statics.levels import critical_water_levels, highest_level
 from heeltoe.models.statics.load_case import LoadCase, along_line
 from heeltoe.models.statics.own_criteria import Rules, rules_of
-from heeltoe.references import REFERENCES
 from heeltoe.result.write import build_info, critical_json
-from heeltoe.shown import Shown
-from heeltoe.warnings import Notice
+from heeltoe.warnings.notice import Notice, by_gravity
 
 # So many checks that are not met are told at once.
 _MOST_MISSED = 3
@@ -129,8 +129,8 @@ def statics(
     """Judge the stability of the block above the crack.
 
     Load cases: usual; flood where ``statics.flood_depth`` is given; pseudo-static both ways where
-    ``statics.seismic_coefficient`` is; post-seismic where a slip or a residual friction is given or the case has a
-    motion. Docs/statics.md has the equations.
+    ``statics.seismic_coefficient`` or ``statics.earthquakes`` are; post-seismic where a slip or a residual friction is
+    given or the case has a motion. Docs/statics.md has the equations.
 
     Parameters
     ----------
@@ -160,7 +160,7 @@ def statics(
     warnings = [*case_warnings(case), *unused_fields(case, ("statics", *beside)), *_unread(case, rules)]
     before = usual(case)
     solved = [before, *([flood(case)] if choice.flood_depth is not None else [])]
-    if choice.seismic_coefficient is not None:
+    if choice.pseudo_static:
         solved += pseudo_static(case, before)
     cases = [each.load_case for each in solved]
     checks = [check for each in cases for check in check_case(each, case)]
@@ -178,11 +178,12 @@ def statics(
         else:
             cases.append(after.load_case)
             checks += check_case(after.load_case, case)
+            warnings += _about_anchors_after(case, slip, source, after.load_case)
         if source == _UNKNOWN:
             warnings.append(Notice("slip-unknown"))
     warnings += _said_of(case, cases)
     references = dict.fromkeys(check.source for check in checks if check.required is not None)
-    if choice.seismic_coefficient is not None and water_above_crack(case, case.reservoir):
+    if choice.pseudo_static and water_above_crack(case, case.reservoir):
         references[REFERENCES["water"]] = None
     return Statics(
         title=case.title,
@@ -196,7 +197,7 @@ def statics(
         highest_water_level_m=highest_level(case),
         slip_m=slip,
         slip_source=source,
-        warnings=tuple(warnings),
+        warnings=by_gravity(warnings),
         references=tuple(references),
     )
 
@@ -220,7 +221,28 @@ def _said_of(case: Case, cases: Sequence[LoadCase]) -> list[Notice]:
         said.append(Notice("anchors-as-prestress"))
     if choice.sections:
         said.append(Notice("sections-apart", count=len(choice.sections)))
+    said.extend(_about_the_drains(case))
     return said
+
+
+def _about_the_drains(case: Case) -> Iterator[Notice]:
+    """Say where the manual behind the criteria measures the efficiency of drains in another way."""
+    uplift = case.uplift_at_crack
+    share, position = uplift.drain_efficiency, uplift.drain_position
+    if rules_of(case).name == "USACE" and uplift.pattern == "drained" and share is not None and position is not None:
+        theirs = 1.0 - (1.0 - share) * (1.0 - position)
+        if theirs != share:
+            yield Notice("drains-by-manual", efficiency=share, same=theirs)
+
+
+def _about_anchors_after(case: Case, slip: float, source: str, after: LoadCase) -> Iterator[Notice]:
+    """Say what stays of the sliding factor after the earthquake if its slip has broken the anchors."""
+    if not any(anchor.prestress for anchor in case.anchors) or abs(slip) < _SHEARS:
+        return
+    bare = post_seismic(case.model_copy(update={"anchors": ()}), slip, source)
+    factor = None if bare is None else bare.load_case.sliding_factor
+    if after.sliding_factor is not None and factor is not None:
+        yield Notice("anchors-after-slip", slip_m=abs(slip), factor=after.sliding_factor, bare_factor=factor)
 
 
 def _of_pieces(cases: Sequence[LoadCase]) -> Iterator[Notice]:
@@ -244,6 +266,8 @@ def _unread(case: Case, rules: Rules) -> tuple[Notice, ...]:
     return (Notice("fields-idle", field=idle[0], fields=", ".join(idle), why=why),) if idle else ()
 
 
+# So much slip [m] is more than grout and bore hole leave a tendon that crosses the crack.
+_SHEARS = 0.01
 _UNKNOWN = "no slip is given, taken as zero"
 
 

@@ -22,7 +22,7 @@ from typing import Any, get_args
 
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_fields
-from heeltoe.errors import InputError, shown
+from heeltoe.errors.error import InputError, shown
 from heeltoe.models.statics.criteria import CRITERIA, UPLIFT_IN_EARTHQUAKE, Criterion, Loads, chosen
 
 _FIELD = "statics.criteria_file"

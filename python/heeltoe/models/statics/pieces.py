@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.case.crack.kinks import climbs, corners
 from heeltoe.case.model import Case
 from heeltoe.models.statics.contact import Settled

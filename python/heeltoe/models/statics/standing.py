@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from heeltoe.case.model import Case
-from heeltoe.warnings import Notice
+from heeltoe.warnings.notice import Notice
 
 if TYPE_CHECKING:
     from heeltoe.models.statics.load_case import Solved
@@ -53,7 +53,8 @@ def _opened(case: Case, normal_force: float, solved: Solved) -> tuple[Notice, ..
         length_m=found.cracked_length_m,
         corner=found.cracked_from,
         share=found.cracked_length_m / width,
-        lift_n=change,
+        lift_n=abs(change),
+        more="more" if change > 0.0 else "less",
         remedy=remedy,
     )
     return (said,)

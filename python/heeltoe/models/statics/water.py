@@ -13,7 +13,7 @@ from functools import partial
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.case.crack.kinks import climbs
 from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
@@ -124,7 +124,7 @@ def still_water(case: Case, start: float, end: float) -> StillWater:
     return StillWater(pressure, tuple(bends), partial(_on_pieces, case), _SMOOTH)
 
 
-def water_in_earthquake(before: Floats, still: StillWater, opened: float, law: str) -> StillWater:
+def water_in_earthquake(before: Floats, still: StillWater, opened: tuple[float, float], law: str) -> StillWater:
     """Return the water in a crack that the earthquake opens further.
 
     Parameters
@@ -134,25 +134,30 @@ def water_in_earthquake(before: Floats, still: StillWater, opened: float, law: s
     still
         Water that has had time to follow the opening.
     opened
-        How far it was open from the heel before [m].
+        How far it was open before from the heel and from the toe [m]: the earthquake takes no water out of that.
     law
         What the pressure is in what the earthquake opens: "unchanged", "zero", or "full", at once that of free water.
     """
     # The earthquake finds the block on all of its base.
     start, end = 0.0, float(before[-1, 0])
+    from_heel, from_toe = opened
+    # A crack that the usual loads have opened through has no more to open.
+    through = from_heel + from_toe >= end - start
 
     def pressure(heel: float, toe: float) -> Floats:
-        if law == "unchanged" or (heel <= opened and toe <= 0.0):
+        if law == "unchanged" or through or (heel <= from_heel and toe <= from_toe):
             return before
         if law == "full":
-            return still.pressure(heel, toe)
-        # From the heel the pressure vanishes between the old tip and the new one.
-        low, high = (start + opened, start + heel) if heel > opened else (end - toe, end)
+            # Where new and old openings meet, the water of the heel has all of the crack.
+            new_heel = max(heel, from_heel)
+            return still.pressure(new_heel, min(max(toe, from_toe), end - start - new_heel))
+        # The pressure vanishes between the old tip and the new one.
+        low, high = (start + from_heel, start + heel) if heel > from_heel else (end - toe, end - from_toe)
         points = cut_out(before, 0.0, low)
         points += [(low, 0.0), (high, 0.0)]
         return np.array(points + cut_out(before, high, float(before[-1, 0])))
 
-    places = (start + opened, *still.places, *(float(x) for x in before[:, 0]))
+    places = (start + from_heel, end - from_toe, *still.places, *(float(x) for x in before[:, 0]))
     return replace(still, pressure=pressure, places=places)
 
 

@@ -13,11 +13,11 @@ from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.records import seismology
 from heeltoe.motion.records.archive import LARGEST_BYTES, is_archive, unpacked
-from heeltoe.motion.records.catalog import find
+from heeltoe.motion.records.catalog import PREFIX, find
 from heeltoe.motion.records.channel import choose, numbered
 from heeltoe.motion.records.formats import (
     afad,
@@ -36,8 +36,8 @@ from heeltoe.motion.records.formats import (
     volume1,
 )
 from heeltoe.motion.records.raw import RawRecord
-from heeltoe.motion.records.to_motion import Told, to_motion
-from heeltoe.motion.scenario import PREFIX, synthetic
+from heeltoe.motion.records.to_motion import Options, to_motion
+from heeltoe.motion.scenario import synthetic
 from heeltoe.units.parse import STANDARD_GRAVITY
 
 __all__ = ["READERS", "RawRecord", "read_channels", "read_record", "read_text", "read_text_channels"]
@@ -60,7 +60,7 @@ READERS: tuple[ModuleType, ...] = (
     columns,
 )
 
-_NOTHING_TOLD = Told()
+_NO_OPTIONS = Options()
 # What a file of an archive may be beside a record: a readme, a picture, the velocity, or the record uncorrected.
 _NO_RECORD = {"record-format", "record-format-later", "record-binary", "record-empty", "record-not-acceleration"}
 
@@ -111,8 +111,8 @@ def read_record(
         return synthetic(text, gravity=gravity, field=f"{field}.file")
     place = _place(path, field)
     data, name = _load(place)
-    told = Told(unit, time_step, gravity, field, assume)
-    return called(_chosen(_records(data, name, place), name, channel, told), place, text)
+    options = Options(unit, time_step, gravity, field, assume)
+    return called(_chosen(_records(data, name, place), name, channel, options), place, text)
 
 
 def read_channels(
@@ -128,29 +128,29 @@ def read_channels(
     place = _place(path, field)
     data, name = _load(place)
     records = _records(data, name, place)
-    return [to_motion(raw, name, len(records), Told(unit, time_step, gravity, field, assume)) for raw in records]
+    return [to_motion(raw, name, len(records), Options(unit, time_step, gravity, field, assume)) for raw in records]
 
 
-def called(motion: GroundMotion, path: Path, given: str) -> GroundMotion:
+def called(motion: GroundMotion, path: Path, path_as_written: str) -> GroundMotion:
     """Return a motion under the name that a user gave, which is the one that tells versions of a record apart."""
-    if path.stem == given:
+    if path.stem == path_as_written:
         return motion
-    return replace(motion, name=Path(given).stem + motion.name.removeprefix(path.stem))
+    return replace(motion, name=Path(path_as_written).stem + motion.name.removeprefix(path.stem))
 
 
-def read_text(data: bytes, name: str, channel: str | int | None = None, told: Told = _NOTHING_TOLD) -> GroundMotion:
+def read_text(data: bytes, name: str, channel: str | int | None = None, options: Options = _NO_OPTIONS) -> GroundMotion:
     """Read a record from the bytes of its file; see :func:`read_record`."""
-    return _chosen(_records(data, name), name, channel, told)
+    return _chosen(_records(data, name), name, channel, options)
 
 
-def _chosen(records: list[RawRecord], name: str, channel: str | int | None, told: Told) -> GroundMotion:
-    return to_motion(choose(records, channel, name, f"{told.field}.channel"), name, len(records), told)
+def _chosen(records: list[RawRecord], name: str, channel: str | int | None, options: Options) -> GroundMotion:
+    return to_motion(choose(records, channel, name, f"{options.field}.channel"), name, len(records), options)
 
 
-def read_text_channels(data: bytes, name: str, told: Told = _NOTHING_TOLD) -> list[GroundMotion]:
+def read_text_channels(data: bytes, name: str, options: Options = _NO_OPTIONS) -> list[GroundMotion]:
     """Read all channels from the bytes of a file; see :func:`read_channels`."""
     records = _records(data, name)
-    return [to_motion(raw, name, len(records), told) for raw in records]
+    return [to_motion(raw, name, len(records), options) for raw in records]
 
 
 def _place(path: str | os.PathLike[str], field: str) -> Path:

@@ -13,7 +13,7 @@ from collections.abc import Iterator
 from pathlib import PurePosixPath
 from typing import IO
 
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 
 #: No record comes near; what is larger is something else.
 LARGEST_BYTES = 64_000_000
@@ -82,40 +82,40 @@ _Members = Iterator[tuple[str, IO[bytes]]]
 
 def _taken(members: _Members, name: str) -> list[tuple[str, bytes]]:
     """Read files, which may state any size, until there are too many of them or too much is in them."""
-    found: list[tuple[str, bytes]] = []
+    contents: list[tuple[str, bytes]] = []
     left = LARGEST_BYTES
     for own, member in members:
-        if len(found) == _MOST_MEMBERS:
+        if len(contents) == _MOST_MEMBERS:
             raise InputError("record-archive", name, reason=f"it holds more than {_MOST_MEMBERS} files")
         with member:
             content = member.read(left + 1)
         left -= len(content)
         if left < 0:
             raise _too_large(name)
-        found.append((PurePosixPath(own.replace("\\", "/")).name or name, content))
-    return found
+        contents.append((PurePosixPath(own.replace("\\", "/")).name or name, content))
+    return contents
 
 
 def _zip_members(data: bytes, name: str) -> _Members:
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
-        for each in archive.infolist():
-            if each.flag_bits & 1:
+        for entry in archive.infolist():
+            if entry.flag_bits & 1:
                 raise InputError("record-archive", name, reason="it is encrypted")
-            if not each.is_dir():
-                yield each.filename, archive.open(each)
+            if not entry.is_dir():
+                yield entry.filename, archive.open(entry)
 
 
 def _tar_members(data: bytes) -> _Members:
     with tarfile.open(fileobj=io.BytesIO(data), mode="r:") as archive:
         headers = 0
         # Links and devices lead elsewhere and hold nothing of their own.
-        while (each := archive.next()) is not None:
+        while (entry := archive.next()) is not None:
             headers += 1
-            if headers > 2 * _MOST_MEMBERS or each.size < 0:
+            if headers > 2 * _MOST_MEMBERS or entry.size < 0:
                 raise ValueError("it never ends")
-            member = archive.extractfile(each) if each.isreg() else None
+            member = archive.extractfile(entry) if entry.isreg() else None
             if member is not None:
-                yield each.name, member
+                yield entry.name, member
         # A header that is damaged ends it as its end does.
         if data[archive.offset : archive.offset + tarfile.BLOCKSIZE].strip(b"\0"):
             raise ValueError("it is damaged")

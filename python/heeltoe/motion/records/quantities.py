@@ -43,12 +43,12 @@ def unit_of(header: list[str]) -> str | None:
     Lines that speak of units go before lines that speak of acceleration.
     """
     for word in ("unit", "acc"):
-        found: set[str] = set()
+        units: set[str] = set()
         for line in header:
             if word in line.lower():
-                found |= units_in(line)
-        if found:
-            return found.pop() if len(found) == 1 else None
+                units |= units_in(line)
+        if units:
+            return units.pop() if len(units) == 1 else None
     return None
 
 
@@ -83,8 +83,8 @@ def other_quantity(header: list[str]) -> str | None:
     if any("acc" in line.lower() or units_in(line) for line in header):
         return None
     for line in header:
-        if found := _SERIES.search(line):
-            return found[1].lower()
+        if match := _SERIES.search(line):
+            return match[1].lower()
         if "unit" in line.lower() and (quantity := quantity_of(line)):
             return quantity
     return None

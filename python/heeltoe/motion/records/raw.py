@@ -7,10 +7,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from heeltoe.arrays import Floats
-from heeltoe.errors import InputError
+from heeltoe.base.arrays import Floats
+from heeltoe.errors.error import InputError
+from heeltoe.motion.records.lines import unglued
 from heeltoe.units.parse import acceleration_unit
-from heeltoe.warnings import Notice
+from heeltoe.warnings.notice import Notice
 
 #: A number of Fortran's, for patterns that ignore case; see :func:`real`.
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[ED][-+]?\d+)?"
@@ -114,20 +115,10 @@ def real(text: str) -> float:
     return float(text.upper().replace("D", "E"))
 
 
-def labelled(lines: list[str], most: int) -> dict[str, str]:
-    """Return what stands behind the first colon of the first lines, by what stands before it in small letters."""
-    pairs = (line[:400].partition(":") for line in lines[:most])
-    said: dict[str, str] = {}
-    for label, colon, value in pairs:
-        if colon:
-            said.setdefault(plain(label).lower(), value.strip())
-    return said
-
-
 def leading(text: str) -> str:
     """Return the number with which a text begins, as it is written there; empty where it does not."""
-    found = re.match(rf"\s*({NUMBER})", text, re.IGNORECASE)
-    return found[1] if found else ""
+    match = re.match(rf"\s*({NUMBER})", text, re.IGNORECASE)
+    return match[1] if match else ""
 
 
 def stated(text: str) -> float | None:
@@ -136,9 +127,13 @@ def stated(text: str) -> float | None:
     return real(written) if written else None
 
 
-def plain(text: str) -> str:
-    """Return a line of a header without the blanks that fill its columns."""
-    return " ".join(text.split())
+def check_series(
+    values: Floats, name: str, count: float | None, peak: str = "", share: float = 1e-3
+) -> tuple[Notice, ...]:
+    """Return warnings where a file states another count or peak than its values have; without a count or a peak, that
+    is not compared. See :func:`counted` and :func:`peaked`."""
+    notices = counted(values, count, name) if count is not None else ()
+    return notices + (peaked(values, peak, name, share) if peak else ())
 
 
 def counted(values: Floats, stated: float, name: str) -> tuple[Notice, ...]:
@@ -163,12 +158,12 @@ def peaked(values: Floats, stated: str, name: str, share: float = 1e-3) -> tuple
         Share of the peak by which the two may differ beyond that.
     """
     peak = abs(real(stated))
-    found = float(np.abs(values).max(initial=0.0))
+    peak_here = float(np.abs(values).max(initial=0.0))
     last_digit = 0.0 if stated.upper().isupper() else 10.0 ** -len(stated.partition(".")[2])
     # A value that is not a number is refused later, by its place.
-    if not abs(found - peak) > last_digit + share * peak:
+    if not abs(peak_here - peak) > last_digit + share * peak:
         return ()
-    return (Notice("record-peak", name=name, stated=peak, found=found),)
+    return (Notice("record-peak", name=name, stated=peak, found=peak_here),)
 
 
 def word_of_unit(word: str) -> str | None:
@@ -182,8 +177,3 @@ def word_of_unit(word: str) -> str | None:
     except InputError as error:
         return unit if error.code == "wrong-quantity" else None
     return unit
-
-
-def unglued(line: str) -> str:
-    """Part columns that touch (8F10.5, E15.7: a sign right behind a digit) and turn Fortran's D exponents into E."""
-    return re.sub(r"(?<=[\d.])(?=[-+])", " ", re.sub(r"(?<=[\d.])[dD](?=[-+]?\d)", "e", line))

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.motion.records.raw import RawRecord, peaked
 
 _MINISEED = re.compile(rb"\d{6}[DRQM][ \0]")
@@ -45,10 +45,10 @@ def is_station_xml(data: bytes) -> bool:
 
 def beside(path: Path) -> list[bytes]:
     """Return the StationXML that lies beside a file under its name."""
-    found = path.with_suffix(".xml")
+    stations = path.with_suffix(".xml")
     try:
-        if found.is_file() and found.stat().st_size <= _LARGEST_XML:
-            return [found.read_bytes()]
+        if stations.is_file() and stations.stat().st_size <= _LARGEST_XML:
+            return [stations.read_bytes()]
     except (OSError, ValueError):
         pass
     return []
@@ -85,10 +85,10 @@ def read(data: bytes, name: str, stations: list[bytes]) -> list[RawRecord]:
         except Exception:
             raise InputError("record-header", name, "channel") from None
         ids = [trace.id for trace in stream]
-        twice = next((each for each in ids if ids.count(each) > 1), None)
+        twice = next((channel for channel in ids if ids.count(channel) > 1), None)
         if twice is not None:
             raise InputError("record-gaps", name, twice)
-        return [_of_counts(each, name, stations) if seed else _of_sac(each, name) for each in stream]
+        return [_of_counts(trace, name, stations) if seed else _of_sac(trace, name) for trace in stream]
 
 
 def _of_counts(trace: Any, name: str, stations: list[bytes]) -> RawRecord:
@@ -104,13 +104,13 @@ def _of_counts(trace: Any, name: str, stations: list[bytes]) -> RawRecord:
         values = values * (part / sensitivity)
         offset = float(values.mean()) if values.size else 0.0
         values = values - offset
-    said = (f"counts over {sensitivity:.6g} of its StationXML", f"mean of {offset:.5g} m/s2 taken out")
+    processing = (f"counts over {sensitivity:.6g} of its StationXML", f"mean of {offset:.5g} m/s2 taken out")
     return RawRecord(
         values,
         time_step=step,
         unit="m/s^2",
         about=about,
-        processing=said,
+        processing=processing,
         uncorrected="it is in counts, as its instrument gave it",
         format="miniSEED",
     )
@@ -130,8 +130,8 @@ def _sensitivity(trace: Any, name: str, stations: list[bytes]) -> tuple[float, f
             response = obspy.read_inventory(io.BytesIO(text), format="STATIONXML").get_response(
                 trace.id, trace.stats.starttime
             )
-            found = response.instrument_sensitivity
-            value, unit = float(found.value), str(found.input_units)
+            sensitivity = response.instrument_sensitivity
+            value, unit = float(sensitivity.value), str(sensitivity.input_units)
         except Exception:
             continue
         if not (np.isfinite(value) and value != 0.0):
@@ -151,7 +151,7 @@ def _of_sac(trace: Any, name: str) -> RawRecord:
         raise InputError("record-not-acceleration", name, quantity)
     values = np.asarray(trace.data, dtype=np.float64)
     extremes = [float(header.get(key, _NO_NUMBER)) for key in ("depmin", "depmax")]
-    known = all(np.isfinite(each) and each != _NO_NUMBER for each in extremes)
+    known = all(np.isfinite(value) and value != _NO_NUMBER for value in extremes)
     return RawRecord(
         values,
         time_step=float(trace.stats.delta),

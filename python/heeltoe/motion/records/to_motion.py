@@ -8,12 +8,12 @@ from pathlib import Path
 
 import numpy as np
 
-from heeltoe.arrays import Floats
-from heeltoe.errors import InputError
+from heeltoe.base.arrays import Floats
+from heeltoe.errors.error import InputError
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.records.raw import RawRecord
 from heeltoe.units.parse import STANDARD_GRAVITY, acceleration_unit
-from heeltoe.warnings import Notice
+from heeltoe.warnings.notice import Notice
 
 # Beyond these the numbers are no record in any unit, and displacements would overflow.
 _LARGEST_VALUE, _LARGEST_GAP = 1e12, 1e4
@@ -26,7 +26,7 @@ _LIKELY_STEP = 0.01
 
 
 @dataclass(frozen=True)
-class Told:
+class Options:
     """What the caller says of a record; see :func:`heeltoe.motion.records.read_record`."""
 
     unit: str | None = None
@@ -36,7 +36,7 @@ class Told:
     assume: bool = False
 
 
-def to_motion(raw: RawRecord, name: str, channels: int, told: Told) -> GroundMotion:
+def to_motion(raw: RawRecord, name: str, channels: int, options: Options) -> GroundMotion:
     """Make a ground motion of a record.
 
     Parameters
@@ -47,7 +47,7 @@ def to_motion(raw: RawRecord, name: str, channels: int, told: Told) -> GroundMot
         Of the file.
     channels
         How many there are in the file.
-    told
+    options
         What the caller says.
 
     Raises
@@ -62,9 +62,9 @@ def to_motion(raw: RawRecord, name: str, channels: int, told: Told) -> GroundMot
         raise InputError("motion-not-finite", name, str(raw.values[bad]), number=bad + 1)
     _check_markers(raw, name)
     peak = float(np.abs(raw.values).max())
-    time, unsure = _time(raw, name, told)
-    unit, read_as, unsure_too = _unit(raw, name, peak, told)
-    factor = _si(unit, f"{told.field}.unit" if raw.unit is None else name, told)
+    time, unsure = _time(raw, name, options)
+    unit, read_as, unsure_too = _unit(raw, name, peak, options)
+    factor = _si(unit, f"{options.field}.unit" if raw.unit is None else name, options)
     if peak * factor > _LARGEST_VALUE:
         raise InputError("motion-peak", name, f"{peak:.4g} {unit}", name="it")
     stem = Path(name).stem
@@ -92,17 +92,17 @@ def _check_markers(raw: RawRecord, name: str) -> None:
         raise InputError("record-marker", name, f"{raw.values[worst]:g}", number=worst + 1)
 
 
-def _unit(raw: RawRecord, name: str, peak: float, told: Told) -> tuple[str, str, tuple[Notice, ...]]:
+def _unit(raw: RawRecord, name: str, peak: float, options: Options) -> tuple[str, str, tuple[Notice, ...]]:
     """The unit of the values, how it is known, and a warning if it is only assumed."""
-    field = f"{told.field}.unit"
+    field = f"{options.field}.unit"
     if raw.unit:
-        if told.unit and _si(told.unit, field, told) != _si(raw.unit, name, told):
-            raise InputError("record-unit-conflict", field, told.unit, stated=raw.unit, name=name)
+        if options.unit and _si(options.unit, field, options) != _si(raw.unit, name, options):
+            raise InputError("record-unit-conflict", field, options.unit, stated=raw.unit, name=name)
         return raw.unit, raw.unit, ()
-    if told.unit:
-        return told.unit, f"{told.unit} (as told)", ()
+    if options.unit:
+        return options.unit, f"{options.unit} (as given)", ()
     likely = _likely_unit(peak)
-    if likely and told.assume:
+    if likely and options.assume:
         return (
             likely,
             f"{likely} (assumed)",
@@ -112,8 +112,8 @@ def _unit(raw: RawRecord, name: str, peak: float, told: Told) -> tuple[str, str,
     raise InputError("record-unit-missing", name, f"{peak:.4g}", unit_field=field, guess=guess)
 
 
-def _si(unit: str, field: str, told: Told) -> float:
-    return acceleration_unit(unit, field).si(told.gravity)
+def _si(unit: str, field: str, options: Options) -> float:
+    return acceleration_unit(unit, field).si(options.gravity)
 
 
 def _likely_unit(peak: float) -> str | None:
@@ -123,7 +123,7 @@ def _likely_unit(peak: float) -> str | None:
     return "cm/s^2" if peak > 20.0 else None
 
 
-def _time(raw: RawRecord, name: str, told: Told) -> tuple[Floats, tuple[Notice, ...]]:
+def _time(raw: RawRecord, name: str, options: Options) -> tuple[Floats, tuple[Notice, ...]]:
     """The moments of the values, and a warning if their step is only assumed."""
     if raw.time is not None:
         with np.errstate(invalid="ignore", over="ignore"):
@@ -132,17 +132,17 @@ def _time(raw: RawRecord, name: str, told: Told) -> tuple[Floats, tuple[Notice, 
         if gap > _LARGEST_GAP or middle > _LONGEST_STEP:
             raise InputError("record-step", name, f"{gap if gap > _LARGEST_GAP else middle:g} s")
         return raw.time, ()
-    step, field = raw.time_step or told.time_step, f"{told.field}.time_step"
+    step, field = raw.time_step or options.time_step, f"{options.field}.time_step"
     warnings: tuple[Notice, ...] = ()
-    if step is None and told.assume:
+    if step is None and options.assume:
         step = _LIKELY_STEP
         warnings = (Notice("record-step-assumed", field=field, name=name, step_s=step),)
     if step is None:
         raise InputError(
             "record-counts-samples" if raw.counts_samples else "record-step-missing", name, step_field=field
         )
-    if raw.time_step and told.time_step and abs(raw.time_step - told.time_step) > 1e-9 * told.time_step:
-        raise InputError("record-step-conflict", field, f"{told.time_step:g} s", stated=raw.time_step)
+    if raw.time_step and options.time_step and abs(raw.time_step - options.time_step) > 1e-9 * options.time_step:
+        raise InputError("record-step-conflict", field, f"{options.time_step:g} s", stated=raw.time_step)
     if not 1e-6 <= step <= _LONGEST_STEP:
         raise InputError("record-step", name, f"{step:g} s")
     return np.arange(raw.values.size, dtype=np.float64) * step, warnings

@@ -23,11 +23,11 @@ def push_and_sine() -> Iterator[Row]:
     """
     block = rectangle(4.0, 1.0, 0.3, gravity=_G, density=250.0, push=0.15 * 1000.0 * _G)
     for step, tolerance in ((1e-2, None), (1e-3, None), (1e-4, None), (1e-5, 1e-8)):
-        found = run(block, *sampled(lambda t: 0.6 * _G * np.sin(4.0 * np.pi * t), step, 5.0))
+        motion = run(block, *sampled(lambda t: 0.6 * _G * np.sin(4.0 * np.pi * t), step, 5.0))
         remark = "sampling error alone" if tolerance is None else ""
-        yield Row(f"slip, sampled every {step:g} s [m]", 1.0538997745, found.summary["slip"], tolerance, remark=remark)
-    yield Row("stops", 19, len(found.times_of("slip stops")), 0.0)
-    yield Row("velocity at the end [m/s]", 0.5836259828, found.summary["slip_velocity"], 1e-8)
+        yield Row(f"slip, sampled every {step:g} s [m]", 1.0538997745, motion.summary.slip, tolerance, remark=remark)
+    yield Row("stops", 19, len(motion.times_of("slip stops")), 0.0)
+    yield Row("velocity at the end [m/s]", 0.5836259828, motion.summary.slip_velocity, 1e-8)
 
 
 def pulse() -> Iterator[Row]:
@@ -60,17 +60,17 @@ def free_rocking() -> Iterator[Row]:
     grid = np.linspace(0.0, 6.0, 60_001)
     # Leaning downstream about the toe, with the heel in the air.
     start = [[0.0, 0.5 * slenderness, 0.0], [0.0, 0.0, 0.0]]
-    found = run(block, np.array([0.0, 6.0]), np.zeros(2), grid, start)
-    strikes = found.times_of("heel strikes", "toe strikes")
+    motion = run(block, np.array([0.0, 6.0]), np.zeros(2), grid, start)
+    strikes = motion.times_of("heel strikes", "toe strikes")
     yield Row("first impact [s]", 0.5319961, strikes[0], 1e-7)
-    rotation = np.abs(found.histories["gap_toe"] - found.histories["gap_heel"])
+    rotation = np.abs(motion.histories.gap_toe - motion.histories.gap_heel)
     references = (0.4156574, 0.3455422, 0.2872544, 0.2387989)
     for k, (reference, (since, until)) in enumerate(zip(references, pairwise(strikes), strict=False), 1):
         peak = rotation[(grid > since) & (grid < until)].max() / slenderness
         yield Row(f"peak {k} [slendernesses]", reference, float(peak), 1e-6)
-    events = found.events
-    approach = np.abs(events["approach_velocity_heel"] + events["approach_velocity_toe"])
-    leaving = np.abs(events["gap_velocity_heel"] + events["gap_velocity_toe"])
-    struck = np.isin(events["time"], strikes)
+    events = motion.events
+    approach = np.abs(events.approach_velocity_heel + events.approach_velocity_toe)
+    leaving = np.abs(events.gap_velocity_heel + events.gap_velocity_toe)
+    struck = np.isin(events.time, strikes)
     ratio = float(leaving[struck][0] / approach[struck][0])
     yield Row("Housner's ratio 1 - 1.5 sin^2", 1.0 - 1.5 * np.sin(slenderness) ** 2, ratio, 1e-12)

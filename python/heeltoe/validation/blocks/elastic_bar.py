@@ -17,9 +17,9 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.linalg
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.kernel.dam import CrackedDam, only_crack
-from heeltoe.models.flexible.reduced import ReducedBody
+from heeltoe.models.flexible.body.reduced import ReducedBody
 from heeltoe.validation.row import Row
 
 _LENGTH, _MODULUS, _DENSITY, _GRAVITY, _DROP = 10.0, 900.0, 1.0, 10.0, 5.0
@@ -83,21 +83,21 @@ def _bounced(courant: float) -> _Bounced:
     dam = CrackedDam(bars, None, only_crack(bars, None, (0.5, 0.5)), 3)
     ground = np.zeros((3 * per_period, 2))
     run = dam.run(ground, step, 0.5, stride=1)
-    found, column = run.summary, run.frames
-    time, push = column["time"], run.force[:, 2]
+    summary, column = run.summary, run.frames
+    time, push = column.time, run.force[:, 2]
     # Between two contacts the bar is in the air for two seconds.
     touching = time[push > 1e-6 * _FORCE]
     begins = touching[np.diff(touching, prepend=-1.0) > 1.0]
     first = time < begins[0] + 1.0
-    total = (column["energy_stored"] - column["energy_input"]) / 2.0
+    total = (column.energy_stored - column.energy_input) / 2.0
     return _Bounced(
         lasting=step * float(np.sum(first & (push > 0.5 * _FORCE))),
         lasting_at_all=step * float(np.sum(first & (push > 1e-6 * _FORCE))),
         force=float(push[first].sum()) * step / _CONTACT,
         period=float(begins[2] - begins[0]),
         lost=(-np.diff(total[::per_period]) / _ENERGY).tolist(),
-        gained=found["energy_gained"] / found["energy_turnover"],
-        residual=found["energy_residual"],
+        gained=summary.energy_gained / summary.energy_turnover,
+        residual=summary.energy_residual,
     )
 
 

@@ -10,9 +10,9 @@ import numpy as np
 
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.mesh.kinks import angles
-from heeltoe.models.flexible.reduced import build_flexible_dam
-from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.run import earthquake, flexible, rigid
 from heeltoe.validation.row import Row
 
@@ -182,13 +182,13 @@ def several_cracks() -> Iterator[Row]:
     """
     for base, upper, kind in ((0.3, 0.2, "both slide"), (0.3, 5.0, "upper bonded"), (5.0, 0.2, "base bonded")):
         case = _slabs({"friction": base}, {"friction": upper})
-        dam, blocks = flexible(case).summary["cracks"], rigid(case).summary["cracks"]
+        dam, blocks = flexible(case).cracks, rigid(case).cracks
         for name, ours, reference in zip(("upper crack", "base"), dam, blocks, strict=True):
-            slip, found = reference["residual_slip_m"], ours["residual_slip_m"]
+            slip, elastic_slip = reference["residual_slip_m"], ours["residual_slip_m"]
             yield Row(
                 f"slabs, {kind}: slip of the {name} [m]",
                 slip,
-                found,
+                elastic_slip,
                 1e-3 if slip else 1e-5,
                 relative=slip != 0.0,
                 kind="own run",
@@ -203,13 +203,13 @@ def _laws_of_slabs() -> Iterator[Row]:
     bonded = {"friction": 5.0}
     for place, case in enumerate((_slabs(bonded, weak), _slabs(weak, bonded))):
         name = ("upper crack", "base")[place]
-        ours, block = flexible(case).summary["cracks"][place], rigid(case.cracks[place])
+        ours, block = flexible(case).cracks[place], rigid(case.single_crack_cases[place])
         what = f"slabs, friction 0.3 to 0.15 over 50 mm, other crack bonded: slip of the {name} [m]"
         yield Row(what, block.residual_slip_m, ours["residual_slip_m"], 2e-3, kind="own run", digits=5)
     anchor = {"head_x": "8 m", "head_elevation": "3 m", "foot_x": "8 m", "foot_elevation": "-2 m"}
     bare = _slabs({"friction": 0.3}, {"friction": 0.2})
     held = bare.with_({"anchors": [anchor | {"prestress": "500 kN/m"}]})
-    forces = [[float(each[1].sum()) for each in build_flexible_dam(case).crack_forces] for case in (bare, held)]
+    forces = [[float(force[1].sum()) for force in build_flexible_dam(case).crack_forces] for case in (bare, held)]
     for name, without, with_anchor in zip(("upper crack", "base"), *forces, strict=True):
         yield Row(f"slabs, anchor of 500 kN/m: more force on the {name} [N/m]", 5e5, with_anchor - without, 1e-9)
 
@@ -233,23 +233,21 @@ def _bonded_base() -> Iterator[Row]:
             "flexible": {"elements_across": 4, "modes": 5000, "damping": "stiffness", "evidence": "none"},
         }
     )
-    free, alone = _run(case), _run(case.cracks[0])
+    free, alone = _run(case), _run(case.single_crack_cases[0])
     # As a file may not have it: the pressure is negative, and friction beyond all that is plausible.
     crack = case.crack.model_copy(update={"friction": 1e3})
     drawn = case.uplift.model_copy(update={"pattern": "uniform", "intensity": -300.0})
     both = _run(case.model_copy(update={"crack": crack, "uplift": drawn}))
     neck, base = both.summaries
-    yield Row(
-        "typical dam, base bonded: slip of the neck [m]", alone.summary["slip"], neck["slip"], 1e-6, kind="own run"
-    )
+    yield Row("typical dam, base bonded: slip of the neck [m]", alone.summary.slip, neck.slip, 1e-6, kind="own run")
     what = "typical dam, base bonded: slip of the base [m]"
-    yield Row(what, 0.0, base["slip"], 1e-8, relative=False, kind="condition")
-    worst = max(each["energy_residual"] for each in free.summaries)
+    yield Row(what, 0.0, base.slip, 1e-8, relative=False, kind="condition")
+    worst = max(summary.energy_residual for summary in free.summaries)
     what = "typical dam, neither bonded: worst ledger, unexplained over turnover"
     yield Row(what, 0.0, worst, 1e-11, relative=False, kind="condition")
-    lost = sum(each["crack_friction"] for each in free.summaries)
+    lost = sum(summary.crack_friction for summary in free.summaries)
     what = "typical dam, neither bonded: work of friction of both cracks [J/m]"
-    yield Row(what, free.summary["energy_friction"], lost, 1e-9, kind="condition", digits=5)
+    yield Row(what, free.summary.energy_friction, lost, 1e-9, kind="condition", digits=5)
 
 
 def _run(case: Case) -> Any:

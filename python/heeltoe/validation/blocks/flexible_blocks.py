@@ -16,8 +16,8 @@ import numpy as np
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
 from heeltoe.kernel.dam import CrackedDam, only_crack
-from heeltoe.models.flexible.reduced import FlexibleDam, ReducedBody, build_flexible_dam
-from heeltoe.models.flexible.response import FlexibleResponse
+from heeltoe.models.flexible.body.reduced import FlexibleDam, ReducedBody, build_flexible_dam
+from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.models.run import rigid
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.response import Response
@@ -86,10 +86,10 @@ def elastic_rocking() -> Iterator[Row]:
     nodes, grows straight from one corner to the other. The peaks go with its square. Steps of 0.05 ms.
     """
     slenderness = np.arctan(0.25)
-    least, most = (0.5 * _left(1.0, 4.0, arm) ** 2 for arm in (1.0 / 2.0, 1.0 / 6.0))
+    low, high = (0.5 * _left(1.0, 4.0, arm) ** 2 for arm in (1.0 / 2.0, 1.0 / 6.0))
     impact, peaks = _rigid_rocking(slenderness)
-    yield Row("rigid: peak 1 by Housner's ratio [slendernesses]", least, peaks[0], 1e-4)
-    spread = f"between Housner's {least:.4f} and {most:.4f} of a blow spread over the face; the reference is the middle"
+    yield Row("rigid: peak 1 by Housner's ratio [slendernesses]", low, peaks[0], 1e-4)
+    spread = f"between Housner's {low:.4f} and {high:.4f} of a blow spread over the face; the reference is the middle"
     later = "rigid theory without restitution; the difference of the first blow goes on"
     chaos = "without damping the block still rings when it strikes again: the second blow is another on each mesh"
     for modulus, damping, across in ((20.0, 0.05, 8), (2000.0, 0.05, 8), (20.0, 0.0, 8), (20.0, 0.0, 4)):
@@ -102,16 +102,16 @@ def elastic_rocking() -> Iterator[Row]:
             elements_across=across,
             concrete=concrete,
         )
-        first, found, gained = _elastic_rocking(build_flexible_dam(case), 0.5 * slenderness, slenderness)
+        first, peak, gained = _elastic_rocking(build_flexible_dam(case), 0.5 * slenderness, slenderness)
         what = f"{modulus:g} GPa, " + ("5 % damping" if damping else f"undamped, {across} across")
         if damping:
             yield Row(f"{what}: first impact [s]", impact, first, 1e-3)
         # What rings on is another on another machine.
         digits = (None, 3) if damping else (3, 2)
-        middle, half = (least + most) / 2.0, (most - least) / 2.0
-        yield Row(f"{what}: peak 1", middle, found[0], half, relative=False, remark=spread, digits=digits[0])
-        told = later if damping else chaos
-        yield Row(f"{what}: peak 2", peaks[1], found[1], None, remark=told, kind="own run", digits=digits[1])
+        middle, half = (low + high) / 2.0, (high - low) / 2.0
+        yield Row(f"{what}: peak 1", middle, peak[0], half, relative=False, remark=spread, digits=digits[0])
+        bound = later if damping else chaos
+        yield Row(f"{what}: peak 2", peaks[1], peak[1], None, remark=bound, kind="own run", digits=digits[1])
         yield Row(f"{what}: energy made by contact, over turnover", 0.0, gained, 1e-4, relative=False, kind="condition")
 
 
@@ -130,25 +130,25 @@ def contactors() -> Iterator[Row]:
         end = 0.4 / 0.1 * pulse + 1.0
         push = 0.4 * _G * sign
         motion = GroundMotion.from_points([0.0, pulse, pulse, end], [push, push, 0.0, 0.0], name="push")
-        found = {}
+        responses = {}
         for kind in range(1, 6):
             case = _case(corners, 0.1, 20.0, 1e-4, elements_across=2, elevation=4.0, contactors=kind)
-            found[kind] = runs(case, motion)
-        depths = ", ".join(f"{1e3 * _depth(response):.2g}" for response in found.values())
+            responses[kind] = runs(case, motion)
+        depths = ", ".join(f"{1e3 * _depth(response):.2g}" for response in responses.values())
         remark = (
             f"types 1 to 5 penetrate by {depths} mm {way}; those of step and rounding of the face are far below 1 mm"
         )
-        slip = float(found[3].residual_slip_m)
+        slip = float(responses[3].residual_slip_m)
         for kind in (4, 5):
             yield Row(
                 f"{way}, type {kind}: slip against type 3 [m]",
                 slip,
-                float(found[kind].residual_slip_m),
+                float(responses[kind].residual_slip_m),
                 1e-3,
                 kind="own run",
             )
         for kind in (blind, 3, 4, 5):
-            warns = float(any(each.code == "faces-penetrate" for each in found[kind].warnings))
+            warns = float(any(warning.code == "faces-penetrate" for warning in responses[kind].warnings))
             expected = float(kind == blind)
             what = f"{way}, type {kind}: the result warns of penetration ({expected:.0f})"
             yield Row(what, expected, warns, 0.0, relative=False, remark=remark, kind="condition")
@@ -172,9 +172,9 @@ def _rigid_rocking(slenderness: float) -> tuple[float, list[float]]:
     grid = np.linspace(0.0, 4.0, 40_001)
     start = [[0.0, 0.5 * slenderness, 0.0], [0.0, 0.0, 0.0]]
     block = rectangle(1.0, 4.0, 1.0, gravity=_G)
-    found = run(block, np.array([0.0, 4.0]), np.zeros(2), grid, start)
-    strikes = found.times_of("heel strikes", "toe strikes")
-    turned = np.abs(found.histories["gap_toe"] - found.histories["gap_heel"]) / slenderness
+    rocking = run(block, np.array([0.0, 4.0]), np.zeros(2), grid, start)
+    strikes = rocking.times_of("heel strikes", "toe strikes")
+    turned = np.abs(rocking.histories.gap_toe - rocking.histories.gap_heel) / slenderness
     return strikes[0], [float(turned[(grid > a) & (grid < b)].max()) for a, b in pairwise(strikes[:3])]
 
 
@@ -183,8 +183,8 @@ def _elastic_rocking(dam: FlexibleDam, angle: float, slenderness: float) -> tupl
     step, end = 5e-5, 2.5
     part = _leaning(dam, angle)
     leaning = CrackedDam(part, None, only_crack(part, None, (1.0, 1.0)), 3)
-    found = leaning.run(np.zeros((round(end / step), 2)), step, 0.52, stride=1)
-    time, turned = found.frames["time"], found.frames["rotation"]
+    rocking = leaning.run(np.zeros((round(end / step), 2)), step, 0.52, stride=1)
+    time, turned = rocking.frames.time, rocking.frames.rotation
     # It strikes where it passes the upright; a face that flutters there passes more than once.
     upright = time[1:][turned[1:] * turned[:-1] < 0.0]
     strikes = upright[np.diff(upright, prepend=-1.0) > 0.1]
@@ -192,7 +192,7 @@ def _elastic_rocking(dam: FlexibleDam, angle: float, slenderness: float) -> tupl
     return (
         float(strikes[0]),
         [peak / slenderness for peak in peaks],
-        found.summary["energy_gained"] / found.summary["energy_turnover"],
+        rocking.summary.energy_gained / rocking.summary.energy_turnover,
     )
 
 
@@ -207,10 +207,10 @@ def _leaning(dam: FlexibleDam, angle: float) -> ReducedBody:
     start = np.zeros_like(part.load)
     start[rigid_modes:] = (part.load + toe @ force)[rigid_modes:] / part.omega_squared[rigid_modes:]
     place = part.position - part.shapes.T @ part.start
-    wanted = np.concatenate([np.zeros(count), angle * (place[count - 1] - place[:count])])
+    target = np.concatenate([np.zeros(count), angle * (place[count - 1] - place[:count])])
     bent = toe.T @ start
-    wanted -= np.repeat(bent, count)
-    start[:rigid_modes] = np.linalg.lstsq(part.shapes[:rigid_modes].T, wanted)[0]
+    target -= np.repeat(bent, count)
+    start[:rigid_modes] = np.linalg.lstsq(part.shapes[:rigid_modes].T, target)[0]
     return replace(part, start=start, position=place + part.shapes.T @ start)
 
 

@@ -25,9 +25,15 @@ def _block(crack: Mapping[str, Any], motion: Mapping[str, Any], **more: Any) -> 
     return read_case({"section": {"polygon": corners}, "crack": dict(crack), "motion": dict(motion), **more})
 
 
+def _weakening(peak: float, residual: float, slip: str, form: str = "linear") -> dict[str, Any]:
+    return {
+        "name": "slip weakening", "form": form, "peak_friction": peak, "residual_friction": residual, "slip": slip
+    }  # fmt: skip
+
+
 def _pulse(size_g: float = _PULSE_G, length: float = _LENGTH) -> dict[str, Any]:
-    there = [["0 s", f"{-size_g} g"], [f"{length} s", f"{-size_g} g"]]
-    return {"points": [*there, [f"{length} s", "0 g"], ["6 s", "0 g"]]}
+    corners = [["0 s", f"{-size_g} g"], [f"{length} s", f"{-size_g} g"]]
+    return {"points": [*corners, [f"{length} s", "0 g"], ["6 s", "0 g"]]}
 
 
 def _newmark(friction: float, g: float, size_g: float = _PULSE_G, length: float = _LENGTH) -> float:
@@ -43,30 +49,25 @@ def weakening_slider() -> Iterator[Row]:
     by an exponential law it is W (0.3 s + 0.3 D (1 - exp(-s / D))), W the weight. A brittle bond leaves the slip of the
     friction behind it.
     """
-    law: dict[str, Any] = {
-        "name": "slip weakening",
-        "peak_friction": 0.6,
-        "residual_friction": 0.3,
-        "slip": "50 mm",
-    }
-    found = rigid(_block({"law": law}, _pulse()))
-    g, scale = found.gravity, 0.05
-    weight = found.static["concrete_mass_kg"] * g
+    law: dict[str, Any] = _weakening(0.6, 0.3, "50 mm")
+    response = rigid(_block({"law": law}, _pulse()))
+    g, scale = response.gravity, 0.05
+    weight = response.static["concrete_mass_kg"] * g
     k = math.sqrt(0.3 * g / scale)
     reached = math.acosh(1.0 + 1.5) / k
     fast = scale * k * math.sqrt(2.5**2 - 1.0) / 1.5
     left = _LENGTH - reached
     top = fast + 0.5 * g * left
     slip = scale + fast * left + 0.25 * g * left**2 + top**2 / (0.6 * g)
-    yield Row("linear: slip [m]", slip, found.residual_slip_m, 1e-10)
-    assert found.energy is not None
+    yield Row("linear: slip [m]", slip, response.residual_slip_m, 1e-10)
+    assert response.energy is not None
     lost = weight * (0.45 * scale + 0.3 * (slip - scale))
-    yield Row("linear: work of friction [J]", lost, found.energy.friction_j, 1e-10)
-    found = rigid(_block({"law": law | {"form": "exponential"}}, _pulse()))
-    way = found.residual_slip_m
-    assert found.energy is not None
+    yield Row("linear: work of friction [J]", lost, response.energy.friction_j, 1e-10)
+    response = rigid(_block({"law": law | {"form": "exponential"}}, _pulse()))
+    way = response.residual_slip_m
+    assert response.energy is not None
     lost = weight * (0.3 * way + 0.3 * scale * -math.expm1(-way / scale))
-    yield Row("exponential: work of friction over its slip [J]", lost, found.energy.friction_j, 1e-10)
+    yield Row("exponential: work of friction over its slip [J]", lost, response.energy.friction_j, 1e-10)
     bond = {"name": "cohesion", "cohesion": "2 kPa", "residual_friction": 0.3}
     ours = rigid(_block({"law": bond}, _pulse())).residual_slip_m
     yield Row("brittle bond, then 0.3: slip [m]", _newmark(0.3, g), ours, 1e-10)
@@ -90,12 +91,12 @@ def barton_bandis() -> Iterator[Row]:
     for jrc, ratio, angle in ((20, 10.0, 50.0), (10, 100.0, 50.0), (10, 10.0, 40.0), (5, 100.0, 40.0), (0, 10.0, 30.0)):
         weight = 2400.0 * 9.80665
         law = {"name": "barton-bandis", "jrc": jrc, "jcs": f"{ratio * weight} Pa", "residual_angle": "30 deg"}
-        found = rigid(_block({"law": law}, _pulse(3.0, 0.1)))
-        friction = found.summary["friction_law"]["apparent_friction_before"]
+        response = rigid(_block({"law": law}, _pulse(3.0, 0.1)))
+        friction = response.summary["friction_law"]["apparent_friction_before"]
         kind = f"JRC {jrc}, JCS {ratio:g} times the stress"
         yield Row(f"{kind}: angle [degrees]", angle, math.degrees(math.atan(friction)), 1e-12)
-        slip = _newmark(math.tan(math.radians(angle)), found.gravity, 3.0, 0.1)
-        yield Row(f"{kind}: slip [m]", slip, found.residual_slip_m, 1e-10)
+        slip = _newmark(math.tan(math.radians(angle)), response.gravity, 3.0, 0.1)
+        yield Row(f"{kind}: slip [m]", slip, response.residual_slip_m, 1e-10)
     for jrc, ratio in ((20, 1e3), (10, 0.5)):
         law = {"name": "barton-bandis", "jrc": jrc, "jcs": f"{ratio * weight} Pa", "residual_angle": "30 deg"}
         friction = rigid(_block({"law": law}, _pulse())).summary["friction_law"]["apparent_friction_before"]
@@ -134,19 +135,8 @@ def _gmisc_strength(stress: float) -> float:
 
 #: Laws that are Coulomb's with one coefficient, 0.4.
 _REDUCED: dict[str, dict[str, Any]] = {
-    "slip weakening, linear": {
-        "name": "slip weakening",
-        "peak_friction": 0.4,
-        "residual_friction": 0.4,
-        "slip": "10 mm",
-    },
-    "slip weakening, exponential": {
-        "name": "slip weakening",
-        "form": "exponential",
-        "peak_friction": 0.4,
-        "residual_friction": 0.4,
-        "slip": "10 mm",
-    },
+    "slip weakening, linear": _weakening(0.4, 0.4, "10 mm"),
+    "slip weakening, exponential": _weakening(0.4, 0.4, "10 mm", "exponential"),
     "speed weakening": {
         "name": "speed weakening",
         "peak_friction": 0.4,
@@ -172,7 +162,9 @@ def laws_to_coulomb() -> Iterator[Row]:
     steps, up to what the law bears at the way and the speed before it; the reference is what its error of first order
     comes to, from two lengths of the step, as these go to nothing.
     """
-    motion = {"points": [[f"{t!r} s", f"{a!r} g"] for t, a in zip(*(each.tolist() for each in _sines()), strict=True)]}
+    motion = {
+        "points": [[f"{t!r} s", f"{a!r} g"] for t, a in zip(*(column.tolist() for column in _sines()), strict=True)]
+    }
     exact = rigid(_block({"friction": 0.4}, motion)).residual_slip_m
     for name, law in _REDUCED.items():
         ours = rigid(_block({"law": law}, motion)).residual_slip_m
@@ -188,17 +180,11 @@ _Bears = Callable[[float, float], float]
 #: Laws of a case, and the same by hand: the coefficient at a way [m] and a speed [m/s].
 _OWN: dict[str, tuple[dict[str, Any], _Bears]] = {
     "slip weakening, 0.5 to 0.3 over 50 mm": (
-        {"name": "slip weakening", "peak_friction": 0.5, "residual_friction": 0.3, "slip": "50 mm"},
+        _weakening(0.5, 0.3, "50 mm"),
         lambda way, speed: 0.3 + 0.2 * max(0.0, 1.0 - way / 0.05),
     ),
     "the same, exponential": (
-        {
-            "name": "slip weakening",
-            "form": "exponential",
-            "peak_friction": 0.5,
-            "residual_friction": 0.3,
-            "slip": "50 mm",
-        },
+        _weakening(0.5, 0.3, "50 mm", "exponential"),
         lambda way, speed: 0.3 + 0.2 * math.exp(-way / 0.05),
     ),
     "speed weakening, 0.5 to 0.3 over 0.2 m/s": (
@@ -239,21 +225,21 @@ def sequence() -> Iterator[Row]:
     """
     pulses = ((0.8, 0.1), (0.5, 0.25), (0.6, 0.2))
     first, *others = ({"points": _pulse(size, length)["points"]} for size, length in pulses)
-    found = rigid(_block({"friction": 0.3}, first, aftershocks=others))
+    response = rigid(_block({"friction": 0.3}, first, aftershocks=others))
     total = 0.0
-    for number, ((size, length), stage) in enumerate(zip(pulses, found.sequence, strict=True), 1):
-        slip = _newmark(0.3, found.gravity, size, length)
+    for number, ((size, length), stage) in enumerate(zip(pulses, response.sequence, strict=True), 1):
+        slip = _newmark(0.3, response.gravity, size, length)
         total += slip
         yield Row(f"motion {number}: slip [m]", slip, stage.slip_m, 1e-10)
-    yield Row("all of them: slip [m]", total, found.residual_slip_m, 1e-10)
+    yield Row("all of them: slip [m]", total, response.residual_slip_m, 1e-10)
     water = {"reservoir": {"depth": "1 m"}}
     drained = {"pattern": "drained", "drain_position": 0.1, "drain_efficiency": 0.8}
     closing = {"uplift": drained, "statics": {"drain_diameter": "0.1 m"}}
-    found = rigid(_block({"friction": 0.3}, _pulse(0.5, 0.1), **water, **closing, aftershocks=[_pulse(0.5, 0.1)]))
-    share = 1.0 - found.sequence[0].residual_slip_m / 0.1
-    yield Row("drainage that is left", share, found.summary["drainage_by_motion"][1], 1e-12)
+    response = rigid(_block({"friction": 0.3}, _pulse(0.5, 0.1), **water, **closing, aftershocks=[_pulse(0.5, 0.1)]))
+    share = 1.0 - response.sequence[0].residual_slip_m / 0.1
+    yield Row("drainage that is left", share, response.summary["drainage_by_motion"][1], 1e-12)
     alone = rigid(
         _block({"friction": 0.3}, _pulse(0.5, 0.1), **water, uplift=drained | {"drain_efficiency": 0.8 * share})
     )
     what = "second motion with the drains that are left: slip [m]"
-    yield Row(what, alone.residual_slip_m, found.sequence[1].slip_m, 1e-10, kind="own run")
+    yield Row(what, alone.residual_slip_m, response.sequence[1].slip_m, 1e-10, kind="own run")

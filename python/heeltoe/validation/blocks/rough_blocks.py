@@ -45,18 +45,18 @@ def rough_crack() -> Iterator[Row]:
     loses m g / (1 + m k). Wear takes the angle from i to i exp(-c W), W being the work of friction per area (Plesha).
     """
     friction, slope = 0.3, 0.2
-    found = rigid(_rough(friction, slope))
-    g, strength = found.gravity, _borne(friction, slope)
+    response = rigid(_rough(friction, slope))
+    g, strength = response.gravity, _borne(friction, slope)
     up = (_PULSE_G - strength) * g / (1.0 + strength * slope)
     back = strength * g / (1.0 + strength * slope)
     slip = 0.5 * up * _LENGTH**2 + (up * _LENGTH) ** 2 / (2.0 * back)
-    rough = found.summary["roughness"]
+    rough = response.summary["roughness"]
     yield Row("apparent friction before", strength, rough["apparent_friction_before"], 1e-12)
-    yield Row("climb and stop: slip [m]", slip, found.residual_slip_m, 1e-10)
+    yield Row("climb and stop: slip [m]", slip, response.residual_slip_m, 1e-10)
     yield Row("climb and stop: dilation [m]", slope * slip, rough["residual_dilation_m"], 1e-10)
-    assert found.energy is not None
-    work = found.static["concrete_mass_kg"] * g * (_PULSE_G * 0.5 * up * _LENGTH**2 - slope * slip)
-    yield Row("climb and stop: work of friction [J]", work, found.energy.friction_j, 1e-10)
+    assert response.energy is not None
+    work = response.static["concrete_mass_kg"] * g * (_PULSE_G * 0.5 * up * _LENGTH**2 - slope * slip)
+    yield Row("climb and stop: work of friction [J]", work, response.energy.friction_j, 1e-10)
     for share, moves in ((0.999, False), (1.001, True)):
         push = share * strength
         points = [["0 s", f"{-push!r} g"], ["0.5 s", f"{-push!r} g"], ["0.5 s", "0 g"], ["2 s", "0 g"]]
@@ -67,10 +67,10 @@ def rough_crack() -> Iterator[Row]:
         ours = rigid(_rough(friction, 0.15, height)).summary["roughness"]["peak_dilation_m"]
         yield Row(f"asperities of {1e3 * height:g} mm, passed: largest dilation [m]", height, ours, 1e-9)
     wear = 1e-4
-    found = rigid(_rough(friction, slope, 0.05, wear))
-    assert found.energy is not None
-    angle = math.atan(slope) * math.exp(-wear * found.energy.friction_j / _WIDTH)
-    yield Row("worn: angle after [rad]", angle, found.summary["roughness"]["asperity_angle_after_rad"], 1e-11)
+    response = rigid(_rough(friction, slope, 0.05, wear))
+    assert response.energy is not None
+    angle = math.atan(slope) * math.exp(-wear * response.energy.friction_j / _WIDTH)
+    yield Row("worn: angle after [rad]", angle, response.summary["roughness"]["asperity_angle_after_rad"], 1e-11)
     steep = rigid(_rough(0.1, 0.3))
     what = "flanks steeper than their friction: slip after it has come back [m]"
     yield Row(what, 0.0, steep.residual_slip_m, 1e-9, relative=False, kind="condition")
@@ -131,16 +131,16 @@ def two_blocks() -> Iterator[Row]:
     slips are compared to 0.2 mm, about what it moves by from 0.1 ms to these.
     """
     for base, upper, what in ((0.3, 0.9, "upper crack bonded"), (0.9, 0.2, "base bonded"), (0.3, 0.1, "both slide")):
-        found = _stack(base, upper)
-        g = found.gravity
-        ours = [each["residual_slip_m"] for each in found.summary["cracks"]]
+        response = _stack(base, upper)
+        g = response.gravity
+        ours = [crack["residual_slip_m"] for crack in response.cracks]
         below = _newmark(2.0 * base - upper, g) if upper < base else _newmark(base, g)
         lower = below if base < _PULSE_G else 0.0
         above = _newmark(upper, g) - lower if upper < base else 0.0
         yield Row(f"{what}: slip of the upper crack [m]", above, ours[0], 1e-10, relative=above > 0.0)
         yield Row(f"{what}: slip of the base [m]", lower, ours[1], 1e-10, relative=lower > 0.0)
     for what, (friction, size, gaps, slips) in _SICONOS.items():
-        cracks = _slender(friction, size).summary["cracks"]
+        cracks = _slender(friction, size).cracks
         for name, gap, slip, crack in zip(("upper", "lower"), gaps, slips, cracks, strict=True):
             ours = crack["largest_gap_toe_m"]
             yield Row(f"{what}: largest gap under the {name} toe [m]", gap, ours, 1e-3, kind="program")

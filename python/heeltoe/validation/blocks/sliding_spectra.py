@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.validation.plain import rectangle, run
 from heeltoe.validation.row import Row
@@ -55,7 +55,7 @@ def lixouri() -> Iterator[Row]:
     for name, published in _CEPHALONIA.items():
         record = record_named(name)
         for friction, reference in published.items():
-            least, ours, most = (_farthest(record, friction, scale) for scale in (0.99, 1.0, 1.01))
+            low, ours, high = (_farthest(record, friction, scale) for scale in (0.99, 1.0, 1.01))
             yield Row(
                 f"{name}, friction {friction}",
                 reference,
@@ -65,7 +65,7 @@ def lixouri() -> Iterator[Row]:
                 remark=f"{read}; {stiff}",
                 kind="program",
                 explained=0.015,
-                spread=(min(least, most), max(least, most)),
+                spread=(min(low, high), max(low, high)),
             )
 
 
@@ -74,8 +74,8 @@ def _farthest(record: GroundMotion, friction: float, scale: float) -> float:
     taken = (record.time > _FROM) & (record.time < _TO)
     time, ground = record.time[taken] - _FROM, scale * record.acceleration[taken]
     time = time - time[0]
-    found = run(rectangle(10.0, 1.0, friction, gravity=_G), time, ground, np.linspace(0.0, time[-1], 20_001))
-    return float(np.abs(found.histories["slip"]).max())
+    sliding = run(rectangle(10.0, 1.0, friction, gravity=_G), time, ground, np.linspace(0.0, time[-1], 20_001))
+    return float(np.abs(sliding.histories.slip).max())
 
 
 def slammer() -> Iterator[Row]:
@@ -95,7 +95,7 @@ def slammer() -> Iterator[Row]:
                 if printed is None:
                     continue
                 motion = record.scaled_to(peak * _STANDARD_G)
-                least, ours, most = (_downhill(motion, yields, peak, sign * each) for each in (0.99, 1.0, 1.01))
+                low, ours, high = (_downhill(motion, yields, peak, sign * factor) for factor in (0.99, 1.0, 1.01))
                 yield Row(
                     f"{name} {way}, peak {peak} g, k_y {yields} g",
                     printed,
@@ -103,7 +103,7 @@ def slammer() -> Iterator[Row]:
                     0.02,
                     remark=remark,
                     kind="program",
-                    spread=(least, most),
+                    spread=(low, high),
                 )
 
 
@@ -115,5 +115,5 @@ def _downhill(motion: GroundMotion, yields: float, peak: float, scale: float) ->
     # It comes to rest on a ground that stands still.
     end = motion.time[-1]
     time: Floats = np.append(motion.time, [end, end + 20.0])
-    found = run(block, time, scale * np.append(motion.acceleration, [0.0, 0.0]))
-    return 100.0 * float(found.summary["slip"])
+    sliding = run(block, time, scale * np.append(motion.acceleration, [0.0, 0.0]))
+    return 100.0 * float(sliding.summary.slip)

@@ -50,9 +50,9 @@ def sine() -> Iterator[Row]:
     """Block 1 x 1 m, friction 0.2, ground 0.5 g sin(pi t / 0.2): printed times of zero slip velocity."""
     block = rectangle(1.0, 1.0, 0.2, gravity=9.80665)
     ground = sampled(lambda t: 0.5 * 9.80665 * np.sin(np.pi * t / 0.2), 1e-5, 1.6)
-    found = run(block, *ground)
+    rocking = run(block, *ground)
     printed = (0.026198, 0.261845, 0.454995, 0.657297, 0.856571, 1.056805, 1.256730, 1.456755)
-    times = found.times_of("slip starts")[:1] + found.times_of("slip stops")
+    times = rocking.times_of("slip starts")[:1] + rocking.times_of("slip stops")
     for k, (reference, ours) in enumerate(zip(printed, times, strict=False), 1):
         yield Row(
             f"zero velocity {k} [s]",
@@ -111,6 +111,6 @@ def dry_block() -> Iterator[Row]:
         block = rectangle(1.0, 3.0, 1.0, gravity=9.81, restitution=restitution)
         summary = run(block, time, ground).summary
         label = f"e = {restitution:g}: rocking"
-        yield Row(f"{label} upstream [rad]", 0.023497, summary["rotation_max"], 1e-4, remark=_TWO, kind="prototype")
-        yield Row(f"{label} downstream [rad]", reference, -summary["rotation_min"], 5e-4, remark=_TWO, kind="prototype")
-        yield Row(f"e = {restitution:g}: slip [m]", 0.0, summary["slip"], 0.0, relative=False, kind="prototype")
+        yield Row(f"{label} upstream [rad]", 0.023497, summary.rotation_max, 1e-4, remark=_TWO, kind="prototype")
+        yield Row(f"{label} downstream [rad]", reference, -summary.rotation_min, 5e-4, remark=_TWO, kind="prototype")
+        yield Row(f"e = {restitution:g}: slip [m]", 0.0, summary.slip, 0.0, relative=False, kind="prototype")

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_case
 from heeltoe.kernel.block import BlockRun, run_block
@@ -26,12 +26,12 @@ def free_finite_rocking() -> Iterator[Row]:
     slenderness = math.atan(0.25)
     moments = np.linspace(0.0, 4.4, 8801)
     lifted = [0.0, 0.0, math.sin(0.5 * slenderness)]
-    found = _run(case, np.array([0.0, 4.4]), np.zeros(2), moments, [lifted, [0.0, 0.0, 0.0]])
-    impacts = found.times_of("heel strikes", "toe strikes")
+    rocking = _run(case, np.array([0.0, 4.4]), np.zeros(2), moments, [lifted, [0.0, 0.0, 0.0]])
+    impacts = rocking.times_of("heel strikes", "toe strikes")
     remark = "sine of the rotation over the crack is the gap"
     for number, (reference, ours) in enumerate(zip((0.698343, 1.834900, 2.799281, 3.635548), impacts, strict=False)):
         yield Row(f"impact {number + 1} [s]", reference, ours, 1e-6)
-    rotation = np.arcsin(found.histories["gap_toe"] - found.histories["gap_heel"])
+    rotation = np.arcsin(rocking.histories.gap_toe - rocking.histories.gap_heel)
     references = (0.386714, 0.306397, 0.246057, 0.199314)
     for reference, (start, end) in zip(references, pairwise(impacts), strict=False):
         between = (moments > start) & (moments < end)
@@ -87,8 +87,8 @@ def _edge(case: Case, block: Block, ratio: float, bracket: tuple[float, float]) 
 def _overturns(case: Case, block: Block, ratio: float, amplitude: float) -> bool:
     """Return whether a full sine overturns the block after one impact."""
     time, pulse = _sine(block, ratio, whole=True)
-    found = _run(case, time, amplitude * _G * block.toe_distance / block.height * pulse)
-    return found.outcome == "overturned" and found.summary["impacts"] == 1.0
+    rocking = _run(case, time, amplitude * _G * block.toe_distance / block.height * pulse)
+    return rocking.outcome == "overturned" and rocking.summary.impacts == 1.0
 
 
 def _slender(rotation: str) -> Case:
@@ -107,8 +107,8 @@ def _run(
     case: Case, time: Floats, ground: Floats, moments: Floats | None = None, start: list[list[float]] | None = None
 ) -> BlockRun:
     block = build_block(case)
-    wanted = np.empty(0) if moments is None else moments
-    return run_block(block.parameters(), Shaking(time, ground), wanted, start=start, varying=varying(case, block))
+    times = np.empty(0) if moments is None else moments
+    return run_block(block.parameters(), Shaking(time, ground), times, start=start, varying=varying(case, block))
 
 
 def _least(case: Case, block: Block, ratio: float, *, whole: bool) -> float:
@@ -118,8 +118,8 @@ def _least(case: Case, block: Block, ratio: float, *, whole: bool) -> float:
     low, high = 1.0, 12.0
     while high - low > 1e-6:
         middle = 0.5 * (low + high)
-        found = _run(case, time, middle * _G * half / height * pulse)
-        if found.outcome == "overturned" and found.summary["impacts"] == 0.0:
+        rocking = _run(case, time, middle * _G * half / height * pulse)
+        if rocking.outcome == "overturned" and rocking.summary.impacts == 0.0:
             high = middle
         else:
             low = middle

@@ -21,7 +21,8 @@ def ours(row: Row) -> str:
     if row.digits == 0:
         return VARIES
     if _bounded(row):
-        return _below(abs(row.ours))
+        # A share of what is allowed is below the whole of it; how far below hangs on the machine's rounding.
+        return _below(max(abs(row.ours), 0.1) if row.tolerance == 1.0 else abs(row.ours))
     return number(row, row.ours)
 
 
@@ -35,8 +36,8 @@ def number(row: Row, value: float) -> str:
     if row.digits is not None:
         return f"{value:.{row.digits}g}"
     step = _step(row) * (abs(row.reference) if row.relative else 1.0)
-    wanted = FEWEST if step == 0.0 or value == 0.0 else math.floor(math.log10(abs(value) / step)) + 1
-    return f"{value:.{min(max(wanted, FEWEST), MOST)}g}"
+    digits = FEWEST if step == 0.0 or value == 0.0 else math.floor(math.log10(abs(value) / step)) + 1
+    return f"{value:.{min(max(digits, FEWEST), MOST)}g}"
 
 
 def deviation(row: Row) -> str:
@@ -60,7 +61,7 @@ def tolerance(row: Row) -> str:
     if row.tolerance is None:
         return "none"
     limits = [row.tolerance] if row.explained is None else [row.tolerance, row.explained]
-    texts = [f"{100.0 * each:.3g} %" if row.relative and each >= 1e-4 else f"{each:.2g}" for each in limits]
+    texts = [f"{100.0 * limit:.3g} %" if row.relative and limit >= 1e-4 else f"{limit:.2g}" for limit in limits]
     return texts[0] if len(texts) == 1 else f"{texts[0]}; explained to {texts[1]}"
 
 
@@ -100,8 +101,8 @@ def _near(old: re.Match[str], new: re.Match[str], steady: float) -> bool:
     if old[1] and new[1]:
         return steady == math.inf or 0.09 < float(old[2]) / float(new[2]) < 11.0
     # What is below a bound is between nothing and one of its last digits.
-    a, b = (0.0 if each[1] else float(each[2]) for each in (old, new))
-    unit = max(10.0 ** (int(each[4] or 0) - len(each[3] or "")) for each in (old, new))
+    a, b = (0.0 if number[1] else float(number[2]) for number in (old, new))
+    unit = max(10.0 ** (int(number[4] or 0) - len(number[3] or "")) for number in (old, new))
     # A deviation in per cent moves by what the number moves.
     whole = 100.0 if old.string[old.end() :].startswith(" %") else max(abs(a), abs(b))
     return abs(b - a) <= 1.01 * unit or abs(b - a) <= steady * whole

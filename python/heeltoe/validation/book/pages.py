@@ -88,12 +88,12 @@ def index(book: dict[str, Rows]) -> str:
     lines = []
     for name, case in CASES.items():
         rows = book.get(name, [])
-        found = counted(rows)
+        counts = counted(rows)
         cells = [f"[{name}]({file_of(name)}.md)", _plain(case.title).rstrip(".:"), *_ticks(case.models), str(len(rows))]
-        lines.append([*cells, *(str(found[verdict] or "") for verdict in VERDICTS)])
+        lines.append([*cells, *(str(counts[verdict] or "") for verdict in VERDICTS)])
     heads = ["case", "what", *MODELS, "rows", *VERDICTS]
     text = _INTRODUCTION.format(cases=len(CASES), rows=sum(total.values()), verdicts=f"In all {_in_words(total)}.")
-    absent = [[each.what, ", ".join(each.models), each.why] for each in ABSENT]
+    absent = [[gap.what, ", ".join(gap.models), gap.why] for gap in ABSENT]
     return (
         f"{_MADE}\n\n{text}{_table(heads, lines)}\n\n## What cannot be reproduced\n\n"
         f"{_table(['what', 'model', 'why'], absent)}\n"
@@ -124,9 +124,9 @@ def _elsewhere(case: Declared) -> list[str]:
     return [f"- On another machine: {numbers}, verdicts the same; a dam that strikes carries rounding on"]
 
 
-def _in_words(found: Counter[str]) -> str:
+def _in_words(counts: Counter[str]) -> str:
     words = ("within what their reference is good for", "deviate and say why", "outside", "without a verdict")
-    return ", ".join(f"{found[verdict]} {said}" for verdict, said in zip(VERDICTS, words, strict=True))
+    return ", ".join(f"{counts[verdict]} {word}" for verdict, word in zip(VERDICTS, words, strict=True))
 
 
 def _ticks(models: tuple[Model, ...]) -> list[str]:
@@ -151,8 +151,8 @@ def _numbered(rows: Rows) -> dict[str, int]:
 
 
 def _remarks(rows: Rows) -> Iterable[str]:
-    if found := _numbered(rows):
-        yield "\n".join(f"{place}. {remark}" for remark, place in found.items())
+    if remarks := _numbered(rows):
+        yield "\n".join(f"{place}. {remark}" for remark, place in remarks.items())
 
 
 def _table(heads: Sequence[str], lines: Sequence[Sequence[str]]) -> str:

@@ -19,7 +19,7 @@ NAME = "rows.json"
 def told(row: Row) -> dict[str, str]:
     """Return a row in texts."""
     verdict = VERDICTS[3] if row.tolerance is None else VERDICTS[1] if row.deviates else VERDICTS[0 if row.holds else 2]
-    found = {
+    record = {
         "what": row.what,
         "kind": row.kind,
         "reference": numbers.reference(row),
@@ -30,34 +30,34 @@ def told(row: Row) -> dict[str, str]:
         "remark": row.remark,
     }
     if row.finer is not None:
-        found["half the step"] = numbers.number(row, row.finer)
+        record["half the step"] = numbers.number(row, row.finer)
     if row.spread is not None:
-        found["99 to 101 % of the shaking"] = " to ".join(numbers.number(row, value) for value in row.spread)
-    return found
+        record["99 to 101 % of the shaking"] = " to ".join(numbers.number(row, value) for value in row.spread)
+    return record
 
 
 def drift(old: Rows, new: Rows, *, steady: float = 0.0) -> list[str]:
     """Return what is no longer as it was, a line each; numbers may be off by a part of them."""
     if len(old) != len(new):
         return [f"{len(old)} rows before, {len(new)} now"]
-    found = []
+    drifts = []
     for before, now in zip(old, new, strict=True):
         if before.keys() != now.keys():
-            found.append(f"{now['what']}: columns {', '.join(before)} before, {', '.join(now)} now")
+            drifts.append(f"{now['what']}: columns {', '.join(before)} before, {', '.join(now)} now")
             continue
-        found += [
+        drifts += [
             f"{now['what']}, {name}: {before[name]!r} before, {now[name]!r} now"
             for name in now
             if not numbers.alike(before[name], now[name], steady=steady)
         ]
-    return found
+    return drifts
 
 
 def read(folder: Path) -> dict[str, Rows]:
     """Return the rows of all cases; none where there is no book yet."""
     path = folder / NAME
-    found: dict[str, Any] = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
-    return found
+    record: dict[str, Any] = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+    return record
 
 
 def write(folder: Path, rows: dict[str, Rows]) -> None:

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
 
-from heeltoe.arrays import Floats, Integers
+from heeltoe.base.arrays import Floats, Integers
 from heeltoe.case.model import Case
 from heeltoe.geometry.section import CutSection
-from heeltoe.models.flexible.history import CrackHistory
 from heeltoe.models.flexible.mesh.checks import boundary_edges
 from heeltoe.models.flexible.mesh.dam import BodyMesh
+from heeltoe.models.flexible.result.history import CrackHistory
 
 #: How far the displacements of an elastic part may be off, as a part of the largest: far below the pixel.
 ACCURACY = 2e-4
@@ -100,8 +100,28 @@ class Part:
         return moved
 
 
-def rigid_parts(case: Case, histories: Mapping[str, Floats], moments: Moments) -> tuple[Part, ...]:
-    """Return the block and what stands still below it, if the crack is not at the base.
+def rigid_parts(case: Case, histories: Sequence[Mapping[str, Floats]], moments: Moments) -> tuple[Part, ...]:
+    """Return the rigid blocks from the crest down and, if the lowest crack is not at the base, what stands still below.
+
+    `histories` are those of the cracks, from the crest down. A block moves by its own crack and by the cracks below it,
+    which carry it.
+    """
+    motions = [
+        _amplitudes(crack, history, moments) for crack, history in zip(case.single_crack_cases, histories, strict=True)
+    ]
+    parts: list[Part] = []
+    for place, crack in enumerate(case.single_crack_cases):
+        part = _between(case.single_crack_cases[place - 1], crack) if place else _top_block(crack.cut)
+        shapes = np.concatenate([_shapes(below.cut, part.points) for below in case.single_crack_cases[place:]])
+        parts.append(replace(part, shapes=shapes, amplitudes=np.concatenate(motions[place:], axis=1)))
+    ground = part_below(case.single_crack_cases[-1].cut, case.outline)
+    if ground is not None:
+        parts.append(replace(ground, amplitudes=np.zeros((len(motions[0]), 0))))
+    return tuple(parts)
+
+
+def _amplitudes(case: Case, histories: Mapping[str, Floats], moments: Moments) -> Floats:
+    """Return how far (f, 4) the part above a crack moves along the four shapes of :func:`_shapes`.
 
     The contact coordinates are turned into the motion of a rigid body of any rotation: the corner that is lower slides
     along the crack, and the gaps are those of the histories. All four amplitudes multiply shapes that are linear in
@@ -110,30 +130,43 @@ def rigid_parts(case: Case, histories: Mapping[str, Floats], moments: Moments) -
     slip, heel, toe, rotation = (
         moments.between(histories[name]) for name in ("slip_m", "gap_heel_m", "gap_toe_m", "rotation_rad")
     )
-    section = case.cut
-    width = section.crack_width
+    width = case.cut.crack_width
     sine = np.clip((toe - heel) / width, -1.0, 1.0)
     cosine = np.where(np.abs(rotation) > math.pi / 2.0, -1.0, 1.0) * np.sqrt(1.0 - sine**2)
     # The heel's own motion; where the block stands on its toe, it is the toe that slips.
     along = np.where(sine < 0.0, slip + width * (1.0 - cosine), slip)
+    return np.column_stack([along, heel, cosine - 1.0, sine])
+
+
+def _shapes(section: CutSection, points: Floats) -> Floats:
+    """Return the displacements (4, n, 2) of points above a crack: along it, across it, towards the heel, turned."""
+    arm, ones = points - section.heel, np.ones((len(points), 2))
+    along, across = section.from_crack_frame(1.0, 0.0), section.from_crack_frame(0.0, 1.0)
+    return np.stack([ones * along, ones * across, arm, np.column_stack([-arm[:, 1], arm[:, 0]])])
+
+
+def _top_block(section: CutSection) -> Part:
+    """Return the part above a crack, still without motion."""
     points = np.array(section.polygon)
-    arm = points - section.heel
-    e, n = section.from_crack_frame(1.0, 0.0), section.from_crack_frame(0.0, 1.0)
-    ones = np.ones((len(points), 2))
-    shapes = np.stack([ones * e, ones * n, arm, np.column_stack([-arm[:, 1], arm[:, 0]])])
     top = np.flatnonzero(points[:, 1] == section.crest_elevation)
-    upper = Part(
+    return Part(
         points=points,
         outline=np.arange(len(points)),
         grid=np.empty((0, 2), dtype=np.int64),
         upstream=np.concatenate([[0], np.arange(len(points) - 1, top[-1] - 1, -1)]),
         downstream=np.arange(1, top[0] + 1),
         crack=np.array([0, 1]),
-        shapes=shapes,
-        amplitudes=np.column_stack([along, heel, cosine - 1.0, sine]),
+        shapes=np.zeros((0, len(points), 2)),
+        amplitudes=np.zeros((0, 0)),
     )
-    lower = part_below(section, case.outline)
-    return (upper,) if lower is None else (upper, replace(lower, amplitudes=np.zeros((len(slip), 0))))
+
+
+def _between(upper: Case, lower: Case) -> Part:
+    """Return the part between two cracks, still without motion; its crack is the lower one."""
+    heel, toe = np.array(lower.cut.heel), np.array(lower.cut.toe)
+    part = part_below(upper.cut, shapely.Polygon(np.array(lower.cut.polygon)), (heel, toe))
+    assert part is not None
+    return replace(part, crack=np.array([int(np.hypot(*(part.points - corner).T).argmin()) for corner in (heel, toe)]))
 
 
 def part_below(section: CutSection, whole: shapely.Polygon, base: tuple[Floats, Floats] | None = None) -> Part | None:

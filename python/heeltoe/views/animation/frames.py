@@ -9,18 +9,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe.arrays import Floats, Integers
+from heeltoe.base.arrays import Floats, Integers
 from heeltoe.case.dam import Water
 from heeltoe.case.model import Case
+from heeltoe.errors.sanitize import plain
 from heeltoe.geometry.section import CutSection
-from heeltoe.models.flexible.history import CrackHistory
-from heeltoe.models.flexible.response import FlexibleResponse
-from heeltoe.models.rigid.stack.response import StackResponse
-from heeltoe.plain import plain
+from heeltoe.models.flexible.result.history import CrackHistory
+from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Units, unit_system
 from heeltoe.views.animation.bodies import Moments, Part, elastic_parts, rigid_parts
-from heeltoe.views.animation.stack import stack_parts
 
 #: What a point of the crack does, as `Scene.status` counts it; -1 where nothing is known or opposite.
 STATUSES = ("open", "stick", "slip downstream", "slip upstream")
@@ -123,9 +121,8 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
     histories = response.histories
     moments = Moments.of(histories["time_s"], times)
     if not isinstance(response, FlexibleResponse):
-        stacked = isinstance(response, StackResponse)
-        apart = response.histories_of_cracks
-        parts = stack_parts(case, apart, moments) if stacked else rigid_parts(case, histories, moments)
+        cracks = [crack.histories for crack in response.cracks] if response.several else [histories]
+        parts = rigid_parts(case, cracks, moments)
         forces, status = _corners(section, histories, response.mode, moments)
         scale = system.scale("force")
     else:
@@ -134,11 +131,9 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
         forces, status = _nodes(section, response.crack, moved)
         scale = system.scale("pressure")
     forces = scale(forces)
-    above = response.place
-    largest = max(float(np.abs(part.displacements(part.outline)).max()) for part in parts)
+    above = response.asked
     if exaggeration is None:
-        overturned = response.outcome == "overturned"
-        exaggeration = 1.0 if overturned else automatic(largest, section)
+        exaggeration = chosen_exaggeration(response, parts, section)
     modes = tuple(dict.fromkeys(response.mode))
     number = {name: place for place, name in enumerate(modes)}
     mode = np.array([number[name] for name in response.mode])
@@ -159,11 +154,17 @@ def build_scene(case: Case, response: Response, times: Floats, exaggeration: flo
         history_mode=mode[within],
         traces=_traces(response, within, system),
         base=section.base_elevation,
-        water=_level(section, case.reservoir),
-        tailwater=_level(section, case.tailwater),
+        water=water_level(section, case.reservoir),
+        tailwater=water_level(section, case.tailwater),
         views=_views(case, parts[above:], exaggeration),
         above=above,
     )
+
+
+def chosen_exaggeration(response: Response, parts: tuple[Part, ...], section: CutSection) -> float:
+    """Return the exaggeration that shows the motion of the parts well; an overturned dam is drawn as it is."""
+    largest = max(float(np.abs(part.displacements(part.outline)).max()) for part in parts)
+    return 1.0 if response.outcome == "overturned" else automatic(largest, section)
 
 
 def automatic(largest: float, section: CutSection) -> float:
@@ -239,7 +240,7 @@ def _subtitle(response: Response) -> str:
     peak = response.motion.pga / response.gravity
     ending = "" if response.outcome == "ok" else f"; {response.outcome}"
     shaken = ", in which the motion of the crack shakes the part above" if response.model == "decoupled" else ""
-    curves = "; curves of [crack]" if response.summary.get("cracks") else ""
+    curves = "; curves of the crack that leads" if response.several else ""
     return f"{plain(response.motion.name)}, peak {peak:.3g} g; {response.model} model{shaken}{ending}{curves}"
 
 
@@ -277,7 +278,8 @@ def _traces(response: Response, within: NDArray[np.bool_], units: Units) -> tupl
     return found
 
 
-def _level(section: CutSection, water: Water | None) -> float | None:
+def water_level(section: CutSection, water: Water | None) -> float | None:
+    """Return the z of the surface of water; None where there is none."""
     return None if water is None else section.base_elevation + water.depth
 
 
@@ -290,7 +292,7 @@ def _views(case: Case, parts: tuple[Part, ...], exaggeration: float) -> tuple[tu
     left, right = min(points[:, 0].min(), low[0]), max(points[:, 0].max(), high[0])
     base, height = section.base_elevation, section.crest_elevation - section.base_elevation
     # Water above the crest is seen, its surface too.
-    levels = [_level(section, water) for water in (case.reservoir, case.tailwater)]
+    levels = [water_level(section, water) for water in (case.reservoir, case.tailwater)]
     high[1] = max(high[1], *(level for level in levels if level is not None), high[1])
     top = max(section.crest_elevation, high[1])
     near_crack = section.height <= _SMALL * height

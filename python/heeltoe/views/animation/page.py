@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.views.animation import look
+from heeltoe.views.animation.bodies import Part
 from heeltoe.views.animation.frames import ARROW, CUT, STATUSES, Scene
 
 # Samples of a trace that a page of any size can show.
@@ -47,19 +48,7 @@ def page_data(scene: Scene, speed: float) -> dict[str, Any]:
         "times": packed(scene.times, "float32"),
         "exaggeration": scene.exaggeration,
         "speed": speed,
-        "parts": [
-            {
-                "points": packed(part.points, "float32"),
-                "outline": packed(part.outline, "int32"),
-                "grid": packed(part.grid, "int32"),
-                "upstream": packed(part.upstream, "int32"),
-                "downstream": packed(part.downstream, "int32"),
-                "crack": packed(part.crack, "int32"),
-                "shapes": packed(part.shapes, "float32"),
-                "amplitudes": packed(part.amplitudes, "float32"),
-            }
-            for part in scene.parts
-        ],
+        "parts": [part_data(part) for part in scene.parts],
         "above": scene.above,
         "forces": packed(scene.forces, "float32"),
         "forceScale": scene.force_scale,
@@ -87,6 +76,15 @@ def page_data(scene: Scene, speed: float) -> dict[str, Any]:
         "water": scene.water,
         "tailwater": scene.tailwater,
         "views": [list(view) for view in scene.views],
+    }
+
+
+def part_data(part: Part) -> dict[str, Any]:
+    """Return one part of the dam and its motion, with arrays as :func:`packed`."""
+    floats = {name: getattr(part, name) for name in ("points", "shapes", "amplitudes")}
+    places = {name: getattr(part, name) for name in ("outline", "grid", "upstream", "downstream", "crack")}
+    return {name: packed(values, "float32") for name, values in floats.items()} | {
+        name: packed(values, "int32") for name, values in places.items()
     }
 
 

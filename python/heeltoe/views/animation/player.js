@@ -1,6 +1,4 @@
 // Drawing and controls.
-"use strict";
-
 (() => {
   const scene = readScene(JSON.parse(document.getElementById("scene").textContent));
   const element = (id) => document.getElementById(id);
@@ -88,19 +86,8 @@
     for (const [level, side, edge] of [[scene.water, "upstream", left], [scene.tailwater, "downstream", left + width]]) {
       const surface = at([0, level])[1];
       if (level === null || level <= scene.base || surface >= foot) continue;
-      const faces = scene.parts.map((part, k) => picked(drawn[k], part[side])).reverse().flat();
-      // Above the crest the water goes on to its far edge.
-      const back = picked(drawn[0], scene.parts[0][side === "upstream" ? "downstream" : "upstream"]);
-      const far = back[back.length - 1];
-      const over = level > faces[faces.length - 1][1];
-      const shore = (over ? [...faces, far, [far[0], level]] : faces).map(at);
-      context.save();
-      context.beginPath();
-      context.rect(left, surface, width, foot - surface);
-      context.clip();
-      fill([[edge, shore[0][1]], ...shore, [edge, shore[shore.length - 1][1]]], "water");
-      context.restore();
-      const end = over ? far[0] : atLevel(faces, level);
+      const { outline, end } = waterOutline(scene.parts, drawn, level, side === "upstream", x0 + (edge - middle) / scale);
+      fill(outline.map(at), "water");
       stroke([[edge, surface], [at([end, level])[0], surface]], "surface", 1.5, false);
     }
     scene.parts.map((part, k) => [part, drawn[k], k > scene.above ? "lower" : "upper"]).reverse().forEach(([part, points, name]) => {

@@ -1,10 +1,8 @@
 // The scene in numbers: reading the data of the page, and where everything is at a moment. Nothing here draws.
-"use strict";
-
 const KINDS = { float32: Float32Array, int32: Int32Array, int8: Int8Array };
 
 /** Return the array that was packed as text. */
-function unpacked(field) {
+export function unpacked(field) {
   const text = atob(field.data);
   const bytes = new Uint8Array(text.length);
   for (let k = 0; k < text.length; k++) bytes[k] = text.charCodeAt(k);
@@ -12,25 +10,27 @@ function unpacked(field) {
 }
 
 /** Return the data of the page with all arrays unpacked; `count`s say how many there are of what. */
-function readScene(data) {
+export function readScene(data) {
   const scene = { ...data };
   for (const name of ["times", "forces", "status", "mode", "historyTimes", "historyMode"]) {
     scene[name] = unpacked(data[name]);
   }
   scene.crackCount = data.status.shape[1];
   scene.traces = data.traces.map((trace) => ({ ...trace, values: unpacked(trace.values) }));
-  scene.parts = data.parts.map((part) => {
-    const found = { shapeCount: part.shapes.shape[0], pointCount: part.points.shape[0] };
-    for (const name of Object.keys(part)) found[name] = unpacked(part[name]);
-    return found;
-  });
+  scene.parts = data.parts.map(readPart);
   scene.start = scene.times[0];
   scene.end = scene.times[scene.times.length - 1];
   return scene;
 }
 
+/** Return a part with all arrays unpacked. */
+export function readPart(part) {
+  const arrays = Object.fromEntries(Object.entries(part).map(([name, field]) => [name, unpacked(field)]));
+  return { ...arrays, shapeCount: part.shapes.shape[0], pointCount: part.points.shape[0] };
+}
+
 /** Return the sample before a moment, how far it is on the way to the next, and the nearest sample. */
-function momentAt(times, time) {
+export function momentAt(times, time) {
   let low = 0;
   let high = times.length - 1;
   while (high - low > 1) {
@@ -44,12 +44,12 @@ function momentAt(times, time) {
 }
 
 /** Return values between samples. */
-function between(values, moment) {
+export function between(values, moment) {
   return (1 - moment.share) * values[moment.before] + moment.share * values[moment.after];
 }
 
 /** Return where the points of a part are drawn, x and z in turn, displaced so many times as far. */
-function drawnPoints(part, moment, exaggeration) {
+export function drawnPoints(part, moment, exaggeration) {
   const found = Float64Array.from(part.points);
   const size = 2 * part.pointCount;
   for (let r = 0; r < part.shapeCount; r++) {
@@ -62,12 +62,12 @@ function drawnPoints(part, moment, exaggeration) {
 }
 
 /** Return the points of some places, as pairs. */
-function picked(points, places) {
+export function picked(points, places) {
   return Array.from(places, (place) => [points[2 * place], points[2 * place + 1]]);
 }
 
 /** Return the forces of a moment as pairs, in lengths of the arrow of the legend, and whether they were cut. */
-function forcesAt(scene, frame) {
+export function forcesAt(scene, frame) {
   const found = [];
   for (let k = 0; k < scene.crackCount; k++) {
     const place = 2 * (frame * scene.crackCount + k);
@@ -80,7 +80,7 @@ function forcesAt(scene, frame) {
 }
 
 /** Return the outline of an arrow by its tip, its vector and the width of its shaft; a short one is all head. */
-function arrowOutline([x, y], [u, v], width) {
+export function arrowOutline([x, y], [u, v], width) {
   const size = Math.hypot(u, v);
   if (size < 1e-3 * width) return [];
   const head = Math.min(4 * width, size);
@@ -91,7 +91,7 @@ function arrowOutline([x, y], [u, v], width) {
 }
 
 /** Return where a face, from bottom to top, reaches a level first; its top where it does not. */
-function atLevel(face, level) {
+export function atLevel(face, level) {
   const above = face.findIndex(([, z]) => z >= level);
   if (above < 0) return face[face.length - 1][0];
   if (above === 0) return face[0][0];
@@ -99,8 +99,20 @@ function atLevel(face, level) {
   return x0 + ((x1 - x0) * (level - z0)) / (z1 - z0);
 }
 
+/** Return the outline of the water on one side of the dam, out to an edge, and where its surface meets the dam. */
+export function waterOutline(parts, drawn, level, upstream, edge) {
+  const [side, back] = upstream ? ["upstream", "downstream"] : ["downstream", "upstream"];
+  const face = parts.map((part, k) => picked(drawn[k], part[side])).reverse().flat();
+  const above = face.findIndex(([, z]) => z >= level);
+  // Above the crest the water goes on to its far edge.
+  const far = picked(drawn[0], parts[0][back]).pop();
+  const end = above < 0 ? far[0] : atLevel(face, level);
+  const shore = above < 0 ? [...face, far] : face.slice(0, above);
+  return { outline: [[edge, face[0][1]], ...shore, [end, level], [edge, level]], end };
+}
+
 /** Return round numbers from low to high, about so many. */
-function ticks(low, high, count) {
+export function ticks(low, high, count) {
   const rough = (high - low) / count;
   const power = 10 ** Math.floor(Math.log10(rough));
   const step = [1, 2, 5, 10].map((each) => each * power).find((each) => each >= rough * 0.999);
@@ -112,7 +124,7 @@ function ticks(low, high, count) {
 }
 
 /** Return 1, 2, 5, 10, ... and the value that the page starts with, in order. */
-function exaggerations(own) {
+export function exaggerations(own) {
   const found = [own];
   for (let power = 1; power <= Math.max(10, 10 * own) && power <= 1e5; power *= 10) {
     for (const step of [1, 2, 5]) if (step * power !== own && step * power <= Math.max(10, 10 * own)) found.push(step * power);
@@ -121,14 +133,7 @@ function exaggerations(own) {
 }
 
 /** Return the moment that a place such as "#t=6.5" names, null where it names none. */
-function momentOf(hash) {
+export function momentOf(hash) {
   const found = /(?:^#|&)t=([0-9.]+)/.exec(hash);
   return found && Number.isFinite(Number(found[1])) ? Number(found[1]) : null;
-}
-
-if (typeof module !== "undefined") {
-  module.exports = {
-    unpacked, readScene, momentAt, between, drawnPoints, picked, forcesAt, arrowOutline, atLevel, ticks, exaggerations,
-    momentOf,
-  };
 }

@@ -14,7 +14,7 @@ from types import ModuleType
 import numpy as np
 from PIL import Image, ImageColor
 
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.views.animation import look
 from heeltoe.views.animation.frames import Scene
 from heeltoe.views.animation.picture import Picture

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
+from heeltoe.base.atomic_files import written
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError, expect
+from heeltoe.errors.error import InputError, expect
 from heeltoe.result.response import Response
 from heeltoe.views.figures.dense import filled_in
-from heeltoe.whole import written
 
 if TYPE_CHECKING:
     from heeltoe.views.animation.frames import Scene

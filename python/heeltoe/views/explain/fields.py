@@ -9,11 +9,14 @@ from typing import Any, Literal, get_args, get_origin
 from pydantic import BaseModel, WithJsonSchema
 from pydantic.fields import FieldInfo
 
+from heeltoe.case.combinations import rules_of
+from heeltoe.case.crack.crack import Crack
+from heeltoe.case.field_usage import READERS, readers
+from heeltoe.case.lists import CRACKS, CRACKS_MEANING
 from heeltoe.case.model import Case
 from heeltoe.case.paths import constraints
 from heeltoe.case.sentences import kinds_in
-from heeltoe.case.use import READERS, readers
-from heeltoe.study.file import Distribution, Study
+from heeltoe.study.plan.file import Distribution, Study
 from heeltoe.units.parse import DIMENSIONS
 from heeltoe.views.explain.meaning import Meaning
 from heeltoe.views.explain.pages import page_of
@@ -28,7 +31,11 @@ _UNKNOWN = "a value of the field that varies"
 
 def fields_of_a_case() -> Iterator[Meaning]:
     """Walk all fields of a case, each block before what is in it."""
-    return _walk(Case, "", "field of a case")
+    for meaning in _walk(Case, "", "field of a case"):
+        if meaning.name == "further_cracks":
+            # A file may list all cracks in place of both blocks.
+            yield from _block(CRACKS, f"{CRACKS}[]", Crack, CRACKS_MEANING, meaning.kind)
+        yield meaning
 
 
 def fields_of_a_study() -> Iterator[Meaning]:
@@ -63,7 +70,16 @@ def _block(path: str, place: str, block: type[BaseModel], said: str, kind: str) 
 
 
 def _named(path: str, said: str, holds: str, kind: str, parts: tuple[str, ...]) -> Meaning:
-    return Meaning(path, kind, said, holds, found_in=_found(path, kind), page=page_of(path, kind), parts=parts)
+    return Meaning(
+        path,
+        kind,
+        said,
+        holds,
+        found_in=_found(path, kind),
+        not_with=_not_with(path, kind),
+        page=page_of(path, kind),
+        parts=parts,
+    )
 
 
 def _listed(field: FieldInfo) -> bool:
@@ -83,6 +99,7 @@ def _leaf(path: str, field: FieldInfo, kind: str) -> Meaning:
         needed or default,
         _limits(field),
         _found(path, kind),
+        _not_with(path, kind),
         page_of(path, kind),
     )
 
@@ -101,6 +118,14 @@ def _found(path: str, kind: str) -> str:
     return (
         "all models" if len(names) == len(READERS) else " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
     )
+
+
+def _not_with(path: str, kind: str) -> str:
+    """Return what a field cannot be combined with, and what does not support it, as the table of combinations says."""
+    if kind != "field of a case":
+        return ""
+    plain = re.sub(r"\[.*?\]", "", path)
+    return "; ".join(dict.fromkeys(rule.without(plain) for rule in rules_of(plain)))
 
 
 def _quantities(field: object) -> list[str]:

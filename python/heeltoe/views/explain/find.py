@@ -6,8 +6,8 @@ import re
 from collections.abc import Sequence
 from functools import cache
 
-from heeltoe.errors import InputError, shown
-from heeltoe.near import near
+from heeltoe.errors.error import InputError, shown
+from heeltoe.errors.suggestion import near
 from heeltoe.result.contract import HEADLINES
 from heeltoe.views.explain.fields import fields_of_a_case, fields_of_a_study
 from heeltoe.views.explain.keys import columns, keys_of_the_json

@@ -1,5 +1,5 @@
 """Keys of the JSON and columns of the tables: what classes say of their attributes, and what stands in the lists of
-:mod:`heeltoe.views.explain.said`."""
+:mod:`heeltoe.views.explain.result_keys`."""
 
 from __future__ import annotations
 
@@ -7,33 +7,29 @@ import inspect
 import re
 from collections.abc import Iterator, Mapping
 
+from heeltoe.base.blocks import Block, Number, described
 from heeltoe.geometry.pieces import Piece
-from heeltoe.models.decoupled.response import DecoupledResponse
-from heeltoe.models.flexible.response import FlexibleResponse
+from heeltoe.mechanics.block import StaticState
 from heeltoe.models.statics.checks import Check
 from heeltoe.models.statics.load_case import LoadCase
 from heeltoe.models.statics.model import Statics
 from heeltoe.models.statics.sheet import ForceLine
 from heeltoe.result.limits import LimitCheck
-from heeltoe.result.response import Chosen, Energy, Of, Response
+from heeltoe.result.numbers import OF_SEVERAL, BlockNumbers, Chain, ElasticCrack, ElasticDam, SignNumbers, Spread
+from heeltoe.result.response import Chosen, Energy, Response
 from heeltoe.result.sequence import Stage
+from heeltoe.result.write import MotionNumbers
 from heeltoe.views.explain.meaning import Meaning
 from heeltoe.views.explain.pages import page_of
-from heeltoe.views.explain.said import OF_A_RUN, OF_EVENTS, OF_HISTORIES, OF_STATICS, OF_STUDIES
-from heeltoe.views.explain.said_of_others import OF_OTHERS
-from heeltoe.warnings import Notice
+from heeltoe.views.explain.result_keys import OF_A_RUN, OF_EVENTS, OF_HISTORIES, OF_STATICS, OF_STUDIES
+from heeltoe.views.explain.study_keys import OF_OTHERS
+from heeltoe.warnings.notice import Notice
 
 _RUN, _STATICS = "heeltoe run --json", "heeltoe statics --json"
 # Whose attributes stand where, and which command writes them.
 _CLASSES: tuple[tuple[str, type, str], ...] = (
     ("", Response, _RUN),
-    ("", FlexibleResponse, f"{_RUN}, of the flexible model"),
-    ("", DecoupledResponse, f"{_RUN}, of the decoupled chain"),
-    ("chosen.", Chosen, _RUN),
-    ("energy.", Energy, _RUN),
-    ("limits[].", LimitCheck, _RUN),
     ("warnings[].", Notice, _RUN),
-    ("sequence[].", Stage, _RUN),
     ("", Statics, _STATICS),
     ("cases[].", LoadCase, _STATICS),
     ("cases[].forces[].", ForceLine, _STATICS),
@@ -41,17 +37,30 @@ _CLASSES: tuple[tuple[str, type, str], ...] = (
     ("checks[].", Check, _STATICS),
     ("governing.*.", Check, _STATICS),
 )
+# Typed blocks, which say by themselves what they hold.
+_BLOCKS: tuple[tuple[str, type[Block], str], ...] = (
+    ("", BlockNumbers, _RUN),
+    ("", Chain, f"{_RUN}, of the decoupled chain"),
+    ("", ElasticCrack, f"{_RUN}, of the flexible model"),
+    ("", ElasticDam, f"{_RUN}, of the flexible model"),
+    ("energy.", Energy, _RUN),
+    ("spread.", Spread, _RUN),
+    ("static.", StaticState, _RUN),
+    ("chosen.", Chosen, _RUN),
+    ("limits[].", LimitCheck, _RUN),
+    ("sequence[].", Stage, _RUN),
+    ("signs[].", SignNumbers, _RUN),
+    ("motion.", MotionNumbers, _RUN),
+)
 # Properties that the JSON has too.
 _PROPERTIES: dict[type, tuple[str, ...]] = {
-    LimitCheck: ("met", "certain"),
     Statics: ("ok",),
     LoadCase: ("contact_width_m", "eccentricity_m"),
     Check: ("margin",),
 }
 # Attributes that the JSON does not have, or says by keys of their own.
 _NOT_THERE = {
-    "histories", "mode", "event_log", "gravity", "vertical", "summary", "seconds", "sources", "ends_m", "moment_nm",
-    "crack", "envelope", "parts", "at_cracks",
+    "gravity", "vertical", "seconds", "sources", "ends_m", "moment_nm", "dam", "parts",
 }  # fmt: skip
 # The longest ending first.
 _UNITS = {
@@ -78,10 +87,15 @@ _UNITS = {
 def keys_of_the_json() -> Iterator[Meaning]:
     """Walk all keys of the JSON."""
     said: dict[str, str] = {}
+    units: dict[str, str] = {}
     places: dict[str, list[str]] = {}
+    for name, number, where in numbers_of_a_run():
+        said.setdefault(name, number.meaning)
+        units[name] = number.unit
+        places.setdefault(name, []).append(where)
     for above, kind, where in _CLASSES:
         for name, text in told(kind).items():
-            if name not in _NOT_THERE:
+            if name not in _NOT_THERE and f"{above}{name}" != "asked":
                 said.setdefault(f"{above}{name}", text)
                 places.setdefault(f"{above}{name}", []).append(where)
     others = [(f"{command} --json", keys) for command, keys in OF_OTHERS.items()]
@@ -92,10 +106,19 @@ def keys_of_the_json() -> Iterator[Meaning]:
                 places[name].append(where)
     for name, text in said.items():
         parts = tuple(each for each in said if re.fullmatch(rf"{re.escape(name)}(\[\])?\.[^.]+", each))
-        unit = unit_of(name)
+        unit = units.get(name) or unit_of(name)
         text = text.replace(f" [{unit}]", "") if unit else text
         where = ", ".join(dict.fromkeys(places[name]))
         yield Meaning(name, "key of the JSON", text, unit, found_in=where, page=page_of(name, ""), parts=parts)
+
+
+def numbers_of_a_run() -> Iterator[tuple[str, Number, str]]:
+    """Walk the paths of the typed blocks of a run, with what they hold and which command writes them."""
+    for above, kind, where in _BLOCKS:
+        for path, number in described(kind, above):
+            name = path.removeprefix("static.") if path.startswith("static.critical_acceleration_g") else path
+            # Of several cracks alone.
+            yield (f"cracks[].{name}" if name.split(".")[0] in OF_SEVERAL else name), number, where
 
 
 def columns() -> Iterator[Meaning]:
@@ -119,7 +142,7 @@ def told(kind: type) -> dict[str, str]:
     for names, said in re.findall(r"^(\S.*)\n((?:    .*\n?|\n)+)", section, re.MULTILINE):
         found |= {name.strip(): _plain(said) for name in names.split(",")}
     for name, thing in vars(kind).items():
-        if isinstance(thing, Of) or name in _PROPERTIES.get(kind, ()):
+        if name in _PROPERTIES.get(kind, ()):
             found[name] = _plain(thing.__doc__ or "")
     return found
 

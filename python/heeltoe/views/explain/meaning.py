@@ -36,6 +36,8 @@ class Meaning:
         What it keeps within; empty where nothing is out of range.
     found_in
         Of a field, which models read it; of a key, which command writes it; of a column, which file has it.
+    not_with
+        Of a field, what it cannot be combined with, and which models do not support it.
     page
         Where the documentation has more, as ``rigid.md#impact``; empty where it has not.
     parts
@@ -49,6 +51,7 @@ class Meaning:
     default: str = ""
     limits: str = ""
     found_in: str = ""
+    not_with: str = ""
     page: str = ""
     parts: tuple[str, ...] = ()
 

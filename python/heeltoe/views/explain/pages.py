@@ -1,6 +1,6 @@
-"""Where the documentation says more about a name: the page, and the heading or the number of the equation in it.
+"""Where the documentation explains a name: the page, and its heading or the number of the equation on it.
 
-Of a field and its block the field counts; tests/docs/test_explained.py looks up that all of these are there.
+A field has precedence over its block. tests/docs/test_explained.py checks that every place exists.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ _PAGES = {
     "anchors.capacity": "flexible.md equation 10",
     "anchors.axial_stiffness": "flexible.md equation 10",
     "anchors.shear_stiffness": "flexible.md equation 10",
-    "concrete.modulus": "flexible.md#which-model-is-run",
+    "concrete.modulus": "runs.md#which-model-is-run",
     "concrete.damping": "flexible.md#damping",
     "concrete.tensile_strength": "flexible.md equation 7a",
     "concrete.dynamic_tension": "flexible.md equation 7a",
@@ -27,8 +27,8 @@ _PAGES = {
     "tailwater": "flexible.md equation 1",
     "reservoir.virtual_mass_rotates": "rigid.md equation 6a",
     "tailwater.virtual_mass_rotates": "rigid.md equation 6a",
-    "reservoir.hydrodynamic": "statics.md#load-cases",
-    "tailwater.hydrodynamic": "statics.md#load-cases",
+    "reservoir.hydrodynamic": "statics.md#hydrodynamic-pressure",
+    "tailwater.hydrodynamic": "statics.md#hydrodynamic-pressure",
     "reservoir.nappe": "statics.md#water-above-the-crest",
     "uplift": "statics.md#forces",
     "uplift.drain_x": "sections.md#drains",
@@ -51,11 +51,11 @@ _PAGES = {
     "flexible.penalty_factor": "flexible.md equation 8",
     "flexible.newmark_gamma": "flexible.md equation 8",
     "flexible.newmark_beta": "flexible.md equation 8",
-    "analysis.silence": "flexible.md#the-end-of-a-run",
+    "analysis.silence": "runs.md#the-end-of-a-run",
     "analysis.paradox": "rigid.md#events",
     "analysis.rotation": "rigid.md equation 6",
-    "decoupled": "koyna.md#theory",
-    "decoupled.upper_part": "koyna.md equation 2",
+    "decoupled": "decoupled.md#theory",
+    "decoupled.upper_part": "decoupled.md equation 2",
     "statics": "statics.md",
     "statics.criteria": "statics.md#criteria",
     "statics.sections": "statics.md#many-sections",
@@ -79,13 +79,13 @@ _PAGES = {
     "energy": "rigid.md equation 7",
     "damping_ratios": "flexible.md#damping",
     "evidence": "flexible.md#step-and-evidence",
-    "self_excitation": "flexible.md#how-near-a-stiff-dam-comes-to-the-rigid-one",
+    "self_excitation": "flexible.md#self-excited-sliding",
     "tension": "flexible.md equation 7a",
-    "crack_level": "koyna.md equation 6",
-    "crack_level.spectrum": "koyna.md equation 7",
-    "sequence": "sequence.md#what-is-told",
+    "crack_level": "decoupled.md equation 6",
+    "crack_level.spectrum": "decoupled.md equation 7",
+    "sequence": "sequence.md#what-is-reported",
     "drainage_by_motion": "sequence.md#drains-that-slip-closes",
-    "silence_s": "flexible.md#the-end-of-a-run",
+    "silence_s": "runs.md#the-end-of-a-run",
     "before_shaking": "flexible.md equation 1a",
     "elastic_give": "flexible.md#what-the-dam-does",
     "warnings": "report.md#numbers",
@@ -100,7 +100,7 @@ _PAGES = {
 
 
 def page_of(name: str, kind: str) -> str:
-    """Return where the documentation has more about a name; empty where it has not."""
+    """Return the place in the documentation that explains a name; empty if no page does."""
     path = name.replace("[]", "").partition("[")[0]
     study = "study " if kind == "field of a study" else ""
     while path and study + path not in _PAGES:
@@ -109,5 +109,5 @@ def page_of(name: str, kind: str) -> str:
 
 
 def pages() -> frozenset[str]:
-    """Return all places that are named."""
+    """Return all places of the table."""
     return frozenset(_PAGES.values())

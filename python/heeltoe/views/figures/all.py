@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from heeltoe.models.decoupled.response import DecoupledResponse
-from heeltoe.models.flexible.response import FlexibleResponse
+from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.units.systems import unit_system
 from heeltoe.views.figures.crack_level import crack_level_figure
@@ -137,7 +137,7 @@ def all_figures(case: Case | None, result: Response, units: str = "si") -> Figur
 
 def _laws(case: Case, units: str) -> dict[str, Callable[[], Figure]]:
     """Return what draws the friction law of each crack that has one."""
-    if all(alone.crack.law is None for alone in case.cracks):
+    if all(alone.crack.law is None for alone in case.single_crack_cases):
         return {}
     from heeltoe.mechanics.law_curve import curves_of
 

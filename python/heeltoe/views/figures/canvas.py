@@ -15,7 +15,7 @@ from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 from numpy.typing import ArrayLike
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.units.systems import Scale
 
 _TEXT = 8.0

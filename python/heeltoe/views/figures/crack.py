@@ -8,10 +8,10 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.kernel.dam import CONTACT_STATUSES
-from heeltoe.models.flexible.history import CrackHistory
-from heeltoe.models.flexible.response import FlexibleResponse
+from heeltoe.models.flexible.result.history import CrackHistory
+from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.views.figures.panels import draw_slip, panels
 from heeltoe.views.figures.style import describe, styled

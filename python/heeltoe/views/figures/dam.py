@@ -12,11 +12,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from heeltoe.arrays import Floats
-from heeltoe.models.flexible.elastic import side_by_side
+from heeltoe.base.arrays import Floats
+from heeltoe.models.flexible.body.elastic import side_by_side
+from heeltoe.models.flexible.body.reduced import FlexibleDam
 from heeltoe.models.flexible.mesh.checks import boundary_edges
 from heeltoe.models.flexible.mesh.dam import BodyMesh
-from heeltoe.models.flexible.reduced import FlexibleDam
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import number
 from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled

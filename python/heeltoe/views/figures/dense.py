@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.result.response import Response
 
 # A picture shows about so many moments; more need no filling in.
@@ -42,7 +40,7 @@ def filled_in(response: Response) -> Response:
             histories[f"{name}ground_acceleration_m_s2"] = ground
     modes = np.array(["rest", *log["mode_after"]])
     mode = modes[np.searchsorted(log["time_s"], time, side="right")]
-    return replace(response, histories=histories, mode=tuple(mode.tolist()))
+    return response.with_crack(histories=histories, mode=tuple(mode.tolist()))
 
 
 def _slip(response: Response, time: Floats) -> Floats:

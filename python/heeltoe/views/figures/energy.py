@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.result.response import Energy, Response
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import number

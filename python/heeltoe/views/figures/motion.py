@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from heeltoe.base.atomic_files import written
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import fourier_amplitudes, velocity_displacement
 from heeltoe.motion.spectrum import response_spectrum
@@ -16,7 +17,6 @@ from heeltoe.units.systems import Units, unit_system
 from heeltoe.units.write import number
 from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled
 from heeltoe.views.figures.write import save
-from heeltoe.whole import written
 
 
 def write_motion_figure(motion: GroundMotion, gravity: float, path: Path, units: str = "si") -> Path:

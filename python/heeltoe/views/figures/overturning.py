@@ -10,7 +10,7 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from heeltoe.study.overturning import ENDS, OverturningMap
+from heeltoe.study.small.overturning import ENDS, OverturningMap
 from heeltoe.views.figures.style import heading, styled
 
 # In the order of ENDS; they differ in lightness, too.

@@ -10,7 +10,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.views.figures.panels import kind_of, largest, shown_rotation

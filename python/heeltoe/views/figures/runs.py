@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from heeltoe.models.decoupled.response import DecoupledResponse
-from heeltoe.study.small import SmallStudy
+from heeltoe.study.small.run_table import SmallStudy
 from heeltoe.units.systems import unit_system
 from heeltoe.units.write import length
 from heeltoe.views.figures.crack_level import crack_level_figure

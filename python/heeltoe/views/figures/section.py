@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 from matplotlib.figure import Figure
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.case.at_crack import anchor_line
 from heeltoe.case.model import Case
 from heeltoe.geometry.beside import beside
@@ -162,7 +162,7 @@ def draw_crack(canvas: Canvas, case: Case, *, small: bool) -> None:
 
 def _draw_further(canvas: Canvas, case: Case) -> None:
     """Draw the cracks beside that of ``[crack]``."""
-    for place, each in enumerate(case.cracks):
+    for place, each in enumerate(case.single_crack_cases):
         if place != case.asked:
             ends = [each.cut.heel, each.cut.toe]
             canvas.line(ends, keep_off=True, color="white", linewidth=3.6, zorder=4.5)

@@ -14,7 +14,7 @@ from typing import Any, ParamSpec, TypeVar
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
-from heeltoe.plain import plain
+from heeltoe.errors.sanitize import plain
 from heeltoe.result.response import Response
 from heeltoe.views.figures.fonts import PLAIN, readable, wrapped
 

@@ -41,7 +41,7 @@ def time_axis(axes: Axes, *responses: Response) -> None:
     if cut:
         # In a narrow panel a line has no room for both.
         label += ";\n" if ";" in label else "; "
-        label += f"from here to the end at {end:.4g} s the dam is at rest"
+        label += f"at rest from here to the end at {end:.4g} s"
     axes.set_xlabel(label)
 
 
@@ -60,9 +60,9 @@ def shown_until(response: Response) -> float:
     """Return up to when [s] a run is worth drawing: until the strong shaking is over and the dam is at rest."""
     end = float(response.histories["time_s"][-1])
     happens = max((stop for kind, _, stop in pieces(response) if kind != "rest"), default=0.0)
-    if response.elastic:
-        # Its crack may have closed while it still swings: a kinked one on two of its pieces.
-        happens = max(happens, min(rests_from(response), end))
+    # The crack may have closed while an elastic dam still swings, a kinked one on two of its pieces; and while one of
+    # several cracks is still the dam moves at another.
+    happens = max(happens, min(rests_from(response), end))
     for motion in (response.motion, response.vertical):
         if motion is not None and motion.pga > 0.0:
             happens = max(happens, husid_time(motion, _SHAKEN))

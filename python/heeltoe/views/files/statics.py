@@ -9,11 +9,11 @@ from typing import Any
 import pyarrow as pa
 from matplotlib.figure import Figure
 
+from heeltoe.base.atomic_files import write_whole
 from heeltoe.models.statics.joints import Joints
 from heeltoe.result.write import json_text, write_table
-from heeltoe.study.statics import StaticsTable, statics_json
+from heeltoe.study.small.statics import StaticsTable, statics_json
 from heeltoe.views.figures.write import save_all
-from heeltoe.whole import write_whole
 
 _REPORT = ("report.pdf", "report.html")
 _TABLES = ("result.json", "sheet.csv", "checks.csv", "table.csv", "table.parquet")

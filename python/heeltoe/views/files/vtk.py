@@ -13,12 +13,12 @@ from xml.etree import ElementTree
 import numpy as np
 from numpy.typing import NDArray
 
-from heeltoe.arrays import Floats, Integers
-from heeltoe.errors import InputError
+from heeltoe.base.arrays import Floats, Integers
+from heeltoe.base.atomic_files import write_whole
+from heeltoe.errors.error import InputError
 from heeltoe.geometry.axes import in_x_and_z, places
-from heeltoe.models.flexible.elastic import principal, stresses
-from heeltoe.models.flexible.history import CrackHistory
-from heeltoe.whole import write_whole
+from heeltoe.models.flexible.body.elastic import principal, stresses
+from heeltoe.models.flexible.result.history import CrackHistory
 
 #: Frames written where none are chosen: 10 s at 20 pictures per second.
 _FRAMES = 200

@@ -8,15 +8,16 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
+from heeltoe.base.atomic_files import write_whole
 from heeltoe.case.model import Case
 from heeltoe.mechanics.law_curve import LawCurve
-from heeltoe.models.flexible.history import crack_table
-from heeltoe.models.flexible.response import FlexibleResponse
+from heeltoe.models.flexible.result.history import crack_table
+from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.result.write import json_text, write_table
-from heeltoe.study.opened import Opened
-from heeltoe.study.overturning import OverturningMap
-from heeltoe.study.small import SmallStudy
+from heeltoe.study.answers.study_results import Opened
+from heeltoe.study.small.overturning import OverturningMap
+from heeltoe.study.small.run_table import SmallStudy
 from heeltoe.views.figures.all import NAMES, all_figures
 from heeltoe.views.figures.law import law_figure
 from heeltoe.views.figures.overturning import overturning_figure
@@ -25,7 +26,6 @@ from heeltoe.views.figures.studies.all import study_figures
 from heeltoe.views.figures.write import save_all
 from heeltoe.views.files.vtk import OWN as VTK_FILES
 from heeltoe.views.files.vtk import write_frames
-from heeltoe.whole import write_whole
 
 #: The directory of the VTK files, one of each kind for each frame, of which only what lists them is told.
 VTK = "vtk"
@@ -64,7 +64,7 @@ def write_all(
     further cracks into one named after their place from the crest down, ``crack-1``. Of a table of runs
     ``result.json``, ``table`` and its figures. With the case there is a figure of the section, too. All is written
     aside first, so that a failure leaves nothing half-done; what an earlier run has left there is replaced or
-    removed, and files that are not heeltoe's stay (:mod:`heeltoe.whole`).
+    removed, and files that are not heeltoe's stay (:mod:`heeltoe.base.atomic_files`).
 
     Parameters
     ----------

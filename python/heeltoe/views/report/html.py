@@ -6,8 +6,8 @@ import base64
 from importlib.resources import files
 from typing import TYPE_CHECKING
 
-from heeltoe.plain import harmless
-from heeltoe.views.report.content import Code, Document, FigureBlock, Inline, Section, Strong, Symbol
+from heeltoe.errors.sanitize import harmless
+from heeltoe.views.content.tree import Code, Document, FigureBlock, Inline, Section, Strong, Symbol
 from heeltoe.views.words.numbers import Value
 
 if TYPE_CHECKING:

@@ -8,8 +8,9 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any, Literal
 
-from heeltoe.errors import InputError
-from heeltoe.views.report.content import (
+from heeltoe.base.atomic_files import temporary
+from heeltoe.errors.error import InputError
+from heeltoe.views.content.tree import (
     Block,
     Code,
     Document,
@@ -26,7 +27,6 @@ from heeltoe.views.report.content import (
     Table,
 )
 from heeltoe.views.words.numbers import Value
-from heeltoe.whole import temporary
 
 # The first comes with typst, the second with matplotlib; of the others whatever the machine has.
 _FONTS = (

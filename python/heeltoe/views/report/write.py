@@ -9,17 +9,18 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from heeltoe.errors import InputError, expect
-from heeltoe.whole import write_whole
+from heeltoe.base.atomic_files import write_whole
+from heeltoe.errors.error import InputError, expect
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from heeltoe.case.model import Case
+    from heeltoe.models.statics.joints import Joints
     from heeltoe.models.statics.model import Statics
     from heeltoe.result.response import Response
-    from heeltoe.study.opened import Opened
-    from heeltoe.views.report.content import Document
+    from heeltoe.study.answers.study_results import Opened
+    from heeltoe.views.content.tree import Document
 
 #: What each kind of report needs that heeltoe itself does not.
 KINDS = {"pdf": "typst", "html": "jinja2"}
@@ -48,7 +49,7 @@ def build_report(
     case: Case,
     result: Response,
     *,
-    statics: Statics | None = None,
+    statics: Statics | Joints | None = None,
     units: str = "si",
     command: str = "",
     figures: Mapping[str, Figure] | None = None,
@@ -58,17 +59,23 @@ def build_report(
     Parameters as of :func:`write_report`; `figures` are those of the result, drawn before, which are changed here to
     what a report needs. They are drawn where they are not given; a report of none at all has none of its own either.
     """
-    from heeltoe.models.statics.after import statics_after
+    from heeltoe.models.statics.after import joints_after
+    from heeltoe.models.statics.joints import Joint, Joints
+    from heeltoe.views.content.document import document
+    from heeltoe.views.content.drawings import drawings
+    from heeltoe.views.content.subject import Subject
     from heeltoe.views.figures.all import Figures, all_figures, has_pictures
     from heeltoe.views.figures.motion import history_figure
     from heeltoe.views.figures.summary import summary_figure
-    from heeltoe.views.report.build import document
-    from heeltoe.views.report.drawings import drawings
-    from heeltoe.views.report.subject import Subject
     from heeltoe.views.words.numbers import Numbers
 
-    found = statics_after(case, *reversed(result.responses)) if statics is None else statics
-    numbers = Numbers({**result.to_json(), **({} if found is None else {"statics": found.to_json()})}, units)
+    if isinstance(statics, Joints):
+        found = statics
+    elif statics is not None:
+        found = Joints(case.title, (Joint(case.crack.elevation, case, statics),))
+    else:
+        found = joints_after(case, lambda: tuple(reversed(result.responses)))
+    numbers = Numbers({**result.to_json(), "statics": found.governing.statics.to_json()}, units)
     drawn = all_figures(case, result, units) if figures is None else figures
     runs = tuple(run for run in reversed(result.responses) if has_pictures(run))
     if not drawn:
@@ -85,7 +92,7 @@ def write_report(
     result: Response,
     directory: Path | str,
     *,
-    statics: Statics | None = None,
+    statics: Statics | Joints | None = None,
     units: str | None = None,
     kinds: Sequence[str] = ("pdf", "html"),
     command: str = "",
@@ -103,7 +110,8 @@ def write_report(
     directory
         Where; it is made if it is not there.
     statics
-        Result of :func:`heeltoe.statics`; computed with the residual slip of the result where it is not given.
+        Result of :func:`heeltoe.statics` or :func:`heeltoe.statics_of_sections`; computed with the residual slips of
+        the result where it is not given.
     units
         ``"si"`` or ``"us"``: of input, numbers, sentences and figures; those of the case where it is not given. The
         JSON stays SI.
@@ -120,7 +128,7 @@ def write_report(
     Raises
     ------
     InputError
-        Where the directory cannot be written, or a package is not installed (``pip install heeltoe[report]``).
+        Where the directory cannot be written, or a package of the extra ``report`` is not installed.
     """
     from heeltoe.case.model import Case
     from heeltoe.result.response import Response
@@ -156,7 +164,7 @@ def write_study_report(
     figures
         Of the study, drawn before, which are changed here to what a report needs.
     """
-    from heeltoe.views.report.study import study_document, study_subject
+    from heeltoe.views.content.study import study_document, study_subject
 
     write_kinds(study_document(study_subject(found, base or Path(), units, command, figures)), fresh)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import zip_longest
 from typing import TYPE_CHECKING
 
@@ -9,13 +10,24 @@ from rich.console import Console
 
 from heeltoe.case.model import Case
 from heeltoe.units.sentences import written
-from heeltoe.views.terminal.common import label_grid, print_title, quiet_table
-from heeltoe.views.terminal.elastic import damping_line, mesh_line
+from heeltoe.views.terminal.render import label_grid, print_more, print_title, quiet_table
 
 # Not at run time: neither waits for the other's parts.
 if TYPE_CHECKING:
-    from heeltoe.models.flexible.periods import DamPeriods
-    from heeltoe.study.overturning import OverturningMap
+    from heeltoe.models.flexible.body.periods import DamPeriods
+    from heeltoe.study.small.overturning import OverturningMap
+
+
+# What the names of the choices mean.
+_DAMPING = {
+    "relative": "of the motion relative to a rigid slide along the crack",
+    "stiffness": "of deformation, by its rate alone",
+    "modal": "one ratio for the modes of the intact dam",
+    "deformation": "of deformation of the free parts",
+    "thesis": (
+        "of all motion while any node of the crack sticks, of the part below alone while none does, as in Zhu (2004)"
+    ),
+}
 
 
 def about_dam(case: Case, units: str = "si") -> str:
@@ -33,33 +45,50 @@ def about_dam(case: Case, units: str = "si") -> str:
     return written(text, units, **sizes)
 
 
-def print_periods(periods: DamPeriods, console: Console, dam: str = "") -> None:
-    """Print the periods of a dam and of its parts, and what is said of the dam itself."""
+def print_periods(periods: DamPeriods, console: Console, dam: str = "", *, details: bool = False) -> None:
+    """Print the periods of a dam and of its parts; in detail with what they were computed from."""
     print_title(periods.title, "periods", console)
     console.print()
     columns = {
         "intact, dry": periods.intact_dry,
         "intact, with water": periods.intact,
-        "above the crack": periods.above,
-        "below the crack": periods.below,
+        **periods.parts,
     }
-    shown = {name: values for name, values in columns.items() if values is not None}
     table = quiet_table()
     table.add_column("")
-    for name in shown:
+    for name in columns:
         table.add_column(name, justify="right")
-    for number, row in enumerate(zip_longest(*shown.values()), start=1):
+    for number, row in enumerate(zip_longest(*columns.values()), start=1):
         table.add_row(str(number), *("-" if value is None else f"{value:.4f} s" for value in row))
     console.print(table)
+    if not details:
+        print_more(console, "parts, mesh and damping")
+        return
     console.print()
     grid = label_grid()
     if dam:
         grid.add_row("dam", dam)
-    below = "" if periods.below is None else "; the part below is held at its base"
-    grid.add_row("parts", f"each by itself, with its water; the part above is free, rigid-body motion left out{below}")
-    grid.add_row("mesh", mesh_line(periods.elements, periods.nodes))
-    grid.add_row("damping", damping_line(periods.damping, periods.damping_ratios, periods.rayleigh))
+    below = "; the lowest part is fixed at its base" if periods.grounded else ""
+    free = "the parts above a crack are" if len(periods.parts) > 2 else "the part above is"
+    grid.add_row("parts", f"separate, with their water; {free} free, without rigid-body modes{below}")
+    grid.add_row("mesh", _mesh_line(list(periods.parts), periods.elements, periods.nodes))
+    grid.add_row("damping", _damping_line(periods.damping, periods.damping_ratios, periods.rayleigh))
     console.print(grid)
+
+
+def _mesh_line(names: Sequence[str], elements: Sequence[int], nodes: Sequence[int]) -> str:
+    """Say how large the meshes of the parts are."""
+    parts = [f"{e} elements, {n} nodes" for e, n in zip(elements, nodes, strict=True)]
+    return parts[0] if len(parts) == 1 else "; ".join(f"{part} {name}" for name, part in zip(names, parts, strict=True))
+
+
+def _damping_line(choice: str, ratios: Sequence[float], rayleigh: tuple[float | None, float | None] | None) -> str:
+    """Say how the concrete is damped, and what the lowest modes of the intact dam get of it."""
+    got = " ".join(f"{100.0 * ratio:.3g}" for ratio in ratios)
+    text = f"{choice}, {_DAMPING[choice]}; {got} % in modes 1 to {len(ratios)} of the intact dam"
+    if rayleigh is not None and rayleigh[0] is not None:
+        text += f" (Rayleigh: {rayleigh[0]:.3g} 1/s of mass, {rayleigh[1]:.3g} s of stiffness)"
+    return text
 
 
 def print_overturning(found: OverturningMap, console: Console, dam: str = "") -> None:
@@ -83,7 +112,7 @@ def print_overturning(found: OverturningMap, console: Console, dam: str = "") ->
         gaps = found.safe_gap()
         widest = max(gaps, key=lambda gap: gap[2] - gap[1], default=None)
         text = (
-            "none: what overturns it is weaker than all it stands"
+            "none: every pulse that overturns it is weaker than every pulse that it withstands"
             if widest is None
             else f"widest at {widest[0]:.3g} Hz: it stands {widest[1]:.3g} to {widest[2]:.3g} g, though weaker ones "
             "overturn it"

@@ -13,7 +13,7 @@ from rich.markup import escape
 from heeltoe.result.write import build_info
 from heeltoe.views.explain.find import explain
 from heeltoe.views.explain.meaning import KINDS, Meaning
-from heeltoe.views.terminal.common import label_grid, label_lines
+from heeltoe.views.terminal.render import label_grid, label_lines
 
 # Longer names push what they mean to the right.
 _NAME = 40
@@ -36,6 +36,7 @@ def print_meanings(found: Sequence[Meaning], console: Console) -> None:
             ("default", each.default),
             ("range", each.limits),
             ("read by" if each.kind == "field of a case" else "found in", each.found_in),
+            ("not with", each.not_with),
             ("more in", f"docs/{each.page.replace(' equation', ', equation')}" if each.page else ""),
         ]
         told = [(f"  {label}", escape(text)) for label, text in lines if text]

@@ -9,20 +9,36 @@ from rich.markup import escape
 
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.units.parse import STANDARD_GRAVITY
-from heeltoe.views.terminal.common import label_lines, print_warnings, quiet_table
+from heeltoe.views.terminal.render import label_lines, print_warnings, quiet_table
 from heeltoe.views.words.motion import about_motion, about_motions, suspicions
 
+#: The short form says where and how strong a motion is.
+_SHORT = ("name", "event", "samples", "PGA", "PGV", "PGD", "Arias intensity", "significant duration", "motions")
 
-def print_motion(motion: GroundMotion, console: Console, units: str = "si", gravity: float = STANDARD_GRAVITY) -> None:
-    """Print what is in a record."""
-    console.print(label_lines((label, escape(text)) for label, text in about_motion(motion, units, gravity)))
+
+def print_motion(
+    motion: GroundMotion,
+    console: Console,
+    units: str = "si",
+    gravity: float = STANDARD_GRAVITY,
+    *,
+    details: bool = False,
+) -> None:
+    """Print what is in a record, short or in detail."""
+    lines = about_motion(motion, units, gravity)
+    console.print(label_lines((label, escape(text)) for label, text in lines if details or label in _SHORT))
     print_warnings(_doubts(motion, units, gravity), console)
 
 
 def print_motions(
-    motions: Sequence[GroundMotion], console: Console, units: str = "si", gravity: float = STANDARD_GRAVITY
+    motions: Sequence[GroundMotion],
+    console: Console,
+    units: str = "si",
+    gravity: float = STANDARD_GRAVITY,
+    *,
+    details: bool = False,
 ) -> None:
-    """Print what is in the components of a record, side by side, each quantity in one unit."""
+    """Print what is in the components of a record, side by side, short or in detail."""
     table = quiet_table()
     (_, names), *lines = about_motions(motions, units, gravity)
     table.add_column("", no_wrap=True)
@@ -30,6 +46,8 @@ def print_motions(
         # Names of files are long, and cut short they are all the same.
         table.add_column(escape(name), overflow="fold")
     for label, texts in lines:
+        if not details and label not in _SHORT:
+            continue
         table.add_row(label, *map(escape, texts))
     console.print(table)
     said = [(each.name, text) for each in motions for text in _doubts(each, units, gravity)]

@@ -2,33 +2,18 @@
 
 from __future__ import annotations
 
-from functools import singledispatch
-
 from rich.console import Console
 
+from heeltoe.case.model import Case
 from heeltoe.result.response import Response
-from heeltoe.views.terminal.response import print_summary
+from heeltoe.study.small.run_table import SmallStudy
+from heeltoe.views.terminal.response import print_response
+from heeltoe.views.terminal.small import print_small
 
 
-@singledispatch
-def show(result: object, console: Console, units: str = "si") -> None:
-    """Print a result in units ``"si"`` or ``"us"``."""
-    # Loaded when there is one to show: most commands end with a single response.
-    from heeltoe.study.small import SmallStudy
-    from heeltoe.views.terminal.small import print_small
-
-    show.register(SmallStudy, print_small)
-    if not isinstance(result, SmallStudy):
-        raise TypeError(f"nothing shows a {type(result).__name__} on the terminal")
-    show(result, console, units)
-
-
-@show.register
-def _(response: Response, console: Console, units: str = "si") -> None:
-    if response.beside is None:
-        print_summary(response, console, units)
-        return
-    # As above.
-    from heeltoe.views.terminal.beside import print_side_by_side
-
-    print_side_by_side(response, response.beside, console, units)
+def show(result: Response | SmallStudy, console: Console, units: str = "si", details: Case | None = None) -> None:
+    """Print a result in units ``"si"`` or ``"us"``, short; in full with the case that it is of."""
+    if isinstance(result, SmallStudy):
+        print_small(result, console, units, details=details is not None)
+    else:
+        print_response(result, console, units, details)

@@ -11,16 +11,16 @@ from rich.markup import escape
 from rich.measure import Measurement
 from rich.table import Table
 
+from heeltoe.errors.sanitize import plain
 from heeltoe.models.decoupled.response import DecoupledResponse
-from heeltoe.plain import plain
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.result.verdict import advice
-from heeltoe.study.cracks.columns import column_of
-from heeltoe.study.small import SmallStudy
+from heeltoe.study.plan.crack_columns import column_of
+from heeltoe.study.small.run_table import SmallStudy
 from heeltoe.units.systems import INCH
-from heeltoe.views.terminal.common import print_title
+from heeltoe.views.terminal.render import print_more, print_title
 
 
 def _length(metres: float, units: str) -> str:
@@ -53,13 +53,16 @@ _SLIP: tuple[_Column, ...] = (
     ("drifting", "slip_drifting_m", 1.0, _length),
 )
 _ROCKING: tuple[_Column, ...] = (*_HEADLINES[_SLIPS:], ("impacts", "impacts", 1.0, _count))
+# What stands under --details alone: slips by mode, rotations, impacts.
+_IN_DETAIL = _SLIP[_SLIPS:]
+_ROTATIONS = sum(each.kind == "rotation" for each in HEADLINES)
 # Whether the limits are kept, as the rows have it.
 _KEPT = {True: "yes", False: "[red]NO[/]", None: "-"}
 _UNITS = {"si": "mm", "us": "inches"}
 
 
-def print_small(grid: SmallStudy, console: Console, units: str = "si") -> None:
-    """Print the table: lengths in mm or inches, rotations in mrad, slip positive downstream."""
+def print_small(grid: SmallStudy, console: Console, units: str = "si", *, details: bool = False) -> None:
+    """Print the table: lengths in mm or inches, rotations in mrad, slip positive downstream; in detail every column."""
     first = grid.responses[0]
     peak = first.motion.pga / first.gravity
     print_title(grid.title, f"{grid.model} model", console)
@@ -75,11 +78,14 @@ def print_small(grid: SmallStudy, console: Console, units: str = "si") -> None:
         slip = (_SLIP[0], beside, *_SLIP[1:])
     several = [_of_crack(place) for place in range(grid.cracks)]
     slip = (slip[0], *several, *slip[1:])
-    whole = slip + _ROCKING
+    if not details:
+        slip = tuple(column for column in slip if column not in _IN_DETAIL)
+    rocking = _ROCKING if details else _ROCKING[_ROTATIONS:-1]
+    whole = slip + rocking
     groups = (
         [whole]
         if _fits(grid, whole, console, units)
-        else [*_parts(grid, slip, console, units), *_parts(grid, _ROCKING, console, units)]
+        else [*_parts(grid, slip, console, units), *_parts(grid, rocking, console, units)]
     )
     for columns in groups:
         console.print()
@@ -87,7 +93,11 @@ def print_small(grid: SmallStudy, console: Console, units: str = "si") -> None:
     footer = f"slips and openings in {_UNITS[units]}, slip positive downstream; rotations in mrad"
     console.print(footer, style="dim")
     if several:
-        console.print(escape("cracks count from the crest down; the other columns are of [crack]"), style="dim")
+        console.print(
+            escape("cracks count from the crest down; the other columns refer to the crack in [crack]"), style="dim"
+        )
+    if not details:
+        print_more(console, "slip by mode, rotations and impacts")
     for text in _remarks(grid, units):
         console.print(f"[yellow]warning[/yellow]  {escape(text)}")
     for text in _judged(grid):

@@ -13,11 +13,11 @@ def crack_rows(response: Response, units: str) -> list[list[str]]:
     """Return the rows of :data:`COLUMNS`, from the crest down."""
     cells: list[list[Cell]] = []
     for place, crack in enumerate(response.cracks):
-        at = written("{at_m:g m}", units, at_m=crack["elevation_m"])
-        told = ", see above" if place == response.place else ""
-        slips = (crack["residual_slip_m"], crack["peak_slip_downstream_m"], -crack["peak_slip_upstream_m"])
-        openings = (crack["opening_upstream_m"], crack["opening_downstream_m"])
+        at = written("{at_m:g m}", units, at_m=crack.elevation)
+        mark = " (leads)" if place == response.asked else ""
+        slips = (crack.residual_slip_m, crack.peak_slip_downstream_m, -crack.peak_slip_upstream_m)
+        openings = (crack.opening_upstream_m, crack.opening_downstream_m)
         amounts = [*(Amount(slip, "slip") for slip in slips), *(Amount(each, "opening") for each in openings)]
-        cells.append([f"{at}{told}", *amounts])
+        cells.append([f"{at}{mark}", *amounts])
     rows = in_one_unit(cells, units)
-    return [[*row, str(crack["impacts"])] for crack, row in zip(response.cracks, rows, strict=True)]
+    return [[*row, str(crack.impacts)] for crack, row in zip(response.cracks, rows, strict=True)]

@@ -14,8 +14,9 @@ import numpy as np
 from pydantic import BaseModel
 
 from heeltoe.case.project import Project
-from heeltoe.plain import plain
+from heeltoe.errors.sanitize import plain
 from heeltoe.units.sentences import UNITS, scale
+from heeltoe.units.write import digits
 
 # SI units as people write them, and those of a quantity (in SI, its name) from the largest; a largest number takes the
 # first of them that it reaches.
@@ -143,7 +144,7 @@ def _quantity(number: float, unit: str, name: str, units: str, largest: Mapping[
     kind, value = _kind(number, unit, name)
     if units == "us":
         to = scale("pressure" if kind == "modulus" else kind, largest[kind])
-        return f"{value * to.factor:.6g} {to.unit}"
+        return f"{digits(to(value), 4)} {to.unit}"
     steps = _SI.get(kind)
     if steps is None or not largest[kind]:
         return f"{_number(number)} {_UNITS.get(unit, unit)}"

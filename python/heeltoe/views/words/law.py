@@ -12,12 +12,12 @@ from heeltoe.units.sentences import written
 
 def law_lines(response: Response, units: str) -> list[tuple[str, str]]:
     """Return what friction laws and a rough crack have come to: labels, which tell several cracks apart, and words."""
-    cracks = [crack for crack in response.summary.get("cracks", ()) if crack.get("friction_law") is not None]
+    cracks = [crack for crack in response.cracks if response.several and crack.friction_law is not None]
     own, rough = (response.summary.get(name) for name in ("friction_law", "roughness"))
     lines = [
         (
-            written("friction law at {at_m:g m}", units, at_m=crack["elevation_m"]),
-            law_line(crack["friction_law"], units),
+            written("friction law at {at_m:g m}", units, at_m=crack.elevation),
+            law_line(crack.friction_law or {}, units),
         )
         for crack in cracks
     ]

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
+from heeltoe.errors.sanitize import plain
 from heeltoe.motion.check import check, check_moved, check_record
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import measures
-from heeltoe.plain import plain
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.sentences import numbers, quantity
 from heeltoe.views.words.sequence import part_lines

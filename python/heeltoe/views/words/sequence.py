@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from heeltoe.errors.sanitize import plain
 from heeltoe.motion.ground_motion import GroundMotion
-from heeltoe.plain import plain
 from heeltoe.result.response import Response
 from heeltoe.views.words.numbers import Amount, Cell, in_one_unit
 

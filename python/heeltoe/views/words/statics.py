@@ -77,9 +77,9 @@ def section_rows(found: Joints, units: str) -> tuple[tuple[str, ...], list[tuple
     return head, rows
 
 
-def check_rows(found: Statics) -> list[dict[str, object]]:
-    """Return the checks, each with its cells and whether it is met."""
-    return [{"cells": check_cells(check), "met": check.met} for check in found.checks]
+def check_rows(found: Statics) -> list[tuple[tuple[str, ...], bool]]:
+    """Return the cells of each check, and whether it is met."""
+    return [(check_cells(check), check.met) for check in found.checks]
 
 
 def check_cells(check: Check) -> tuple[str, str, str, str]:

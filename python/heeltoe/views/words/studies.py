@@ -23,7 +23,8 @@ TRAITS = {
 
 #: Where dams have several.
 ABOUT_CRACKS = (
-    "cracks count from the crest down; what names no crack is of [crack], and a limit is exceeded where any crack does"
+    "cracks count from the crest down; what names no crack is of the one that slips most, and a limit is exceeded "
+    "where any crack does"
 )
 
 

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from heeltoe import InputError, read_case, rigid, statics_of_sections
-from heeltoe.case.use import unused_fields
+from heeltoe.case.field_usage import unused_fields
 from heeltoe.mechanics.law_curve import curves_of
-from heeltoe.models.flexible.reduced import build_flexible_dam
-from heeltoe.models.flexible.shaken import ShakenDam
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.run import earthquake, flexible
 from shared.two_cracks import DAM, STEP, bonded, same, shaken
 
@@ -41,31 +41,31 @@ def constant(friction: float):
 def test_laws_reduced_to_coulomb_give_coulombs_result():
     expected, found = (shaken(dam(*each)) for each in ((0.9, 0.8), (constant(0.9), constant(0.8))))
     for one, other in zip(expected.all_frames, found.all_frames, strict=True):
-        largest = np.abs(one["slip"]).max()
+        largest = np.abs(one.slip).max()
         assert largest > 1e-4
-        assert other["slip"] == pytest.approx(one["slip"], rel=0.0, abs=1e-10 * largest)
+        assert other.slip == pytest.approx(one.slip, rel=0.0, abs=1e-10 * largest)
 
 
 # Not cohesion: where bonds break one by one, rounding may tell which goes first.
 @pytest.mark.parametrize("law", [WEAK, EXPONENTIAL, BARTON, SPEED], ids=["linear", "exponential", "barton", "speed"])
 def test_the_neck_alone_where_the_base_is_bonded(law):
     case = dam(0.9, law)
-    two, alone = shaken(bonded(case, 0.0)), shaken(case.cracks[0])
-    assert np.abs(alone.frames["slip"]).max() > 1e-3
+    two, alone = shaken(bonded(case, 0.0)), shaken(case.single_crack_cases[0])
+    assert np.abs(alone.frames.slip).max() > 1e-3
     same(two.all_frames[0], alone.frames, 8.0)
-    assert two.all_frames[0]["slip_path"] == pytest.approx(alone.frames["slip_path"], abs=1e-6)
+    assert two.all_frames[0].slip_path == pytest.approx(alone.frames.slip_path, abs=1e-6)
 
 
 @pytest.mark.parametrize(("base", "neck"), PAIRS)
 def test_contact_is_met_and_the_ledger_closes(base, neck):
     run = shaken(dam(base, neck, flexible=FREE))
     for each in run.summaries:
-        assert each["contact_residual"] < 1e-9
-        assert each["energy_residual"] < 1e-12
-        assert each["energy_gained"] < 1e-9 * each["energy_turnover"]
-    lost = [each["crack_friction"] for each in run.summaries]
-    assert sum(lost) == pytest.approx(run.summary["energy_friction"], rel=1e-9)
-    assert max(abs(each["slip"]) for each in run.summaries) > 1e-3
+        assert each.contact_residual < 1e-9
+        assert each.energy_residual < 1e-12
+        assert each.energy_gained < 1e-9 * each.energy_turnover
+    lost = [each.crack_friction for each in run.summaries]
+    assert sum(lost) == pytest.approx(run.summary.energy_friction, rel=1e-9)
+    assert max(abs(each.slip) for each in run.summaries) > 1e-3
 
 
 def test_a_mirrored_dam_slides_the_other_way():
@@ -78,7 +78,7 @@ def test_a_mirrored_dam_slides_the_other_way():
         "motion.reverse": True,
     }
     for one, other in zip(shaken(case).all_frames, shaken(case.with_(changes)).all_frames, strict=True):
-        assert one["slip"] == pytest.approx(-other["slip"], abs=1e-6)
+        assert one.slip == pytest.approx(-other.slip, abs=1e-6)
 
 
 def test_a_run_has_the_same_bits_with_any_number_of_threads():
@@ -87,7 +87,7 @@ def test_a_run_has_the_same_bits_with_any_number_of_threads():
     one, two = (found.run_scaled_cracks(STEP, np.array([0.9, 1.0, 1.1]), threads=threads) for threads in (1, 2))
     for each, other, run in zip(one, two, found.run(STEP).summaries, strict=True):
         assert each["slip"].tobytes() == other["slip"].tobytes()
-        assert each["slip"][1] == run["slip"]
+        assert each["slip"][1] == run.slip
 
 
 def test_each_crack_is_told_of():
@@ -99,11 +99,9 @@ def test_each_crack_is_told_of():
     assert base["apparent_friction_after"] < base["apparent_friction_before"] == pytest.approx(0.9, abs=0.01)
     assert neck["apparent_friction_after"] == neck["apparent_friction_before"]
     assert [each["friction"] for each in response.cracks][1] == 0.6
-    for crack in response.at_cracks:
+    for crack in response.cracks:
         # Its last frame is a little before the end.
-        assert crack.histories["slip_path_m"][-1] == pytest.approx(
-            crack.summary["friction_law"]["slip_path_m"], rel=0.01
-        )
+        assert crack.histories["slip_path_m"][-1] == pytest.approx(crack.friction_law.slip_path_m, rel=0.01)
     said = [str(each) for each in response.warnings if each.code.startswith("law-range")]
     assert len(said) == 1
     assert "crack at 90 m" in said[0]
@@ -113,19 +111,20 @@ def test_each_crack_is_told_of():
 
 def test_a_further_crack_has_the_law_of_the_first_unless_it_says_otherwise():
     case = read_case(DAM | {"crack": {"law": WEAK}, "further_cracks": [{"elevation": "90 m"}]})
-    assert [each.crack.law for each in case.cracks] == [case.crack.law] * 2
+    assert [each.crack.law for each in case.single_crack_cases] == [case.crack.law] * 2
     rough = case.with_("further_cracks[0].friction=0.8")
-    assert [each.crack.law for each in rough.cracks] == [None, case.crack.law]
+    assert [each.crack.law for each in rough.single_crack_cases] == [None, case.crack.law]
     back = rough.with_({"further_cracks[0].law": BARTON})
     assert back.further_cracks[0].friction is None
-    assert back.cracks[0].crack.law.name == "barton-bandis"
+    assert back.single_crack_cases[0].crack.law.name == "barton-bandis"
 
 
 def test_what_does_not_go_together_is_refused_by_name():
     with pytest.raises(InputError, match=r"further_cracks\[0\]\.friction: .*law"):
         read_case(DAM | {"further_cracks": [{"elevation": "90 m", "friction": 0.8, "law": WEAK}]})
     with pytest.raises(
-        InputError, match=r'further_cracks\[0\]\.law: "slip weakening" does not go with two rigid blocks'
+        InputError,
+        match=r'further_cracks\[0\]\.law: the rigid model does not support a friction law \("slip weakening"\)',
     ):
         rigid(dam(0.9, WEAK))
 

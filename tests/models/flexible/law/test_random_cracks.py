@@ -11,7 +11,7 @@ import pytest
 
 from heeltoe import InputError, read_case
 from heeltoe.kernel.dam import CrackedDam
-from heeltoe.models.flexible.reduced import build_flexible_dam, side_by_side_in
+from heeltoe.models.flexible.body.reduced import build_flexible_dam, side_by_side_in
 from heeltoe.validation.random_dams import LEFT, MADE, Drawn
 from models.rigid.test_friction_laws import random_law
 
@@ -75,14 +75,14 @@ def check(seed: int) -> float | None:
     run = drawn.run()
     assert run.outcome in ("ok", "lost")
     for found in run.summaries:
-        assert all(np.isfinite(value) for value in found.values())
-        assert found["energy_residual"] <= drawn.residual_allowed(run)
-        assert found["energy_gained"] <= MADE * found["energy_turnover"]
-        assert found["energy_friction"] + found["energy_impact"] >= -LEFT * found["energy_turnover"]
-        assert found["bond_energy"] >= 0.0
-    assert (run.worked["path"] >= run.worked["path_before"]).all()
-    assert (run.worked["bonded"] <= run.worked["bonded_before"]).all()
-    return float(run.summary["contact_residual"])
+        assert all(np.isfinite(value) for value in found.by_name().values())
+        assert found.energy_residual <= drawn.residual_allowed(run)
+        assert found.energy_gained <= MADE * found.energy_turnover
+        assert found.energy_friction + found.energy_impact >= -LEFT * found.energy_turnover
+        assert found.bond_energy >= 0.0
+    assert (run.worked.path >= run.worked.path_before).all()
+    assert (run.worked.bonded <= run.worked.bonded_before).all()
+    return float(run.summary.contact_residual)
 
 
 @pytest.mark.parametrize("count", [20, pytest.param(300, marks=pytest.mark.slow)])

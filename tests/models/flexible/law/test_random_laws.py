@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from heeltoe.kernel.dam import CrackedDam
-from heeltoe.models.flexible.reduced import side_by_side_in
+from heeltoe.models.flexible.body.reduced import side_by_side_in
 from heeltoe.validation.random_dams import LEFT, MADE, draw
 from models.rigid.test_friction_laws import random_law
 
@@ -22,17 +22,17 @@ def check(seed):
     kernel = CrackedDam(upper, lower[0] if lower else None, lines, drawn.case.flexible.contactors)
     run = replace(drawn, dam=replace(drawn.dam, kernel=kernel, lines=lines)).run()
     found = run.summary
-    assert all(np.isfinite(value) for value in found.values())
+    assert all(np.isfinite(value) for value in found.by_name().values())
     assert run.outcome in ("ok", "lost")
-    assert found["energy_residual"] <= drawn.residual_allowed(run)
-    assert (run.worked["path"] >= run.worked["path_before"]).all()
-    assert (run.worked["bonded"] <= run.worked["bonded_before"]).all()
-    assert found["bond_energy"] >= 0.0
+    assert found.energy_residual <= drawn.residual_allowed(run)
+    assert (run.worked.path >= run.worked.path_before).all()
+    assert (run.worked.bonded <= run.worked.bonded_before).all()
+    assert found.bond_energy >= 0.0
     if drawn.ordinary:
-        assert found["energy_gained"] <= MADE * found["energy_turnover"]
-        assert found["energy_friction"] + found["energy_impact"] >= -LEFT * found["energy_turnover"]
+        assert found.energy_gained <= MADE * found.energy_turnover
+        assert found.energy_friction + found.energy_impact >= -LEFT * found.energy_turnover
     # Where all nodes of both faces are watched the problem is next to singular, by any law.
-    return float(found["contact_residual"]) if drawn.ordinary and drawn.case.flexible.contactors != 5 else 0.0
+    return float(found.contact_residual) if drawn.ordinary and drawn.case.flexible.contactors != 5 else 0.0
 
 
 @pytest.mark.parametrize("count", [10, pytest.param(200, marks=pytest.mark.slow)])

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from heeltoe import GroundMotion, flexible, read_case
-from heeltoe.models.flexible.elastic import dofs, principal
-from heeltoe.models.flexible.modes import reduce
-from heeltoe.models.flexible.stress.envelope import largest_tension
-from heeltoe.models.flexible.stress.places import bounded, stress_places
+from heeltoe.models.flexible.body.elastic import dofs, principal
+from heeltoe.models.flexible.body.modes import reduce
+from heeltoe.models.flexible.body.stress_places import bounded, stress_places
+from heeltoe.models.flexible.result.envelope import largest_tension
 from shared.dams import TRIANGLE, TYPICAL, polygon
 from shared.elastic import built, parts
 
@@ -67,7 +67,7 @@ def test_a_cantilever_has_the_bending_stress_of_a_beam(across):
             "flexible": {"elements_across": across, "modes": 10},
         }
     )
-    from heeltoe.models.flexible.bonded import bonded_dam
+    from heeltoe.models.flexible.body.bonded import bonded_dam
 
     dam = bonded_dam(case)
     body, modes, places = dam.bodies[1], dam.modes[1], dam.stress_places[1]

@@ -9,10 +9,10 @@
 //!
 //! The matrix is factored, `P G = L U`, column by column, with row pivoting.
 
-use super::super::body::{combine, fma, Group, LANES};
+use super::super::simd::{combine, fma, Group, Lanes, LANES};
 use super::super::status::Status;
-use super::super::wide::Wide;
-use super::Problem;
+use super::linear::{missing, Linear};
+use super::problem::Problem;
 
 /// Solutions with the same factors after which their inverse pays: one solution by it takes a quarter of the time.
 const INVERT_AFTER: u32 = 20;
@@ -126,51 +126,11 @@ impl Factors {
 
     /// Solve for the impulses `p`.
     #[inline(always)]
-    pub(super) fn solve<W: Wide>(&mut self, problem: &Problem, p: &mut [f64]) {
+    pub(super) fn solve<W: Lanes>(&mut self, problem: &Problem, p: &mut [f64]) {
         self.amiss(&problem.b, &problem.h);
         self.feel(problem);
         p.fill(0.0);
         self.add::<W>(problem, p);
-    }
-
-    /// What the velocities `u` are amiss at most; to be corrected next.
-    #[inline(always)]
-    pub(super) fn amiss(&mut self, u: &[f64], h: &[f64]) -> f64 {
-        let m = h.len();
-        self.x.clear();
-        for &k in &self.unknowns {
-            let room = if k < m { 0.0 } else { h[k - m] };
-            self.x.push(-u[k] - room);
-        }
-        self.x.iter().fold(0.0, |most, x| most.max(x.abs()))
-    }
-
-    /// Add to the impulses `p` what corrects that.
-    #[inline(always)]
-    pub(super) fn add<W: Wide>(&mut self, problem: &Problem, p: &mut [f64]) {
-        self.used += 1;
-        if self.used == INVERT_AFTER {
-            self.invert::<W>();
-        }
-        if self.inverse.is_empty() {
-            self.substitute::<W>();
-        } else {
-            self.sum.fill([0.0; LANES]);
-            combine::<W>(&self.inverse, &self.x, &mut self.sum);
-            let n = self.x.len();
-            self.x.copy_from_slice(&self.sum.as_flattened()[..n]);
-        }
-        for (&k, &value) in self.unknowns.iter().zip(&self.x) {
-            p[k] += value;
-        }
-        let m = problem.h.len();
-        for &contact in &self.slips {
-            let sign = self.of[contact].sign();
-            p[contact] = -sign * problem.mu_slip[contact] * p[m + contact];
-            if !problem.added.is_empty() {
-                p[contact] -= sign * problem.added(contact, true);
-            }
-        }
     }
 
     /// Let the unknowns feel what the contacts that slip bear beside friction.
@@ -191,7 +151,7 @@ impl Factors {
 
     /// Work out the inverse, unless the matrix is next to singular.
     #[inline(always)]
-    fn invert<W: Wide>(&mut self) {
+    fn invert<W: Lanes>(&mut self) {
         let n = self.unknowns.len();
         let diagonal = || (0..n).map(|k| self.lu[k * (n + 1)].abs());
         let (least, largest) = (
@@ -216,7 +176,7 @@ impl Factors {
 
     /// Turn the right-hand side in `x` into the solution.
     #[inline(always)]
-    fn substitute<W: Wide>(&mut self) {
+    fn substitute<W: Lanes>(&mut self) {
         let n = self.unknowns.len();
         for (k, &pivot) in self.pivots.iter().enumerate() {
             self.x.swap(k, pivot);
@@ -241,7 +201,7 @@ impl Factors {
 
     /// Set up and factor the matrix of these states; false where it is singular.
     #[inline(always)]
-    pub(super) fn factor<W: Wide>(&mut self, problem: &Problem, status: &[Status]) -> bool {
+    pub(super) fn factor<W: Lanes>(&mut self, problem: &Problem, status: &[Status]) -> bool {
         self.set_up::<W>(problem, status);
         self.pivots.clear();
         self.inverse.clear();
@@ -257,7 +217,7 @@ impl Factors {
 
     /// Write the matrix, column by column.
     #[inline(always)]
-    fn set_up<W: Wide>(&mut self, problem: &Problem, status: &[Status]) {
+    fn set_up<W: Lanes>(&mut self, problem: &Problem, status: &[Status]) {
         let (m, size) = (status.len(), problem.b.len());
         self.unknowns.clear();
         self.slips.clear();
@@ -290,7 +250,7 @@ impl Factors {
 
     /// Gauss's elimination in place; false where a pivot vanishes.
     #[inline(always)]
-    fn eliminate<W: Wide>(&mut self) -> bool {
+    fn eliminate<W: Lanes>(&mut self) -> bool {
         let n = self.unknowns.len();
         for k in 0..n {
             let column = &self.lu[k * n + k..(k + 1) * n];
@@ -328,5 +288,39 @@ impl Factors {
             }
         }
         true
+    }
+}
+
+impl Linear for Factors {
+    #[inline(always)]
+    fn amiss(&mut self, u: &[f64], h: &[f64]) -> f64 {
+        missing(&self.unknowns, u, h, &mut self.x)
+    }
+
+    #[inline(always)]
+    fn add<W: Lanes>(&mut self, problem: &Problem, p: &mut [f64]) {
+        self.used += 1;
+        if self.used == INVERT_AFTER {
+            self.invert::<W>();
+        }
+        if self.inverse.is_empty() {
+            self.substitute::<W>();
+        } else {
+            self.sum.fill([0.0; LANES]);
+            combine::<W>(&self.inverse, &self.x, &mut self.sum);
+            let n = self.x.len();
+            self.x.copy_from_slice(&self.sum.as_flattened()[..n]);
+        }
+        for (&k, &value) in self.unknowns.iter().zip(&self.x) {
+            p[k] += value;
+        }
+        let m = problem.h.len();
+        for &contact in &self.slips {
+            let sign = self.of[contact].sign();
+            p[contact] = -sign * problem.mu_slip[contact] * p[m + contact];
+            if !problem.added.is_empty() {
+                p[contact] -= sign * problem.added(contact, true);
+            }
+        }
     }
 }

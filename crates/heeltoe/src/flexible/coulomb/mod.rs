@@ -14,62 +14,18 @@
 //! itself is wanted among closed contacts only; what else is said of `u` is for the faces to tell.
 
 mod factors;
+mod inverse;
+mod linear;
+mod problem;
 mod sweep;
 
+pub(super) use self::problem::{ContactOperator, Known, Problem};
+
 use self::factors::Kept;
+use self::inverse::Inverse;
+use self::linear::{settle, Linear};
+use super::simd::Lanes;
 use super::status::Status;
-use super::wide::Wide;
-
-/// The numbers of one problem; the components along the crack of all contacts stand first, then those across it.
-#[derive(Default)]
-pub(super) struct Problem {
-    /// Symmetric, row by row.
-    pub g: Vec<f64>,
-    pub b: Vec<f64>,
-    /// One for each contact.
-    pub h: Vec<f64>,
-    /// Coefficients of friction of each contact up to which it sticks, and with which it slips.
-    pub mu_stick: Vec<f64>,
-    pub mu_slip: Vec<f64>,
-    /// What each contact bears beside that up to which it sticks, and with which it slips; empty without a law.
-    pub added: Vec<[f64; 2]>,
-    /// About what impulse changes the velocity of each component by 1: a scale to measure violations by.
-    pub scale: Vec<f64>,
-}
-
-impl Problem {
-    /// What a contact under this normal impulse bears beside friction in proportion to it; nothing without a law.
-    #[inline(always)]
-    fn added(&self, contact: usize, slips: bool) -> f64 {
-        match self.added.get(contact) {
-            None => 0.0,
-            Some(added) => added[usize::from(slips)],
-        }
-    }
-}
-
-/// What the solver asks of the crack.
-pub(super) trait Answering {
-    /// See that `G` is right where both contacts are `wanted`.
-    fn fill(&mut self, problem: &mut Problem, wanted: impl Fn(usize) -> bool);
-
-    /// `u = G p + b`.
-    fn velocities<W: Wide>(&mut self, problem: &Problem, p: &[f64], u: &mut [f64]);
-}
-
-/// Nobody to ask: `G` is right everywhere.
-pub(super) struct Known;
-
-impl Answering for Known {
-    fn fill(&mut self, _: &mut Problem, _: impl Fn(usize) -> bool) {}
-
-    fn velocities<W: Wide>(&mut self, problem: &Problem, p: &[f64], u: &mut [f64]) {
-        u.copy_from_slice(&problem.b);
-        for (p, column) in p.iter().zip(problem.g.chunks_exact(p.len())) {
-            u.iter_mut().zip(column).for_each(|(u, g)| *u += p * g);
-        }
-    }
-}
 
 /// How a solution was found.
 #[derive(Clone, Copy, Debug, Default)]
@@ -99,10 +55,10 @@ const ONE_BY_ONE: u32 = 60;
 /// What counts as a violation, relative to the largest term: well above rounding, far below what matters.
 const SLACK: f64 = 1e-11;
 
-/// What old factors may leave, relative to the fastest node: less than what counts as a violation.
-const RIGHT: f64 = 1e-12;
-/// Factors that leave more than this share of what they are to correct are too old.
-const OLD: f64 = 0.02;
+/// What rounding may leave where corrections do no better.
+const ROUNDED: f64 = 1e-11;
+/// From so many contacts on an inverse that goes from set to set costs less than factors.
+pub(super) const MANY: usize = 40;
 
 /// State of the contacts and the factors that belong to it.
 #[derive(Default)]
@@ -113,6 +69,8 @@ pub(super) struct Solver {
     /// Velocities of the solution.
     pub u: Vec<f64>,
     factors: Kept,
+    /// Where there are many contacts, in place of factors.
+    inverse: Option<Inverse>,
     /// Whether factors last although contacts have moved a little, and what they miss is corrected: a node that slips moves
     /// in every step, and where there are several cracks the factors of all are large.
     pub lasting: bool,
@@ -130,16 +88,30 @@ impl Solver {
         }
     }
 
+    /// One whose inverse goes from set to set. That costs less than factors where there are many contacts whose friction
+    /// does not change.
+    pub(super) fn with_inverse(contacts: usize) -> Self {
+        Solver {
+            inverse: Some(Inverse::new(contacts)),
+            ..Solver::new(contacts)
+        }
+    }
+
     /// Forget the factors where they contain a contact that has moved, because its part of `G` is another one; lasting ones
     /// grow old.
     #[inline(always)]
     pub(super) fn forget(&mut self, moved: &[bool]) {
+        // An inverse is always corrected.
         self.factors.forget(moved, self.lasting);
     }
 
     /// Solve, starting from the states of the last time; `Absent` ones must have been set by the caller.
     #[inline(always)]
-    pub(super) fn solve<W: Wide>(&mut self, problem: &mut Problem, crack: &mut impl Answering) -> Report {
+    pub(super) fn solve<W: Lanes>(
+        &mut self,
+        problem: &mut Problem,
+        crack: &mut impl ContactOperator,
+    ) -> Report {
         let mut report = Report::default();
         let mut found = false;
         for (worst_only, most) in [(false, AT_ONCE), (true, ONE_BY_ONE)] {
@@ -160,10 +132,10 @@ impl Solver {
 
     /// Go from set to set; false where none is right of so many, or they come round in a circle.
     #[inline(always)]
-    fn search<W: Wide>(
+    fn search<W: Lanes>(
         &mut self,
         problem: &mut Problem,
-        crack: &mut impl Answering,
+        crack: &mut impl ContactOperator,
         worst_only: bool,
         most: u32,
         report: &mut Report,
@@ -189,12 +161,16 @@ impl Solver {
 
     /// Find the impulses of the set of states and the velocities they make; false where the set has none.
     #[inline(always)]
-    fn impulses<W: Wide>(&mut self, problem: &mut Problem, crack: &mut impl Answering) -> bool {
-        let known = self.factors.turn_to(&self.status);
+    fn impulses<W: Lanes>(&mut self, problem: &mut Problem, crack: &mut impl ContactOperator) -> bool {
+        if self.follow::<W>(problem, crack) {
+            return true;
+        }
+        let known = self.inverse.is_none() && self.factors.turn_to(&self.status);
         if known {
             self.factors.now().solve::<W>(problem, &mut self.p);
             crack.velocities::<W>(problem, &self.p, &mut self.u);
-            if !self.factors.now().old() || self.correct::<W>(problem, crack) {
+            let factors = self.factors.now();
+            if !factors.old() || settle::<W>(factors, problem, crack, &mut self.p, &mut self.u, 0.0) {
                 return true;
             }
         }
@@ -209,23 +185,38 @@ impl Solver {
         true
     }
 
-    /// Correct what old factors miss; false where they are too old for that.
+    /// Let the inverse follow the set of states, and find the impulses with it; false where there is none, or it leaves too
+    /// much.
     #[inline(always)]
-    fn correct<W: Wide>(&mut self, problem: &Problem, crack: &mut impl Answering) -> bool {
-        let factors = self.factors.now();
-        let fastest = problem.b.iter().fold(0.0_f64, |a, b| a.max(b.abs()));
-        let mut before = fastest;
+    fn follow<W: Lanes>(&mut self, problem: &mut Problem, crack: &mut impl ContactOperator) -> bool {
+        let status = &self.status;
+        let Some(inverse) = &mut self.inverse else {
+            return false;
+        };
+        let mut anew = inverse.far_from(status);
         loop {
-            let now = factors.amiss(&self.u, &problem.h);
-            if now <= RIGHT * fastest {
-                return true;
+            if anew {
+                crack.fill(problem, |contact| status[contact].closed());
+                inverse.clear();
+            } else {
+                let closes = |contact: &usize| status[*contact].closed();
+                for contact in inverse.changed(status).filter(closes) {
+                    crack.fill_row(problem, contact, |other| status[other].closed());
+                }
             }
-            if now.is_nan() || now > OLD * before {
+            if inverse.turn_to::<W>(problem, status) {
+                inverse.amiss(&problem.b, &problem.h);
+                self.p.fill(0.0);
+                inverse.add::<W>(problem, &mut self.p);
+                crack.velocities::<W>(problem, &self.p, &mut self.u);
+                if settle::<W>(inverse, problem, crack, &mut self.p, &mut self.u, ROUNDED) {
+                    return true;
+                }
+            }
+            if anew {
                 return false;
             }
-            before = now;
-            factors.add::<W>(problem, &mut self.p);
-            crack.velocities::<W>(problem, &self.p, &mut self.u);
+            anew = true;
         }
     }
 

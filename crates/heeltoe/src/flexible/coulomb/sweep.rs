@@ -2,9 +2,9 @@
 //!
 //! Each contact is solved with the others held, `u = G_ii p_i + (u - G_ii p_i)_held`, until nothing changes.
 
+use super::super::simd::Plain;
 use super::super::status::Status;
-use super::super::wide::Plain;
-use super::{Answering, Known, Problem, Solver};
+use super::{ContactOperator, Known, Problem, Solver};
 
 /// Most sweeps.
 const SWEEPS: u32 = 5000;

@@ -14,9 +14,10 @@
 //! contact that breaks its conditions most breaks.
 
 use super::super::coulomb::{Problem, Report, Solver};
-use super::super::moving::TimeStep;
+use super::super::scheme::TimeStep;
 use super::super::status::Status;
-use super::{Laws, Worked};
+use super::worked::Worked;
+use super::Laws;
 
 /// A slope that changes and is off by less than this is kept.
 const NEAR: f64 = 0.02;

@@ -2,7 +2,8 @@
 
 use super::super::contact::{Contactor, Contacts};
 use super::super::dam::Dam;
-use super::super::sides::{Meeting, Place};
+use super::super::faces::Meeting;
+use super::super::place::Place;
 
 /// What a contact has of its crack.
 pub(super) struct Spot {
@@ -16,7 +17,7 @@ pub(super) struct Spot {
 /// Find those of all contacts, crack by crack.
 pub(super) fn spots(dam: &Dam, contacts: &Contacts) -> Vec<Vec<Spot>> {
     let faces = dam.bodies.faces(|body| &body.position);
-    let places = Place::all(dam);
+    let places = Place::all(&dam.cracks);
     let each = places.iter().zip(&dam.cracks).zip(contacts.of_cracks());
     each.map(|((place, line), own)| {
         let meeting = place.of(faces);

@@ -1,11 +1,10 @@
 //! What is kept of a piece: the new state, the books, extremes, the moments asked for.
 
 use super::super::block::{Vector, HEEL, SLIP, TOE};
+use super::super::course::Course;
 use super::super::event;
 use super::super::ledger::work;
 use super::super::mode::{Corner, Mode, Slip};
-use super::super::result::Moment;
-use super::advance::Course;
 use super::walk::Exact;
 
 impl Exact<'_> {
@@ -112,19 +111,10 @@ impl Exact<'_> {
 
     /// Keep the block at every wanted moment before `until`; `since` is when the present piece began.
     pub(super) fn record(&mut self, course: &Course, until: f64, since: f64) {
-        let Course { felt, motion, piece } = course;
         while let Some(time) = self.walk.next_moment(until) {
             let (w, v) = (&self.walk.summary.position, &self.walk.summary.velocity);
-            let t = (time - since).clamp(0.0, piece.left);
-            let along = |i: usize| w[i] + t * (v[i] + t * (motion[i][0] / 2.0 + t * motion[i][1] / 6.0));
-            let [slip, heel, toe] = [SLIP, HEEL, TOE].map(along);
-            let moment = Moment {
-                mode: self.walk.mode,
-                position: [slip, heel.max(0.0), toe.max(0.0)],
-                velocity: [SLIP, HEEL, TOE].map(|i| v[i] + t * (motion[i][0] + t * motion[i][1] / 2.0)),
-                acceleration: motion.map(|[start, slope]| start + slope * t),
-                reaction: [SLIP, HEEL, TOE].map(|i| felt.value[i] + felt.slope[i] * t),
-            };
+            let t = (time - since).clamp(0.0, course.piece.left);
+            let moment = course.moment(self.walk.mode, w, v, t);
             self.walk.keep(moment);
         }
     }

@@ -1,12 +1,12 @@
 //! Stretches of the record in which nothing happens to the block: it goes through them as fast as they can be read.
 
 use super::super::block::{HEEL, SLIP, TOE};
+use super::super::course::Course;
 use super::super::event;
 use super::super::ledger::work;
 use super::super::mode::Mode;
 use super::super::reaction::{Felt, CONE};
 use super::super::shaking::Shaking;
-use super::advance::Course;
 use super::walk::Exact;
 
 /// A normal force that is more than this part of its size is not zero: no rounding makes it so.
@@ -28,7 +28,7 @@ impl Exact<'_> {
             for (piece, j) in pieces.filter(|(piece, _)| piece.left > 0.0) {
                 rest.on(&piece, &mut felt);
                 let course = Course {
-                    felt: &felt,
+                    felt,
                     motion: [[0.0; 2]; 3],
                     piece: &piece,
                 };

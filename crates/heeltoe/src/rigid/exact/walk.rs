@@ -4,12 +4,12 @@ use std::borrow::Cow;
 
 use super::super::block::{Block, Vector, HEEL, SLIP, TOE};
 use super::super::choice::{accelerations, select, Moving};
+use super::super::course::Course;
 use super::super::mode::Mode;
 use super::super::reaction::{Felt, Reactions};
 use super::super::result::{Outcome, Run};
 use super::super::shaking::{Piece, Shaking};
-use super::super::walk::{Carried, Options, Walk, Wanted};
-use super::advance::Course;
+use super::super::walk::{Ended, Exactly, Options, Single, Walk, Wanted};
 
 /// A block that is carried exactly; its state is in the summary.
 pub(super) struct Exact<'a> {
@@ -102,39 +102,10 @@ impl Exact<'_> {
         reaction.on(&piece, &mut felt);
         let course = Course {
             motion: accelerations(reaction, &felt, [0.0; 3], 0.0),
-            felt: &felt,
+            felt,
             piece: &piece,
         };
         self.record(&course, f64::INFINITY, self.walk.summary.end_time);
-    }
-
-    /// Go from event to event to the end of a piece that begins at `time`; false where the run cannot continue.
-    fn cross(&mut self, whole: &Piece<2>, time: f64) -> bool {
-        let mut local = 0.0;
-        let mut cause = None;
-        loop {
-            let piece = Piece {
-                ground: whole.after(local),
-                left: whole.left - local,
-                ..*whole
-            };
-            self.walk.summary.end_time = time + local;
-            if !self.choose(&piece, cause) {
-                return false;
-            }
-            let (step, ended) = self.advance(&piece, time + local);
-            // A step may be too short to move the clock.
-            let moved = local + step > local;
-            local += step;
-            if ended.is_none() {
-                return true;
-            }
-            cause = ended;
-            if !self.walk.count(moved) {
-                self.walk.summary.end_time = time + local;
-                return false;
-            }
-        }
     }
 
     fn rests(&self, piece: &Piece<2>) -> bool {
@@ -147,7 +118,7 @@ impl Exact<'_> {
     }
 }
 
-impl<'a> Carried<'a> for Exact<'a> {
+impl<'a> Single<'a> for Exact<'a> {
     type Piece = Piece<2>;
 
     fn walk(&mut self) -> &mut Walk<'a> {
@@ -194,4 +165,11 @@ impl<'a> Carried<'a> for Exact<'a> {
     }
 
     fn begin(&mut self) {}
+}
+
+impl<'a> Exactly<'a, 1> for Exact<'a> {
+    #[inline(always)]
+    fn advance(&mut self, piece: &Piece<2>, time: f64) -> (f64, Option<Ended>) {
+        self.move_to_event(piece, time)
+    }
 }

@@ -10,11 +10,8 @@
 //! presses on both its faces, and each face carries the virtual water before it, none of which couples the two.
 
 use super::super::block::{inverse, Affine, Block, BlockNumbers, Vector, HEEL, SLIP, TOE};
-use super::solve::Square;
+use super::solve::{Six, Square};
 use crate::table::numbers;
-
-/// Contact coordinates or reactions of the lower crack, and behind them those of the upper one.
-pub(super) type Six = [f64; 6];
 
 numbers! {
     /// Where the upper block's reference point is, seen from that of all above the lower crack, along and across that.

@@ -9,8 +9,8 @@ use super::super::choice::{admissible, Moving, HAIR, TIE};
 use super::super::mode::Mode;
 use super::super::reaction::Felt;
 use super::super::shaking::Piece;
-use super::blocks::Six;
 use super::reaction::{Modes, Reactions};
+use super::solve::Six;
 
 /// Blocks that have to go on: corners whose gap and gap velocity are zero, velocities, the ground from here.
 pub(super) struct Going<'a> {

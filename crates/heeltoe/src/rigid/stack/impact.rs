@@ -9,8 +9,8 @@
 //! lowered, as those of one block are.
 
 use super::super::block::{HEEL, SLIP, TOE};
-use super::blocks::{Six, Stack};
-use super::solve::{Factors, Square};
+use super::blocks::Stack;
+use super::solve::{Factors, Six, Square};
 
 /// Relative rounding allowed in the inequalities of the law.
 const ROUNDING: f64 = 1e-12;

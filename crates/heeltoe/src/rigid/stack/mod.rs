@@ -15,8 +15,6 @@ mod keep;
 mod many;
 mod reaction;
 mod solve;
-#[cfg(test)]
-mod tests;
 mod walk;
 
 pub use blocks::{Place, Stack};

@@ -3,8 +3,8 @@
 use super::super::block::{Affine, HEEL, SLIP, TOE};
 use super::super::mode::Mode;
 use super::super::reaction::Reaction;
-use super::blocks::{part, Six, Stack};
-use super::solve::{Factors, Square};
+use super::blocks::{part, Stack};
+use super::solve::{Factors, Six, Square};
 
 /// Modes of the lower and of the upper crack.
 pub(super) type Modes = [Mode; 2];

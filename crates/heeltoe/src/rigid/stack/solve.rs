@@ -1,6 +1,7 @@
 //! Systems of up to six equations.
 
-use super::blocks::Six;
+/// Contact coordinates or reactions of the lower crack, and behind them those of the upper one.
+pub(super) type Six = [f64; 6];
 
 pub(super) type Square = [Six; 6];
 

@@ -16,14 +16,19 @@ use super::walk::Varying;
 /// A step that is short enough for its polynomials to say that a motion ends as it begins, and one that is not made any
 /// shorter; parts of the time in which the block moves by its own size.
 pub(super) const SHORT: f64 = 1e-7;
-const SHORTEST: f64 = 1e-9;
+pub(super) const SHORTEST: f64 = 1e-9;
+
+/// By how much a step may be longer, or must be shorter, than one of this error.
+pub(super) fn better(error: f64) -> f64 {
+    0.9 * error.powf(-1.0 / 8.0)
+}
 
 /// A step that has been tried: the state and its rate of change at both ends.
 pub(super) struct Trial<'a> {
     pub start: State,
     pub end: State,
     pub rate: State,
-    rate_at_end: State,
+    pub rate_at_end: State,
     pub length: f64,
     /// Of the step, in parts of what is allowed.
     pub error: f64,
@@ -136,6 +141,11 @@ impl Varying<'_> {
         }
     }
 
+    /// Note how long the next step may be after one of this length and error.
+    pub(super) fn suggest(&mut self, length: f64, error: f64) {
+        self.suggested = length * better(error.max(1e-12)).clamp(0.2, 5.0);
+    }
+
     /// Find the end of a step; false where it was too long, and has been made shorter.
     fn integrate(&mut self, trial: &mut Trial) -> bool {
         if self.walk.mode == Mode::Rest {
@@ -144,7 +154,6 @@ impl Varying<'_> {
         let piece = trial.piece;
         let mut rates = |t: f64, y: &State| self.rates(y, &piece.after(t));
         let taken = step(&trial.start, &trial.rate, trial.length, &self.scale, &mut rates);
-        let better = |error: f64| 0.9 * error.powf(-1.0 / 8.0);
         let fine = taken.error <= 1.0;
         if !fine && trial.length > SHORTEST * self.time_scale {
             // Where numbers overflow in a step that is far too long, its error is none.
@@ -155,7 +164,7 @@ impl Varying<'_> {
             };
             return false;
         }
-        self.suggested = trial.length * better(taken.error.max(1e-12)).clamp(0.2, 5.0);
+        self.suggest(trial.length, taken.error);
         (trial.end, trial.rate_at_end, trial.error) = (taken.end, taken.rate, taken.error);
         true
     }

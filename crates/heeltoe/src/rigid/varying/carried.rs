@@ -4,13 +4,13 @@ use std::borrow::Cow;
 
 use super::super::block::{Block, Vector, HEEL, SLIP, TOE};
 use super::super::mode::{Corner, Mode};
-use super::super::walk::{Carried, Walk};
+use super::super::walk::{Single, Walk};
 use super::block::Rotation;
 use super::instant::Slope;
 use super::shaking::Piece;
 use super::walk::Varying;
 
-impl<'a> Carried<'a> for Varying<'a> {
+impl<'a> Single<'a> for Varying<'a> {
     type Piece = Piece;
 
     fn walk(&mut self) -> &mut Walk<'a> {
@@ -53,6 +53,7 @@ impl<'a> Carried<'a> for Varying<'a> {
             }
         })
     }
+
     fn land(&mut self, gap: usize) -> [bool; 2] {
         let corner = if gap == HEEL { Corner::Heel } else { Corner::Toe };
         if corner != self.corner {

@@ -6,8 +6,8 @@
 
 use super::super::event::bracketed;
 
-/// Terms of the series below, enough for [`REACH`].
-const TERMS: u32 = 12;
+/// Terms of the series below that are enough up to a `k t^2`: the next one is less than rounding.
+const TERMS: [(f64, u32); 3] = [(1e-3, 3), (0.1, 5), (REACH, 12)];
 /// The largest `k t^2` that its functions are asked for.
 const REACH: f64 = 4.0;
 
@@ -26,18 +26,25 @@ pub(super) fn holds(growth: f64) -> f64 {
 
 /// C, S and the integral of S at `t`.
 fn basis(growth: f64, t: f64) -> [f64; 3] {
-    let x = growth * t * t;
+    let square = t * t;
+    let [half, sixth, rest] = [0.5 * square, square * t / 6.0, square * square / 24.0];
+    if growth == 0.0 {
+        return [half, sixth, rest];
+    }
+    let x = growth * square;
+    let terms = TERMS
+        .iter()
+        .find(|(up_to, _)| x <= *up_to)
+        .map_or(12, |(_, terms)| *terms);
     // 1/n! + x/(n+2)! + ..., times n!.
     let series = |n: u32| {
-        (1..=TERMS).rev().fold(1.0, |sum, j| {
+        (1..=terms).rev().fold(1.0, |sum, j| {
             let m = f64::from(n + 2 * j);
             1.0 + sum * x / (m * (m - 1.0))
         })
     };
-    let square = t * t;
-    let integral = square * square / 24.0 * series(4);
-    let sine = square * t / 6.0 * series(3);
-    [0.5 * square + growth * integral, sine, integral]
+    let integral = rest * series(4);
+    [half + growth * integral, sixth * series(3), integral]
 }
 
 impl Curve {
@@ -47,11 +54,15 @@ impl Curve {
         c0 + c1 * t + c2 * cosine + c3 * sine
     }
 
-    /// Integral from zero on.
-    pub(super) fn sum(&self, t: f64) -> f64 {
+    /// It, its derivative and its integral from zero on.
+    pub(super) fn with_derivative_and_integral(&self, t: f64) -> [f64; 3] {
         let [c0, c1, c2, c3] = self.terms;
-        let [_, sine, integral] = basis(self.growth, t);
-        t * (c0 + 0.5 * c1 * t) + c2 * sine + c3 * integral
+        let [cosine, sine, integral] = basis(self.growth, t);
+        [
+            c0 + c1 * t + c2 * cosine + c3 * sine,
+            c1 + c2 * (t + self.growth * sine) + c3 * cosine,
+            t * (c0 + 0.5 * c1 * t) + c2 * sine + c3 * integral,
+        ]
     }
 
     pub(super) fn derivative(&self) -> Self {
@@ -163,7 +174,10 @@ mod tests {
             assert!((curve.derivative().at(t) - rate).abs() < 1e-13);
             let integral = ((w * t).cosh() - 1.0 - 0.5 * k * t * t) / (k * k);
             let sum = c[0] * t + 0.5 * c[1] * t * t + c[2] * sine + c[3] * integral;
-            assert!((curve.sum(t) - sum).abs() < 1e-14);
+            let [value, slope, integral] = curve.with_derivative_and_integral(t);
+            assert!((integral - sum).abs() < 1e-14);
+            assert_eq!(value, curve.at(t));
+            assert!((slope - curve.derivative().at(t)).abs() < 1e-13);
         }
     }
 

@@ -1,4 +1,4 @@
-//! What is kept of a step: the new state, the books, extremes, tension of anchors, histories.
+//! What is kept of a step: the new state, the books, extremes, forces of anchors, histories.
 
 use super::super::block::{Vector, HEEL, SLIP, TOE};
 use super::super::event;
@@ -24,13 +24,7 @@ impl Varying<'_> {
         self.gather_error(trial, past, taken);
         self.rise_to(trial, end, taken);
         self.state = *end;
-        let (work, rubbed) = (end[6], end[7]);
-        self.state[6] = 0.0;
-        self.state[7] = 0.0;
-        let ledger = &mut self.walk.summary.ledger;
-        ledger.input += work;
-        ledger.friction -= rubbed;
-        ledger.turnover += work.abs() + rubbed.abs();
+        self.book();
         let contacts = self.walk.mode.contacts();
         if contacts[self.corner.gap() - HEEL] {
             self.state[1] = 0.0;
@@ -43,8 +37,17 @@ impl Varying<'_> {
         self.strain();
     }
 
+    /// Take the works of the last step over from the state into the ledger.
+    pub(super) fn book(&mut self) {
+        let [work, rubbed] = [6, 7].map(|i| std::mem::take(&mut self.state[i]));
+        let ledger = &mut self.walk.summary.ledger;
+        ledger.input += work;
+        ledger.friction -= rubbed;
+        ledger.turnover += work.abs() + rubbed.abs();
+    }
+
     /// Add the error of a step to those before, and what theirs in the velocity has come to on its way.
-    fn gather_error(&mut self, trial: &Trial, past_a_corner: bool, taken: f64) {
+    pub(super) fn gather_error(&mut self, trial: &Trial, past_a_corner: bool, taken: f64) {
         let sum = &mut self.error;
         sum.slip += sum.speed * taken;
         if !trial.integrated {
@@ -87,11 +90,11 @@ impl Varying<'_> {
         [self.walk.summary.position, self.walk.summary.velocity] = self.contact(&self.state);
     }
 
-    /// Note the tensions of the anchors.
+    /// Note what the anchors bear.
     pub(super) fn strain(&mut self) {
-        for (peak, anchor) in self.tensions.iter_mut().zip(&self.turning.anchors) {
-            let tension = anchor.tension(self.turning.anchor_moves(self.corner, &self.state, anchor));
-            *peak = peak.max(tension);
+        for (peak, anchor) in self.anchors.iter_mut().zip(&self.turning.anchors) {
+            let borne = anchor.borne(self.turning.anchor_moves(self.corner, &self.state, anchor));
+            *peak = [0, 1].map(|i| peak[i].max(borne[i]));
         }
     }
 

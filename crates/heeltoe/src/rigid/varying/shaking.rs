@@ -1,6 +1,6 @@
 //! The ground's motion: `(a_h, a_v, alpha)(t)`, linear between the samples; the ground may turn, too.
 
-use super::super::shaking::Shaking;
+use super::super::shaking::{Range, Shaking};
 
 /// Ground acceleration: horizontal, upward, rotation (counter-clockwise about the middle of the crack).
 pub(super) type Ground = [f64; 3];
@@ -36,6 +36,31 @@ impl<'a> TurningShaking<'a> {
             vertical,
             turning.fold(0.0, |peak, a| peak.max(a.abs())),
         ]
+    }
+
+    /// The first sample from `k` on that is not `within` some limits, or the number of samples. Between any two
+    /// accelerations within the limits all are.
+    pub(super) fn first_beyond(&self, k: usize, within: impl Fn(&Ground) -> bool) -> usize {
+        if self.turning.is_some() {
+            let n = self.level.time.len();
+            return (k..n).find(|k| !within(&self.at(*k))).unwrap_or(n);
+        }
+        let corners = |[across, up]: [Range; 2]| {
+            let all = across.iter().flat_map(|a| up.map(|b| [*a, b, 0.0]));
+            all.into_iter().all(|corner| within(&corner))
+        };
+        self.level.first_beyond(k, corners, |[a, b]| within(&[a, b, 0.0]))
+    }
+
+    /// The piece from a sample to the next one.
+    pub(super) fn piece(&self, k: usize) -> Piece {
+        let left = self.level.time[k + 1] - self.level.time[k];
+        let (a0, a1) = (self.at(k), self.at(k + 1));
+        Piece {
+            ground: a0,
+            rate: [0, 1, 2].map(|i| (a1[i] - a0[i]) / left),
+            left,
+        }
     }
 
     pub(super) fn at(&self, k: usize) -> Ground {

@@ -1,46 +1,19 @@
 //! A slide by a law that is a straight line over the path: exact, there is no step size.
 //!
 //! Where friction falls linearly with the path r since the start, or not at all, and the ground's acceleration is linear
-//! in time, so is the slip's, `r'' = p + q t + k r`, and every force: [`Curve`]. The next event is the earliest root of the
-//! slip velocity, a normal force, and the way that is left up to a corner of the law.
+//! in time, so is the slip's, `r'' = p + q t + k r`, and every force: [`super::curve::Curve`]. The next event is the earliest
+//! root of the slip velocity, a normal force, and the way that is left up to a corner of the law.
 
-use super::super::block::{Vector, HEEL, SLIP, TOE};
+use super::super::block::{Vector, HEEL, SLIP};
 use super::super::choice::VIOLATION;
 use super::super::mode::Mode;
 use super::super::walk::Cause;
 use super::advance::Trial;
-use super::curve::{holds, Curve};
-use super::shaking::Piece;
+use super::flat::Flat;
+use super::line::{Felt, Force, Line, Slide, CLEAR};
+use super::shaking::{Ground, Piece, TurningShaking};
 use super::step::State;
 use super::walk::Varying;
-
-/// A force that is `start + per_time t + per_path r`.
-#[derive(Clone, Copy)]
-struct Force {
-    start: f64,
-    per_time: f64,
-    per_path: f64,
-}
-
-/// A slide on both corners from a state on.
-pub(super) struct Slide {
-    /// Sign of the slip velocity.
-    way: f64,
-    /// Path from here.
-    path: Curve,
-    /// Path up to the next corner of the law, from here and since the first slip.
-    reach: f64,
-    corner: f64,
-    /// How long all this holds, corner or no.
-    length: f64,
-    /// Friction, and the normal forces at heel and toe.
-    reactions: [Force; 3],
-    /// What the loads push along the crack.
-    load: Force,
-}
-
-/// Forces and acceleration along the crack at one moment.
-type Felt = [f64; 5];
 
 impl Varying<'_> {
     /// The slide from the present state on, if it has a closed form; a slip that starts does so with the acceleration of
@@ -49,61 +22,137 @@ impl Varying<'_> {
         let Mode::Slide(slip) = self.walk.mode else {
             return None;
         };
-        if self.rough.is_some() {
-            return None;
-        }
+        let (way, state) = (slip.sign(), self.state);
+        let line = self.line(way, piece)?;
+        let path = self.rubbing.as_ref()?.worn.path;
+        let speed = way * state[3];
+        let begins = fresh.filter(|_| speed == 0.0).map(|all| all[SLIP]);
+        line.slide(way, path, speed, begins, piece)
+    }
+
+    /// Whether the block lies on both corners of a plane crack that no anchor crosses: what it feels does not go by where
+    /// it is then.
+    pub(super) fn lies_plainly(&self) -> bool {
+        self.state[2] == 0.0 && self.rough.is_none() && self.turning.anchors.is_empty()
+    }
+
+    /// What is felt sliding this way, where that is a straight line; kept as long as that holds.
+    fn line(&self, way: f64, piece: &Piece) -> Option<Line> {
         let rubbing = self.rubbing.as_ref()?;
         let [across, up, spin] = piece.rate;
+        // Where friction changes with the path and the normal force with the ground, their product does, too.
+        let product = !rubbing.straight(false);
         let even = spin == 0.0 && self.walk.block.presses_evenly([across, up]);
-        if !rubbing.straight(even) || !self.turning.anchors.is_empty() || self.state[2] != 0.0 {
+        if !self.lies_plainly() || !rubbing.straight(even) {
             return None;
         }
-        let (way, left) = (slip.sign(), piece.left);
-        let corner = rubbing.corner();
-        let reach = corner - rubbing.worn.path;
-        let mut further = self.state;
-        further[0] += way * reach;
-        let now = self.felt_sliding(&self.state, piece, 0.0)?;
-        let then = self.felt_sliding(&self.state, piece, left)?;
-        let there = if reach.is_finite() {
-            self.felt_sliding(&further, piece, 0.0)?
+        let (corner, path) = (rubbing.corner(), rubbing.worn.path);
+        let place = usize::from(way < 0.0);
+        let ground = product.then_some([piece.ground[1], piece.ground[2]]);
+        let bonded = rubbing.worn.bonded;
+        let same = |line: &Line| line.corner == corner && line.bonded == bonded && line.ground == ground;
+        if let Some(line) = self.lines[place].get().filter(same) {
+            return Some(line);
+        }
+        let state = self.state;
+        let reach = corner - path;
+        let base = if product {
+            [0.0, piece.ground[1], piece.ground[2]]
         } else {
-            now
+            [0.0; 3]
         };
-        let force = |i: usize| Force {
-            start: now[i],
-            per_time: (then[i] - now[i]) / left,
-            per_path: (there[i] - now[i]) / reach,
-        };
-        let pull = force(4);
-        let growth = way * pull.per_path;
-        if growth < 0.0 || left <= 0.0 {
-            return None;
+        let now = self.felt_sliding(&state, &base)?;
+        let mut per_ground = [[0.0; 5]; 3];
+        for (k, per) in per_ground.iter_mut().enumerate() {
+            let mut unit = base;
+            unit[k] += 1.0;
+            let felt = self.felt_sliding(&state, &unit)?;
+            *per = std::array::from_fn(|i| felt[i] - now[i]);
         }
-        let speed = way * self.state[3];
-        let begins = fresh.filter(|_| speed == 0.0).map(|all| all[SLIP]);
-        let (p, q) = (way * begins.unwrap_or(pull.start), way * pull.per_time);
-        Some(Slide {
-            way,
-            path: Curve {
-                growth,
-                terms: [0.0, speed, p, q + growth * speed],
-            },
-            reach,
+        let mut per_path = [0.0; 5];
+        if reach.is_finite() {
+            let mut further = state;
+            further[0] += way * reach;
+            let there = self.felt_sliding(&further, &base)?;
+            per_path = std::array::from_fn(|i| (there[i] - now[i]) / reach);
+        }
+        let line = Line {
+            still: std::array::from_fn(|i| now[i] - (1..3).map(|k| per_ground[k][i] * base[k]).sum::<f64>()),
+            path,
+            per_ground,
+            per_path,
             corner,
-            length: left.min(holds(growth)),
-            reactions: [SLIP, HEEL, TOE].map(force),
-            load: force(3),
-        })
+            bonded,
+            ground,
+        };
+        self.lines[place].set(Some(line));
+        Some(line)
     }
 
     /// Reactions, the load along the crack and the acceleration, sliding at a state of the present step.
-    fn felt_sliding(&self, state: &State, piece: &Piece, since: f64) -> Option<Felt> {
-        let instant = self.turning.at(self.corner, state, &piece.after(since));
+    fn felt_sliding(&self, state: &State, ground: &Ground) -> Option<Felt> {
+        let instant = self.turning.at(self.corner, state, ground);
         let (reactions, _) = self.rubbed(self.walk.mode, state, &instant)?;
         let [friction, heel, toe] = reactions;
         let [acceleration, ..] = instant.acceleration(&reactions);
         Some([friction, heel, toe, instant.pushed(), acceleration])
+    }
+
+    /// While the block slides clear of every event, do what would be done piece by piece; return the last sample before that
+    /// may end, and how far behind it.
+    pub(super) fn slide_until(&mut self, shaking: &TurningShaking, from: usize) -> (usize, f64) {
+        let Mode::Slide(slip) = self.walk.mode else {
+            return (from, 0.0);
+        };
+        let (way, clear) = (slip.sign(), CLEAR * self.walk.block.force_scale);
+        let (time, kind) = (shaking.level.time, self.walk.mode.kind());
+        let mut flat: Option<Flat> = None;
+        let (mut k, mut local) = (from, 0.0);
+        while k + 1 < time.len() {
+            if time[k + 1] <= time[k] {
+                k += 1;
+                continue;
+            }
+            let whole = shaking.piece(k);
+            let piece = whole.rest(local);
+            let (before, since) = (self.state[0], time[k] + local);
+            let slid = match self.closed_slide(&piece, None) {
+                Some(slide) => self.slide_through(&slide, &piece, clear, since),
+                None => self.step_through(&mut flat, way, &piece, clear, since),
+            };
+            let Some(taken) = slid else {
+                break;
+            };
+            self.book();
+            self.walk.summary.slip_by_mode[kind] += self.state[0] - before;
+            self.walk.summary.time_by_mode[kind] += taken;
+            if taken == piece.left {
+                (k, local) = (k + 1, 0.0);
+            } else {
+                local += taken;
+            }
+        }
+        if k > from || local > 0.0 {
+            self.see();
+            let at = self.walk.summary.position;
+            // It goes one way alone.
+            self.walk.summary.widen(&at, self.state[2]);
+        }
+        (k, local)
+    }
+
+    /// Slide through a piece, if nothing ends the slide before, and return how long that took; none where something may.
+    fn slide_through(&mut self, slide: &Slide, piece: &Piece, clear: f64, time: f64) -> Option<f64> {
+        if !slide.goes_on(piece, clear) {
+            return None;
+        }
+        let start = self.state;
+        self.record(&start, piece, time + piece.left, time);
+        let end = slide.state(&start, piece.left);
+        self.wear(&end);
+        self.error.slip += self.error.speed * piece.left;
+        self.state = end;
+        Some(piece.left)
     }
 
     /// Slide on to the next event, or as long as that holds; returns the time that took and what ended it.
@@ -152,23 +201,5 @@ impl Varying<'_> {
             note(normal.first_fall(*length, VIOLATION * size), Some(Cause::Normal));
         }
         first
-    }
-}
-
-impl Slide {
-    /// The state after `since` from `start`, with the works of the loads and of friction.
-    pub(super) fn state(&self, start: &State, since: f64) -> State {
-        let path = self.path.at(since);
-        // The integral of t dr is t r less that of r.
-        let turned = since * path - self.path.sum(since);
-        let work = |force: &Force| {
-            self.way * (path * (force.start + 0.5 * force.per_path * path) + force.per_time * turned)
-        };
-        let mut state = *start;
-        state[0] += self.way * path;
-        state[3] = self.way * self.path.derivative().at(since);
-        state[6] += work(&self.load);
-        state[7] += work(&self.reactions[SLIP]);
-        state
     }
 }

@@ -1,16 +1,19 @@
 //! From sample to sample of the record, and from event to event within each piece.
 
+use std::cell::Cell;
+
 use super::super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
 use super::super::choice::{accelerations, select, Moving};
 use super::super::mode::{Corner, Mode, Slip};
 use super::super::reaction::{Felt, Reactions};
 use super::super::result::{Outcome, Run};
 use super::super::shaking::Piece as Level;
-use super::super::walk::{Carried, Cause, Options, Walk, Wanted};
+use super::super::walk::{Carried, Cause, Options, Single, Walk, Wanted};
 use super::block::{Rotation, TurningBlock};
 use super::instant::Instant;
+use super::line::Line;
 use super::rough::Rough;
-use super::rubbing::Rubbing;
+use super::rubbing::{Gathered, Rubbing};
 use super::shaking::{Ground, Piece, TurningShaking};
 use super::step::State;
 use crate::asperity::Asperities;
@@ -42,25 +45,16 @@ pub(super) struct Varying<'a> {
     pub(super) suggested: f64,
     /// Accelerations of the contact coordinates right after an event, freed from rounding where a motion starts.
     pub(super) starting: Option<Vector>,
-    pub(super) tensions: Vec<f64>,
+    pub(super) anchors: Vec<[f64; 2]>,
     /// Of a block at rest, see [`super::rest`]; none until it is asked for.
     pub(super) reserve: Option<[[f64; 4]; 4]>,
+    /// Of a block that slides downstream or upstream, see [`super::slide`].
+    pub(super) lines: [Cell<Option<Line>>; 2],
     /// Friction that goes by a law, where it does.
     pub(super) rubbing: Option<Rubbing<'a>>,
     /// Asperities, where the crack is rough.
     pub(super) rough: Option<Rough>,
     pub(super) error: Gathered,
-}
-
-/// Errors estimated of all integrated steps.
-#[derive(Default)]
-pub(super) struct Gathered {
-    /// Of the slip (m).
-    pub slip: f64,
-    /// Of its velocity since the block last rested (m/s).
-    pub speed: f64,
-    /// Time that these steps took (s).
-    pub time: f64,
 }
 
 /// What the faces of a crack are like, where friction goes by a law, and what they have been through.
@@ -113,8 +107,9 @@ pub fn simulate(
         state: [0.0; 8],
         suggested: any,
         starting: None,
-        tensions: vec![0.0; turning.anchors.len()],
+        anchors: vec![[0.0; 2]; turning.anchors.len()],
         reserve: None,
+        lines: Default::default(),
         rubbing,
         rough: rough.map(|(asperities, before)| Rough::new(asperities, before, position[SLIP], block.width)),
         error: Gathered::default(),
@@ -137,7 +132,7 @@ impl Varying<'_> {
         Run {
             worn,
             rough: self.rough.map(Rough::end),
-            ..self.walk.end(energy, self.tensions)
+            ..self.walk.end(energy, self.anchors)
         }
     }
 
@@ -180,32 +175,38 @@ impl Varying<'_> {
         }
         let time = shaking.level.time;
         let mut held = false;
-        for k in 0..time.len() - 1 {
-            let (t0, length) = (time[k], time[k + 1] - time[k]);
-            if length <= 0.0 {
+        let mut k = 0;
+        while k + 1 < time.len() {
+            let mut local = 0.0;
+            if held {
+                (k, local) = match self.walk.mode {
+                    Mode::Rest => (self.rest_until(shaking, k), 0.0),
+                    Mode::Slide(_) => self.slide_until(shaking, k),
+                    _ => (k, 0.0),
+                };
+                if k + 1 >= time.len() {
+                    break;
+                }
+            }
+            let (from, t0) = (k, time[k] + local);
+            k += 1;
+            if time[k] <= t0 {
                 continue;
             }
-            let (a0, a1) = (shaking.at(k), shaking.at(k + 1));
-            let whole = Piece {
-                ground: a0,
-                rate: [0, 1, 2].map(|i| (a1[i] - a0[i]) / length),
-                left: length,
-            };
-            if held && self.walk.mode == Mode::Rest && self.rests_through(&whole, t0) {
-                continue;
-            }
+            let whole = shaking.piece(from);
+            let whole = whole.rest(local);
             // What ends a motion is watched all the time: it goes on where the ground does.
-            let chosen = held && self.walk.mode != Mode::Rest && t0 > time[k - 1];
+            let chosen = held && self.walk.mode != Mode::Rest && (local > 0.0 || t0 > time[from - 1]);
             let Ok(cause) = self.cross(&whole, t0, chosen) else {
                 return;
             };
             held = cause.is_none();
             // An event on the very end of the piece belongs to the next.
             let after = Piece {
-                ground: a1,
-                ..Piece::still(1e-9 * length)
+                ground: shaking.at(k),
+                ..Piece::still(1e-9 * whole.left)
             };
-            if cause.is_some() && !self.choose(&after, cause) {
+            if cause.is_some() && !self.choose(&after, cause.map(|why| (0, why))) {
                 return;
             }
         }
@@ -225,13 +226,9 @@ impl Varying<'_> {
         let mut local = 0.0;
         let mut cause = None;
         while local < whole.left {
-            let piece = Piece {
-                ground: whole.after(local),
-                left: whole.left - local,
-                ..*whole
-            };
+            let piece = whole.rest(local);
             self.walk.summary.end_time = time + local;
-            if (cause.is_some() || !chosen) && !self.choose(&piece, cause) {
+            if (cause.is_some() || !chosen) && !self.choose(&piece, cause.map(|why| (0, why))) {
                 return Err(());
             }
             chosen = true;
@@ -248,7 +245,7 @@ impl Varying<'_> {
                 return Err(());
             }
             cause = ended;
-            if cause.is_some() && !self.walk.count(moved) || self.walk.stopped() {
+            if cause.is_some() && !self.count(moved) || self.walk.stopped() {
                 return Err(());
             }
         }

@@ -27,7 +27,7 @@ export function asideOf(handles, wide) {
     for (const step of [0, 1, -1, 2, -2, 3, -3, 4, -4]) {
       const place = { x: x + (upright ? 0 : step * ASIDE), y: y - (upright ? step * ASIDE : 0) };
       const inside = step === 0 || (place.x > NEAR / 2 && place.x < wide - NEAR / 2);
-      if (!inside || taken.some((each) => Math.hypot(each.x - place.x, each.y - place.y) < NEAR)) continue;
+      if (!inside || taken.some((spot) => Math.hypot(spot.x - place.x, spot.y - place.y) < NEAR)) continue;
       taken.push(place);
       return { x: place.x - x, y: place.y - y };
     }
@@ -48,7 +48,7 @@ export function lineFor(word, taken) {
   for (let off = 0; off <= LINES_OFF; off += 1) {
     for (const by of off ? [off * LINE, -off * LINE] : [0]) {
       const box = { ...word, top: word.top + by, bottom: word.bottom + by };
-      if (!taken.some((each) => meet(box, each))) return { box, by };
+      if (!taken.some((other) => meet(box, other))) return { box, by };
     }
   }
   return null;

@@ -1,10 +1,10 @@
 /** Fields that hold blocks of fields: lists of them, as anchors and further cracks, and one in an item of such a list. */
-import { fieldOf, idOf, wrongLine } from "../case-field.js";
-import { tableOf } from "../case-lists.js";
+import { fieldOf, idOf, wrongLine } from "./field.js";
+import { tableOf } from "./lists.js";
 import { element } from "../dom.js";
 
-/** @typedef {import("../case-field.js").FieldOf} FieldOf */
-/** @typedef {import("../case-field.js").Control} Control */
+/** @typedef {import("./field.js").FieldOf} FieldOf */
+/** @typedef {import("./field.js").Control} Control */
 /** @typedef {{name: string, field: FieldOf, control: Control}} Part */
 
 /**
@@ -145,8 +145,8 @@ function blocksOf(field, path, edit, ask) {
       ask(path);
       return;
     }
-    const needed = fieldsOf(kind).filter((each) => each.needed && each.kind === "quantity");
-    const first = Object.fromEntries(needed.map((each) => [nameOf(each), each.example]));
+    const needed = fieldsOf(kind).filter((inner) => inner.needed && inner.kind === "quantity");
+    const first = Object.fromEntries(needed.map((inner) => [nameOf(inner), inner.example]));
     list.push(kind ? { step: kind, ...first } : first);
     changed();
     focusFirst(made[list.length - 1]?.root);
@@ -167,7 +167,7 @@ function blocksOf(field, path, edit, ask) {
 
   /** @param {number} place @param {string} kind */
   function make(place, kind) {
-    const fields = fieldsOf(kind).filter((each) => nameOf(each) !== "step");
+    const fields = fieldsOf(kind).filter((inner) => nameOf(inner) !== "step");
     const parts = partsOf(fields, `${path}[${place}]`, (name, value) => {
       put(list[place], name, value);
       edit(structuredClone(list));
@@ -180,15 +180,15 @@ function blocksOf(field, path, edit, ask) {
 
   function show() {
     while (made.length > list.length) made.pop()?.root.remove();
-    list.forEach((each, place) => {
-      const kind = String((each && each.step) || "");
+    list.forEach((block, place) => {
+      const kind = String((block && block.step) || "");
       if (!made[place] || made[place].kind !== kind) {
         const item = make(place, kind);
         if (made[place]) made[place].root.replaceWith(item.root);
         else places.append(item.root);
         made[place] = item;
       }
-      fill(made[place].parts, each);
+      fill(made[place].parts, block);
     });
   }
 

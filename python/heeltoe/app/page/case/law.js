@@ -9,7 +9,7 @@ const MARGIN = { left: 52, right: 14, top: 12, bottom: 40 };
 function ticks(end, start = 0) {
   const rough = (end - start) / 5 || 1;
   const power = 10 ** Math.floor(Math.log10(rough));
-  const step = [1, 2, 5, 10].map((each) => each * power).find((each) => each >= rough * 0.999) || rough;
+  const step = [1, 2, 5, 10].map((factor) => factor * power).find((factor) => factor >= rough * 0.999) || rough;
   return Array.from({ length: Math.floor((end / step) * 1.0001) + 1 }, (_, place) => Number((place * step).toPrecision(6)));
 }
 
@@ -30,9 +30,9 @@ export class LawCurve {
     const x = (/** @type {number} */ value) => MARGIN.left + (value / end) * (WIDE - MARGIN.left - MARGIN.right);
     const y = (/** @type {number} */ value) => TALL - MARGIN.bottom - (value / most) * (TALL - MARGIN.top - MARGIN.bottom);
     const text = (/** @type {number} */ left, /** @type {number} */ top, /** @type {string} */ what, /** @type {object} */ more = {}) => svg("text", { x: left, y: top, "text-anchor": "middle", ...more }, what);
-    const across = ticks(end).flatMap((each) => [svg("path", { class: "rule", d: `M${x(each)} ${y(0)}V${MARGIN.top}` }), text(x(each), y(0) + 15, String(each))]);
-    const up = ticks(most).flatMap((each) => [svg("path", { class: "rule", d: `M${x(0)} ${y(each)}H${WIDE - MARGIN.right}` }), text(x(0) - 6, y(each) + 4, String(each), { "text-anchor": "end" })]);
-    const curve = at.map((/** @type {number} */ each, /** @type {number} */ place) => `${x(each).toFixed(1)},${y(friction[place]).toFixed(1)}`);
+    const across = ticks(end).flatMap((tick) => [svg("path", { class: "rule", d: `M${x(tick)} ${y(0)}V${MARGIN.top}` }), text(x(tick), y(0) + 15, String(tick))]);
+    const up = ticks(most).flatMap((tick) => [svg("path", { class: "rule", d: `M${x(0)} ${y(tick)}H${WIDE - MARGIN.right}` }), text(x(0) - 6, y(tick) + 4, String(tick), { "text-anchor": "end" })]);
+    const curve = at.map((/** @type {number} */ value, /** @type {number} */ place) => `${x(value).toFixed(1)},${y(friction[place]).toFixed(1)}`);
     const middle = (MARGIN.top + TALL - MARGIN.bottom) / 2;
     this.picture.replaceChildren(
       ...across, ...up,

@@ -30,7 +30,7 @@ export class MotionList {
     /** What has the focus once the list has changed: what it does, and at which place. */
     this.next = "";
     this.list = element("ol", { class: "motions" });
-    this.root = element("fieldset", { hidden: true }, element("legend", {}, "Motions of the case"), this.list, element("p", { class: "faint" }, "One after the other: each finds the dam as the one before has left it. The one that is chosen stands below."));
+    this.root = element("fieldset", { hidden: true }, element("legend", {}, "Motions of the case"), this.list, element("p", { class: "faint" }, "The motions shake the dam one after the other, without repair between them. The chosen motion is shown below."));
   }
 
   /** @param {{title: string, pause: string, wrong: string}[]} motions @param {number} place @param {number} most */

@@ -1,5 +1,5 @@
 /** What the plot of the answer draws, however it is drawn: curves in rows over one time axis, and the modes below them. */
-import { unpack } from "../unpack.js";
+import { unpacked } from "../../scene.js";
 
 /** @typedef {{model: string, stale: boolean, answer: any}} Shown */
 /** @typedef {{row: string, of: string, name: string, stale: boolean, width: number, dash: string, x: Float32Array, y: Float32Array}} Line */
@@ -14,17 +14,17 @@ export const AXES = /** @type {Record<string, string>} */ ({ ground: "y", slip: 
 export const DASHES = { solid: "none", dash: "9 9", dot: "2 4" };
 
 /** @type {WeakMap<object, {time: Float32Array, ground: Float32Array, cracks: Crack[]}>} */
-const unpacked = new WeakMap();
+const curvesOf = new WeakMap();
 
 /** @param {any} answer */
 function curves(answer) {
-  const known = unpacked.get(answer);
+  const known = curvesOf.get(answer);
   if (known) return known;
   const { time, ground, cracks } = answer.curves;
-  // That of [crack] first.
-  const all = [{ name: "", ...answer.curves }, ...cracks].map(({ name, slip, rotation }) => ({ name, slip: unpack(slip.values), rotation: unpack(rotation.values) }));
-  const made = { time: unpack(time), ground: unpack(ground.values), cracks: all };
-  unpacked.set(answer, made);
+  // That of the crack that leads first.
+  const all = [{ name: "", ...answer.curves }, ...cracks].map(({ name, slip, rotation }) => ({ name, slip: unpacked(slip.values), rotation: unpacked(rotation.values) }));
+  const made = { time: unpacked(time), ground: unpacked(ground.values), cracks: all };
+  curvesOf.set(answer, made);
   return made;
 }
 
@@ -45,7 +45,7 @@ export function lines(shown) {
 }
 
 /** @param {Shown} shown @param {string} kind @returns {Span[]} */
-export const spans = ({ answer }, kind) => answer.ribbon.filter((/** @type {any} */ each) => each.kind === kind);
+export const spans = ({ answer }, kind) => answer.ribbon.filter((/** @type {any} */ span) => span.kind === kind);
 
 /** How thick the modes are drawn. @param {Shown[]} shown @param {boolean} narrow */
 export const thickness = (shown, narrow) => (narrow ? 9 : shown.length > 2 ? 13 : 18);

@@ -29,7 +29,7 @@ function made(tag, attributes) {
  */
 function extent(shown, row) {
   let [least, most] = [0, 0];
-  for (const { y } of lines(shown).filter((each) => each.row === row)) {
+  for (const { y } of lines(shown).filter((line) => line.row === row)) {
     for (let k = 0; k < y.length; k += 1) {
       if (y[k] < least) least = y[k];
       else if (y[k] > most) most = y[k];
@@ -121,11 +121,11 @@ export function drawQuickly(place, shown, rows, narrow) {
     for (let k = 0; k < x.length; k += 1) points[k] = `${across(x[k])} ${l2p(y[k]).toFixed(2)}`;
     put(row, of, name, `M${points.join("L")}`, { "stroke-width": width, "stroke-opacity": stale ? 0.3 : 1, "stroke-dasharray": DASHES[dash] });
   }
-  shown.forEach((each, at) => {
+  shown.forEach((item, at) => {
     const level = axis(place, "modes").l2p(shown.length - 1 - at);
     for (const kind of KINDS) {
-      const d = spans(each, kind).map(({ start, end }) => `M${across(start)} ${level}H${across(end)}`).join("");
-      if (d) put("modes", kind, each.model, d, { "stroke-width": thickness(shown, narrow) });
+      const d = spans(item, kind).map(({ start, end }) => `M${across(start)} ${level}H${across(end)}`).join("");
+      if (d) put("modes", kind, item.model, d, { "stroke-width": thickness(shown, narrow) });
     }
   });
   for (const [key, path] of picture.paths) if (!wanted.has(key)) path.setAttribute("d", "");

@@ -18,7 +18,7 @@ const SLIPS = { si: "10 mm, 150 mm", us: "0.5 in, 6 in" };
 const DRAWN = ["latin hypercube", "sobol", "sensitivity"];
 /** What people begin with. @type {Record<string, Record<string, any>>} */
 const BEGIN = {
-  Grid: { method: "grid", source: "case", "scale.measure": "", vary: [{ path: "crack.friction", kind: "list", values: "0.8, 1.0, 1.2" }, { path: "reservoir.depth", kind: "uniform", from: "80 %", to: "100 %", count: "3" }] },
+  Grid: { method: "grid", source: "case", "scale.measure": "", both_signs: true, vary: [{ path: "crack.friction", kind: "list", values: "0.8, 1.0, 1.2" }, { path: "reservoir.depth", kind: "uniform", from: "80 %", to: "100 %", count: "3" }] },
   "Stronger and stronger (IDA)": { method: "grid", source: "case", "scale.measure": "pga", "scale.kind": "list", "scale.values": "0.1 g, 0.2 g, 0.3 g, 0.4 g, 0.5 g, 0.6 g, 0.8 g, 1.0 g", both_signs: true, vary: [] },
   Fragility: { method: "latin hypercube", samples: "1000", source: "records", "scale.measure": "pga", "scale.kind": "drawn", "scale.from": "0.1 g", "scale.to": "1.2 g", both_signs: true, "fragility.measure": "pga", "limit.residual_slip": "slips", vary: [{ path: "crack.friction", kind: "lognormal", median: "now", dispersion: "0.15" }] },
 };
@@ -76,7 +76,7 @@ export class StudyForm {
 
   /** @param {any} choices */
   _motions(choices) {
-    const groups = choices.records.map((/** @type {any} */ group) => element("div", { class: "ticks", role: "group", "aria-label": group.event }, ...group.records.map((/** @type {any} */ each) => this._tick(`record.${each.name}`, each.vertical ? `${each.name} (vertical)` : each.name))));
+    const groups = choices.records.map((/** @type {any} */ group) => element("div", { class: "ticks", role: "group", "aria-label": group.event }, ...group.records.map((/** @type {any} */ motion) => this._tick(`record.${motion.name}`, motion.vertical ? `${motion.name} (vertical)` : motion.name))));
     const own = choices.own ? `that of the case: ${choices.own}` : "that of the case, which has none";
     return element(
       "fieldset",
@@ -87,7 +87,7 @@ export class StudyForm {
         "div",
         { class: "of-records" },
         element("div", { class: "records", tabindex: "0", role: "group", "aria-label": "Records" }, ...groups),
-        element("p", { class: "faint" }, "Records whose names differ in their last part alone are of one event."),
+        element("p", { class: "faint" }, "Records whose names differ only in their last part belong to one event."),
         this.folder.root,
         element(
           "div",
@@ -118,7 +118,7 @@ export class StudyForm {
       "fieldset",
       { "data-field": "fragility" },
       element("legend", {}, "Fragility"),
-      element("p", { class: "faint" }, "Limits, of which each has a curve; none without."),
+      element("p", { class: "faint" }, "Each limit has a curve; without limits there are no curves."),
       element("div", { class: "pair limits" }, ...limits),
       this._select("fragility.measure", "Over", choices.measures.map((/** @type {string} */ name) => [name, name])),
       this._field("fragility.period", "Period", "of sa", "0.3 s"),
@@ -209,8 +209,8 @@ export class StudyForm {
 
   /** Records to begin with: the horizontal ones of the first events that have two. */
   _some() {
-    const pairs = this.choices.records.map((/** @type {any} */ group) => group.records.filter((/** @type {any} */ each) => !each.vertical)).filter((/** @type {any[]} */ group) => group.length === 2);
-    return pairs.slice(0, 4).flat().map((/** @type {any} */ each) => each.name);
+    const pairs = this.choices.records.map((/** @type {any} */ group) => group.records.filter((/** @type {any} */ record) => !record.vertical)).filter((/** @type {any[]} */ group) => group.length === 2);
+    return pairs.slice(0, 4).flat().map((/** @type {any} */ record) => record.name);
   }
 
   /** Say what is wrong at its field; return whether there is such a place. @param {{field: string, problem: string, remedy: string} | null} error */
@@ -218,7 +218,7 @@ export class StudyForm {
     for (const place of this.root.querySelectorAll(".wrong")) if (place.textContent) place.textContent = "";
     for (const input of this.root.querySelectorAll("[aria-invalid]")) input.removeAttribute("aria-invalid");
     if (!error) return true;
-    const places = [.../** @type {NodeListOf<HTMLElement>} */ (this.root.querySelectorAll("[data-field]"))].filter((each) => error.field.startsWith(each.dataset.field || "?") && each.checkVisibility());
+    const places = [.../** @type {NodeListOf<HTMLElement>} */ (this.root.querySelectorAll("[data-field]"))].filter((place) => error.field.startsWith(place.dataset.field || "?") && place.checkVisibility());
     const best = places.sort((a, b) => (b.dataset.field || "").length - (a.dataset.field || "").length)[0];
     if (!best) return false;
     let wrong = best.querySelector(":scope > .wrong");

@@ -18,7 +18,7 @@ export function studiesPage(talk) {
   const start = element("button", { type: "button", class: "main", disabled: true, onclick: () => run({ study: form.read() }) }, "Run the study");
   const refused = element("p", { class: "wrong", role: "alert" });
   const list = element("ul", { class: "studies" });
-  const none = element("p", { class: "faint" }, "None yet. They stay as long as the app runs, also while the page is closed.");
+  const none = element("p", { class: "faint" }, "None yet. Studies stay while the app runs, also when the page is closed.");
   const said = element("div", { class: "said-of", tabindex: "-1" });
   const form = new StudyForm(
     () => {
@@ -52,22 +52,22 @@ export function studiesPage(talk) {
 
   /** @param {any[]} found */
   function show(found) {
-    const kept = new Set(found.map((each) => each.number));
+    const kept = new Set(found.map((study) => study.number));
     for (const [number, study] of studies) {
       if (kept.has(number)) continue;
       study.root.remove();
       studies.delete(number);
       if (said.dataset.study === String(number)) said.replaceChildren();
     }
-    for (const each of found) {
-      const known = studies.get(each.number);
-      if (known) known.job = each.job;
+    for (const study of found) {
+      const known = studies.get(study.number);
+      if (known) known.job = study.job;
       else {
-        const root = element("li", { "data-study": each.number });
-        studies.set(each.number, { ...each, root });
+        const root = element("li", { "data-study": study.number });
+        studies.set(study.number, { ...study, root });
         list.prepend(root);
       }
-      line(each.number);
+      line(study.number);
     }
     none.hidden = studies.size > 0;
   }
@@ -116,7 +116,7 @@ export function studiesPage(talk) {
       return;
     }
     const take = TAKE.map(([what, label]) => element("button", { type: "button", onclick: () => fetchOf(told.number, what) }, label));
-    said.replaceChildren(element("div", { class: "actions", role: "group", "aria-label": "Take away" }, ...take), documentOf(told));
+    said.replaceChildren(element("div", { class: "actions", role: "group", "aria-label": "Export" }, ...take), documentOf(told));
   });
 
   /** @param {number} number @param {string} what */

@@ -27,8 +27,8 @@ export class VaryRows {
 
   add() {
     const taken = new Set(this.rows.map((row) => row.path.value));
-    const next = this.fields.find((each) => each.drawn && !taken.has(each.path) && ["crack.friction", "reservoir.depth", "uplift.intensity", "crack.restitution"].includes(each.path));
-    const row = this._make({ path: (next || this.fields.find((each) => !taken.has(each.path))).path, kind: "list" });
+    const next = this.fields.find((field) => field.drawn && !taken.has(field.path) && ["crack.friction", "reservoir.depth", "uplift.intensity", "crack.restitution"].includes(field.path));
+    const row = this._make({ path: (next || this.fields.find((field) => !taken.has(field.path))).path, kind: "list" });
     this.changed();
     row.path.focus();
   }
@@ -36,7 +36,7 @@ export class VaryRows {
   /** @param {Record<string, string>} given */
   _make(given) {
     const row = new VaryRow(this.fields, given, () => {
-      this.rows = this.rows.filter((each) => each !== row);
+      this.rows = this.rows.filter((other) => other !== row);
       row.root.remove();
       this.none.hidden = this.rows.length > 0;
       this.changed();
@@ -53,7 +53,7 @@ export class VaryRows {
     this.rows = [];
     this.list.replaceChildren();
     this.none.hidden = false;
-    for (const each of given) if (this.fields.some((known) => known.path === each.path)) this._make(each);
+    for (const entry of given) if (this.fields.some((known) => known.path === entry.path)) this._make(entry);
   }
 
   /** @param {boolean} drawn Whether dams are drawn: then nobody counts values. */
@@ -77,9 +77,9 @@ class VaryRow {
     this.kind = kind.input;
     /** @type {Record<string, HTMLOptGroupElement>} */
     const groups = {};
-    for (const each of fields) {
-      groups[each.block] ||= /** @type {HTMLOptGroupElement} */ (element("optgroup", { label: each.block }));
-      groups[each.block].append(element("option", { value: each.path }, `${each.block}: ${each.label}`));
+    for (const field of fields) {
+      groups[field.block] ||= /** @type {HTMLOptGroupElement} */ (element("optgroup", { label: field.block }));
+      groups[field.block].append(element("option", { value: field.path }, `${field.block}: ${field.label}`));
     }
     this.path.append(...Object.values(groups));
     this.path.value = given.path;
@@ -99,7 +99,7 @@ class VaryRow {
   }
 
   get field() {
-    return this.fields.find((each) => each.path === this.path.value);
+    return this.fields.find((field) => field.path === this.path.value);
   }
 
   /** A value to begin with: "now" is that of the case, a share is of that. @param {string} text */

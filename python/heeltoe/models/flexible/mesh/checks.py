@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from heeltoe.arrays import Floats, Integers
-from heeltoe.errors import InputError
+from heeltoe.base.arrays import Floats, Integers
+from heeltoe.errors.error import InputError
 
 CORNERS = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
 """Local coordinates of the corners."""

@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 import shapely
 
-from heeltoe.arrays import Floats, Integers
+from heeltoe.base.arrays import Floats, Integers
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.geometry.axes import in_x_and_z
 from heeltoe.geometry.axes import places as locate
 from heeltoe.geometry.section import CutSection
@@ -111,11 +111,11 @@ def dam_mesh(case: Case) -> DamMesh:
     options, section, directory = case.flexible, case.cut, case.base_directory
     if case.further_cracks:
         above = _parts_above(case)
-        section = case.cracks[-1].cut
+        section = case.single_crack_cases[-1].cut
         if case.outline.area - section.area <= _NOTHING * section.area:
             return DamMesh(above, None)
         across = options.elements_across_below or options.elements_across
-        return DamMesh(above, _own(*_faces_below(case.cracks[-1]), across, section, above=False))
+        return DamMesh(above, _own(*_faces_below(case.single_crack_cases[-1]), across, section, above=False))
     below = case.outline.area - section.area
     # At the base, or along a sloping one, there is nothing below.
     grounded = below <= _NOTHING * section.area
@@ -137,7 +137,7 @@ def dam_mesh(case: Case) -> DamMesh:
 def _parts_above(case: Case) -> tuple[BodyMesh, ...]:
     """Return the parts above each of several cracks, from the crest down."""
     across = case.flexible.elements_across
-    sections = [each.cut for each in case.cracks]
+    sections = [each.cut for each in case.single_crack_cases]
     grounded = case.outline.area - sections[-1].area <= _NOTHING * sections[-1].area
     for section in sections:
         _check_ends(section, grounded=grounded and section is sections[-1])

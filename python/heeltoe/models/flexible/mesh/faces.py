@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.models.flexible.mesh.rows import ROWS
 
 # As a part of the height of a face: a crest that is uneven by less is level.

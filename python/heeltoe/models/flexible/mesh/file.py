@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 
-from heeltoe.arrays import Floats, Integers
-from heeltoe.errors import InputError
+from heeltoe.base.arrays import Floats, Integers
+from heeltoe.errors.error import InputError
 from heeltoe.models.flexible.mesh.checks import check_elements, check_pieces
 
 # Meshers write the boundary beside the body.

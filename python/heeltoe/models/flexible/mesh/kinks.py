@@ -10,10 +10,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from heeltoe.arrays import Floats, Integers
+from heeltoe.base.arrays import Floats, Integers
 from heeltoe.case.crack.kinks import climbs, corners
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.geometry.axes import in_x_and_z, places
 from heeltoe.models.flexible.mesh.checks import check_elements
 from heeltoe.models.flexible.mesh.dam import BodyMesh, DamMesh
@@ -31,7 +31,7 @@ def kinked(mesh: DamMesh, case: Case) -> DamMesh:
         Where its elements cannot follow.
     """
     parts = list(mesh.parts)
-    for place, alone in enumerate(case.cracks):
+    for place, alone in enumerate(case.single_crack_cases):
         if climbs(alone.crack.kinks):
             # Both parts that meet there; the mesh of the lower one has this crack first.
             for part, face in ((place, -1), (place + 1, 0)):

@@ -2,68 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from heeltoe.arrays import Floats
-from heeltoe.case.at_crack import anchors_through_several
-from heeltoe.case.crack.kinks import straight_crack
+from heeltoe.base.arrays import Floats
+from heeltoe.case.combinations import check
 from heeltoe.case.model import Case
-from heeltoe.errors import InputError, shown
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.kernel.stack import StackRun, run_stack
-from heeltoe.mechanics.block import Block, build_block, instability, static_state
-from heeltoe.models.rigid.model import MODE_NAMES, moments_of
-from heeltoe.models.rigid.stack.response import AtBlock, StackResponse
-from heeltoe.models.rigid.tables import energy_of, events_of, histories_of, references_of, summary_of
+from heeltoe.mechanics.block import Block, build_block, instability
+from heeltoe.models.rigid.model import moments_of
+from heeltoe.models.rigid.tables import crack_response, energy_of, references_of
 from heeltoe.models.rigid.walk import limits_of
-from heeltoe.models.rigid.warnings import ADVICE, advice_of, outcome_of, warnings_of
+from heeltoe.models.rigid.warnings import ADVICE, advice_of, warnings_of
+from heeltoe.models.runner import largest_rotation, outcome_of
 from heeltoe.motion.earthquake import Earthquake
-from heeltoe.result.contract import LARGEST_ROTATION, TOO_FAR
+from heeltoe.result.contract import LARGEST_ROTATION, TOO_FAR, leading_crack
+from heeltoe.result.numbers import CrackEnergy
+from heeltoe.result.response import CrackResponse, Response
 from heeltoe.units.sentences import Sentence
-from heeltoe.warnings import Notice
-
-#: Cracks that make two blocks.
-CRACKS = 2
-
-
-def check_stack(case: Case) -> None:
-    """Refuse what of a case two blocks cannot use.
-
-    Raises
-    ------
-    InputError
-        Then.
-    """
-    if len(case.further_cracks) + 1 > CRACKS:
-        raise InputError("two-cracks-most", "further_cracks", f"{len(case.further_cracks)} further cracks")
-    straight_crack(case, "a rigid block")
-    problems = _unfit(case)
-    for first in problems:
-        raise first.with_others(problems)
-
-
-def _unfit(case: Case) -> Iterator[InputError]:
-    other = "further_cracks"
-    yield from anchors_through_several(case)
-    if case.aftershocks:
-        yield InputError("one-crack-only", "aftershocks", other=other)
-    if case.crack.law is not None:
-        yield InputError("one-crack-only", "crack.law", other=other)
-    for place, crack in enumerate(case.further_cracks):
-        if crack.law is not None:
-            yield InputError("law-stack", f"further_cracks[{place}].law", shown(crack.law.name))
-    if case.uplift.during_shaking != "constant":
-        yield InputError("one-crack-value", "uplift.during_shaking", shown(case.uplift.during_shaking), other=other)
-    if case.analysis.rotation != "small":
-        yield InputError("one-crack-value", "analysis.rotation", shown(case.analysis.rotation), other=other)
-    for name, water in (("reservoir", case.reservoir), ("tailwater", case.tailwater)):
-        if water is not None and not water.virtual_mass_rotates:
-            yield InputError("one-crack-value", f"{name}.virtual_mass_rotates", "false", other=other)
-        if water is not None and water.hydrodynamic != "westergaard":
-            yield InputError("one-crack-value", f"{name}.hydrodynamic", shown(water.hydrodynamic), other=other)
+from heeltoe.warnings.notice import Notice
 
 
 def place_of(lower: Block, upper: Block) -> Floats:
@@ -78,7 +38,7 @@ def place_of(lower: Block, upper: Block) -> Floats:
     return np.array([along, across, upper.section.inclination - lower.section.inclination])
 
 
-def run_two_blocks(case: Case, earthquake: Earthquake, output_step: float | None = None) -> StackResponse:
+def run_two_blocks(case: Case, earthquake: Earthquake, output_step: float | None = None) -> Response:
     """Run a dam that is cracked at two levels, exactly between events.
 
     Parameters
@@ -95,77 +55,57 @@ def run_two_blocks(case: Case, earthquake: Earthquake, output_step: float | None
     InputError
         Where something in the case does not go with two blocks, or the spacing cannot be used.
     """
-    check_stack(case)
+    check(case, "rigid")
     asked = case.asked
     moments = moments_of(earthquake, output_step)
     blocks, run = walk_two_blocks(case, earthquake.shaking, moments)
     moments = moments[: run.cracks[0].mode.size]
-    outcome = outcome_of_two(case, run)
+    # Neither may turn far from the ground.
+    turned = max(float(largest_rotation(run.cracks[0].summary.by_name())), float(np.abs(run.tilts).max()))
+    outcome = outcome_of(run.cracks[0].outcome, turned)
     started = outcome != "unstable"
-    told = [_at_block(block, earthquake, moments, run, place) for place, block in enumerate(blocks)] if started else []
     first, alone = blocks[asked], run.cracks[1 - asked]
-    return StackResponse(
+    cracks = [
+        _with_losses(
+            crack_response(block.case, block, earthquake.shaking, moments, run.cracks[1 - place], started=started),
+            block.case.crack.mu_kinetic,
+            run.lost[1 - place].tolist(),
+        )
+        for place, block in enumerate(blocks)
+    ]
+    leads = leading_crack([run.cracks[1 - place].summary.slip for place in range(len(blocks))], asked)
+    return Response(
         model="rigid",
         title=case.title,
         outcome=outcome,
         advice=_advice(blocks, run, outcome, asked),
         warnings=_warnings(blocks, run),
-        summary=_summary(told, asked) if started else {},
         energy=energy_of(alone) if started else None,
         motion=earthquake.motion,
         vertical=earthquake.vertical,
         gravity=case.gravity,
-        histories=told[asked].histories if started else {},
-        mode=told[asked].mode if started else (),
-        event_log=told[asked].event_log if started else events_of(alone),
-        static=static_state(first),
+        cracks=tuple(cracks),
+        asked=leads,
         references=references_of(case, first, alone),
         silence_s=earthquake.silence,
-        at_cracks=tuple(told),
-        asked=asked,
     )
 
 
 def walk_two_blocks(case: Case, shaking: Shaking, moments: Floats | None = None) -> tuple[list[Block], StackRun]:
     """Return the block above each crack, from the crest down, and what the kernel makes of them, which counts from the
     ground up. `moments` are those of the histories [s]; none without them."""
-    blocks = [build_block(each) for each in case.cracks]
+    blocks = [build_block(each) for each in case.single_crack_cases]
     upper, lower = blocks
     numbers, wanted = (lower.parameters(), upper.parameters()), np.empty(0) if moments is None else moments
     return blocks, run_stack(numbers, place_of(lower, upper), shaking, wanted, limits_of(case))
 
 
-def _at_block(block: Block, earthquake: Earthquake, moments: Floats, run: StackRun, place: int) -> AtBlock:
-    """Return what the crack did that is so many below the uppermost."""
-    case, section, own = block.case, block.section, run.cracks[1 - place]
-    friction, impact = run.lost[1 - place].tolist()
-    summary = summary_of(case, block, own) | {
-        "friction": case.crack.mu_kinetic,
-        "crack_energy": {"friction_j": friction, "impact_j": impact},
-    }
-    return AtBlock(
-        elevation=section.heel[1] - section.base_elevation,
-        summary=summary,
-        histories=histories_of(case, block, earthquake.shaking, moments, own),
-        mode=tuple(MODE_NAMES.take(own.mode).tolist()),
-        event_log=events_of(own),
-        static=static_state(block),
-    )
-
-
-def _summary(told: list[AtBlock], asked: int) -> dict[str, Any]:
-    """Return the numbers of the contract: those of the crack asked of, and of each."""
-    slips = [abs(each.summary["residual_slip_m"]) for each in told]
-    own = {key: value for key, value in told[asked].summary.items() if key not in ("friction", "crack_energy")}
-    of_crack = [{"elevation_m": each.elevation, **each.summary} for each in told]
-    return own | {"governing_crack": slips.index(max(slips)), "cracks": of_crack}
-
-
-def outcome_of_two(case: Case, run: StackRun) -> str:
-    """Return how a run of two blocks ended: neither may turn far from the ground."""
-    found = outcome_of(case, run.cracks[0])
-    turned = float(np.abs(run.tilts).max())
-    return TOO_FAR if found == "ok" and turned > LARGEST_ROTATION else found
+def _with_losses(crack: CrackResponse, friction: float, lost: Sequence[float]) -> CrackResponse:
+    """Return what one of two cracks did with its friction and what it has taken of the energy of both."""
+    if crack.of_crack is None:
+        return crack
+    energy = CrackEnergy(friction_j=lost[0], impact_j=lost[1])
+    return replace(crack, of_crack=replace(crack.of_crack, friction=friction, crack_energy=energy))
 
 
 def _advice(blocks: list[Block], run: StackRun, outcome: str, asked: int) -> Sentence | None:

@@ -11,8 +11,9 @@ from __future__ import annotations
 
 import re
 
-from heeltoe.errors import InputError
-from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, labelled, peaked, stated, table
+from heeltoe.errors.error import InputError
+from heeltoe.motion.records.lines import labelled
+from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, stated, table
 
 FORMAT = "AFAD"
 
@@ -28,26 +29,27 @@ def matches(lines: list[str]) -> bool:
 
 def read(lines: list[str], name: str) -> list[RawRecord]:
     """Read a file that matches."""
-    said = labelled(lines, _HEADER_LINES)
+    header = labelled(lines, _HEADER_LINES)
     ways = next((k for k, line in enumerate(lines[:_HEADER_LINES]) if line.split() == ["N-S", "E-W", "U-D"]), None)
-    count, step = stated(said.get("number of data", "")), stated(said.get("sampling interval (sec)", ""))
+    count, step = stated(header.get("number of data", "")), stated(header.get("sampling interval (sec)", ""))
     if ways is None or count is None or not step:
         raise InputError("record-header", name, "components, number of data or sampling interval")
-    peaks = next((value for label, value in said.items() if "pga values (gal)" in label), "")
+    peaks = next((value for label, value in header.items() if "pga values (gal)" in label), "")
     peak_of = {way.upper(): peak for way, peak in _PEAK.findall(peaks)}
-    raw = any(label.startswith("raw pga") for label in said)
+    raw = any(label.startswith("raw pga") for label in header)
+    magnitude = header.get("earthquake magnitude", "")
     return [
         RawRecord(
             values,
             time_step=step,
             unit="gal",
             about={
-                "event": f"magnitude {said.get('earthquake magnitude', '')} at {said.get('epicenter coordinates', '')}",
-                "date": said.get("earthquake date", ""),
-                "station": f"{said.get('station id', '')} {said.get('place', '')}".strip(),
+                "event": f"magnitude {magnitude} at {header.get('epicenter coordinates', '')}",
+                "date": header.get("earthquake date", ""),
+                "station": f"{header.get('station id', '')} {header.get('place', '')}".strip(),
                 "component": way,
             },
-            warnings=counted(values, count, name) + (peaked(values, peak_of[way], name) if way in peak_of else ()),
+            warnings=check_series(values, name, count, peak_of.get(way, "")),
             uncorrected="its header speaks of raw values" if raw else "",
         )
         for way, values in zip(("N-S", "E-W", "U-D"), table(lines[ways + 1 :], name, ways + 2, 3), strict=True)

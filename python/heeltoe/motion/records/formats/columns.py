@@ -16,9 +16,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from heeltoe.arrays import Floats
-from heeltoe.errors import InputError
-from heeltoe.motion.records.cells import is_data, parted, with_points
+from heeltoe.base.arrays import Floats
+from heeltoe.errors.error import InputError
+from heeltoe.motion.records.lines import is_data, parted
 from heeltoe.motion.records.quantities import (
     direction_in,
     is_time,
@@ -28,8 +28,8 @@ from heeltoe.motion.records.quantities import (
     unit_of,
     units_in,
 )
-from heeltoe.motion.records.raw import RawRecord, counted, numbers
-from heeltoe.warnings import Notice
+from heeltoe.motion.records.raw import RawRecord, check_series, numbers
+from heeltoe.warnings.notice import Notice
 
 FORMAT = "columns"
 
@@ -46,6 +46,10 @@ _HEADER_LINES, _HEADER_WIDTH = 100, 400
 _FEW = 20
 # A line of data is shorter; of a longer one, a part tells what it is.
 _DATA_WIDTH, _MOST_COLUMNS = 4000, 20
+_DECIMAL_COMMA = re.compile(r"\d,\d")
+_CELL = re.compile(r"\s*[-+]?\d+(?:,\d+)?(?:[eE][-+]?\d+)?\s*")
+# 1,250 is 1250 to some, and 1.25 to others; 0,250 is clear, since no thousands begin with a zero.
+_THOUSANDS = re.compile(r"\s*[-+]?[1-9]\d{0,2},\d{3}\s*")
 _ABOUT = re.compile(r"^(event|earthquake|station|component|date|processing)\s*[:=]\s*(.+)$", re.IGNORECASE)
 
 
@@ -77,7 +81,7 @@ def matches(lines: list[str]) -> bool:
 def read(lines: list[str], name: str) -> list[RawRecord]:
     """Read a file that matches."""
     header, first = _split(lines)
-    data = [parted(line.split("#")[0]) for line in with_points(lines[first:], name, first + 1)]
+    data = [parted(line.split("#")[0]) for line in _with_points(lines[first:], name, first + 1)]
     width = len(data[0].split())
     names = names_of(header, width)
     if width > 2 and names is None:
@@ -91,26 +95,26 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     columns = np.ascontiguousarray(values.reshape(-1, width).T)
     about = {}
     for line in header:
-        if found := _ABOUT.match(line):
-            about[found[1].lower().replace("earthquake", "event")] = found[2].strip()
+        if match := _ABOUT.match(line):
+            about[match[1].lower().replace("earthquake", "event")] = match[2].strip()
     processing = (about.pop("processing"),) if "processing" in about else ()
     stated = _STATED.search(" \n ".join(header))
-    warnings = counted(columns[0], int(stated[1]), name) if stated else ()
+    warnings = check_series(columns[0], name, int(stated[1]) if stated else None)
     timed = width == 2 or (names is not None and width > 2 and is_time(names[0]))
     clock = _clock(columns[0] if timed else None, header, name)
     series = _series(columns[1:] if timed else columns, (names or [""] * width)[int(timed) :], header, name)
     return [
         RawRecord(
-            each,
+            values,
             time=clock.time,
             time_step=clock.step,
             unit=unit,
             about={**about, "component": direction} if direction else dict(about),
-            processing=(*processing, *clock.said),
+            processing=(*processing, *clock.processing),
             warnings=(*warnings, *clock.warnings),
             counts_samples=clock.counts,
         )
-        for each, direction, unit in series
+        for values, direction, unit in series
     ]
 
 
@@ -120,7 +124,7 @@ class _Clock:
 
     time: Floats | None
     step: float | None
-    said: tuple[str, ...] = ()
+    processing: tuple[str, ...] = ()
     warnings: tuple[Notice, ...] = ()
     counts: bool = False
 
@@ -129,47 +133,87 @@ def _clock(time: Floats | None, header: list[str], name: str) -> _Clock:
     step = next((value for line in header if (value := _step(line)) is not None), None)
     if time is None:
         return _Clock(None, step)
-    said: tuple[str, ...] = ()
+    processing: tuple[str, ...] = ()
     if any(_TIME_IN_MS.search(line) for line in header):
-        time, said = time / 1e3, ("time read in ms",)
+        time, processing = time / 1e3, ("time read in ms",)
     elif time.size > _FEW and (np.diff(time) == 1.0).all():
         return _Clock(None, step, ("the first column counts the samples",), counts=True)
     if step is not None and time.size > 1:
         median = float(np.median(np.diff(time)))
         if abs(median - step) > 0.01 * step:
-            return _Clock(time, None, said, (Notice("record-step-differs", name=name, stated_s=step, found_s=median),))
-    return _Clock(time, None, said)
+            return _Clock(
+                time, None, processing, (Notice("record-step-differs", name=name, stated_s=step, found_s=median),)
+            )
+    return _Clock(time, None, processing)
 
 
 def _series(columns: Floats, names: list[str], header: list[str], name: str) -> list[tuple[Floats, str, str | None]]:
     """The accelerations among columns, each with its direction and its unit."""
     unit = unit_of(header)
     if len(columns) == 1:
-        told = [line for line in header if not _ABOUT.match(line)]
-        if quantity := other_quantity(told) or (None if unit else quantity_of(names[0])):
+        header_lines = [line for line in header if not _ABOUT.match(line)]
+        if quantity := other_quantity(header_lines) or (None if unit else quantity_of(names[0])):
             raise InputError("record-not-acceleration", name, quantity)
         return [(columns[0], "", unit)]
-    quantities = [quantity_of(each) for each in names]
+    quantities = [quantity_of(column_name) for column_name in names]
     kept = [
-        (values, direction_in(each), next(iter(units_in(each)), unit))
-        for values, each, quantity in zip(columns, names, quantities, strict=True)
+        (values, direction_in(column_name), next(iter(units_in(column_name)), unit))
+        for values, column_name, quantity in zip(columns, names, quantities, strict=True)
         if quantity is None
     ]
     if not kept:
-        raise InputError("record-not-acceleration", name, " and ".join(sorted({each or "" for each in quantities})))
+        raise InputError(
+            "record-not-acceleration", name, " and ".join(sorted({quantity or "" for quantity in quantities}))
+        )
     return kept
 
 
 def _step(line: str) -> float | None:
     """The time step [s] a line states; None where it states none or in words that are not known."""
-    found = _STEP.search(line)
-    if not found:
+    match = _STEP.search(line)
+    if not match:
         return None
-    unit = (found[1] or found[3] or "s").lower()
+    unit = (match[1] or match[3] or "s").lower()
     try:
-        value = float(found[2])
+        value = float(match[2])
     except ValueError:
         return None
     if re.fullmatch(_MILLISECONDS, unit):
         return value / 1e3
     return value if re.fullmatch(_SECONDS, unit) else None
+
+
+def _with_points(lines: list[str], name: str, first_line: int) -> list[str]:
+    """Return lines of data with points for decimal commas, which semicolons or tabs beside them give away.
+
+    Parameters
+    ----------
+    lines
+        Lines of data.
+    name
+        Of the file, for errors.
+    first_line
+        Number of the first of them in the file, for errors.
+
+    Raises
+    ------
+    InputError
+        Where a comma may mean one thing or another.
+    """
+    texts = [line.split("#")[0].replace('"', "") for line in lines]
+    if not any(_has_decimal_comma(text) for text in texts):
+        return lines
+    surely = False
+    for number, (line, text) in enumerate(zip(lines, texts, strict=True), first_line):
+        cells = [cell for cell in re.split(r"[;\t]", text) if cell.strip()]
+        if not all(_CELL.fullmatch(cell) for cell in cells):
+            raise InputError("record-comma", name, repr(line.strip()[:30]), line=number)
+        surely = surely or any("," in cell and not _THOUSANDS.fullmatch(cell) for cell in cells)
+    if not surely:
+        raise InputError("record-comma", name, repr(lines[0].strip()[:30]), line=first_line)
+    return [text.replace(",", ".") for text in texts]
+
+
+def _has_decimal_comma(text: str) -> bool:
+    text = text.strip()
+    return (";" in text or "\t" in text) and _DECIMAL_COMMA.search(text) is not None

@@ -18,10 +18,11 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
-from heeltoe.arrays import Floats
-from heeltoe.errors import InputError
-from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, peaked, plain, real, word_of_unit
-from heeltoe.warnings import Notice
+from heeltoe.base.arrays import Floats
+from heeltoe.errors.error import InputError
+from heeltoe.motion.records.lines import find_line, plain, split_at
+from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, peaked, real, word_of_unit
+from heeltoe.warnings.notice import Notice
 
 FORMAT = "COSMOS V2"
 
@@ -50,74 +51,69 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     """Read the accelerations of every channel of a file that matches."""
     starts = [k for k, line in enumerate(lines) if _SECTION.match(line[:_LINE])]
     records, others = [], []
-    for start, stop in zip(starts, [*starts[1:], len(lines)], strict=True):
-        series = _first(lines, start, stop, _SERIES)
-        found = _SERIES.match(lines[series][:_LINE]) if series < stop else None
-        if found is None:
+    for start, stop in split_at(lines, starts):
+        series = find_line(lines, _SERIES, start, stop)
+        match = _SERIES.match(lines[series][:_LINE]) if series < stop else None
+        if match is None:
             raise InputError("record-header", name, "series of numbers")
-        quantity = found[2].lower()
+        quantity = match[2].lower()
         if quantity == "acc":
             # Velocity and displacement may follow without a header of their own.
-            end = min(_first(lines, series + 1, stop, _END), _first(lines, series + 1, stop, _SERIES))
+            end = min(find_line(lines, _END, series + 1, stop), find_line(lines, _SERIES, series + 1, stop))
             values = numbers(lines[series + 1 : end], name, series + 2, _width(lines[series]))
             header = [line[:_LINE] for line in lines[start : series + 1]]
-            records.append(_channel(header, values, real(found[1]), name, start + 1))
+            records.append(_channel(header, values, real(match[1]), name, start + 1))
         else:
             others.append({"vel": "velocity", "dis": "displacement"}[quantity])
-    if records and _first(lines, starts[-1], len(lines), _END) == len(lines):
+    if records and find_line(lines, _END, starts[-1], len(lines)) == len(lines):
         records[-1] = replace(records[-1], warnings=(*records[-1].warnings, Notice("record-breaks-off", name=name)))
     if not records:
         raise InputError("record-not-acceleration", name, others[0])
     return records
 
 
-def _first(lines: list[str], start: int, stop: int, pattern: re.Pattern[str]) -> int:
-    """Index of the first line that matches, or `stop`."""
-    return next((k for k in range(start, stop) if pattern.match(lines[k][:_LINE])), stop)
-
-
 def _channel(header: list[str], values: Floats, count: float, name: str, first_line: int) -> RawRecord:
     announced = header[-1]
-    unit = word_of_unit(found[1]) if (found := _UNIT.search(announced)) else None
+    unit = word_of_unit(match[1]) if (match := _UNIT.search(announced)) else None
     warnings = counted(values, count, name)
-    number, about, said = "", {"component": ""}, []
+    number, about, processing = "", {"component": ""}, []
     for line in header:
-        if found := _CHANNEL.match(line):
-            number = found[1] if found[1].isdecimal() else ""
-            about["component"] = found[2].strip() if found[2].strip().lower() != "other" else ""
-        elif (found := _CODE.match(line)) and not about["component"]:
-            about["component"] = found[1]
-        elif found := _STATION.match(line):
-            about["station"] = re.split(r"\s{2,}", found[1].strip())[-1]
-        elif found := _PROCESSED.match(line):
-            said.append(plain(found[1]))
-            if found[2] and word_of_unit(found[3]) == unit:
-                warnings += peaked(values, found[2], name)
+        if match := _CHANNEL.match(line):
+            number = match[1] if match[1].isdecimal() else ""
+            about["component"] = match[2].strip() if match[2].strip().lower() != "other" else ""
+        elif (match := _CODE.match(line)) and not about["component"]:
+            about["component"] = match[1]
+        elif match := _STATION.match(line):
+            about["station"] = re.split(r"\s{2,}", match[1].strip())[-1]
+        elif match := _PROCESSED.match(line):
+            processing.append(plain(match[1]))
+            if match[2] and word_of_unit(match[3]) == unit:
+                warnings += peaked(values, match[2], name)
         elif _FILTERED.match(line):
-            said.append(plain(line))
-        elif "date" not in about and (found := _EVENT.match(line)):
-            about["event"] = f"{found[1].strip()} earthquake" if found[1] else ""
-            about["date"] = plain(found[2])
+            processing.append(plain(line))
+        elif "date" not in about and (match := _EVENT.match(line)):
+            about["event"] = f"{match[1].strip()} earthquake" if match[1] else ""
+            about["date"] = plain(match[2])
     step, doubt = _step(_reals(header, name, first_line), count, announced, name)
     return RawRecord(
         values,
         time_step=step,
         unit=unit,
         about=about,
-        processing=tuple(said),
+        processing=tuple(processing),
         warnings=warnings + doubt,
         channel=number,
     )
 
 
 def _width(announced: str) -> int:
-    return int(found[1]) if (found := _WIDTH.search(announced[:_LINE])) else 10
+    return int(match[1]) if (match := _WIDTH.search(announced[:_LINE])) else 10
 
 
 def _reals(header: list[str], name: str, first_line: int) -> Floats:
     for k, line in enumerate(header):
-        if found := _REALS.match(line):
-            return numbers(header[k + 1 : k + 1 + int(found[1])], name, first_line + k + 1, _width(line))
+        if match := _REALS.match(line):
+            return numbers(header[k + 1 : k + 1 + int(match[1])], name, first_line + k + 1, _width(line))
     raise InputError("record-header", name, "real header")
 
 

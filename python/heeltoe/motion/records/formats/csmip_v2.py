@@ -13,8 +13,9 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 
-from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, peaked, plain, real, word_of_unit
-from heeltoe.warnings import Notice
+from heeltoe.motion.records.lines import find_line, find_match, plain
+from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, numbers, real, word_of_unit
+from heeltoe.warnings.notice import Notice
 
 FORMAT = "CSMIP V2"
 
@@ -47,7 +48,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     starts = [k for k, line in enumerate(lines) if _ACCELERATION.match(line[:_WIDTH])]
     records = []
     for before, k in zip([-1, *starts], starts, strict=False):
-        end = next((j for j in range(k + 1, len(lines)) if _END.match(lines[j][:_WIDTH])), len(lines))
+        end = find_line(lines, _END, k + 1, len(lines))
         header = [line[:_WIDTH] for line in lines[max(before + 1, k - _HEADER_LINES) : k]]
         records.append(_channel(header, lines[k][:_WIDTH], lines[k + 1 : end], name, k + 2))
     if starts and not any(_CLOSED.match(line[:_WIDTH]) for line in lines[starts[-1] :]):
@@ -60,27 +61,25 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
 
 
 def _channel(header: list[str], announced: str, data: list[str], name: str, first_line: int) -> RawRecord:
-    found = _ACCELERATION.match(announced)
-    assert found is not None
+    series = _ACCELERATION.match(announced)
+    assert series is not None
     form = _FORMAT.search(announced)
     values = numbers(data, name, first_line, int(form[1]) if form else 10)
-    unit = word_of_unit(found[3])
+    unit = word_of_unit(series[3])
     channels = [match for line in header if (match := _CHANNEL.search(line))]
     number, component = channels[-1].groups() if channels else ("", "")
     called = f"{name}, channel {number}" if number else name
-    warnings = counted(values, real(found[1]), called)
-    peak = next((match for line in header if (match := _PEAK.match(line.strip()))), None)
-    if peak and word_of_unit(peak[2]) == unit:
-        warnings += peaked(values, peak[1], called)
-    said = [plain(line) for line in header if _FILTERED.match(line)]
-    said = [plain(line[match.start() :]) for line in header if (match := _PROCESSED.search(line))][:1] + said
+    peak = find_match(_PEAK, map(str.strip, header))
+    stated = peak[1] if peak and word_of_unit(peak[2]) == unit else ""
+    filters = [plain(line) for line in header if _FILTERED.match(line)]
+    processing = [plain(line[match.start() :]) for line in header if (match := _PROCESSED.search(line))][:1] + filters
     return RawRecord(
         values,
-        time_step=real(found[2]),
+        time_step=real(series[2]),
         unit=unit,
         about={**_about(header), "component": component},
-        processing=tuple(said),
-        warnings=warnings,
+        processing=tuple(processing),
+        warnings=check_series(values, called, real(series[1]), stated),
         channel=number,
     )
 

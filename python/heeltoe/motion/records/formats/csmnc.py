@@ -10,9 +10,9 @@ from __future__ import annotations
 
 import re
 
-from heeltoe.errors import InputError
-from heeltoe.motion.records.cells import is_data
-from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, peaked, plain, real, word_of_unit
+from heeltoe.errors.error import InputError
+from heeltoe.motion.records.lines import find_data, find_text, plain
+from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, numbers, real, word_of_unit
 
 FORMAT = "CSMNC"
 
@@ -39,16 +39,12 @@ def matches(lines: list[str]) -> bool:
 def read(lines: list[str], name: str) -> list[RawRecord]:
     """Read a file that matches."""
     head = [line[:200] for line in lines[:_HEADER_LINES]]
-    place, count = next((k, found) for k, line in enumerate(head) if (found := _COUNT.match(line)))
-    quantity = next(found for line in head if (found := _QUANTITY.match(line)))
+    place, count = next((k, match) for k, line in enumerate(head) if (match := _COUNT.match(line)))
+    quantity = next(match for line in head if (match := _QUANTITY.match(line)))
     if quantity[2].lower() != "acceleration":
         raise InputError("record-not-acceleration", name, quantity[2].lower())
-    first = next((k for k in range(place + 1, len(lines)) if is_data(lines[k][:200])), len(lines))
+    first = find_data(lines, place + 1)
     values = numbers(lines[first:], name, first + 1)
-    warnings = counted(values, int(count[1]), name)
-    peak = next((found for line in head if (found := _PEAK.match(line))), None)
-    if peak:
-        warnings += peaked(values, peak[1], name)
     record = RawRecord(
         values,
         time_step=real(count[2]),
@@ -56,10 +52,10 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
         about={
             "event": plain(head[2]) if place > 2 else "",
             "date": plain(head[1].partition(" ")[2]) if place > 2 else "",
-            "station": next((found[1] for line in head if (found := _STATION.match(line))), ""),
-            "component": next((found[1] for line in head if (found := _COMPONENT.match(line))), ""),
+            "station": find_text(_STATION, head),
+            "component": find_text(_COMPONENT, head),
         },
-        warnings=warnings,
+        warnings=check_series(values, name, int(count[1]), find_text(_PEAK, head)),
         uncorrected="its header says so" if quantity[1] else "",
     )
     return [record]

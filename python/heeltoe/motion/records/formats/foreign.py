@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from heeltoe.errors import InputError
+from heeltoe.errors.error import InputError
 from heeltoe.motion.records.raw import RawRecord
 
 FORMAT = ""

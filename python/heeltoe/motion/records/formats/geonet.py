@@ -14,8 +14,9 @@ from __future__ import annotations
 import math
 import re
 
-from heeltoe.errors import InputError
-from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, peaked, plain, real
+from heeltoe.errors.error import InputError
+from heeltoe.motion.records.lines import find_match, find_text, plain, split_at
+from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, numbers, real
 
 FORMAT = "GeoNet V1A, V2A"
 
@@ -36,30 +37,21 @@ def matches(lines: list[str]) -> bool:
 def read(lines: list[str], name: str) -> list[RawRecord]:
     """Read the accelerations of every component of a file that matches."""
     starts = [k for k, line in enumerate(lines) if _FIRST.match(line[:200])]
-    return [
-        _component(lines[start:stop], name, start)
-        for start, stop in zip(starts, [*starts[1:], len(lines)], strict=True)
-    ]
+    return [_component(lines[start:stop], name, start) for start, stop in split_at(lines, starts)]
 
 
 def _component(lines: list[str], name: str, before: int) -> RawRecord:
     text = [line[:200] for line in lines[:_TEXT]]
     opened = _FIRST.match(text[0])
-    count = next((found for line in text if (found := _COUNT.match(line))), None)
-    step = next((found for line in text[10:12] if (found := _STEP.search(line))), None)
+    count = find_match(_COUNT, text)
+    step = next((match for line in text[10:12] if (match := _STEP.search(line))), None)
     if opened is None or count is None or step is None:
         raise InputError("record-header", name, "number of points and step")
     rows = math.ceil(int(count[1]) / _ROW)
     first = _TEXT + _BLOCK
     values = numbers(lines[first : first + rows], name, before + first + 1, _WIDTH)
-    scale = next((found for line in text if (found := _SCALE.match(line))), None)
-    if scale:
-        values = values * real(scale[1])
-    warnings = counted(values, int(count[1]), name)
-    peak = next((found for line in text if (found := _PEAK.match(line))), None)
-    if peak:
-        warnings += peaked(values, peak[1], name)
-    way = next((found[1] for line in text if (found := _COMPONENT.match(line))), "")
+    if scale := find_text(_SCALE, text):
+        values = values * real(scale)
     return RawRecord(
         values,
         time_step=real(step[1]),
@@ -68,11 +60,11 @@ def _component(lines: list[str], name: str, before: int) -> RawRecord:
             "event": plain(text[6]) if len(text) > 7 else "",
             "date": plain(text[7]) if len(text) > 7 else "",
             "station": plain(text[2]) if len(text) > 2 else "",
-            "component": way,
+            "component": find_text(_COMPONENT, text),
         },
         processing=tuple(
             plain(line) for line in text if "filter" in line.lower() or "instrument corrected" in line.lower()
         ),
-        warnings=warnings,
+        warnings=check_series(values, name, int(count[1]), find_text(_PEAK, text)),
         uncorrected="its first line says so" if opened[1] else "",
     )

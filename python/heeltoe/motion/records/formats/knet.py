@@ -16,10 +16,9 @@ import re
 
 import numpy as np
 
-from heeltoe.errors import InputError
-from heeltoe.motion.records.cells import is_data
-from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, peaked, real
-from heeltoe.warnings import Notice
+from heeltoe.errors.error import InputError
+from heeltoe.motion.records.lines import find_data
+from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, numbers, real
 
 FORMAT = "K-NET"
 
@@ -45,7 +44,7 @@ def matches(lines: list[str]) -> bool:
 
 def read(lines: list[str], name: str) -> list[RawRecord]:
     """Read a file that matches."""
-    first = next((k for k, line in enumerate(lines) if is_data(line[:200])), len(lines))
+    first = find_data(lines)
     header = {line[:_LABEL].strip().lower(): line[_LABEL:200].strip() for line in lines[: min(first, 40)]}
     scale = _SCALE.match(header.get("scale factor", ""))
     if scale is None or real(scale[2]) == 0.0:
@@ -59,14 +58,12 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
         values = values - offset
     frequency = re.match(rf"({NUMBER})\s*hz", header.get("sampling freq(hz)", ""), re.IGNORECASE)
     rate = real(frequency[1]) if frequency else 0.0
-    warnings: tuple[Notice, ...] = ()
-    duration = re.fullmatch(NUMBER, header.get("duration time(s)", ""), re.IGNORECASE)
-    if duration and rate > 0.0:
-        warnings += counted(values, real(duration[0]) * rate, name)
-    peak = re.fullmatch(NUMBER, header.get("max. acc. (gal)", ""), re.IGNORECASE)
-    if peak:
-        # Rounding of the mean, and of the counts.
-        warnings += peaked(values, peak[0], name, share=0.01)
+    duration, peak = (
+        re.fullmatch(NUMBER, header.get(label, ""), re.IGNORECASE) for label in ("duration time(s)", "max. acc. (gal)")
+    )
+    count = real(duration[0]) * rate if duration and rate > 0.0 else None
+    # Rounding of the mean, and of the counts.
+    warnings = check_series(values, name, count, peak[0] if peak else "", share=0.01)
     record = RawRecord(
         values,
         time_step=1.0 / rate if rate > 0.0 else None,

@@ -13,9 +13,10 @@ from __future__ import annotations
 
 import re
 
-from heeltoe.errors import InputError
-from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, real, unglued, word_of_unit
-from heeltoe.warnings import Notice
+from heeltoe.errors.error import InputError
+from heeltoe.motion.records.lines import unglued
+from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, real, word_of_unit
+from heeltoe.warnings.notice import Notice
 
 FORMAT = "PEER AT2"
 
@@ -30,8 +31,8 @@ _HEADER_LINES, _HEADER_WIDTH = 12, 400
 def _counts(lines: list[str]) -> tuple[int, str, str] | None:
     for k, line in enumerate(lines[:_HEADER_LINES]):
         for pattern in _COUNTS:
-            if found := pattern.search(line[:_HEADER_WIDTH]):
-                return k, found[1], found[2]
+            if match := pattern.search(line[:_HEADER_WIDTH]):
+                return k, match[1], match[2]
     return None
 
 
@@ -42,9 +43,9 @@ def matches(lines: list[str]) -> bool:
 
 def read(lines: list[str], name: str) -> list[RawRecord]:
     """Read a file that matches."""
-    found = _counts(lines)
-    assert found is not None
-    k, count_text, step_text = found
+    match = _counts(lines)
+    assert match is not None
+    k, count_text, step_text = match
     header = [line.strip()[:_HEADER_WIDTH] for line in lines[:k] if line.strip()]
     words = " ".join(header).lower()
     # Only with what follows: a station may be called Velocity Park.
@@ -66,14 +67,14 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
 
 
 def _unit(words: str) -> str | None:
-    found = re.search(r"units? (?:of|are|in|:)\s*\(?\s*([a-z0-9/^*.]+)", words)
-    return word_of_unit(found[1]) if found else None
+    match = re.search(r"units? (?:of|are|in|:)\s*\(?\s*([a-z0-9/^*.]+)", words)
+    return word_of_unit(match[1]) if match else None
 
 
 def _processing(words: str) -> tuple[str, ...]:
-    said = ("PEER NGA processing",) if re.search(r"\bnga\b", words) else ()
-    found = re.search(r"filter points?:\s*hp\s*=\s*[\d.]+\s*hz\s+lp\s*=\s*[\d.]+\s*hz", words)
-    return (*said, found[0]) if found else said
+    processing = ("PEER NGA processing",) if re.search(r"\bnga\b", words) else ()
+    match = re.search(r"filter points?:\s*hp\s*=\s*[\d.]+\s*hz\s+lp\s*=\s*[\d.]+\s*hz", words)
+    return (*processing, match[0]) if match else processing
 
 
 def _torn(lines: list[str]) -> bool:
@@ -97,11 +98,11 @@ def _about(header: list[str]) -> dict[str, str]:
                 "station": ", ".join(parts[2:-1]),
                 "component": parts[-1],
             }
-        if len(parts) == 3 and (found := re.search(r"\s\d+/\d+/\d+.*$", parts[0])):
+        if len(parts) == 3 and (match := re.search(r"\s\d+/\d+/\d+.*$", parts[0])):
             component, _, owner = parts[2].partition("(")
             return {
-                "event": parts[0][: found.start()].strip(),
-                "date": found[0].strip(),
+                "event": parts[0][: match.start()].strip(),
+                "date": match[0].strip(),
                 "station": f"{parts[1]} ({owner}" if owner else parts[1],
                 "component": component.strip(),
             }

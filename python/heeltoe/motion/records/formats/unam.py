@@ -11,8 +11,9 @@ from __future__ import annotations
 
 import re
 
-from heeltoe.errors import InputError
-from heeltoe.motion.records.raw import RawRecord, counted, labelled, leading, peaked, stated, table
+from heeltoe.errors.error import InputError
+from heeltoe.motion.records.lines import labelled
+from heeltoe.motion.records.raw import RawRecord, check_series, leading, stated, table
 
 FORMAT = "UNAM ASA"
 
@@ -27,27 +28,28 @@ def matches(lines: list[str]) -> bool:
 
 def read(lines: list[str], name: str) -> list[RawRecord]:
     """Read a file that matches."""
-    said = labelled(lines, _HEADER_LINES)
+    header = labelled(lines, _HEADER_LINES)
     above = next((k for k, line in enumerate(lines[:_HEADER_LINES]) if _CHANNELS.match(line[:200])), None)
-    steps = [stated(each) for each in _parts(said, "intervalo de muestreo")]
-    unit = said.get("unidades de los datos", "").lower()
+    steps = [stated(text) for text in _parts(header, "intervalo de muestreo")]
+    unit = header.get("unidades de los datos", "").lower()
     if above is None or above + 3 > len(lines) or not steps or not steps[0] or not unit.startswith("gal"):
         raise InputError("record-header", name, "channels, step or unit")
     width = len(lines[above].split())
     ways = lines[above + 1].split()
     ways = ways if len(ways) == width else [""] * width
-    peaks, counts = _parts(said, "acel. max.(gal)"), [stated(each) for each in _parts(said, "num. total de muestras")]
+    peaks, counts = (
+        _parts(header, "acel. max.(gal)"),
+        [stated(text) for text in _parts(header, "num. total de muestras")],
+    )
     about = {
-        "event": f"magnitude {said.get('magnitud(es)', '').strip('/ ')}".removesuffix("magnitude "),
-        "date": f"{said.get('fecha del sismo [gmt]', '')} {said.get('hora epicentro (gmt)', '')}".strip(),
-        "station": said.get("nombre de la estacion", ""),
+        "event": f"magnitude {header.get('magnitud(es)', '').strip('/ ')}".removesuffix("magnitude "),
+        "date": f"{header.get('fecha del sismo [gmt]', '')} {header.get('hora epicentro (gmt)', '')}".strip(),
+        "station": header.get("nombre de la estacion", ""),
     }
     records = []
     for k, values in enumerate(table(lines[above + 3 :], name, above + 4, width)):
         count = counts[k] if k < len(counts) else None
-        warnings = counted(values, count, name) if count is not None else ()
-        if k < len(peaks) and leading(peaks[k]):
-            warnings += peaked(values, leading(peaks[k]), name)
+        warnings = check_series(values, name, count, leading(peaks[k]) if k < len(peaks) else "")
         step = steps[k] if k < len(steps) else steps[0]
         records.append(
             RawRecord(values, time_step=step, unit="gal", about={**about, "component": ways[k]}, warnings=warnings)
@@ -55,7 +57,7 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     return records
 
 
-def _parts(said: dict[str, str], label: str) -> list[str]:
+def _parts(header: dict[str, str], label: str) -> list[str]:
     """What the header says of each channel, the first six and the rest one behind the other."""
-    texts = [value for key, value in said.items() if key.startswith(label) and re.search(r"c\d+ ?- ?c\d+", key)]
+    texts = [value for key, value in header.items() if key.startswith(label) and re.search(r"c\d+ ?- ?c\d+", key)]
     return [part.strip() for text in texts for part in text.split("/")[1:] if part.strip()]

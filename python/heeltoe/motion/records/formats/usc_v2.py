@@ -10,8 +10,9 @@ from __future__ import annotations
 
 import re
 
-from heeltoe.errors import InputError
-from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, peaked, plain, real, word_of_unit
+from heeltoe.errors.error import InputError
+from heeltoe.motion.records.lines import find_text, plain, split_at
+from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, numbers, real, word_of_unit
 
 FORMAT = "USC V2"
 
@@ -36,31 +37,26 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     """Read the acceleration of a file that matches."""
     starts = [k for k, line in enumerate(lines) if _SERIES.match(line[:_LINE])]
     records = []
-    for start, stop in zip(starts, [*starts[1:], len(lines)], strict=True):
-        found = _SERIES.match(lines[start][:_LINE])
-        assert found is not None
-        if found[2].lower() != "acc":
+    for start, stop in split_at(lines, starts):
+        series = _SERIES.match(lines[start][:_LINE])
+        assert series is not None
+        if series[2].lower() != "acc":
             continue
         values = numbers(lines[start + 1 : stop], name, start + 2, 10)
         head = [line[:_LINE] for line in lines[: min(start, _HEADER_LINES)]]
-        warnings = counted(values, int(found[1]), name)
-        peak = next((match for line in head if (match := _PEAK.match(line))), None)
-        if peak:
-            warnings += peaked(values, peak[1], name)
-        station = next((plain(match[1]) for line in head if (match := _STATION.match(line))), "")
         records.append(
             RawRecord(
                 values,
-                time_step=real(found[3]),
-                unit=word_of_unit(found[4]),
+                time_step=real(series[3]),
+                unit=word_of_unit(series[4]),
                 about={
                     "event": plain(head[2][:72]) if len(head) > 3 else "",
                     "date": plain(head[3][:72]) if len(head) > 3 else "",
-                    "station": station,
-                    "component": next((match[1] for line in head if (match := _COMPONENT.match(line))), ""),
+                    "station": plain(find_text(_STATION, head)),
+                    "component": find_text(_COMPONENT, head),
                 },
                 processing=tuple(plain(line) for line in head if _FILTERED.match(line)),
-                warnings=warnings,
+                warnings=check_series(values, name, int(series[1]), find_text(_PEAK, head)),
             )
         )
     if not records:

@@ -8,10 +8,11 @@ from __future__ import annotations
 
 import re
 
-from heeltoe.arrays import Floats
-from heeltoe.errors import InputError
-from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, peaked, plain
-from heeltoe.warnings import Notice
+from heeltoe.base.arrays import Floats
+from heeltoe.errors.error import InputError
+from heeltoe.motion.records.lines import find_text, plain
+from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, numbers
+from heeltoe.warnings.notice import Notice
 
 FORMAT = "USGS SMC"
 
@@ -44,12 +45,9 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
         raise InputError("record-header", name, "48 integers and 50 reals")
     first = next((k for k in range(_REALS.stop, len(lines)) if not lines[k].startswith("|")), len(lines))
     values = numbers(lines[first:], name, first + 1, 10)
-    warnings = counted(values, integers[16], name) if integers[16] != _UNKNOWN else ()
-    if integers[17] == 1:
-        warnings += (Notice("record-flagged", name=name),)
-    peak = next((found for line in text if (found := _PEAK.match(line))), None)
-    if peak:
-        warnings += peaked(values, peak[1], name)
+    flagged = (Notice("record-flagged", name=name),) if integers[17] == 1 else ()
+    count = integers[16] if integers[16] != _UNKNOWN else None
+    warnings = (*check_series(values, name, count), *flagged, *check_series(values, name, None, find_text(_PEAK, text)))
     record = RawRecord(
         values,
         # A rate that is unknown is 1.7e38.
@@ -65,11 +63,11 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
 def _about(text: list[str], integers: Floats) -> dict[str, str]:
     about = {"component": _direction(integers)}
     for line in text:
-        if found := _STATION.match(line):
-            about["station"] = plain(found[1]).rstrip(",")
-            about["component"] = plain(found[2]) or about["component"]
-        elif found := _EVENT.match(line):
-            year, month, day, minute, event = found.groups("")
+        if match := _STATION.match(line):
+            about["station"] = plain(match[1]).rstrip(",")
+            about["component"] = plain(match[2]) or about["component"]
+        elif match := _EVENT.match(line):
+            year, month, day, minute, event = match.groups("")
             about["date"] = f"{year}-{month:0>2}-{day:0>2} {minute}".strip()
             about["event"] = plain(event)
     return about

@@ -14,10 +14,11 @@ import re
 
 import numpy as np
 
-from heeltoe.arrays import Floats
-from heeltoe.errors import InputError
-from heeltoe.motion.records.raw import NUMBER, RawRecord, counted, numbers, peaked, plain, real
-from heeltoe.warnings import Notice
+from heeltoe.base.arrays import Floats
+from heeltoe.errors.error import InputError
+from heeltoe.motion.records.lines import find_line, find_match, plain, split_at
+from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, numbers, real
+from heeltoe.warnings.notice import Notice
 
 FORMAT = "volume 1 (BHRC, RENADIC)"
 
@@ -48,10 +49,7 @@ def matches(lines: list[str]) -> bool:
 def read(lines: list[str], name: str) -> list[RawRecord]:
     """Read every component of a file that matches."""
     starts = [k for k, line in enumerate(lines) if _BHRC.match(line[:200]) or _RENADIC.match(line[:200])]
-    records = [
-        _component(lines[start:stop], name, start)
-        for start, stop in zip(starts, [*starts[1:], len(lines)], strict=True)
-    ]
+    records = [_component(lines[start:stop], name, start) for start, stop in split_at(lines, starts)]
     if not any(_END.match(line) for line in lines[starts[-1] :]):
         records[-1].warnings += (Notice("record-breaks-off", name=name),)
     return records
@@ -59,38 +57,35 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
 
 def _component(lines: list[str], name: str, before: int) -> RawRecord:
     text = [line[:200] for line in lines[:_TEXT]]
-    count = next((found for line in text if (found := _COUNT.match(line))), None)
+    count = next((match for line in text if (match := _COUNT.match(line))), None)
     units = next((k for k, line in enumerate(text) if _TENTHS.match(line)), None)
     if count is None or units is None or not real(count[2]) > 0.0 or int(count[1]) == 0:
         raise InputError("record-header", name, "number of points, duration and unit of g/10")
     # A line of text stands behind that of the units.
     first = units + 2 + _NUMBERS
-    last = next((k for k in range(first, len(lines)) if _END.match(lines[k])), len(lines))
+    last = find_line(lines, _END, first, len(lines))
     pairs = _RENADIC.match(text[0]) is not None
-    given = numbers(lines[first:last], name, before + first + 1, _PAIR if pairs else 0)
-    time, values = _pairs(given, name, before + first + 1) if pairs else (None, given)
+    table = numbers(lines[first:last], name, before + first + 1, _PAIR if pairs else 0)
+    time, values = _pairs(table, name, before + first + 1) if pairs else (None, table)
     values = values / 10.0
-    warnings = counted(values, int(count[1]), name)
     peak = _PEAK.search(text[units])
-    if peak:
-        warnings += peaked(values, peak[1], name)
-    way = next((found for line in text if (found := _WAY.match(line))), None)
+    way = find_match(_WAY, text)
     return RawRecord(
         values,
         time=time,
         time_step=real(count[2]) / int(count[1]) if time is None else None,
         unit="g",
         about={"component": _direction(way, text), **_about(text, pairs)},
-        warnings=warnings,
+        warnings=check_series(values, name, int(count[1]), peak[1] if peak else ""),
         channel=(way[2] or "") if way else "",
         uncorrected="it is of volume 1, as the instrument gave it",
     )
 
 
-def _pairs(found: Floats, name: str, line: int) -> tuple[Floats, Floats]:
-    if found.size % 2:
-        raise InputError("record-ragged", name, f"{found.size} numbers", line=line, width=2)
-    table = found.reshape(-1, 2)
+def _pairs(values: Floats, name: str, line: int) -> tuple[Floats, Floats]:
+    if values.size % 2:
+        raise InputError("record-ragged", name, f"{values.size} numbers", line=line, width=2)
+    table = values.reshape(-1, 2)
     return np.ascontiguousarray(table[:, 0]), np.ascontiguousarray(table[:, 1])
 
 
@@ -100,7 +95,7 @@ def _direction(way: re.Match[str] | None, text: list[str]) -> str:
         return ""
     if way[1] is None:
         return str(way[3])
-    azimuth = next((found for line in text if (found := _AZIMUTH.search(line))), None)
+    azimuth = next((match for line in text if (match := _AZIMUTH.search(line))), None)
     letter = way[1].upper()
     if letter == "V" or azimuth is None:
         return letter

@@ -11,11 +11,11 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation, TriContourSet
 
-from heeltoe.arrays import Floats
-from heeltoe.models.flexible.elastic import principal
-from heeltoe.models.flexible.history import CrackHistory
+from heeltoe.base.arrays import Floats
+from heeltoe.models.flexible.body.elastic import principal
 from heeltoe.models.flexible.mesh.checks import boundary_edges
-from heeltoe.models.flexible.response import FlexibleResponse
+from heeltoe.models.flexible.result.history import CrackHistory
+from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import scaled

@@ -11,9 +11,9 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation, TriContourSet
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.models.flexible.mesh.checks import boundary_edges
-from heeltoe.models.flexible.response import FlexibleResponse
+from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.views.figures.dam import dam_axes, extent
 from heeltoe.views.figures.style import COLOURS, WIDTH, describe, styled

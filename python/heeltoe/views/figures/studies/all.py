@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from heeltoe.study.opened import Opened
+from heeltoe.study.answers.study_results import Opened
 from heeltoe.views.figures.studies.curves import bands_figure, fragility_figure
 from heeltoe.views.figures.studies.parts import modes_figure, slips_figure
 from heeltoe.views.figures.studies.sensitivity import sobol_figure, tornado_figure

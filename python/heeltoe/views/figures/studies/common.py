@@ -7,7 +7,7 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
-from heeltoe.study.opened import Opened
+from heeltoe.study.answers.study_results import Opened
 from heeltoe.units.systems import INCH
 from heeltoe.views.figures.style import heading
 from heeltoe.views.words.studies import strength_scale
@@ -24,7 +24,7 @@ class Strength:
     Attributes
     ----------
     measure, period
-        As :meth:`heeltoe.study.opened.Opened.bands` takes them.
+        As :meth:`heeltoe.study.answers.study_results.Opened.bands` takes them.
     scale
         What a strength in SI is divided by.
     label

@@ -9,11 +9,11 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 
-from heeltoe.arrays import Floats
+from heeltoe.base.arrays import Floats
 from heeltoe.result.contract import JOINT_METER_M
-from heeltoe.study.fragility import Curve, observed
-from heeltoe.study.opened import Opened
-from heeltoe.study.walk import SHAKEN
+from heeltoe.study.answers.fragility import Curve, observed
+from heeltoe.study.answers.study_results import Opened
+from heeltoe.study.run.aggregate import SHAKEN
 from heeltoe.units.write import length
 from heeltoe.views.figures.studies.common import LINES, Strength, farthest, headed, measured, slip_scale, strength_of
 from heeltoe.views.figures.style import WIDTH, styled

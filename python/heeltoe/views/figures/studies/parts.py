@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from heeltoe.result.contract import JOINT_METER_M
-from heeltoe.study.answers import MODES, farther, modes
-from heeltoe.study.opened import Opened
+from heeltoe.study.answers.answers import MODES, farther, modes
+from heeltoe.study.answers.study_results import Opened
 from heeltoe.units.write import length, number
 from heeltoe.views.figures.studies.common import LINES, farthest, headed, slip_scale, strength_of
 from heeltoe.views.figures.style import MODE_COLOURS, MODE_HATCHES, WIDTH, styled

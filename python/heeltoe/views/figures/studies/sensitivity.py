@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from heeltoe.study.opened import Opened
+from heeltoe.study.answers.study_results import Opened
 from heeltoe.views.figures.studies.common import headed, slip_scale
 from heeltoe.views.figures.style import COLOURS, WIDTH, styled
 from heeltoe.views.words.studies import ends_of

@@ -1,0 +1,50 @@
+//! A crack as data: its nodes, its friction, its shape.
+
+use crate::friction::Law;
+
+/// Some nodes of a body that follow each other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Span {
+    /// The first.
+    pub first: usize,
+    /// How many.
+    pub count: usize,
+}
+
+/// A crack.
+#[derive(Clone, Debug)]
+pub struct Line {
+    /// Nodes of its upper and of its lower face, among those of the bodies they belong to; no lower ones on a rigid plane.
+    pub nodes: [Span; 2],
+    /// Coefficients of friction of a node that sticks and of one that slips.
+    pub friction: [f64; 2],
+    /// A friction law in their place.
+    pub law: Option<Law>,
+    /// Angles of the segments of its upper and of its lower face to the line from heel to toe (rad); none of a straight
+    /// crack.
+    pub angles: [Vec<f64>; 2],
+    /// What tells rocking and drifting from elastic deformation.
+    pub give: RockingThresholds,
+}
+
+impl Line {
+    /// The only crack of a dam, between faces of so many nodes.
+    pub fn only(nodes: [usize; 2], friction: [f64; 2], give: RockingThresholds) -> Self {
+        Line {
+            nodes: nodes.map(|count| Span { first: 0, count }),
+            friction,
+            law: None,
+            angles: [Vec::new(), Vec::new()],
+            give,
+        }
+    }
+}
+
+/// What elastic deformation alone accounts for.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RockingThresholds {
+    /// Rotation of the crack's faces against each other.
+    pub rotation: f64,
+    /// Gap.
+    pub gap: f64,
+}

@@ -1,0 +1,9 @@
+//! The kernels against closed forms, and against steppers so plain that one sees what they do. They use nothing but what
+//! the crate hands out, as any user does.
+
+mod flexible;
+mod friction_laws;
+mod numbers;
+mod rigid;
+mod rocking;
+mod stack;

@@ -1,0 +1,1 @@
+"""The page "Export": results, reports and figures as files, and the commands that make them elsewhere."""

@@ -1,0 +1,184 @@
+"""A response as the page draws it: texts in the units of the reader, curves with as many points as a screen has, and
+the dam in motion at the moments that matter."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe.app.wording import meant
+from heeltoe.base.arrays import Floats
+from heeltoe.case.model import Case
+from heeltoe.result.contract import HEADLINES
+from heeltoe.result.response import Response
+from heeltoe.result.verdict import verdict
+from heeltoe.units.sentences import written
+from heeltoe.units.systems import unit_system
+from heeltoe.units.write import angle, length
+from heeltoe.views.animation.page import packed, part_data
+from heeltoe.views.figures.panels import pieces
+from heeltoe.views.figures.style import shaken_by
+from heeltoe.views.words import cracks as crack_words
+from heeltoe.views.words import sequence as sequence_words
+from heeltoe.views.words.law import law_lines
+
+# Stretches of a history of which each has its peaks drawn: as many as a large screen has room for.
+_BINS = 400
+_KINDS = {"sliding": "slide", "slide_rocking": "slide-rock", "drifting": "drift"}
+
+
+def drawn(response: Response, units: str) -> dict[str, Any]:
+    """Return what the page shows of a response."""
+    payload = {
+        "model": response.model,
+        "title": response.title,
+        "ok": response.ok,
+        "verdict": verdict(response, units),
+        "warnings": [{"text": meant(warning, units), "severity": warning.severity} for warning in response.warnings],
+        "shaking": shaken_by(response),
+        "seconds": response.seconds,
+    }
+    if not response.summary:
+        return payload
+    return payload | {
+        "numbers": _numbers(response, units),
+        "curves": _curves(response, units),
+        "ribbon": _ribbon(response),
+        "slips": _slips(response, units),
+        "facts": law_lines(response, units),
+        "tables": [
+            {"label": label, "columns": columns, "rows": rows} for label, columns, rows in _tables(response, units)
+        ],
+    }
+
+
+def _numbers(response: Response, units: str) -> list[dict[str, str]]:
+    numbers = []
+    for headline in HEADLINES:
+        value = headline.way * response.summary[headline.key]
+        text = angle(value) if headline.kind == "rotation" else length(value, units)
+        numbers.append(
+            {"key": headline.key, "label": headline.full, "text": text if abs(value) >= headline.least else "0"}
+        )
+    return numbers
+
+
+def _tables(response: Response, units: str) -> Iterator[tuple[str, Sequence[str], list[list[str]]]]:
+    """Walk what a response tells row by row: of several cracks, of several motions."""
+    if response.several:
+        yield "Each crack, from the crest down", crack_words.COLUMNS, crack_words.crack_rows(response, units)
+    if response.sequence:
+        yield "Motion by motion", sequence_words.COLUMNS, sequence_words.sequence_rows(response, units)
+
+
+def _curves(response: Response, units: str) -> dict[str, Any]:
+    h = response.histories
+    ground = h["ground_acceleration_m_s2"] / response.gravity
+    others = response.others
+    cracks = [response, *others.values()]
+    moving = [crack.histories[name] for crack in cracks for name in ("slip_m", "rotation_rad")]
+    kept = thinned([*moving, ground], _BINS)
+    system = unit_system(units)
+    # The smallest units, whatever the size: the curves of two models share an axis.
+    scales = {"slip": system.scale("displacement", 0.0), "rotation": system.scale("rotation", 0.0)}
+
+    def rows(crack: Response) -> dict[str, Any]:
+        values = {"slip": crack.histories["slip_m"], "rotation": crack.histories["rotation_rad"]}
+        return {
+            name: {"unit": scale.unit, "values": packed(scale(values[name][kept]), "float32")}
+            for name, scale in scales.items()
+        }
+
+    return {
+        "time": packed(h["time_s"][kept], "float32"),
+        "end": float(h["time_s"][-1]),
+        "ground": {"unit": "g", "values": packed(ground[kept], "float32")},
+        "cracks": [{"name": name, **rows(crack)} for name, crack in _named(response, others, units)],
+        **rows(response),
+    }
+
+
+def _named(response: Response, others: Mapping[str, Response], units: str) -> Iterator[tuple[str, Response]]:
+    """Walk the cracks beside that of ``[crack]``, by where they are."""
+    for name, other in others.items():
+        place = int(name.rpartition("-")[2]) - 1
+        yield written("crack at {at_m:g m}", units, at_m=response.cracks[place].elevation), other
+
+
+def _ribbon(response: Response) -> list[dict[str, Any]]:
+    """Return kind, start and end of each stretch of one kind of motion; neighbours of one kind are joined."""
+    spans: list[dict[str, Any]] = []
+    for kind, start, end in pieces(response):
+        if spans and spans[-1]["kind"] == kind:
+            spans[-1]["end"] = end
+        elif end > start:
+            spans.append({"kind": kind, "start": start, "end": end})
+    return spans
+
+
+def _slips(response: Response, units: str) -> list[dict[str, Any]]:
+    slips = {kind: response.slip_by_mode_m[key] for key, kind in _KINDS.items()}
+    largest = max(float(np.max(np.abs(list(slips.values())))), 1e-12)
+    return [
+        {"kind": kind, "text": length(value, units), "share": abs(value) / largest, "upstream": value < 0.0}
+        for kind, value in slips.items()
+    ]
+
+
+def thinned(rows: Sequence[Floats], bins: int) -> NDArray[np.int64]:
+    """Return which moments of some histories to draw, so that no peak of any of them is lost.
+
+    Parameters
+    ----------
+    rows
+        Of equal length, on the same moments.
+    bins
+        Into how many stretches the moments are divided: of each the first is kept, and where every row is largest and
+        least; the last of all, too.
+    """
+    count = len(rows[0])
+    width = -(-count // bins)
+    if width <= 2:
+        return np.arange(count)
+    whole = count - count % width
+    starts = np.arange(0, count, width)
+    places = [starts, np.array([count - 1])]
+    for row in rows:
+        table = row[:whole].reshape(-1, width)
+        places += [starts[: len(table)] + table.argmax(axis=1), starts[: len(table)] + table.argmin(axis=1)]
+        if whole < count:
+            places.append(whole + np.array([row[whole:].argmax(), row[whole:].argmin()]))
+    return np.unique(np.concatenate(places))
+
+
+_DAM_BINS = 200
+_COLUMNS = ("slip_m", "rotation_rad", "gap_heel_m", "gap_toe_m")
+
+
+def dam(case: Case, response: Response) -> dict[str, Any] | None:
+    """Return the moving parts of a dam, from the crest down; None for a response without results.
+
+    The parts of an elastic dam are drawn as rigid blocks, by the motion of their cracks.
+    """
+    from heeltoe.views.animation.bodies import Moments, rigid_parts
+    from heeltoe.views.animation.frames import chosen_exaggeration, water_level
+
+    if not response.summary or not response.histories:
+        return None
+    cracks = [crack.histories for crack in response.cracks]
+    if len(cracks) != len(case.single_crack_cases):
+        return None
+    samples = response.histories["time_s"]
+    times = samples[thinned([history[name] for history in cracks for name in _COLUMNS], _DAM_BINS)]
+    parts = rigid_parts(case, cracks, Moments.of(samples, times))
+    return {
+        "parts": [part_data(part) for part in parts],
+        "base": case.cut.base_elevation,
+        "water": water_level(case.cut, case.reservoir),
+        "tailwater": water_level(case.cut, case.tailwater),
+        "exaggeration": chosen_exaggeration(response, parts, case.cut),
+        "times": packed(times, "float32"),
+    }

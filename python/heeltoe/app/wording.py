@@ -1,0 +1,25 @@
+"""What is said of a result in the words of a page: its button, where the command line would be meant."""
+
+from __future__ import annotations
+
+from heeltoe.warnings.notice import AS_ELASTIC, Notice
+
+_STATICS = "the list of static checks below"
+# The longer before what they begin with.
+_MEANT = {
+    AS_ELASTIC: "run the elastic dam with its button",
+    "heeltoe statics --slip": _STATICS,
+    "heeltoe statics": _STATICS,
+}
+
+
+def meant(notice: Notice, units: str) -> str:
+    """Return the sentence of a warning."""
+    return in_words_of_the_page(notice.text(units))
+
+
+def in_words_of_the_page(text: str) -> str:
+    """Return a sentence that names buttons, and no commands."""
+    for command, button in _MEANT.items():
+        text = text.replace(command, button)
+    return text

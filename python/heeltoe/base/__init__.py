@@ -1,0 +1,1 @@
+"""What every room stands on: arrays, a cache, files written whole, how a thing shows itself."""

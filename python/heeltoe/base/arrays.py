@@ -1,0 +1,60 @@
+"""Kinds of arrays, and what one number and a column of them need alike.
+
+The mechanics of one dam are those of many: where its numbers are columns, (n,) arrays that stand in for floats, the
+same sums and products give columns. The functions here do so for what an array has no operator for.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+def number(value: object) -> float:
+    """Return a sum over an array as the number that it is, or as the column."""
+    result: float = value if np.ndim(value) else float(value)  # type: ignore[arg-type, assignment]
+    return result
+
+
+def larger(one: float, other: float) -> float:
+    """Return the larger of two numbers, row by row of columns."""
+    if isinstance(one, float) and isinstance(other, float):
+        return max(one, other)
+    result: float = np.maximum(one, other)
+    return result
+
+
+def smaller(one: float, other: float) -> float:
+    """Return the smaller of two numbers, row by row of columns."""
+    if isinstance(one, float) and isinstance(other, float):
+        return min(one, other)
+    result: float = np.minimum(one, other)
+    return result
+
+
+def where(holds: bool, this: float, that: float) -> float:
+    """Return `this` where something holds, else `that`, row by row of columns."""
+    if isinstance(holds, bool | np.bool_):
+        return this if holds else that
+    result: float = np.where(holds, this, that)
+    return result
+
+
+def ratio(this: float, that: float) -> float:
+    """Return the quotient of two numbers, row by row of columns; zero over what is zero."""
+    if isinstance(this, float) and isinstance(that, float):
+        return this / that if that else 0.0
+    shape = np.broadcast_shapes(np.shape(this), np.shape(that))
+    result: float = np.divide(this, that, out=np.zeros(shape), where=np.not_equal(that, 0.0))
+    return result
+
+
+def arctan(slope: float) -> float:
+    """Return the angle of a slope, row by row of columns [rad]."""
+    result: float = math.atan(slope) if isinstance(slope, float) else np.arctan(slope)
+    return result

@@ -1,0 +1,158 @@
+"""Typed blocks of a result: every number stands once, with its type, its unit and its meaning in its annotation.
+
+JSON, JSON schema, ``heeltoe explain``, tables of the documentation, editors and type checkers read them there::
+
+    class Penetration(Block):
+        watched: Annotated[float, Number("Deepest of a watched node into the other face.", "m")]
+"""
+
+from __future__ import annotations
+
+import types
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, fields, is_dataclass
+from functools import cache
+from typing import Annotated, Any, Literal, NamedTuple, Union, dataclass_transform, get_args, get_origin, get_type_hints
+
+
+@dataclass(frozen=True)
+class Number:
+    """What a field of a block holds.
+
+    Attributes
+    ----------
+    meaning
+        In a sentence.
+    unit
+        Its unit in the JSON, as ``m`` or ``rad/s²``; empty of counts, shares, words and blocks.
+    optional
+        Whether the key is left out of the JSON where there is no value, rather than null.
+    """
+
+    meaning: str
+    unit: str = ""
+    optional: bool = False
+
+
+@dataclass_transform(kw_only_default=True, frozen_default=True, eq_default=False, field_specifiers=(field,))
+class Block(Mapping[str, Any]):
+    """A block of a result: an immutable record, which reads by its JSON names, too (``block["watched"]``)."""
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        dataclass(frozen=True, kw_only=True, eq=False)(cls)
+
+    def __iter__(self) -> Iterator[str]:
+        for entry in entries(type(self)):
+            if not (entry.number.optional and getattr(self, entry.name) is None):
+                yield entry.name
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+    def __getitem__(self, name: str) -> Any:
+        if name not in set(self):
+            raise KeyError(name)
+        return getattr(self, name)
+
+    @classmethod
+    def names(cls) -> tuple[str, ...]:
+        """Return the names of its fields, in their order."""
+        return tuple(entry.name for entry in entries(cls))
+
+    def to_json(self) -> dict[str, Any]:
+        """Return a dictionary of plain numbers, words, lists and dictionaries."""
+        return {name: plain_json(value) for name, value in self.items()}
+
+
+def plain_json(value: Any) -> Any:
+    """Return a value of a block as JSON has it."""
+    if hasattr(value, "to_json"):
+        return value.to_json()
+    if isinstance(value, Mapping):
+        return {name: plain_json(item) for name, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [plain_json(item) for item in value]
+    return value
+
+
+class Entry(NamedTuple):
+    """A field of a block: its name, its type without its annotation, and what that says of it."""
+
+    name: str
+    type: Any
+    number: Number
+
+
+@cache
+def entries(kind: type) -> tuple[Entry, ...]:
+    """Return the fields of a block that the JSON has, in their order: those with a :class:`Number`."""
+    hints = get_type_hints(kind, include_extras=True)
+    rows = []
+    for item in fields(kind):
+        hint = hints[item.name]
+        numbers = [extra for extra in get_args(hint)[1:] if isinstance(extra, Number)] if _annotated(hint) else []
+        if numbers:
+            rows.append(Entry(item.name, get_args(hint)[0], numbers[0]))
+    return tuple(rows)
+
+
+def _annotated(hint: Any) -> bool:
+    return get_origin(hint) is Annotated
+
+
+def described(kind: type, above: str = "") -> Iterator[tuple[str, Number]]:
+    """Walk the paths of all keys of a block with what they hold; ``[]`` is a place in a list, ``*`` any name."""
+    for entry in entries(kind):
+        path = f"{above}{entry.name}"
+        yield path, entry.number
+        for inner, place in _blocks_in(entry.type):
+            yield from described(inner, f"{path}{place}.")
+
+
+def _blocks_in(hint: Any) -> Iterator[tuple[type, str]]:
+    """Walk the blocks that a type holds, and how a path leads on to them."""
+    if isinstance(hint, type) and is_dataclass(hint):
+        yield hint, ""
+        return
+    origin, inner = get_origin(hint), get_args(hint)
+    if origin in (Union, types.UnionType):
+        for part in inner:
+            yield from _blocks_in(part)
+    elif origin in (list, tuple):
+        yield from ((block, f"[]{place}") for block, place in _blocks_in(inner[0]))
+    elif origin in (dict, Mapping):
+        yield from ((block, f".*{place}") for block, place in _blocks_in(inner[1]))
+
+
+_PLAIN = {float: "number", int: "integer", str: "string", bool: "boolean", types.NoneType: "null"}
+
+
+def json_schema(hint: Any, number: Number | None = None) -> dict[str, Any]:
+    """Return the JSON schema of a type: of a block with units and meanings."""
+    origin, inner = get_origin(hint), get_args(hint)
+    schema: dict[str, Any]
+    if origin is Annotated:
+        schema = json_schema(inner[0])
+    elif hint in _PLAIN:
+        schema = {"type": _PLAIN[hint]}
+    elif origin is Literal:
+        schema = {"enum": list(inner)}
+    elif origin in (Union, types.UnionType):
+        schema = {"anyOf": [json_schema(part) for part in inner]}
+    elif origin in (list, tuple):
+        schema = {"type": "array", "items": json_schema(inner[0])}
+    elif origin in (dict, Mapping):
+        schema = {"type": "object", "additionalProperties": json_schema(inner[1])}
+    elif isinstance(hint, type) and is_dataclass(hint):
+        rows = entries(hint)
+        schema = {
+            "type": "object",
+            "properties": {entry.name: json_schema(entry.type, entry.number) for entry in rows},
+            "required": [entry.name for entry in rows if not entry.number.optional],
+        }
+    else:
+        schema = {}
+    if number is not None:
+        schema |= {"description": number.meaning} | ({"unit": number.unit} if number.unit else {})
+    return schema

@@ -1,0 +1,23 @@
+"""Tables as pandas has them, which nothing else here needs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from heeltoe.errors.error import InputError
+
+
+def dataframe(columns: Mapping[str, Any]) -> Any:
+    """Return columns of equal length as a ``pandas.DataFrame``.
+
+    Raises
+    ------
+    InputError
+        Where pandas is not installed.
+    """
+    try:
+        from pandas import DataFrame
+    except ImportError:
+        raise InputError("pandas-package", "to_pandas") from None
+    return DataFrame(dict(columns))

@@ -1,0 +1,397 @@
+"""Which features of a case go together, and which models and tables support them: one table.
+
+:data:`RULES` is read by the checks of a case (:func:`conflicts`), by the models before they run (:func:`check`), by
+`heeltoe explain` (:func:`rules_of`), by the app and by the page of the documentation. What no rule names is supported.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
+
+from heeltoe.case.crack.kinks import climbs
+from heeltoe.errors.error import InputError, shown
+
+if TYPE_CHECKING:
+    from heeltoe.case.model import Case
+
+# Fields of a case that have a feature, with their values.
+Found = Iterator[tuple[str, object]]
+Finder = Callable[["Case"], Found]
+
+
+@dataclass(frozen=True)
+class Feature:
+    """Something that a case may have.
+
+    Attributes
+    ----------
+    name
+        As messages and the documentation call it.
+    fields
+        Paths of its fields, or of the first of them.
+    removal
+        How a case does without it.
+    find
+        Walks the fields of a case that have it, with their values; a value of None goes without saying.
+    """
+
+    name: str
+    fields: tuple[str, ...]
+    removal: str
+    find: Finder
+
+
+@dataclass(frozen=True)
+class Rule:
+    """A feature that does not go with another one, or that a model does not support.
+
+    Attributes
+    ----------
+    feature
+        Name of the feature, in :data:`FEATURES`.
+    other
+        Name of another feature; empty where the feature alone is not supported.
+    users
+        Which models and tables the rule is about, by their keys in :data:`USERS`; empty for all.
+    reason
+        Why.
+    verdict
+        ``"refused"``, or ``"warned"`` where the case runs and a warning says what the feature leaves out.
+    """
+
+    feature: str
+    other: str
+    users: tuple[str, ...]
+    reason: str
+    verdict: Literal["refused", "warned"] = "refused"
+
+    def without(self, path: str) -> str:
+        """Return in a few words what a field does not go with by this rule."""
+        features = [name for name in (self.feature, self.other) if name and not _is_of(FEATURES[name], path)]
+        users = [USERS[user] for user in self.users]
+        what = f"{features[0]} in {', '.join(users)}" if features and users else ", ".join(features or users)
+        return f"{what} (a warning says what is left out)" if self.verdict == "warned" else what
+
+
+#: What uses a case, by its key.
+USERS = {
+    "rigid": "the rigid model",
+    "decoupled": "the decoupled chain",
+    "flexible": "the flexible model",
+    "beside": "the block beside the flexible model",
+    "study": "a study of blocks",
+    "table": "a table of blocks",
+    "map": "a map of overturning",
+    "rotation": "a ground that rotates",
+    "motions": "a study with motions of its own",
+}
+#: Code of the error that a model or table does not support a case.
+UNSUPPORTED = "unsupported"
+# Models that a remedy may name, the best one first.
+_MODELS = ("flexible", "rigid", "decoupled")
+
+
+def _cracks(case: Case, fewest: int = 2) -> Found:
+    if len(case.further_cracks) + 1 >= fewest:
+        yield case.path_as_written("further_cracks"), len(case.further_cracks) + 1
+
+
+def _of_cracks(name: str) -> Finder:
+    def find(case: Case) -> Found:
+        for place, crack in enumerate((case.crack, *case.further_cracks)):
+            value = getattr(crack, name, None)
+            if value:
+                path = f"further_cracks[{place - 1}]" if place else "crack"
+                yield case.path_as_written(f"{path}.{name}"), getattr(value, "name", None)
+
+    return find
+
+
+def _options(*fields: str, unlike: tuple[object, ...] = (None,), among: tuple[object, ...] = ()) -> Finder:
+    """Return what finds fields whose values are unlike some, or among others."""
+
+    def find(case: Case) -> Found:
+        for path in fields:
+            block, _, name = path.partition(".")
+            owner = getattr(case, block)
+            value = None if owner is None else getattr(owner, name)
+            if owner is not None and (value in among if among else value not in unlike):
+                yield path, value if isinstance(value, str) and not name.startswith("mesh") else None
+
+    return find
+
+
+def _anchors(*names: str) -> Finder:
+    def find(case: Case) -> Found:
+        for place, anchor in enumerate(case.anchors):
+            for name in names:
+                # A place at the heel is one, no stiffness is none.
+                if getattr(anchor, name) is not None and (name == "distance" or getattr(anchor, name)):
+                    yield f"anchors[{place}].{name}", None
+
+    return find
+
+
+def _aftershocks(case: Case) -> Found:
+    if case.aftershocks:
+        yield "aftershocks", None
+
+
+def _closing_drains(case: Case) -> Found:
+    if case.statics.drain_diameter is not None:
+        yield "statics.drain_diameter", None
+
+
+def _cohesive_law(case: Case) -> Found:
+    if case.crack.law is not None and case.crack.law.cohesion is not None:
+        yield "crack.law.cohesion", None
+
+
+def _cohesion_of_checks(case: Case) -> Found:
+    if case.statics.cohesion:
+        yield "statics.cohesion", None
+
+
+#: All features, by their names.
+FEATURES = {
+    feature.name: feature
+    for feature in (
+        Feature("several cracks", ("further_cracks", "cracks"), "keep one crack", _cracks),
+        Feature("three cracks", ("further_cracks", "cracks"), "keep two cracks", lambda case: _cracks(case, 3)),
+        Feature("kinks", ("crack.kinks", "further_cracks.kinks"), "remove the kinks", _of_cracks("kinks")),
+        Feature(
+            "kinks off the straight line",
+            ("crack.kinks", "further_cracks.kinks"),
+            "remove the kinks",
+            lambda case: (place for place in _of_cracks("kinks")(case) if climbs(case.crack.kinks)),
+        ),
+        Feature("roughness", ("crack.roughness",), "remove roughness", _of_cracks("roughness")),
+        Feature(
+            "a friction law", ("crack.law", "further_cracks.law"), "give coefficients of friction", _of_cracks("law")
+        ),
+        Feature(
+            "a law with cohesion", ("crack.law.cohesion",), "give the cohesion in statics.cohesion alone", _cohesive_law
+        ),
+        Feature("cohesion of the static checks", ("statics.cohesion",), "remove statics.cohesion", _cohesion_of_checks),
+        Feature(
+            "uplift that changes during shaking",
+            ("uplift.during_shaking", "uplift.opening"),
+            'set uplift.during_shaking = "constant"',
+            _options("uplift.during_shaking", unlike=("constant",)),
+        ),
+        Feature(
+            "an anchor placed on one crack",
+            ("anchors.distance", "anchors.inclination"),
+            "give head_x, head_elevation, foot_x and foot_elevation",
+            _anchors("distance"),
+        ),
+        Feature(
+            "an anchor with stiffness",
+            ("anchors.axial_stiffness", "anchors.shear_stiffness"),
+            "give prestress alone",
+            _anchors("axial_stiffness", "shear_stiffness"),
+        ),
+        Feature("aftershocks", ("aftershocks",), "remove the aftershocks", _aftershocks),
+        Feature(
+            "drains that slip closes",
+            ("statics.drain_diameter",),
+            "remove statics.drain_diameter",
+            _closing_drains,
+        ),
+        Feature(
+            "finite rotation",
+            ("analysis.rotation",),
+            'set analysis.rotation = "small"',
+            _options("analysis.rotation", among=("finite",)),
+        ),
+        Feature(
+            "rotation beyond small angles",
+            ("analysis.rotation",),
+            'set analysis.rotation = "small"',
+            _options("analysis.rotation", unlike=("small",)),
+        ),
+        Feature(
+            "penalty contact",
+            ("flexible.contact",),
+            'set flexible.contact = "coulomb"',
+            _options("flexible.contact", among=("idce",)),
+        ),
+        Feature(
+            "damping of free parts",
+            ("flexible.damping",),
+            'set flexible.damping = "stiffness"',
+            _options("flexible.damping", among=("relative", "modal")),
+        ),
+        Feature(
+            "options of the thesis",
+            ("flexible.damping", "flexible.virtual_mass"),
+            "leave flexible.damping and flexible.virtual_mass out",
+            _options("flexible.damping", "flexible.virtual_mass", among=("thesis",)),
+        ),
+        Feature(
+            "meshes from files",
+            ("flexible.mesh_above", "flexible.mesh_below"),
+            "remove the meshes",
+            _options("flexible.mesh_above", "flexible.mesh_below"),
+        ),
+        Feature(
+            "another number of elements below",
+            ("flexible.elements_across_below",),
+            "remove flexible.elements_across_below",
+            _options("flexible.elements_across_below"),
+        ),
+        Feature(
+            "virtual water that does not rotate",
+            ("reservoir.virtual_mass_rotates", "tailwater.virtual_mass_rotates"),
+            "set virtual_mass_rotates = true",
+            _options("reservoir.virtual_mass_rotates", "tailwater.virtual_mass_rotates", unlike=(True,)),
+        ),
+        Feature(
+            "Zangar's water pressure",
+            ("reservoir.hydrodynamic", "tailwater.hydrodynamic"),
+            'set hydrodynamic = "westergaard"',
+            _options("reservoir.hydrodynamic", "tailwater.hydrodynamic", unlike=("westergaard",)),
+        ),
+    )
+}
+
+_ONE_CRACK = "it is implemented for one crack"
+_STRAIGHT = "it is implemented for a straight crack"
+_NOT_THERE = "the penalty method does not support it"
+_OF_BLOCKS = ("rigid", "decoupled", "beside", "study", "table", "map", "rotation")
+#: The table. The first rule that a case breaks is told first.
+RULES = (
+    Rule(
+        "an anchor placed on one crack", "several cracks", (), "the place is on one crack, and the anchor may cross all"
+    ),
+    Rule("an anchor with stiffness", "several cracks", (), _ONE_CRACK),
+    Rule("roughness", "several cracks", (), _ONE_CRACK),
+    Rule("uplift that changes during shaking", "several cracks", (), _ONE_CRACK),
+    Rule("penalty contact", "several cracks", (), _ONE_CRACK),
+    Rule("options of the thesis", "several cracks", (), _ONE_CRACK),
+    Rule("meshes from files", "several cracks", (), _ONE_CRACK),
+    Rule("finite rotation", "roughness", (), "rough blocks rotate by small angles"),
+    Rule("uplift that changes during shaking", "roughness", (), "no model combines them"),
+    Rule("an anchor with stiffness", "roughness", (), "no model combines them"),
+    Rule("roughness", "a friction law", (), "coefficients of a law are those of plane flanks"),
+    Rule("roughness", "kinks", (), _STRAIGHT),
+    Rule("uplift that changes during shaking", "kinks", (), _STRAIGHT),
+    Rule("penalty contact", "kinks", (), _STRAIGHT),
+    Rule("meshes from files", "kinks", (), _STRAIGHT),
+    Rule("another number of elements below", "kinks", (), "both faces share the corners of the crack"),
+    Rule("cohesion of the static checks", "a law with cohesion", (), "cohesion would be stated twice"),
+    Rule("damping of free parts", "penalty contact", (), _NOT_THERE),
+    Rule("three cracks", "", ("rigid",), "its blocks are two at most, one on the other"),
+    Rule(
+        "several cracks",
+        "",
+        ("decoupled", "beside", "table", "map", "rotation"),
+        "what is above one of several cracks is not a single block",
+    ),
+    Rule("kinks", "", _OF_BLOCKS, "a block slides on a straight line"),
+    Rule("aftershocks", "several cracks", ("rigid",), "two blocks run through one motion"),
+    Rule("a friction law", "several cracks", ("rigid",), "two blocks have constant coefficients of friction"),
+    Rule("rotation beyond small angles", "several cracks", ("rigid",), "two blocks rotate by small angles"),
+    Rule("virtual water that does not rotate", "several cracks", ("rigid",), "the virtual water of two blocks rotates"),
+    Rule("Zangar's water pressure", "several cracks", ("rigid",), "the virtual water of two blocks is Westergaard's"),
+    Rule("roughness", "", ("flexible",), "the faces of its cracks are smooth"),
+    Rule("a friction law", "penalty contact", ("flexible",), _NOT_THERE),
+    Rule("uplift that changes during shaking", "penalty contact", ("flexible",), _NOT_THERE),
+    Rule("an anchor with stiffness", "penalty contact", ("flexible",), _NOT_THERE),
+    Rule("aftershocks", "", ("motions",), "the motions of the study replace all motions of the case"),
+    *(
+        Rule(
+            "drains that slip closes",
+            other,
+            ("flexible",),
+            "the later motions are computed with all of the drainage",
+            "warned",
+        )
+        for other in (
+            "several cracks",
+            "kinks off the straight line",
+            "uplift that changes during shaking",
+            "penalty contact",
+        )
+    ),
+    Rule("rotation beyond small angles", "", ("flexible",), "elastic parts rotate by small angles", "warned"),
+    Rule("Zangar's water pressure", "", ("flexible",), "the water of an elastic dam is Westergaard's", "warned"),
+)
+
+
+def conflicts(case: Case) -> Iterator[InputError]:
+    """Walk the features of a case that do not go together, whatever is done with it."""
+    for rule in RULES:
+        if not rule.users and rule.verdict == "refused":
+            yield from _errors(case, rule, "")
+
+
+def check(case: Case, user: str) -> None:
+    """Refuse a case that has what a model or table does not support; `user` is a key of :data:`USERS`.
+
+    Raises
+    ------
+    InputError
+        The first feature that is not supported, with the others.
+    """
+    errors = list(_unsupported(case, user))
+    if errors:
+        raise errors[0].with_others(errors[1:])
+
+
+def supports(case: Case, user: str) -> bool:
+    """Whether a model or table supports all features of a case."""
+    return not any(True for rule in _rules_for(user) for _ in _broken(case, rule))
+
+
+def warned(case: Case, feature: str, user: str) -> bool:
+    """Whether a feature of a case has less effect in a model than its field says, which a warning tells."""
+    rules = [rule for rule in RULES if rule.verdict == "warned" and rule.feature == feature and user in rule.users]
+    return any(True for rule in rules for _ in _broken(case, rule))
+
+
+def rules_of(path: str) -> tuple[Rule, ...]:
+    """Return the rules about a field, or about the block that it is in; its path has no places in lists."""
+    named = {feature.name for feature in FEATURES.values() if _is_of(feature, path)}
+    return tuple(rule for rule in RULES if named & {rule.feature, rule.other})
+
+
+def _is_of(feature: Feature, path: str) -> bool:
+    own = re.sub(r"^cracks\.", "crack.", path)
+    return any(own == field or own.startswith(f"{field}.") for field in feature.fields)
+
+
+def _rules_for(user: str) -> Iterator[Rule]:
+    """Return what a model or table refuses, with what nothing supports: a case may be changed after it was checked."""
+    return (rule for rule in RULES if (user in rule.users or not rule.users) and rule.verdict == "refused")
+
+
+def _unsupported(case: Case, user: str) -> Iterator[InputError]:
+    for rule in _rules_for(user):
+        yield from _errors(case, rule, user if rule.users else "")
+
+
+def _broken(case: Case, rule: Rule) -> Found:
+    """Walk the fields with the feature of a rule, where the case has the other one, too."""
+    if not rule.other or any(True for _ in FEATURES[rule.other].find(case)):
+        yield from FEATURES[rule.feature].find(case)
+
+
+def _errors(case: Case, rule: Rule, user: str) -> Iterator[InputError]:
+    for path, value in _broken(case, rule):
+        name = rule.feature if value is None else f"{rule.feature} ({shown(value)})"
+        remedy = FEATURES[rule.feature].removal
+        if rule.other:
+            remedy = f"{remedy}, or {FEATURES[rule.other].removal}"
+        if not user:
+            yield InputError("combination", path, name, other=rule.other, reason=rule.reason, remedy=remedy)
+            continue
+        model = next((candidate for candidate in _MODELS if candidate != user and supports(case, candidate)), None)
+        run = "" if model is None else f"run {USERS[model]}, or "
+        if user == "motions":
+            run = "leave [motions] out, or "
+        combined = f"{name} with {rule.other}" if rule.other else name
+        yield InputError(UNSUPPORTED, path, combined, model=USERS[user], reason=rule.reason, remedy=f"{run}{remedy}")

@@ -1,0 +1,107 @@
+"""Errors of a dam, its crack and its anchors: a part of the catalogue (:mod:`heeltoe.errors.error`)."""
+
+from __future__ import annotations
+
+# As in heeltoe.errors.error: code -> (what is wrong, what to do).
+OF_DAMS: dict[str, tuple[str, str]] = {
+    "anchor-outside": ("{value} is beyond the toe: the crack is {width} wide", "give a distance from 0 m to {width}"),
+    "anchor-form": ("is required but missing", "give distance, or head_x, head_elevation, foot_x and foot_elevation"),
+    "anchor-flat": (
+        "the line from its head to its foot is {value} off the normal of the crack",
+        "let it cross the crack more steeply, up to {most}",
+    ),
+    "section-incomplete": ("is required but missing", "give {fields}; or slopes, a polygon or a file"),
+    "face-levels": ("the elevations {value} do not ascend from 0 m", "give the base first, then each break in order"),
+    "face-above-crest": ("{value} is not below the crest at {height}", "give breaks below it"),
+    "section-file-unread": ("{value} has not been read", "read the case by heeltoe.read_case"),
+    "section-file-missing": ("there is no file {value}", "give its path relative to the case file"),
+    "section-file-unreadable": ("{value} cannot be read ({reason})", "give a drawing in DXF or a table in CSV"),
+    "section-file-large": ("has more than {value}", "give the outline of the section alone"),
+    "section-file-kind": ("is neither a drawing in DXF nor a table of numbers", "give one of them"),
+    "section-unit-missing": (
+        "is required, since the file does not state the unit of its numbers",
+        'add for example unit = "m" under [section]',
+    ),
+    "section-row": (
+        "line {number} is not a corner: {value}",
+        "give x and z in each line, and no more than its head names",
+    ),
+    "section-head": ("the head {value} does not say which columns are x and z", 'call them "x [m]" and "z [m]"'),
+    "drawing-package": ("needs the package {value}, which is not installed", "pip install ezdxf"),
+    "drawing-unreadable": ("cannot be read as DXF ({reason})", "save it anew as DXF, best of the release 2010"),
+    "drawing-empty": ("has no closed polyline", "join the lines of the section into one, and close it"),
+    "drawing-several": (
+        "there are {value} closed polylines; by layers: {layers}",
+        "name a layer that has one alone by section.layer",
+    ),
+    "drawing-layer": ("{value} has no closed polyline; layers that have: {layers}", "name one of them"),
+    "drawing-arcs": ("the polyline on the layer {value} has arcs", "replace them by short straight pieces"),
+    "neck-above-crest": ("{value} is above the crest at {height}", "give a height up to {height}"),
+    "section-size": ("{value} is not the size of a dam", "give a section of 1 mm to 10 km"),
+    "polygon-corners": ("has {value} different corners", "give at least 3"),
+    "polygon-crossing": (
+        "the outline {value} crosses or touches itself",
+        "give the corners in order around the section",
+    ),
+    "crack-outside": ("{value} is outside the section", "give an elevation from 0 m to below {height}"),
+    "crack-pieces": (
+        "the line at {value} meets the section in several pieces",
+        "give an elevation with one piece of concrete",
+    ),
+    "crack-overhang": (
+        "the line at {value} goes through concrete upstream of where it starts, too",
+        "give an inclination or elevation where it starts at the upstream face",
+    ),
+    "crack-leaves-base": (
+        "the crack starts at the base and falls downstream by {value}, out of the section",
+        "an inclined crack that falls needs an elevation above the base, because its toe lies below its heel; "
+        "or give crack.inclination of 0 deg or more",
+    ),
+    "crack-no-width": ("the section has no width at {value}", "give an elevation where it has one"),
+    "cracks-meet": (
+        "the crack at {value} meets or crosses that at {other}, or leaves less than {least} between them",
+        "give them another elevation or inclination",
+    ),
+    "cracks-order": ("{value} is below the crack at {other}", "list the cracks from the crest down"),
+    "combination": ("{value} cannot be combined with {other}: {reason}", "{remedy}"),
+    "unsupported": ("{model} does not support {value}: {reason}", "{remedy}"),
+    "kinks-order": ("the distances {value} do not ascend from the heel", "give the kinks in order, from heel to toe"),
+    "kinks-outside": ("{value} is beyond the toe: the crack is {width} wide", "give distances below {width}"),
+    "kinks-steep": (
+        "the crack runs at {value} to its mean line or to the horizontal behind {start}",
+        "let it run at up to {most}; a step needs some length",
+    ),
+    "kinks-base": (
+        "the section ends at the crack: kinks need concrete below it",
+        "give crack.elevation, and a section that goes down into the rock",
+    ),
+    "kinks-leave": (
+        "the crack with the corners {value} leaves the dam between its heel and its toe",
+        "give corners that are in its concrete",
+    ),
+    "kinks-mesh": ("elements cannot follow {value} kinks", "give more elements_across, fewer kinks or flatter ones"),
+    "friction-missing": ("is required but missing", "give friction, or both static_friction and kinetic_friction"),
+    "friction-order": ("{value} is below kinetic_friction, {kinetic}", "give a static_friction of at least {kinetic}"),
+    "law-option-foreign": ('does not belong to the law "{law}"', "remove it; that law knows {known}"),
+    "law-option-missing": ('is required by the law "{law}"', "give it, or choose another law"),
+    "law-order": ("{value} is below residual_friction, {residual}", "give a peak_friction of at least {residual}"),
+    "law-points": ("the normal stresses {value} do not ascend", "give the points in order, each stress once"),
+    "law-falls": (
+        "the strength falls with the normal stress before {value}",
+        "give points between which the coefficient times the stress grows",
+    ),
+    "rough-locks": (
+        "friction and flanks come to {value} together: a crack that steep locks",
+        "lower it, or the friction, or give a longer wave_length, so that they stay below 85 degrees",
+    ),
+    "law-unknown": ("{value} is not a friction law", "give one of {names}, or a case, CASE.toml{near}"),
+    "uplift-option-foreign": (
+        'does not belong to the pattern "{pattern}"',
+        'remove it or choose the pattern "{owner}"',
+    ),
+    "uplift-option-missing": ('is required by the pattern "{pattern}"', "give it or choose another pattern"),
+    "uplift-profile": (
+        "the distances {value} do not ascend from 0 to 1",
+        "give them in order, the heel at 0 and the toe at 1",
+    ),
+}

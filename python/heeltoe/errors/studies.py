@@ -1,0 +1,69 @@
+"""Errors of a study: the part of the catalogue (:mod:`heeltoe.errors.error`) that no single run needs."""
+
+from __future__ import annotations
+
+# As in heeltoe.errors.error: code -> (what is wrong, what to do).
+OF_STUDIES: dict[str, tuple[str, str]] = {
+    # the option --vary
+    "vary-form": ("{value} does not vary a field", "write PATH=VALUE,VALUE, for example crack.friction=0.8,1.0,1.2"),
+    "vary-twice": ("{value} is varied twice", "give all its values at once"),
+    "vary-many": (
+        "{value} runs are too many for a table",
+        "vary less: up to {most} runs, or write a study file for `heeltoe study`",
+    ),
+    "vary-option": ("goes with one run, not with a table of runs", "leave it out, or --vary"),
+    # study files and their directories
+    "study-file-missing": ("there is no such file", "give the path of a study file; `heeltoe examples` writes some"),
+    "distribution-incomplete": ("is required but missing", "the distribution {distribution} needs it"),
+    "distribution-foreign": ("does not belong to the distribution {distribution}", "that has {fields}"),
+    "distribution-order": ("{value} is not above {lowest}", "give the lower number first"),
+    "distribution-mode": ("{value} is not between the lowest and the highest value", "give one that is"),
+    "distribution-spread": ("{value} is not a spread", "give more than 0"),
+    "study-not-a-number": ("holds no number, so that {value} cannot be drawn", "give a list of its values"),
+    "study-twice": ("{value} names something twice", "name each value once"),
+    "study-count": (
+        "{value} is a distribution, of which this method takes equally likely values",
+        "say how many: count = 5",
+    ),
+    "study-correlation": (
+        "{value} is not a field that is drawn from a distribution",
+        "name two that are, under [vary]",
+    ),
+    "study-correlations": ("the {value} correlations contradict each other", "weaken some, or leave some out"),
+    "study-power": ("{value} is not a power of two, which Sobol's points need", "give {below} or {above}"),
+    "study-motion-varies": ("motions do not vary here", "give them under [motions], their strengths as motions.scale"),
+    "study-motions": ("folder, files and events are all missing", "give one of these, or leave [motions] out"),
+    "study-folder": ("{value} is not a directory", "give the directory of the records, relative to the study file"),
+    "study-folder-empty": ("{value} has no records", "give a directory with records"),
+    "study-pair": ("{value} has {count} horizontal components, not 2", "add the other one, or leave pairs out"),
+    "study-vertical": ("{value} has no vertical component", "add it, or leave vertical out"),
+    "study-horizontal": ("{value} has no horizontal component beside it", "add one, or take the file out"),
+    "study-components": (
+        "{value} has more components than an event has: {names}",
+        "name the components of each event under [[motions.events]]",
+    ),
+    "study-strength": ("a {value} distribution has strengths below zero", "cut it: lower = ..., or take another"),
+    "study-base": ("the case does not state a value with which others can be compared", "give it in the case"),
+    "study-other": (
+        "{value} holds another study, which differs in {changed}",
+        "give another directory, or put that back to go on with it",
+    ),
+    "study-begun": ("{value} holds this study already", "go on with it by --resume, or give another directory"),
+    "study-version": ("was written by another version of heeltoe ({value})", "read it with that one"),
+    "study-not-there": ("is not the directory of a study", "give what `heeltoe study FILE --out DIR` has written"),
+    "study-unreadable": ("does not say what study it is ({reason})", "give another directory, or restore the file"),
+    "study-no-grid": ("a study by {value} has no axes of a grid", "take to_pandas"),
+    "study-no-answer": ("a study by {value} has no such answer", 'run one with method = "{method}"'),
+    "study-measure": ("{value} is not a measure of its motions", "known are {known}"),
+    "study-no-fragility": ("the study asks for no curves", "say the limits under [fragility]"),
+    "study-package": (
+        "needs the package {value}, which is not installed",
+        "pip install dask distributed duckdb pandas xarray",
+    ),
+    "study-scheduler": (
+        "there is no scheduler at {value} ({reason})",
+        "start one with `dask scheduler`, or leave it out",
+    ),
+    "study-scenario-count": ("{value} is not a valid number of motions", "give 1 to {most}"),
+    "study-many": ("{value} are too many", "give at most {most}"),
+}

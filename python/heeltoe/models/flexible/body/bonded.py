@@ -1,0 +1,123 @@
+"""What dams share that differ in friction, damping, or in what only their runs read: mesh, matrices, static loads with
+the crack bonded, and modes. Nearly all of the time that setting up takes goes into these."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from hashlib import sha256
+from typing import Any
+
+from heeltoe.base.arrays import Floats
+from heeltoe.base.blas import one_blas_thread
+from heeltoe.base.cache import Kept
+from heeltoe.case.model import Case
+from heeltoe.models.flexible.body.cost import building, check_cost, part_of
+from heeltoe.models.flexible.body.elastic import Dam, bonded_state, dam
+from heeltoe.models.flexible.body.modes import Modes, enough_modes, error_frequency, reduce, residual_error
+from heeltoe.models.flexible.body.stress_places import StressPlaces, stress_places
+from heeltoe.models.flexible.mesh.dam import dam_mesh
+from heeltoe.models.flexible.mesh.kinks import kinked
+
+# The earthquake plays no part in any dam, nor does what is asked of a run or read by other models.
+_OF_RUNS = ("time_step", "evidence", "theta", "penalty_factor", "newmark_gamma", "newmark_beta")
+_ANY: Any = dict.fromkeys(("title", "project", "motion", "analysis", "limits", "statics", "decoupled"), True)
+_FRICTION = {"friction", "static_friction", "kinetic_friction", "law"}
+_STRENGTH = {"tensile_strength", "dynamic_tension"}
+#: What a dam that is ready to be shaken does not depend on.
+NOT_OF_DAM: Any = _ANY | {
+    "crack": {"restitution"},
+    "further_cracks": {"__all__": {"restitution"}},
+    "concrete": _STRENGTH,
+    "flexible": set(_OF_RUNS),
+}
+#: What its modes do not depend on.
+NOT_OF_MODES: Any = _ANY | {
+    "crack": {"restitution", *_FRICTION},
+    "further_cracks": {"__all__": {"restitution", *_FRICTION}},
+    "concrete": {"damping", *_STRENGTH},
+    "flexible": {*_OF_RUNS, "damping", "damping_on_water", "contact", "contactors"},
+}
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class BondedDam(Dam):
+    """A dam with its crack bonded.
+
+    Attributes
+    ----------
+    bent
+        (2 n,) displacements of each body under the static loads [m].
+    bonded_forces
+        (2 k,) forces on the nodes of each crack's upper face then, x and z in turn [N].
+    modes
+        Of each body.
+    basis_error
+        Largest error of the crack's flexibility by the modes left out, see
+        :func:`heeltoe.models.flexible.body.modes.error_frequency`; 0 where none is.
+    stress_places
+        Where the stresses of each body are read.
+    """
+
+    bent: tuple[Floats, ...]
+    bonded_forces: tuple[Floats, ...]
+    modes: tuple[Modes, ...]
+    basis_error: float
+    stress_places: tuple[StressPlaces, ...]
+
+
+_KEPT: Kept[BondedDam] = Kept(4)
+
+
+@one_blas_thread()
+def bonded_dam(case: Case) -> BondedDam:
+    """Mesh and assemble both parts of a case and find their modes; the last few are kept.
+
+    Raises
+    ------
+    InputError
+        Where the case has no modulus, or a mesh cannot be made or used.
+    """
+    return _KEPT.get(told(case, NOT_OF_MODES), lambda: _build(case))
+
+
+def told(case: Case, left_out: Any) -> tuple[str, ...]:
+    """Return a case without what is left out, with what its mesh files contain."""
+    return case.model_dump_json(exclude=left_out), *fingerprints(case)
+
+
+def fingerprints(case: Case) -> list[str]:
+    """Return what the mesh files contain, as a hash, since they may change under their name; a missing one is the
+    reader's to complain about."""
+    found = []
+    for name in (case.flexible.mesh_above, case.flexible.mesh_below):
+        path = case.base_directory / name if name else None
+        found.append(sha256(path.read_bytes()).hexdigest() if path and os.path.isfile(path) else "")
+    return found
+
+
+def _build(case: Case) -> BondedDam:
+    mesh = kinked(dam_mesh(case), case)
+    check_cost(case, building([part_of(case, each.crack.size, each.nodes.size) for each in mesh.parts]))
+    bonded = dam(case, mesh)
+    bent, forces = bonded_state(bonded)
+    modes, errors = _modes(case, bonded)
+    return BondedDam(
+        bodies=bonded.bodies,
+        tie=bonded.tie,
+        bent=bent,
+        bonded_forces=forces,
+        modes=modes,
+        basis_error=max(errors),
+        stress_places=tuple(map(stress_places, bonded.bodies, modes)),
+    )
+
+
+def _modes(case: Case, bonded: Dam) -> tuple[tuple[Modes, ...], list[float]]:
+    """Return the modes of each body and the error that those left out make."""
+    if case.flexible.modes is None:
+        found = [enough_modes(body, bonded) for body in bonded.bodies]
+        return tuple(modes for modes, _ in found), [error for _, error in found]
+    modes = tuple(reduce(body, case.flexible.modes) for body in bonded.bodies)
+    circular = error_frequency(bonded)
+    return modes, [residual_error(body, basis, circular) for body, basis in zip(bonded.bodies, modes, strict=True)]

@@ -1,0 +1,251 @@
+"""Damping of the concrete: what each mode gets, the few dashpots between modes, and the ratios that really come of it.
+
+With the motion v of both parts in their modes, the damping force is ``-(c v + d^T s d v)``: coefficients c mode by mode
+and a few rows d over the modes of both parts, the dashpots, with signs s."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe.base.arrays import Floats
+from heeltoe.case.model import Case
+from heeltoe.models.flexible.body.elastic import Body, Dam, dofs, side_by_side
+from heeltoe.models.flexible.body.modes import Modes, lowest, part_periods, rayleigh
+
+#: So many of the lowest modes of the bonded dam get exactly one ratio under `modal`; what is above gets more, in
+#: proportion to its frequency.
+_MODAL = 20
+#: Motions of water with less mass than this of the largest are rounding.
+_NO_WATER = 1e-12
+#: Of so many modes the ratios are told.
+TOLD = 5
+
+
+@dataclass(frozen=True, eq=False)
+class Damping:
+    """Damping of the parts of a dam, from the crest down; m modes each.
+
+    Attributes
+    ----------
+    sticking, free
+        (m,) coefficients [1/s] of each part while some crack node sticks, and while none does.
+    dashpots
+        (k, m) rows of each part [s^(-1/2)].
+    signs
+        (k,) 1 for dashpots that take energy, -1 for those that give back what the mass of the water is damped with.
+    coefficients
+        Rayleigh coefficients of mass [1/s] and stiffness [s]; None with `modal`.
+    periods
+        Longest periods of the intact dam with its water [s], at most five.
+    ratios
+        Share of critical damping that these modes really get while the crack sticks.
+    """
+
+    sticking: tuple[Floats, ...]
+    free: tuple[Floats, ...]
+    dashpots: tuple[Floats, ...]
+    signs: Floats
+    coefficients: tuple[float, float] | None
+    periods: Floats
+    ratios: Floats
+
+    def scaled(self, factor: float) -> Damping:
+        """Return so many times this damping."""
+        return Damping(
+            tuple(factor * c for c in self.sticking),
+            tuple(factor * c for c in self.free),
+            tuple(math.sqrt(factor) * d for d in self.dashpots),
+            self.signs,
+            None if self.coefficients is None else (factor * self.coefficients[0], factor * self.coefficients[1]),
+            self.periods,
+            factor * self.ratios,
+        )
+
+
+def damping_of(case: Case, dam: Dam, modes: tuple[Modes, ...]) -> Damping:
+    """Return the damping that a case asks for.
+
+    Parameters
+    ----------
+    case
+        With ``flexible.damping`` and ``concrete.damping``.
+    dam
+        The elastic bodies.
+    modes
+        Of each part.
+    """
+    choice, ratio = case.flexible.damping, case.concrete.damping
+    omega, bonded = _bonded(dam, modes, _MODAL + 1 if choice == "modal" else TOLD)
+    periods = 2.0 * math.pi / omega[:TOLD]
+    coefficients: tuple[float, float] | None = rayleigh(periods[0], periods[min(2, len(periods) - 1)], ratio)
+    if choice == "stiffness":
+        coefficients = (0.0, 2.0 * ratio / omega[0])
+    elif choice == "modal":
+        coefficients = None
+    lags = _crack_motions(dam, modes) if choice in ("relative", "modal") else []
+    dry = choice == "relative" and not case.flexible.damping_on_water
+    water = _water_motion(dam, modes, lags) if dry else ()
+    if dry:
+        coefficients = _dry_rayleigh(omega, 1.0 - _norms(water, bonded), ratio)
+    mass, stiffness = coefficients or (0.0, 2.0 * ratio / omega[-1])
+    sticking = tuple(mass + stiffness * each.omega_squared for each in modes)
+    rows: tuple[Floats, ...] = tuple(np.empty((0, each.omega_squared.size)) for each in modes)
+    free = sticking
+    if choice in ("relative", "deformation"):
+        for coefficients_of, each in zip(sticking, modes, strict=True):
+            coefficients_of[: each.rigid] = 0.0
+    if choice == "relative":
+        rows = tuple(
+            math.sqrt(mass) * np.vstack(all_of) for all_of in zip(*lags, *([water] if dry else []), strict=True)
+        )
+    elif choice == "modal":
+        below = omega[:-1]
+        shares = np.sqrt(below * (2.0 * ratio - stiffness * below))[:, None]
+        rows = _without_slip([shares * each[:-1] for each in bonded], lags, modes)
+    elif choice == "thesis":
+        free = (np.zeros_like(sticking[0]), *(_own(each, ratio) for each in modes[1:]))
+    signs = np.ones(len(rows[0]))
+    if dry:
+        signs[sum(len(lag[0]) for lag in lags) :] = -1.0
+    ratios = _ratios(sticking, (rows, signs), omega, bonded)[:TOLD]
+    return Damping(sticking, free, rows, signs, coefficients, periods, ratios)
+
+
+def _own(modes: Modes, ratio: float) -> Floats:
+    """Return Rayleigh damping by the first and third period of a part itself."""
+    own = part_periods(modes, 3)
+    mass, stiffness = rayleigh(own[0], own[-1], ratio)
+    return mass + stiffness * modes.omega_squared
+
+
+def _bonded(dam: Dam, modes: tuple[Modes, ...], count: int) -> tuple[Floats, tuple[Floats, ...]]:
+    """Return the lowest circular frequencies [1/s] of the dam with its crack bonded, and these modes (j, m) in the
+    modes of each part."""
+    tie = dam.tie
+    mass = side_by_side(dam, "mass")
+    squares, shapes = lowest(
+        tie.T @ side_by_side(dam, "stiffness") @ tie, tie.T @ mass @ tie, min(count, tie.shape[1]), 0.0
+    )
+    moved = mass @ (tie @ shapes)
+    places = np.cumsum([body.load.size for body in dam.bodies])[:-1]
+    pieces = np.split(moved, places)
+    return np.sqrt(squares), tuple((basis.shapes.T @ piece).T for basis, piece in zip(modes, pieces, strict=True))
+
+
+def _crack_motions(dam: Dam, modes: tuple[Modes, ...]) -> list[list[Floats]]:
+    """Return for each crack rows (3, m) for each part: how the part above it would have to move as a rigid body, in
+    addition to the motion of its rigid modes, to follow the lower face without slip; with the sign of a lag.
+
+    The rigid motion is fitted to the nodes of a crack face by least squares along the crack. Zero while the crack is
+    bonded means that the fits to both faces are the same.
+    """
+    found = []
+    for crack in range(dam.free):
+        upper, basis, lower = dam.bodies[crack].mesh, modes[crack], dam.below(crack)
+        rigid = basis.shapes[:, : basis.rigid]
+        face, points = dofs(upper.faces[-1]), upper.nodes[upper.faces[-1]]
+        rows = [np.zeros((3, each.omega_squared.size)) for each in modes]
+        rows[crack] = _fit(points, rigid[face]) @ basis.shapes[face]
+        rows[crack][:, : basis.rigid] = 0.0
+        if lower is not None:
+            met = lower.mesh.faces[0]
+            plane = np.linalg.lstsq(_plane(points), rigid[face], rcond=None)[0]
+            points = lower.mesh.nodes[met]
+            rows[crack + 1] = -_fit(points, _plane(points) @ plane) @ modes[crack + 1].shapes[dofs(met)]
+        found.append(rows)
+    # A part that slides itself, with all that is above it, is not to be damped for that: it counts as following what is
+    # below it, and so on down.
+    for crack in range(dam.free - 2, -1, -1):
+        count = modes[crack + 1].rigid
+        held = found[crack][crack + 1][:, :count].copy()
+        found[crack][crack + 1][:, :count] = 0.0
+        found[crack] = [own - held @ lag for own, lag in zip(found[crack], found[crack + 1], strict=True)]
+    return found
+
+
+def _water_motion(dam: Dam, modes: tuple[Modes, ...], lags: list[list[Floats]]) -> tuple[Floats, ...]:
+    """Return rows (w, m) for each part whose squares are the mass of the water times that of the motion that the mass
+    term damps: of a part above a crack that relative to the rigid motion fitted to its face, else all."""
+    found: list[list[Floats]] = [[] for _ in modes]
+    for place, (body, basis) in enumerate(zip(dam.bodies, modes, strict=True)):
+        wet, root = _root_of_water(body)
+        rigid = root @ basis.shapes[wet, : basis.rigid]
+        own = root @ basis.shapes[wet]
+        own[:, : basis.rigid] = 0.0
+        for other, rows in enumerate(found):
+            moved = np.zeros((len(root), modes[other].omega_squared.size)) if other != place else own
+            rows.append(moved - rigid @ lags[place][other] if place < dam.free else moved)
+    return tuple(np.vstack(rows) for rows in found)
+
+
+def _root_of_water(body: Body) -> tuple[NDArray[np.int64], Floats]:
+    """Return the displacements that move water, and a root (w, k) of its mass on them."""
+    water = (body.mass - body.mass_concrete).tocsr()
+    wet = np.flatnonzero(water.diagonal())
+    values, shapes = np.linalg.eigh(water[wet][:, wet].toarray())
+    kept = values > _NO_WATER * values.max(initial=0.0)
+    return wet, np.sqrt(values[kept])[:, None] * shapes[:, kept].T
+
+
+def _norms(rows: tuple[Floats, ...], bonded: tuple[Floats, ...]) -> Floats:
+    """Return the sums of squares of rows on modes (j, m) of the bonded dam."""
+    moved = sum(row @ each.T for row, each in zip(rows, bonded, strict=True))
+    found: Floats = np.sum(np.square(moved), axis=0)
+    return found
+
+
+def _dry_rayleigh(omega: Floats, shares: Floats, ratio: float) -> tuple[float, float]:
+    """Return coefficients of mass [1/s] and stiffness [s] that give the first and third mode a ratio, where only these
+    shares of a mode's mass are damped."""
+    chosen = [0, min(2, len(omega) - 1)]
+    terms = np.column_stack([shares[chosen] / omega[chosen], omega[chosen]]) / 2.0
+    mass, stiffness = np.linalg.lstsq(terms, np.full(2, ratio), rcond=None)[0]
+    return float(mass), float(stiffness)
+
+
+def _plane(points: Floats) -> Floats:
+    """Return two displacements and a rotation of points, shape (2 k, 3)."""
+    found = np.zeros((2 * len(points), 3))
+    found[::2, 0] = found[1::2, 1] = 1.0
+    found[::2, 2], found[1::2, 2] = -points[:, 1], points[:, 0]
+    return found
+
+
+def _fit(points: Floats, shapes: Floats) -> Floats:
+    """Return the matrix (3, 2 k) that finds in displacements of a face its shares in three shapes (2 k, 3)."""
+    length = np.hypot(*np.diff(points[::2], axis=0).T)
+    weight = np.zeros(len(points))
+    for place, part in ((0, 1.0), (1, 4.0), (2, 1.0)):  # Simpson, edge by edge
+        weight[place : len(points) - 2 + place : 2] += part * length / 6.0
+    twice = np.repeat(weight, 2)[:, None] * shapes
+    return np.asarray(np.linalg.solve(shapes.T @ twice, twice.T), dtype=np.float64)
+
+
+def _without_slip(rows: list[Floats], lags: list[list[Floats]], modes: tuple[Modes, ...]) -> tuple[Floats, ...]:
+    """Take out of rows what they feel of the rigid motion of each part above a crack against the lower face."""
+    for place, lag in enumerate(lags):
+        count = modes[place].rigid
+        held = rows[place][:, :count].copy()
+        rows[place][:, :count] = 0.0
+        rows = [each - held @ motion for each, motion in zip(rows, lag, strict=True)]
+    return tuple(rows)
+
+
+def _ratios(
+    coefficients: tuple[Floats, ...],
+    dashpots: tuple[tuple[Floats, ...], Floats],
+    omega: Floats,
+    bonded: tuple[Floats, ...],
+) -> Floats:
+    """Return the share of critical damping of bonded modes: the power of damping over that of critical damping."""
+    rows, signs = dashpots
+    power, stretched = np.zeros_like(omega), np.zeros((len(rows[0]), omega.size))
+    for each, c, row in zip(bonded, coefficients, rows, strict=True):
+        power += each**2 @ c
+        stretched += row @ each.T
+    found: Floats = (power + signs @ stretched**2) / (2.0 * omega)
+    return found

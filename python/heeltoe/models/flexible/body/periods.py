@@ -1,0 +1,131 @@
+"""Periods of vibration: of the intact dam, and of each part by itself once the crack is there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+from heeltoe.case.model import Case
+from heeltoe.errors.error import InputError, expect
+from heeltoe.models.flexible.body.modes import intact_periods, part_periods
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
+from heeltoe.result.write import build_info
+
+COUNT = 5
+_MOST = 50
+
+
+@dataclass(frozen=True)
+class DamPeriods:
+    """Periods of a dam [s], longest first.
+
+    Attributes
+    ----------
+    title
+        Of the case.
+    intact_dry, intact
+        The whole dam, its crack bonded: without water, and with the virtual water that vibrates with it.
+    parts
+        Each part by itself with its water, from the crest down, by where it is: the lowest held at its base where no
+        crack is there, the others free, whose rigid-body motion is none of them.
+    grounded
+        Whether the lowest part is held at its base.
+    rayleigh
+        Coefficients of mass [1/s] and stiffness [s] of the damping that follow from the intact dam; None with `modal`.
+    damping, damping_ratio
+        What the case says of them.
+    damping_ratios
+        What the lowest modes of the intact dam, at most five, really get.
+    elements, nodes
+        Of each part, from above.
+    """
+
+    title: str
+    intact_dry: tuple[float, ...]
+    intact: tuple[float, ...]
+    parts: dict[str, tuple[float, ...]]
+    grounded: bool
+    rayleigh: tuple[float, float] | None
+    damping: str
+    damping_ratio: float
+    damping_ratios: tuple[float, ...]
+    elements: tuple[int, ...]
+    nodes: tuple[int, ...]
+
+    @property
+    def above(self) -> tuple[float, ...]:
+        """Those of the part above the highest crack."""
+        return next(iter(self.parts.values()))
+
+    @property
+    def below(self) -> tuple[float, ...] | None:
+        """Those of the part below the lowest crack; None where that is at the base."""
+        return list(self.parts.values())[-1] if self.grounded else None
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain numbers, strings and lists."""
+        return {
+            "title": self.title,
+            "periods_s": {
+                "intact_dry": list(self.intact_dry),
+                "intact": list(self.intact),
+                "above_crack": list(self.above),
+                "below_crack": None if self.below is None else list(self.below),
+            },
+            "parts": [{"part": name, "periods_s": list(periods)} for name, periods in self.parts.items()],
+            "damping": self.damping,
+            "damping_ratio": self.damping_ratio,
+            "damping_ratios": list(self.damping_ratios),
+            "rayleigh": None
+            if self.rayleigh is None
+            else dict(zip(("mass_1_s", "stiffness_s"), self.rayleigh, strict=True)),
+            "mesh": {"elements": list(self.elements), "nodes": list(self.nodes)},
+            "build": build_info(),
+        }
+
+
+def dam_periods(case: Case, count: int = COUNT, *, field: str = "count") -> DamPeriods:
+    """Return the longest periods of a dam and of its parts.
+
+    Parameters
+    ----------
+    case
+        A dam with a modulus; it needs no earthquake.
+    count
+        How many of each, 1 to 50; fewer where the mesh has no more.
+    field
+        What the count is called where it cannot be used.
+
+    Raises
+    ------
+    InputError
+        Where the count, the modulus or the mesh cannot be used.
+    """
+    expect(case, Case, "not-a-case", "case")
+    if not 1 <= count <= _MOST:
+        raise InputError("period-count", field, count, most=_MOST)
+    dam = build_flexible_dam(case)
+    names = _names([crack.elevation for crack in case.cracks], len(dam.modes))
+    return DamPeriods(
+        title=case.title,
+        intact_dry=tuple(intact_periods(dam, count, water=False).tolist()),
+        intact=tuple(intact_periods(dam, count).tolist()),
+        parts={name: tuple(part_periods(modes, count).tolist()) for name, modes in zip(names, dam.modes, strict=True)},
+        grounded=len(names) > len(case.cracks),
+        rayleigh=dam.damping.coefficients,
+        damping=case.flexible.damping,
+        damping_ratio=case.concrete.damping,
+        damping_ratios=tuple(dam.damping.ratios.tolist()),
+        elements=tuple(len(body.mesh.elements) for body in dam.bodies),
+        nodes=tuple(len(body.mesh.nodes) for body in dam.bodies),
+    )
+
+
+def _names(elevations: Sequence[float], count: int) -> list[str]:
+    """Return where each part is, from the crest down, of a dam cracked at these elevations [m]."""
+    if len(elevations) == 1:
+        return ["above the crack", "below the crack"][:count]
+    between = [f"{low:g} to {high:g} m" for high, low in pairwise(elevations)]
+    return [f"above {elevations[0]:g} m", *between, f"below {elevations[-1]:g} m"][:count]

@@ -1,0 +1,1 @@
+"""How far a result moves with step, mesh and shaking, and whether a vibration grows."""

@@ -1,0 +1,179 @@
+"""Self-excited sliding: how fast a vibration of the sliding dam grows.
+
+While all nodes of the crack are closed and slip one way, friction *mu p_n* follows the normal force, and what is left
+of the equations of motion is not symmetric: two vibrations can feed each other from the work of the loads (mode
+coupling, as in a brake that squeals)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from scipy.linalg import block_diag
+
+from heeltoe.base.arrays import Floats
+from heeltoe.models.flexible.body.reduced import FlexibleDam, ReducedBody
+from heeltoe.result.numbers import SelfExcitation
+
+#: So many of the lowest modes of each part, with the static shapes of the crack, tell the growth.
+_MODES = 25
+#: Slower changes than this are none [1/s].
+_SLOW = 1e-3
+
+
+#: From so much growth in all on, the slip depends on damping.
+_MATTERS = 1.0
+
+
+@dataclass(frozen=True)
+class Growth:
+    """How a vibration of a dam grows as it slides.
+
+    Attributes
+    ----------
+    rate
+        Growth of the fastest [1/s]; none where it is negative.
+    period
+        Of that vibration [s]; infinite where nothing swings.
+    sliding_time
+        How long it slides at the crack that slides longest [s].
+    damped_slip
+        Residual slip with twice the damping [m] at the crack that leads, where growth times time is so large that
+        damping matters.
+    """
+
+    rate: float
+    period: float
+    sliding_time: float
+    damped_slip: float | None
+
+    @property
+    def matters(self) -> bool:
+        """Whether the slip depends on damping."""
+        return self.rate * self.sliding_time > _MATTERS
+
+    def numbers(self) -> SelfExcitation:
+        """Return what the result says of it."""
+        return SelfExcitation(
+            growth_1_s=self.rate,
+            period_s=self.period if math.isfinite(self.period) else None,
+            sliding_time_s=self.sliding_time,
+            twice_damped_slip_m=self.damped_slip,
+        )
+
+
+def growth_of(dam: FlexibleDam, friction: Sequence[float | None]) -> tuple[float, float]:
+    """Return the fastest growth of a vibration of the dam as it slides, downstream or upstream.
+
+    With the unknowns q of all parts and the forces p of the contacts, all closed: ``q'' + C q' + w^2 q = (S_n - s mu
+    S_t)^T p``, ``S_n q' = 0``; s is the direction of slip. A crack that sticks has ``S_t q' = 0``, too.
+
+    Parameters
+    ----------
+    dam
+        Where it stands before the earthquake.
+    friction
+        Coefficient with which a crack slips, from the crest down; None for one that sticks.
+
+    Returns
+    -------
+    growth : float
+        Largest real part of the eigenvalues [1/s]; negative or zero where steady sliding is stable.
+    period : float
+        Of the vibration that grows so [s]; infinite where nothing swings.
+    """
+    square, damping, relative = _equations(dam)
+    ways: Iterable[tuple[float, ...]] = product((1.0, -1.0), repeat=sum(value is not None for value in friction))
+
+    def growth(way: tuple[float, ...]) -> tuple[float, float]:
+        signs = iter(way)
+        held, pushed = [], []
+        for coefficient, (along, across) in zip(friction, relative, strict=True):
+            held += [across] if coefficient is not None else [along, across]
+            pushed += [across - next(signs) * coefficient * along] if coefficient is not None else [along, across]
+        return _growth(square, damping, np.vstack(held), np.vstack(pushed))
+
+    return max(map(growth, ways), key=lambda rate_and_period: rate_and_period[0])
+
+
+def _equations(dam: FlexibleDam) -> tuple[Floats, Floats, list[tuple[Floats, Floats]]]:
+    """Return squared frequencies (m,), damping (m, m) and the relative motions of each crack, see :func:`_relative`,
+    of all parts together."""
+    parts = [_reduced(part) for part in dam.reduced]
+    rows = np.hstack([dampers for _, _, dampers, _ in parts])
+    damping = block_diag(*(free for _, free, _, _ in parts)) + rows.T @ (dam.damping.signs[:, None] * rows)
+    shapes = [shape for _, _, _, shape in parts]
+    relative = [_relative(dam, shapes, place) for place in range(len(dam.lines))]
+    return np.concatenate([square for square, _, _, _ in parts]), damping, relative
+
+
+def _growth(square: Floats, damping: Floats, held: Floats, pushed: Floats) -> tuple[float, float]:
+    """Return growth and period of what is `held` (c, m) at rest by forces that act along `pushed` (c, m)."""
+    free, left = _null(held), _null(pushed).T
+    mass, drag, spring = left @ free, left @ damping @ free, left @ (square[:, None] * free)
+    count = len(mass)
+    rates = np.linalg.solve(mass, np.hstack([-spring, -drag]))
+    values = np.linalg.eigvals(np.vstack([np.eye(count, 2 * count, count), rates]))
+    # The zeros of the slide as a whole are no vibration.
+    swings = values[np.abs(values) > 1.0]
+    fastest = swings[np.argmax(swings.real)]
+    turn = abs(float(fastest.imag))
+    return float(fastest.real), 2.0 * math.pi / turn if turn > _SLOW else math.inf
+
+
+def _reduced(part: ReducedBody) -> tuple[Floats, Floats, Floats, Floats]:
+    """Return squared frequencies, damping (m, m), dashpots and shapes (m, 2 k) of a part in fewer coordinates: its
+    lowest modes and the static answers to forces on the crack."""
+    order = np.argsort(part.omega_squared)
+    low, high = order[:_MODES], order[_MODES:]
+    if high.size <= part.shapes.shape[1]:
+        return part.omega_squared, np.diag(part.damping_free), part.dampers, part.shapes
+    static = part.shapes[high] / part.omega_squared[high, None]
+    basis = np.linalg.qr(static)[0]
+    inner = basis.T @ (part.omega_squared[high, None] * basis)
+    values, turned = np.linalg.eigh((inner + inner.T) / 2.0)
+    basis = basis @ turned
+    count = low.size
+    damping = np.zeros((count + values.size, count + values.size))
+    damping[:count, :count] = np.diag(part.damping_free[low])
+    damping[count:, count:] = basis.T @ (part.damping_free[high, None] * basis)
+    return (
+        np.concatenate([part.omega_squared[low], values]),
+        damping,
+        np.hstack([part.dampers[:, low], part.dampers[:, high] @ basis]),
+        np.vstack([part.shapes[low], basis.T @ part.shapes[high]]),
+    )
+
+
+def _relative(dam: FlexibleDam, shapes: list[Floats], place: int) -> tuple[Floats, Floats]:
+    """Return the motion (k, m) of the nodes of the upper face of a crack against the lower one, along the crack and
+    across it, in the unknowns of all parts."""
+    along, across = (np.zeros((dam.lines[place].upper[1], sum(map(len, shapes)))) for _ in range(2))
+    first = sum(map(len, shapes[:place]))
+    upper = _face(dam, shapes, place, slice(dam.bodies[place].mesh.top, None))
+    along[:, first : first + len(shapes[place])], across[:, first : first + len(shapes[place])] = upper[1:]
+    if place + 1 < len(shapes):
+        first += len(shapes[place])
+        at, *lower = _face(dam, shapes, place + 1, slice(0, dam.lines[place].lower[1]))
+        right = np.clip(np.searchsorted(at, upper[0]), 1, at.size - 1)
+        share = np.clip((upper[0] - at[right - 1]) / (at[right] - at[right - 1]), 0.0, 1.0)[:, None]
+        for relative, moved in zip((along, across), lower, strict=True):
+            relative[:, first : first + moved.shape[1]] = -((1.0 - share) * moved[right - 1] + share * moved[right])
+    return along, across
+
+
+def _face(dam: FlexibleDam, shapes: list[Floats], part: int, nodes: slice) -> tuple[Floats, Floats, Floats]:
+    """Return where the nodes (k,) of a face of a part are along its crack [m], and how they move along and across it,
+    (k, m) each."""
+    along, across = np.split(shapes[part].T, 2)
+    position = dam.reduced[part].position
+    return position[: position.size // 2][nodes], along[nodes], across[nodes]
+
+
+def _null(rows: Floats) -> Floats:
+    """Return an orthonormal basis of the vectors that rows of full rank take to zero."""
+    full: Floats = np.linalg.qr(rows.T, mode="complete")[0]
+    return full[:, len(rows) :]

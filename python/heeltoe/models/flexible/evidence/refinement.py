@@ -1,0 +1,238 @@
+"""Runs until a result is certain enough, or what it may cost is spent."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from heeltoe.base.arrays import Floats
+from heeltoe.case.options import Flexible
+from heeltoe.kernel.dam import DamRun
+from heeltoe.models.flexible.evidence.evidence import BUDGET, FLOOR_M, Evidence, Worth, allowed
+from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
+from heeltoe.result.contract import HEADLINES
+
+#: Fewer elements along the crack than these have no coarser mesh worth a comparison.
+_FEWEST_ACROSS = 4
+# Two meshes may agree by chance. Halving the elements of quadratic shape makes what they leave a quarter at best, so of
+# what moves a mean from the third mesh to the second at least this part is left; meshes coarser than this say nothing.
+_LEFT, _LEAST_ACROSS = 0.25, 2
+# Single runs scatter where what a straight line through them leaves is more than this part of the uncertainty that is
+# allowed, or where half the step, which moves a smooth run by a few thousandths, moves it by more than this one.
+_SCATTERS, _SCATTERS_BY_STEP = 0.2, 0.1
+# What is less than this part of the uncertainty that is allowed need not be refined.
+_MATTERS = 0.25
+_AS_IT_IS = (1.0,)
+
+_Wanted = list[tuple[Level, Sequence[float]]]
+
+
+@dataclass(frozen=True)
+class Answer:
+    """A run with its frames, its dam, and what it is worth.
+
+    Attributes
+    ----------
+    shaken, run, evidence
+        What is told.
+    evidences
+        That of each crack, from the crest down; none where none is asked for.
+    beside
+        The dam with the other mesh, and its run with frames; None where there is none.
+    """
+
+    shaken: ShakenDam
+    run: DamRun
+    evidence: Evidence | None
+    beside: tuple[ShakenDam, DamRun] | None = None
+    evidences: tuple[Evidence, ...] = ()
+
+    @property
+    def slips(self) -> list[float]:
+        """Residual slips to trust [m], of the cracks from the crest down: means where single runs scatter."""
+        if self.evidences:
+            return [evidence.slip.value for evidence in self.evidences]
+        return [summary.slip for summary in self.run.summaries]
+
+
+def answer(shaken: ShakenDam, frame_step: float, asked: str, first: DamRun | None = None) -> Answer:
+    """Run a dam with some evidence.
+
+    Parameters
+    ----------
+    shaken
+        The dam with its earthquake.
+    frame_step
+        Spacing of the frames [s].
+    asked
+        ``"full"``, ``"step"`` or ``"none"``.
+    first
+        A run at the first step with such frames, where it has been made before.
+    """
+    case, options = shaken.case, shaken.case.flexible
+    trials = Trials(shaken, shaken.first_step(), frame_step, first)
+    level = Level(0, 0)
+    if asked == "none":
+        return Answer(shaken, trials.whole(level), None)
+    full = asked == "full"
+    while True:
+        stand = _Stand(trials, level, full=full)
+        found = stand.evidences()
+        finer = _finer(_worst(found), level, options)
+        if finer is None:
+            break
+        wanted = _Stand(trials, finer, full=full).wanted(means=any(each.mean for each in found))
+        work = trials.work + trials.cost(wanted)
+        if work > BUDGET or not trials.expected(finer, work).within(case):
+            found = stand.evidences(spent=True)
+            break
+        level = finer
+    mesh = stand.mesh
+    beside = None if mesh is None else (trials.dam_of(mesh.mesh), trials.whole(mesh))
+    return Answer(trials.dam_of(level.mesh), trials.whole(level), found[trials.asked], beside, found)
+
+
+def _worst(found: Sequence[Evidence]) -> Evidence:
+    """Return the evidence of the crack whose slip is the least certain, the first of them where several are as bad."""
+    return max(found, key=lambda each: (not each.converged, each.slip.uncertainty / each.allowed))
+
+
+def _finer(found: Evidence, level: Level, options: Flexible) -> Level | None:
+    """Return the level at which the slip may be certain enough; None where it is, or nothing can make it so."""
+    slip = found.slip
+    if found.converged or (slip.shaking or 0.0) > found.allowed:
+        return None
+    # What the case gives is kept.
+    step = 0.0 if options.time_step is not None else slip.step
+    mesh = 0.0 if "elements_across" in options.model_fields_set else slip.mesh or 0.0
+    if max(step, mesh) < _MATTERS * found.allowed:
+        return None
+    return Level(level.mesh, level.halvings + 1) if step > mesh else Level(level.mesh + 1, level.halvings)
+
+
+def _worth(
+    key: str, value: float, run: float, other: float, mesh: float | None, varied: Sequence[Floats] | None
+) -> Worth:
+    deviation = None if varied is None else max(float(runs.std(ddof=1)) for runs in varied)
+    least = FLOOR_M if key.endswith("_m") else 0.0
+    return Worth(value, run, abs(run - other), mesh, deviation, least)
+
+
+def _moved_by_mesh(
+    key: str, own: dict[str, Floats], beside: dict[str, Floats] | None, third: dict[str, Floats] | None
+) -> float | None:
+    """Return by how much the mesh moves a headline number; None where there is no other mesh."""
+    if beside is None:
+        return None
+    moved = abs(float(own[key].mean() - beside[key].mean()))
+    return moved if third is None else max(moved, _LEFT * abs(float(beside[key].mean() - third[key].mean())))
+
+
+def _scatter(slips: Floats, step: float) -> bool:
+    """Whether single runs are one of many equals, which do not lie on a line that rises with the shaking."""
+    line = np.polyfit(SCALES, slips, 1)
+    left = slips - np.polyval(line, SCALES)
+    deviation = float(np.sqrt(np.sum(left**2) / (slips.size - line.size)))
+    limit = allowed(float(slips.mean()))
+    return deviation > _SCATTERS * limit or abs(step) > _SCATTERS_BY_STEP * limit
+
+
+class _Stand:
+    """What stands beside the run at one level: another step, another mesh, other shaking."""
+
+    def __init__(self, trials: Trials, level: Level, *, full: bool) -> None:
+        self._trials, self._level, self._full = trials, level, full
+        shaken = trials.dam_of(level.mesh)
+        self._options = shaken.case.flexible
+        longer = 2.0 * trials.step_of(level)
+        self._step = Level(level.mesh, level.halvings + (-1 if shaken.may_step(longer) else 1))
+        # Members of the ensemble take the longer of the two steps.
+        self._halvings = min(level.halvings, self._step.halvings)
+        #: The other mesh, None where there is none.
+        self.mesh = self._beside() if full else None
+
+    def _beside(self) -> Level | None:
+        if self._options.mesh_above or self._options.mesh_below:
+            return None
+        coarser = self._level.mesh - 1
+        few = self._options.elements_across < _FEWEST_ACROSS or not self._trials.has_mesh(coarser, _LEAST_ACROSS)
+        return Level(self._level.mesh + 1 if few else coarser, self._halvings)
+
+    @cached_property
+    def _third(self) -> Level | None:
+        """A mesh that is coarser still, with which means are compared, too; None where there is none."""
+        if self.mesh is None or self.mesh.mesh > self._level.mesh:
+            return None
+        third = Level(self.mesh.mesh - 1, self._halvings)
+        return third if self._trials.has_mesh(third.mesh, _LEAST_ACROSS) else None
+
+    @property
+    def _own(self) -> Level:
+        return Level(self._level.mesh, self._halvings)
+
+    @property
+    def _cheap(self) -> Level:
+        """Where the shaking is varied at first: the coarser of the two meshes."""
+        return self._own if self.mesh is None else min(self.mesh, self._own)
+
+    def wanted(self, *, means: bool) -> _Wanted:
+        """Return the runs that :meth:`evidence` needs, or needs where means are compared."""
+        wanted: _Wanted = [(self._level, _AS_IT_IS), (self._step, _AS_IT_IS)]
+        if self._full:
+            wanted += [(self._cheap, SCALES), (self._own, SCALES if means else _AS_IT_IS)]
+            if self.mesh is not None:
+                wanted.append((self.mesh, SCALES if means else _AS_IT_IS))
+            if means and self._third is not None:
+                wanted.append((self._third, SCALES))
+        return wanted
+
+    def evidences(self, *, spent: bool = False) -> tuple[Evidence, ...]:
+        """Return what the run at this level is worth, crack by crack."""
+        trials = self._trials
+        trials.prepare([level for level in (self._level, self.mesh) if level is not None], self.wanted(means=False))
+        found = [self._evidence(crack, spent=spent) for crack in range(trials.cracks)]
+        # Runs and their cost are those of all.
+        return tuple(replace(each, runs=trials.runs, work=trials.work) for each in found)
+
+    def _evidence(self, crack: int, *, spent: bool) -> Evidence:
+        trials = self._trials
+        run, other = trials.numbers(self._level, _AS_IT_IS, crack), trials.numbers(self._step, _AS_IT_IS, crack)
+        varied = trials.numbers(self._cheap, SCALES, crack) if self._full else None
+        step = float(run["residual_slip_m"][0] - other["residual_slip_m"][0])
+        mean = varied is not None and _scatter(varied["residual_slip_m"], step)
+        scales = SCALES if mean else _AS_IT_IS
+        beside = None if self.mesh is None else trials.numbers(self.mesh, scales, crack)
+        own = trials.numbers(self._own, scales, crack) if self._full else run
+        third = trials.numbers(self._third, SCALES, crack) if mean and self._third is not None else None
+        # Of runs that scatter those of both meshes tell by how much.
+        ensembles = ([own] if beside is None else [own, beside]) if mean else None if varied is None else [varied]
+        worth = {
+            each.key: _worth(
+                each.key,
+                float(own[each.key].mean()) if mean else float(run[each.key][0]),
+                float(run[each.key][0]),
+                float(other[each.key][0]),
+                _moved_by_mesh(each.key, own, beside, third),
+                None if ensembles is None else [runs[each.key] for runs in ensembles],
+            )
+            for each in HEADLINES
+        }
+        return Evidence(
+            asked="full" if self._full else "step",
+            mean=mean,
+            worth=worth,
+            time_step=trials.step_of(self._level),
+            other_step=trials.step_of(self._step),
+            across=self._options.elements_across,
+            other_across=None if self.mesh is None else trials.across_of(self.mesh),
+            third_across=None if third is None or self._third is None else trials.across_of(self._third),
+            failed=0 if varied is None else trials.failed(self._own if mean else self._cheap, SCALES),
+            slips=() if ensembles is None else tuple(ensembles[0]["residual_slip_m"].tolist()),
+            runs=trials.runs,
+            work=trials.work,
+            spent=spent,
+        )

@@ -1,0 +1,193 @@
+"""Runs of one dam in one earthquake at several meshes, steps and strengths of the shaking, none of them twice."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from heeltoe.base.arrays import Floats
+from heeltoe.case.model import Case
+from heeltoe.errors.error import InputError
+from heeltoe.kernel.dam import DAM_OUTCOMES, DamRun, Ending
+from heeltoe.models.flexible.body.cost import Cost, building, parts_of
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
+from heeltoe.models.flexible.run.expected import running
+from heeltoe.result.contract import HEADLINES, headlines
+
+#: Factors on the shaking: as it is, and up to 1 % either way.
+SCALES = (1.0, 0.99, 0.995, 1.005, 1.01)
+_OK = DAM_OUTCOMES.index("ok")
+# Twice as many elements along the crack cost about so many times as much; half the step twice.
+_WORK_OF_MESH = 4.0
+
+
+@dataclass(frozen=True, order=True)
+class Level:
+    """How fine a run is: so many times twice the elements along the crack and half the step; -1 is half and twice."""
+
+    mesh: int
+    halvings: int
+
+    @property
+    def work(self) -> float:
+        """What a run costs, of one at level 0."""
+        return float(_WORK_OF_MESH**self.mesh * 2.0**self.halvings)
+
+
+class Trials:
+    """Runs of one dam in one earthquake.
+
+    Parameters
+    ----------
+    shaken
+        The dam as its case has it, level 0 of the meshes.
+    step
+        The first one [s], level 0 of the steps.
+    frame_step
+        Spacing of the frames of whole runs [s].
+    first
+        The run at level 0, where it has been made before.
+    """
+
+    def __init__(self, shaken: ShakenDam, step: float, frame_step: float, first: DamRun | None = None) -> None:
+        self.step = step
+        self._frame_step = frame_step
+        self._shaken = {0: shaken}
+        # Of each crack.
+        self._numbers: dict[tuple[Level, float], tuple[dict[str, float], ...]] = {}
+        self._whole: dict[Level, DamRun] = {}
+        self._ending = Ending()
+        if first is not None:
+            self._keep(Level(0, 0), first)
+
+    @property
+    def runs(self) -> int:
+        """How many there have been."""
+        return len(self._numbers)
+
+    @property
+    def work(self) -> float:
+        """What they have cost together, in runs at level 0."""
+        return sum(level.work for level, _ in self._numbers)
+
+    def cost(self, wanted: Iterable[tuple[Level, Sequence[float]]]) -> float:
+        """Return what the runs that are still to be made would cost."""
+        runs = {(level, scale) for level, scales in wanted for scale in scales}
+        return sum(level.work for level, _ in runs - self._numbers.keys())
+
+    def expected(self, level: Level, work: float) -> Cost:
+        """Return what so many runs at level 0 are estimated to take with one at another level among them."""
+        first = self._shaken[0]
+        case, end = with_mesh(first.case, level.mesh), first.shaking.end
+        parts = building(parts_of(case))
+        runs = running(first.case, end, self._frame_step, self.step, runs=work)
+        finest = running(case, end, self._frame_step, self.step_of(level))
+        return Cost(parts.seconds + runs.seconds, parts.memory + finest.memory)
+
+    def dam_of(self, mesh: int) -> ShakenDam:
+        """Return the dam with another mesh."""
+        if mesh not in self._shaken:
+            first = self._shaken[0]
+            case = with_mesh(first.case, mesh)
+            self._shaken[mesh] = replace(first, case=case, dam=build_flexible_dam(case))
+        return self._shaken[mesh]
+
+    def has_mesh(self, mesh: int, least: int) -> bool:
+        """Whether the dam has another mesh with at least so many elements along its crack."""
+        if with_mesh(self._shaken[0].case, mesh).flexible.elements_across < least:
+            return False
+        try:
+            self.dam_of(mesh)
+        except InputError:
+            # So few elements do not follow its kinks.
+            return False
+        return True
+
+    def across_of(self, level: Level) -> int:
+        """Return how many elements there are along the crack."""
+        return self.dam_of(level.mesh).case.flexible.elements_across
+
+    def step_of(self, level: Level) -> float:
+        """Return the length of a step [s]."""
+        return float(self.step / 2.0**level.halvings)
+
+    def whole(self, level: Level) -> DamRun:
+        """Return a run with its frames, the shaking as it is."""
+        if level not in self._whole:
+            found = self.dam_of(level.mesh).run(self.step_of(level), self._frame_step, self._ending)
+            self._keep(level, found)
+        return self._whole[level]
+
+    def _keep(self, level: Level, run: DamRun) -> None:
+        self._whole[level] = run
+        self._numbers[level, 1.0] = tuple(summary.by_name() for summary in run.summaries)
+
+    def prepare(self, whole: Sequence[Level], wanted: Iterable[tuple[Level, Sequence[float]]]) -> None:
+        """Make runs with frames, the first of which is told, and others side by side: the kernel lets go of the
+        interpreter."""
+
+        def make(one: tuple[Level, Sequence[float]]) -> None:
+            level, scales = one
+            # That of the shaking as it is has its frames.
+            self.numbers(level, [scale for scale in scales if level not in whole or scale != 1.0])
+
+        with ThreadPoolExecutor(os.cpu_count()) as pool:
+            shown, *others = [pool.submit(self.whole, level) for level in whole]
+            try:
+                list(pool.map(make, wanted))
+                for each in (shown, *others):
+                    each.result()
+            except KeyboardInterrupt as error:
+                # Threads hear of no signal; what the run with frames has come to is told.
+                self._ending.ask()
+                pool.shutdown(cancel_futures=True)
+                ended = None if shown.cancelled() else shown.exception()
+                for note in getattr(ended, "__notes__", ()):
+                    error.add_note(note)
+                raise
+
+    @property
+    def cracks(self) -> int:
+        """How many there are."""
+        return len(self._shaken[0].dam.lines)
+
+    @property
+    def asked(self) -> int:
+        """Which of them is asked of."""
+        return self._shaken[0].dam.asked
+
+    def numbers(self, level: Level, scales: Sequence[float], crack: int = 0) -> dict[str, Floats]:
+        """Return the headline numbers of a crack in runs with these factors on the shaking, (n,) by name."""
+        missing = [scale for scale in scales if (level, scale) not in self._numbers]
+        if missing:
+            tables = self.dam_of(level.mesh).run_scaled_cracks(self.step_of(level), np.array(missing), self._ending)
+            for place, scale in enumerate(missing):
+                self._numbers[level, scale] = tuple(
+                    {name: float(column[place]) for name, column in table.items()} for table in tables
+                )
+        rows = [self._numbers[level, scale][crack] for scale in scales]
+        return headlines({each.column: np.array([row[each.column] for row in rows]) for each in HEADLINES})
+
+    def failed(self, level: Level, scales: Sequence[float]) -> int:
+        """Return how many of these runs, all made before, end without a result."""
+        return sum(self._numbers[level, scale][0]["outcome"] != _OK for scale in scales)
+
+
+def with_mesh(case: Case, mesh: int) -> Case:
+    """Return the case with so many times twice the elements along the crack; -1 for half of them, rounded up."""
+
+    def changed(across: int) -> int:
+        return math.ceil(across * 2.0**mesh)
+
+    below = case.flexible.elements_across_below
+    update = {
+        "elements_across": changed(case.flexible.elements_across),
+        "elements_across_below": None if below is None else changed(below),
+    }
+    return case.model_copy(update={"flexible": case.flexible.model_copy(update=update)})

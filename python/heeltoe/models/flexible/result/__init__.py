@@ -1,0 +1,1 @@
+"""What a run of the elastic dam returns: numbers, histories, stresses."""

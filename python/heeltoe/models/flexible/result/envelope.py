@@ -1,0 +1,119 @@
+"""The envelope of the principal stresses over a run, and its largest tension."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe.base.arrays import Floats, Integers
+from heeltoe.kernel.dam import DamRun
+from heeltoe.models.flexible.body.elastic import principal, stresses
+from heeltoe.models.flexible.body.reduced import FlexibleDam
+
+
+@dataclass(frozen=True, eq=False)
+class PartEnvelope:
+    """The largest stresses of one part over a run, at p corners of its elements; tension is positive.
+
+    Attributes
+    ----------
+    nodes
+        (p,) of the mesh of the part.
+    tension, compression
+        (p,) largest and least principal stress [Pa].
+    tension_time, compression_time
+        (p,) when [s].
+    direction
+        (p,) of the largest tension, from x downstream towards z up [rad]; a crack would open across it.
+    before
+        (p,) largest principal stress under the static loads, before the earthquake [Pa].
+    bounded
+        (p,) whether the stress has a bound as the mesh gets finer, see
+        :func:`heeltoe.models.flexible.body.stress_places.bounded`.
+    """
+
+    nodes: Integers
+    tension: Floats
+    tension_time: Floats
+    compression: Floats
+    compression_time: Floats
+    direction: Floats
+    before: Floats
+    bounded: NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Peak:
+    """A largest tension or compression.
+
+    Attributes
+    ----------
+    stress
+        [Pa], tension positive.
+    time
+        [s].
+    part, index
+        Place of the part, upper first, and of the point in its envelope.
+    """
+
+    stress: float
+    time: float
+    part: int
+    index: int
+
+
+def _of_parts(dam: FlexibleDam, run: DamRun) -> list[Mapping[str, Floats]]:
+    """Return the extremes that the kernel has of its bodies, part by part from the crest down."""
+    found: list[Mapping[str, Floats]] = [{}] * len(dam.bodies)
+    for side, table in enumerate(run.extremes):
+        ends = np.cumsum([each.nodes.size for each in dam.stress_places[side::2]])[:-1]
+        pieces = {name: np.split(values, ends) for name, values in table.by_name().items()}
+        found[side::2] = [{name: each[k] for name, each in pieces.items()} for k in range(ends.size + 1)]
+    return found
+
+
+def envelope_of(dam: FlexibleDam, run: DamRun) -> tuple[PartEnvelope, ...]:
+    """Return the envelope of a run, part by part."""
+    found = []
+    for body, places, static, raw in zip(dam.bodies, dam.stress_places, dam.static, _of_parts(dam, run), strict=True):
+        at_rest, _, _ = principal(stresses(body, static)[places.nodes])
+        found.append(
+            PartEnvelope(
+                nodes=places.nodes,
+                tension=raw["tension"],
+                tension_time=raw["tension_time"],
+                compression=raw["compression"],
+                compression_time=raw["compression_time"],
+                direction=np.arctan2(2.0 * raw["xz"], raw["xx"] - raw["zz"]) / 2.0,
+                before=at_rest,
+                bounded=places.bounded,
+            )
+        )
+    return tuple(found)
+
+
+def largest_tension(parts: Sequence[PartEnvelope]) -> Peak | None:
+    """Return the largest tension where it has a bound; None where no point is far enough from where it has none."""
+    return _largest([np.where(each.bounded, each.tension, -np.inf) for each in parts], parts, "tension")
+
+
+def largest_compression(parts: Sequence[PartEnvelope]) -> Peak | None:
+    """Return the largest compression, as :func:`largest_tension`."""
+    return _largest([np.where(each.bounded, -each.compression, -np.inf) for each in parts], parts, "compression")
+
+
+def _largest(values: list[Floats], parts: Sequence[PartEnvelope], name: str) -> Peak | None:
+    part = int(np.argmax([each.max(initial=-np.inf) for each in values]))
+    if not values[part].size or values[part].max() == -np.inf:
+        return None
+    index = int(values[part].argmax())
+    found = parts[part]
+    return Peak(float(getattr(found, name)[index]), float(getattr(found, f"{name}_time")[index]), part, index)
+
+
+def tension_before(parts: Sequence[PartEnvelope]) -> float:
+    """Return the largest tension before the earthquake, where it has a bound [Pa]."""
+    return max(float(each.before[each.bounded].max(initial=-np.inf)) for each in parts)

@@ -1,0 +1,87 @@
+"""What a run of the flexible model returns beside what every run returns."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, ClassVar
+
+from heeltoe.result.numbers import (
+    BeforeShaking,
+    ElasticGive,
+    EvidenceNumbers,
+    Mesh,
+    Penetration,
+    SelfExcitation,
+    Tension,
+)
+from heeltoe.result.response import CrackResponse, Of, Response
+
+# Not at run time: who asks whether a response is one of these need not wait for the elastic parts.
+if TYPE_CHECKING:
+    from heeltoe.models.flexible.result.envelope import PartEnvelope
+    from heeltoe.models.flexible.result.history import CrackHistory
+
+# A crack that lets go for less than this in all [s] moves no dam.
+_LETS_GO_S = 0.02
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ElasticCrackResponse(CrackResponse):
+    """What one crack of an elastic dam did, attributes as in :class:`~heeltoe.result.response.CrackResponse`.
+
+    Attributes
+    ----------
+    frames
+        What crack and parts did, frame by frame.
+    """
+
+    frames: CrackHistory
+
+
+@dataclass(frozen=True, eq=False, kw_only=True, repr=False)
+class FlexibleResponse(Response):
+    """Result of the flexible model, signs and attributes as in :class:`~heeltoe.result.response.Response`.
+
+    Attributes
+    ----------
+    envelope
+        The largest stresses of each part over the run, from the crest down.
+    """
+
+    cracks: tuple[ElasticCrackResponse, ...]
+    envelope: tuple[PartEnvelope, ...]
+
+    elastic: ClassVar[bool] = True
+
+    penetration_m = Of[Penetration]()
+    elastic_give = Of[ElasticGive]()
+    peak_normal_force_n = Of[float]()
+    periods_s = Of[list[float]]()
+    mesh = Of[Mesh]()
+    damping = Of[str]()
+    damping_ratio = Of[float]()
+    damping_ratios = Of[list[float]]()
+    rayleigh_mass_1_s = Of[float | None]()
+    rayleigh_stiffness_s = Of[float | None]()
+    before_shaking = Of[BeforeShaking | None]()
+    self_excitation = Of[SelfExcitation | None]()
+    tension = Of[Tension | None]()
+    contact = Of[str]()
+    steps = Of[int]()
+    time_step_s = Of[float]()
+    contact_iterations_per_step = Of[float]()
+    contact_residual = Of[float]()
+    evidence = Of[EvidenceNumbers | None]()
+
+    @property
+    def crack(self) -> CrackHistory:
+        """What the crack that leads and the parts did, frame by frame."""
+        return self.cracks[self.asked].frames
+
+    def lets_go(self) -> bool:
+        """Whether there are moments in which the part above the crack slides or rocks as a whole.
+
+        Otherwise the crack slips here and then there, while more than half of what touches holds.
+        """
+        times = self.time_by_mode_s
+        return bool(sum(times.values()) - times.rest >= _LETS_GO_S)

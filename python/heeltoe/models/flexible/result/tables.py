@@ -1,0 +1,233 @@
+"""What the kernel found of an elastic dam, by the names of the contract."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from heeltoe.base.arrays import Floats
+from heeltoe.case.model import Case
+from heeltoe.kernel.dam import DAM_STATES, DamRun
+from heeltoe.kernel.shaking import Shaking
+from heeltoe.mechanics.block import StaticState, build_block, static_state
+from heeltoe.models.flexible.body.reduced import FlexibleDam, apart
+from heeltoe.models.flexible.evidence.evidence import Evidence
+from heeltoe.models.flexible.evidence.growth import Growth
+from heeltoe.models.flexible.evidence.refinement import Answer
+from heeltoe.models.flexible.result.history import CrackHistory, watched_nodes
+from heeltoe.models.flexible.result.response import ElasticCrackResponse
+from heeltoe.models.flexible.run.dam_runner import ShakenDam
+from heeltoe.models.flexible.run.slip_history import law_found, sliding_friction, worn_of
+from heeltoe.result.contract import slip_by_mode, time_by_mode
+from heeltoe.result.numbers import (
+    AnchorForce,
+    BeforeShaking,
+    CrackEnergy,
+    ElasticCrack,
+    ElasticDam,
+    ElasticGive,
+    Mesh,
+    Penetration,
+    Tension,
+)
+from heeltoe.result.response import Energy
+
+
+def anchors_of(case: Case, run: DamRun) -> list[AnchorForce]:
+    """Return what each anchor bears at most [N], and what it is good for."""
+    borne = iter(run.anchors.tolist())
+    forces = []
+    for anchor in case.anchors_at_crack:
+        stiff = anchor.axial_stiffness or anchor.shear_stiffness
+        tension, force = next(borne) if stiff else (anchor.prestress, anchor.prestress)
+        forces.append(
+            AnchorForce(
+                distance_m=anchor.distance, peak_tension_n=tension, peak_force_n=force, capacity_n=anchor.capacity
+            )
+        )
+    return forces
+
+
+def histories_of_cracks(case: Case, dam: FlexibleDam, run: DamRun) -> tuple[CrackHistory, ...]:
+    """Return the frames of a run, crack by crack from the crest down."""
+    time, modes = run.frames.time, apart(run.modes, dam.modes)
+    bodies = [table.reshape(time.size, 2, -1) for table in (run.upper, run.lower)]
+    nodes = bodies[0].shape[2]
+    # Of the only crack the kernel keeps the forces on the upper face alone.
+    split = np.split(run.force, [2 * nodes], axis=1)
+    forces = [table.reshape(time.size, 2, -1) for table in split]
+    found, watched = [], 0
+    for place, line in enumerate(dam.lines):
+        (first, count), (low, counted) = line.upper, line.lower
+        side = place % 2
+        contacts = contactors_of([count, counted][: 1 + bool(counted)], case.flexible.contactors)
+        found.append(
+            CrackHistory(
+                time=time,
+                upper_position=bodies[side][:, :, first : first + count],
+                lower_position=bodies[1 - side][:, :, low : low + counted] if counted else None,
+                force=forces[side][:, :, first : first + count],
+                status=run.status[:, watched : watched + contacts],
+                modes=modes,
+                dam=dam,
+                contactors=case.flexible.contactors,
+                place=place,
+            )
+        )
+        watched += contacts
+    return tuple(found)
+
+
+def contactors_of(nodes: list[int], contactors: int) -> int:
+    """Return how many nodes of a crack are watched."""
+    return sum(each.size for _, each in watched_nodes(nodes, contactors))
+
+
+def crack_numbers(
+    case: Case, dam: FlexibleDam, run: DamRun, history: CrackHistory, evidence: Evidence | None
+) -> ElasticCrack:
+    """Return the numbers of a crack; `case` has it alone."""
+    place = history.place
+    raw, line = run.summaries[place], dam.lines[place]
+    row = raw.by_name()
+    worn = worn_of(case, place, dam, run)
+    several = len(dam.lines) > 1
+    numbers = ElasticCrack(
+        residual_slip_m=raw.slip,
+        peak_slip_downstream_m=raw.slip_max,
+        peak_slip_upstream_m=raw.slip_min,
+        rocking_downstream_rad=abs(raw.rotation_min),
+        rocking_upstream_rad=abs(raw.rotation_max),
+        opening_upstream_m=raw.opening_heel,
+        opening_downstream_m=raw.opening_toe,
+        largest_gap_heel_m=raw.opening_heel,
+        largest_gap_toe_m=raw.opening_toe,
+        slip_by_mode_m=slip_by_mode(row),
+        time_by_mode_s=time_by_mode(row),
+        impacts=int(raw.impacts),
+        largest_impact_velocity_m_s=raw.largest_impact_velocity,
+        final_mode=DAM_STATES[int(raw.final_state)],
+        final_slip_velocity_m_s=raw.slip_velocity,
+        crack_width_m=dam.sections[place].crack_width,
+        friction=sliding_friction(case, place, dam) if several else None,
+        crack_energy=CrackEnergy(friction_j=raw.crack_friction, impact_j=raw.crack_impact) if several else None,
+        anchors=anchors_of(case, run) if case.anchors else None,
+        elastic_give=ElasticGive(rotation_rad=line.give[0], gap_m=line.give[1]),
+        peak_normal_force_n=raw.peak_normal_force,
+        before_shaking=start_of(dam, place) if case.flexible.contact == "coulomb" else None,
+        penetration_m=Penetration(watched=raw.penetration, any_in_frames=history.deepest_penetration()),
+        evidence=None if evidence is None else evidence.numbers(),
+        friction_law=None if worn is None else law_found(worn, run, place),
+    )
+    # Where single runs scatter, what is shown first is the mean of several.
+    means: dict[str, Any] = {} if evidence is None else {name: worth.value for name, worth in evidence.worth.items()}
+    return replace(numbers, **means)
+
+
+def start_of(dam: FlexibleDam, place: int) -> BeforeShaking:
+    """Return how a crack stands before the earthquake."""
+    start = dam.start
+    return BeforeShaking(stands=start.stands, slip_m=start.slips[place], open_contacts=start.open_contacts[place])
+
+
+def dam_numbers(shaken: ShakenDam, run: DamRun, growth: Growth | None, tension: Tension | None) -> ElasticDam:
+    """Return the numbers of the dam as a whole."""
+    raw, dam, case = run.summary, shaken.dam, shaken.case
+    coefficients = dam.damping.coefficients
+    return ElasticDam(
+        end_time_s=raw.end_time,
+        periods_s=dam.periods.tolist(),
+        mesh=Mesh(
+            elements=[len(body.mesh.elements) for body in dam.bodies],
+            nodes=[len(body.mesh.nodes) for body in dam.bodies],
+            modes=[int(basis.omega_squared.size) for basis in dam.modes],
+            crack_nodes=dam.lines[dam.asked].upper[1],
+            basis_error=dam.basis_error,
+        ),
+        damping=case.flexible.damping,
+        damping_ratio=case.concrete.damping,
+        damping_ratios=dam.damping.ratios.tolist(),
+        rayleigh_mass_1_s=coefficients[0] if coefficients else None,
+        rayleigh_stiffness_s=coefficients[1] if coefficients else None,
+        contact=case.flexible.contact,
+        steps=int(raw.steps),
+        time_step_s=raw.end_time / raw.steps,
+        contact_iterations_per_step=raw.iterations / raw.steps,
+        contact_residual=raw.contact_residual,
+        uplift_during_shaking=case.uplift.during_shaking,
+        drainage_by_motion=None,
+        self_excitation=None if growth is None else growth.numbers(),
+        tension=tension,
+    )
+
+
+def energy_of(run: DamRun) -> Energy:
+    """Return the ledger."""
+    raw = run.summary
+    return Energy(
+        input_j=raw.energy_input,
+        friction_j=raw.energy_friction,
+        impact_j=raw.energy_impact,
+        kinetic_j=raw.energy_stored + raw.energy_penalty - raw.energy_start,
+        residual=raw.energy_residual,
+        damping_j=raw.energy_damping,
+        numerical_j=raw.energy_numerical,
+        gained_j=raw.energy_gained,
+    )
+
+
+def histories_of(shaking: Shaking, run: DamRun, place: int, law: bool = False) -> dict[str, Floats]:
+    """Return the histories of the contract for a crack, frame by frame; with those of its friction `law`."""
+    column, time = run.all_frames[place], run.frames.time
+    result = {"time_s": time, "ground_acceleration_m_s2": np.interp(time, shaking.time, shaking.horizontal)}
+    if shaking.up is not None:
+        result["vertical_ground_acceleration_m_s2"] = np.interp(time, shaking.time, shaking.up)
+    if law:
+        result |= {"slip_path_m": column.slip_path, "friction_strength_n": column.friction_strength}
+    return result | {
+        "slip_m": column.slip,
+        "slip_velocity_m_s": column.slip_velocity,
+        "gap_heel_m": column.opening_heel,
+        "gap_toe_m": column.opening_toe,
+        "rotation_rad": column.rotation,
+        "normal_force_n": column.normal_force,
+        "friction_force_n": column.friction_force,
+        "touching": column.touching,
+        "stored_energy_j": column.energy_stored,
+        "input_energy_j": column.energy_input,
+        "damping_energy_j": column.energy_damping,
+        "friction_energy_j": column.energy_friction,
+        "impact_energy_j": column.energy_impact,
+    }
+
+
+def crack_responses(
+    found: Answer, histories: Sequence[CrackHistory], static: StaticState
+) -> list[ElasticCrackResponse]:
+    """Return what each crack did, from the crest down; `static` is the state at the one asked of."""
+    shaken, run = found.shaken, found.run
+    responses = []
+    for history, case in zip(histories, shaken.case.single_crack_cases, strict=True):
+        place = history.place
+        evidence = found.evidences[place] if found.evidences else None
+        section = shaken.dam.sections[place]
+        responses.append(
+            ElasticCrackResponse(
+                elevation=section.heel[1] - section.base_elevation,
+                of_crack=crack_numbers(case, shaken.dam, run, history, evidence),
+                histories=histories_of(shaken.shaking, run, place, law=case.crack.law is not None),
+                mode=modes_of(run, place),
+                event_log={},
+                static=static if place == shaken.dam.asked else static_state(build_block(case)),
+                frames=history,
+            )
+        )
+    return responses
+
+
+def modes_of(run: DamRun, place: int) -> tuple[str, ...]:
+    """Return what the part above a crack does, frame by frame."""
+    return tuple(DAM_STATES[int(state)] for state in run.all_frames[place].state)

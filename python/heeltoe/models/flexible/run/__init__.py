@@ -1,0 +1,1 @@
+"""One run of the elastic dam: its shaking, its cost, what its friction law remembers."""

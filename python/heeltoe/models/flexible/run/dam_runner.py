@@ -1,0 +1,191 @@
+"""A dam with its earthquake, ready to run at any step."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from heeltoe.base.arrays import Floats
+from heeltoe.case.model import Case
+from heeltoe.errors.error import InputError
+from heeltoe.kernel.dam import CrackedDam, DamRun, Ending
+from heeltoe.kernel.shaking import Shaking
+from heeltoe.models.flexible.body.inside import rising_water
+from heeltoe.models.flexible.body.modes import part_periods
+from heeltoe.models.flexible.body.reduced import FlexibleDam
+from heeltoe.models.flexible.body.step import longest_step
+from heeltoe.models.flexible.body.stress_places import StressRows, in_bodies
+from heeltoe.motion.moments import step_ends, step_means
+from heeltoe.result.contract import JOINT_METER_M
+from heeltoe.result.rest import LAST_S
+
+#: A blow lasts about as long as the part above the crack takes for one vibration; the step is this part of it.
+_STEPS_PER_PERIOD = 100.0
+_SHORTEST_STEP, _LONGEST_STEP = 5e-5, 2e-4
+#: What acts in the crack may ask for a shorter one, down to this.
+_SHORTEST_OF_ALL = 1e-5
+#: So closely the program's own step follows it, as from a sixteenth on the contact problem is next to singular; and so
+#: closely at least a given one must.
+_ENOUGH_STEPS, _FEWEST_STEPS = 30.0, 8.0
+_TOO_FEW_STEPS = 16.0
+#: Stresses are looked at about so often [s]; twice as often finds 1.3 % more at most (docs/flexible.md).
+_STRESS_STEP = 2e-3
+# Steps fit a silence where so little of it is left [of it].
+_FITS = 1e-9
+
+
+def usual_step(period: float) -> float:
+    """Return a step [s] that follows a part above the crack of this longest period [s]."""
+    shortest = max(_SHORTEST_OF_ALL, min(_SHORTEST_STEP, period / _ENOUGH_STEPS))
+    return float(np.clip(period / _STEPS_PER_PERIOD, shortest, _LONGEST_STEP))
+
+
+class Pauses(NamedTuple):
+    """Silence after a motion: so many `steps` until it is asked whether the dam is at rest, `times` over."""
+
+    steps: int
+    times: int
+
+
+@dataclass(frozen=True, eq=False)
+class ShakenDam:
+    """A dam with its earthquake, ready to run at any step."""
+
+    case: Case
+    dam: FlexibleDam
+    shaking: Shaking
+
+    def first_step(self) -> float:
+        """Return the step of the case, or one that follows the vibration of the part above the crack [s].
+
+        Raises
+        ------
+        InputError
+            Where the step of the case is too long to follow it, or what acts in the crack is too stiff for any step.
+        """
+        period = self._period()
+        given = self.case.flexible.time_step
+        wanted = given or usual_step(period)
+        step, field = longest_step(self.dam, self.case.flexible.theta, wanted)
+        if step < (wanted if given else _SHORTEST_OF_ALL):
+            raise InputError("step-stiff", field, step=f"{step:.2g} s")
+        if given is None:
+            return step
+        if given > period / _FEWEST_STEPS:
+            raise InputError(
+                "time-step-long", "flexible.time_step", f"{given:g} s", longest=f"{period / _FEWEST_STEPS:.2g} s"
+            )
+        return given
+
+    def _period(self) -> float:
+        """Return the longest period of the part above a crack that vibrates fastest [s]."""
+        return min(float(part_periods(modes, 1)[0]) for modes in self.dam.modes[: self.dam.free])
+
+    def may_step(self, step: float) -> bool:
+        """Whether a step [s] still follows the dam and what acts in its crack, so that a run can be compared."""
+        period = self._period()
+        followed, _ = longest_step(self.dam, self.case.flexible.theta, step)
+        return step <= min(followed, period / _TOO_FEW_STEPS, self.shaking.end / 2.0)
+
+    def run(
+        self,
+        step: float,
+        frame_step: float | None = None,
+        ending: Ending | None = None,
+        factor: float = 1.0,
+        *,
+        stresses: bool = True,
+        pauses: Pauses | None = None,
+    ) -> DamRun:
+        """Run at about this step, made to fit the duration [s], with so many times the ground motion; with frames about
+        every `frame_step`, and with them the extremes of the `stresses`; with `pauses`, on through silence until the
+        dam is at rest."""
+        count, step, ground = self._ground(step)
+        if pauses is not None:
+            ground = np.vstack([ground, np.zeros((pauses.times * pauses.steps, 2))])
+        stride, rows = 0, None
+        if frame_step is not None:
+            stride = max(1, min(count, round(frame_step / step)))
+            often = max(1, round(min(_STRESS_STEP, frame_step) / step))
+            rows = StressRows(in_bodies(self.dam.stress_places), often) if stresses else None
+        return self._shaken_dam.run(
+            factor * ground,
+            step,
+            self.case.flexible.theta,
+            stride=stride,
+            stresses=rows,
+            penalty=self._penalty(),
+            ending=ending,
+            until_rest=None if pauses is None else (count, pauses.steps, LAST_S, JOINT_METER_M),
+        )
+
+    def pauses(self, step: float, seconds: float, longest: float) -> Pauses | None:
+        """Return how a run at about this step goes on through up to `longest` [s] of silence, `seconds` at a time; None
+        where steps do not fit them, or the motion is taken at the ends of steps."""
+        _, step = _steps(self.shaking, step)
+        steps, count = seconds / step, longest / seconds
+        fits = abs(steps - round(steps)) < _FITS * steps and abs(count - round(count)) < _FITS
+        if not fits or self.case.flexible.contact == "idce":
+            return None
+        return Pauses(round(steps), round(count))
+
+    def run_scaled(
+        self, step: float, scales: Floats, ending: Ending | None = None, threads: int = 0
+    ) -> dict[str, Floats]:
+        """Run once for each factor on the ground motion, side by side; (n,) arrays by name, of the crack asked of."""
+        return self.run_scaled_cracks(step, scales, ending, threads)[self.dam.asked]
+
+    def run_scaled_cracks(
+        self, step: float, scales: Floats, ending: Ending | None = None, threads: int = 0
+    ) -> tuple[dict[str, Floats], ...]:
+        """Return the same for each crack."""
+        _, step, ground = self._ground(step)
+        pairs = np.column_stack([scales, scales])
+        theta = self.case.flexible.theta
+        return self._shaken_dam.run_many(
+            ground,
+            step,
+            theta,
+            pairs,
+            threads=threads,
+            penalty=self._penalty(),
+            ending=ending,
+        )
+
+    @cached_property
+    def _shaken_dam(self) -> CrackedDam:
+        return self.dam.kernel.under(rising_water(self.case, self.dam.bodies, self.shaking.drainage))
+
+    def _ground(self, step: float) -> tuple[int, float, Floats]:
+        """Return how many steps of about this length make the whole run, their length [s], and what the kernel needs to
+        know of the ground in them. Silence after a motion leaves the steps before it as they are, where they fit it."""
+        shaking, before = self.shaking, self.shaking.before
+        if self.case.flexible.contact == "idce":
+            count, step = _steps(shaking, step)
+            return count, step, step_ends(shaking, count)
+        if before is not None:
+            count, short = _steps(before, step)
+            silent = (shaking.end - before.end) / short
+            if abs(silent - round(silent)) < _FITS * silent:
+                means = step_means(before, count)
+                return count + round(silent), short, np.vstack([means, np.zeros((round(silent), 2))])
+        count, step = _steps(shaking, step)
+        return count, step, step_means(shaking, count)
+
+    def _penalty(self) -> tuple[float, float, float] | None:
+        """Return stiffness, gamma and beta of the penalty method; None for exact contact."""
+        options = self.case.flexible
+        if options.contact != "idce":
+            return None
+        stiffest = max(float(body.stiffness.diagonal().max()) for body in self.dam.bodies)
+        gamma, beta = options.newmark_gamma, options.newmark_beta
+        return options.penalty_factor * stiffest, gamma, (gamma + 0.5) ** 2 / 4.0 if beta is None else beta
+
+
+def _steps(shaking: Shaking, step: float) -> tuple[int, float]:
+    """Return how many steps of about this length make a motion, and their length [s]."""
+    count = max(1, round(shaking.end / step))
+    return count, shaking.end / count

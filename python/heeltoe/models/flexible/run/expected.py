@@ -1,0 +1,86 @@
+"""What runs of the flexible model take, estimated before they begin.
+
+A step costs 2 k m for each part of k nodes on the crack and m modes; measured as the rest of
+:mod:`heeltoe.models.flexible.body.cost`."""
+
+from __future__ import annotations
+
+import math
+
+from heeltoe.case.model import Case
+from heeltoe.models.flexible.body.cost import NUMBER, Cost, building, parts_of
+from heeltoe.models.flexible.run.dam_runner import usual_step
+from heeltoe.models.runner import STEP
+
+#: Frames kept: enough for an animation, few enough for memory.
+_FRAME_STEP = 0.01
+# Seconds of a step, of each 2 k m in it, and of that to the power of 3/2, as caches end.
+_STEP, _ANSWERED, _FETCHED = 6e-7, 4.3e-10, 8.6e-13
+# Times as much where a friction law is found by passes, 1.7 to 4 of it.
+_BY_LAW = 2.5
+# Bytes of a step of the ground; copies of a frame.
+_GROUND, _COPIES = 300.0, 3.0
+# Runs that a result takes by its evidence, in single ones, without refinement.
+_RUNS = {"full": 5.0, "step": 3.0, "none": 1.0}
+# The longest period of a free part in times that waves of compression take through its height.
+_PERIOD = 3.1
+
+
+def frame_step_of(end: float, output_step: float | None) -> float:
+    """Return the spacing of the frames of a run [s]."""
+    return output_step or min(_FRAME_STEP, end)
+
+
+def running(case: Case, end: float, frame_step: float, step: float | None = None, runs: float | None = None) -> Cost:
+    """Return what the runs of a dam cost once it is built.
+
+    Parameters
+    ----------
+    case
+        With its evidence.
+    end
+        Length of a run [s].
+    frame_step
+        Spacing of its frames [s].
+    step
+        Its step [s]; about that of the program where it is not given.
+    runs
+        How many there are; as many as the evidence takes where it is not given.
+    """
+    parts = parts_of(case)
+    answers = sum(2.0 * part.nodes * part.modes for part in parts)
+    steps = end / (step or case.flexible.time_step or _step_of(case))
+    each = steps * (_STEP * len(parts) + _ANSWERED * answers + _FETCHED * answers**1.5)
+    if case.crack.law is not None or any(crack.law is not None for crack in case.further_cracks):
+        each *= _BY_LAW
+    frame = 16.0 + sum(part.modes + 6.0 * part.nodes for part in parts)
+    frames = min(steps, end / frame_step) * frame * NUMBER * _COPIES
+    return Cost(each * (_RUNS[case.flexible.evidence] if runs is None else runs), _GROUND * steps + frames)
+
+
+def analysing(
+    case: Case, end: float, frame_step: float, step: float | None = None, *, silence: float = 0.0, spread: int = 0
+) -> Cost:
+    """Return what a result of the flexible model costs, without refinement.
+
+    Parameters
+    ----------
+    case, end, frame_step, step
+        As :func:`running` takes them.
+    silence
+        How long the run may go on through silence [s]. Most dams still move a little when the motion ends: there is a
+        run to its end, one through all of the silence, and only then the one that counts, with its evidence.
+    spread
+        How many runs with the shaking varied follow.
+    """
+    parts, counted = building(parts_of(case)), _RUNS[case.flexible.evidence] + spread
+    runs = [running(case, end + min(silence, STEP), frame_step, step, counted)]
+    if silence:
+        runs += [running(case, through, frame_step, step, 1.0) for through in (end, end + silence)]
+    return Cost(parts.seconds + sum(each.seconds for each in runs), parts.memory + max(each.memory for each in runs))
+
+
+def _step_of(case: Case) -> float:
+    """Return about the step that the program will choose [s]."""
+    speed = math.sqrt((case.concrete.modulus or math.inf) / case.concrete.density)
+    return usual_step(_PERIOD * case.cut.height / speed)

@@ -1,1 +1,0 @@
-"""The largest stresses of an elastic dam over a run, and whether they crack it further."""

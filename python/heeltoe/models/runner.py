@@ -1,0 +1,275 @@
+"""How a run ends: its outcome, when the dam is at rest, how long the silence after the motion is, what has slid off.
+
+Single runs, rows of a study, spreads and the app all ask here, so that the same dam has the same answer by every door.
+A slip that still grows is none to trust: a run goes on through silence after the ground motion until the dam is at
+rest.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from heeltoe.base.arrays import Floats, Integers
+from heeltoe.case.model import Case
+from heeltoe.motion.earthquake import Earthquake
+from heeltoe.result.contract import JOINT_METER_M, LARGEST_ROTATION, TOO_FAR
+from heeltoe.result.numbers import AnchorForce, SignNumbers
+from heeltoe.result.response import Response
+from heeltoe.result.rest import comes_to_rest, last_of, rests_from
+from heeltoe.units.sentences import Sentence
+from heeltoe.warnings.notice import Notice
+
+#: The silence is a multiple of this where the dam comes to rest before all of it is over [s].
+STEP = 2.5
+#: Outcomes whose numbers are those of a dam.
+TRUSTED = ("ok", "overturned")
+#: From which restitution on bounces may amplify the last digit, and by how much the motion of a twin is stronger.
+BOUNCY, HAIR = 0.7, 1e-9
+# A slip is determined where that of the twin differs by less than this part of it, or than a joint meter reads.
+_CHAOTIC = 0.01
+# A dam that slides in its last second by this part of the second before, or more, does not slow down.
+_AS_FAST = 0.9
+
+T = TypeVar("T")
+R = TypeVar("R", bound=Response)
+Table = dict[str, Floats]
+Words = NDArray[Any]
+
+
+def outcome_of(outcome: str, rotation: float, *, finite: bool = False) -> str:
+    """Return how a run ended: a rotation that is taken for small and is not leaves no result.
+
+    Parameters
+    ----------
+    outcome
+        What the kernel says.
+    rotation
+        Largest rotation, either way [rad].
+    finite
+        Whether the model follows rotations of any size.
+    """
+    return TOO_FAR if outcome == "ok" and rotation > LARGEST_ROTATION and not finite else outcome
+
+
+def outcomes_of(outcomes: Sequence[str] | Words, tables: Sequence[Mapping[str, Floats]], *, finite: bool) -> Words:
+    """Return the same of many runs, (n,): `tables` have what the kernel says of each of their cracks."""
+    turned = np.max([largest_rotation(table) for table in tables], axis=0)
+    words = [outcome_of(word, turn, finite=finite) for word, turn in zip(outcomes, turned.tolist(), strict=True)]
+    return np.array(words, dtype=object)
+
+
+def largest_rotation(table: Mapping[str, Floats] | Mapping[str, float]) -> Floats:
+    """Return the largest rotation of runs either way [rad]."""
+    return np.maximum(table["rotation_max"], np.negative(table["rotation_min"]))
+
+
+def determined(slip: Floats | float, twin: Floats | float) -> NDArray[np.bool_]:
+    """Return whether residual slips are those of twins in a motion that is stronger by :data:`HAIR` [m]."""
+    return np.less_equal(np.abs(np.subtract(slip, twin)), np.maximum(_CHAOTIC * np.abs(slip), JOINT_METER_M))
+
+
+def twin_of(
+    case: Case, found: R, run: Callable[[Earthquake], R], earthquake: Earthquake
+) -> tuple[float, float | None] | None:
+    """Return the largest restitution of a block's cracks, and the slip of a twin in a motion that is stronger by
+    :data:`HAIR` [m], None without a result, where that is not the slip `found`; None where the slip is determined."""
+    bounce = max(alone.crack.restitution for alone in case.single_crack_cases)
+    if bounce < BOUNCY or found.outcome != "ok" or not found.impacts:
+        return None
+    twin = run(earthquake.silent(found.silence_s).scaled(1.0 + HAIR))
+    if twin.outcome != "ok":
+        return bounce, None
+    return None if determined(found.residual_slip_m, twin.residual_slip_m) else (bounce, twin.residual_slip_m)
+
+
+def slid_off(outcome: str, peak_slip: float, width: float) -> bool:
+    """Whether nothing is left below the part above a crack of this width [m]; `peak_slip` is without sign [m].
+
+    Where it tips over the edge it turns too far for small rotations.
+    """
+    return outcome in ("ok", TOO_FAR) and peak_slip > width
+
+
+def until_rest(
+    run: Callable[[Earthquake], T],
+    reach: Callable[[T], float],
+    earthquake: Earthquake,
+    longest: float,
+    *,
+    swings: bool = False,
+) -> T:
+    """Run through an earthquake, and where the dam still moves then again with silence after it, until it is at rest.
+
+    A dam that is at rest as it is costs this one run; else there are up to two more, one of them through the longest
+    silence, which says how much of it is needed.
+
+    Parameters
+    ----------
+    run
+        Runs through an earthquake.
+    reach
+        Says of a run how far it must reach to show the dam at rest [s]: infinite where the dam still moves at its end,
+        minus infinite where it ended otherwise, so that there is nothing to wait for.
+    earthquake
+        It may have some silence after it already, which is kept.
+    longest
+        How much silence there may be [s].
+    swings
+        Whether what shakes the dam goes on in the silence, as a crack on an elastic part does: a dam that is at rest
+        when the ground is may slide once more.
+    """
+    first = run(earthquake)
+    rests = reach(first) < math.inf
+    if earthquake.silence >= longest or (rests and not (swings and reach(first) > -math.inf)):
+        return first
+    whole = run(earthquake.silent(longest))
+    needed = reach(whole) - earthquake.end
+    if rests and needed <= earthquake.silence:
+        return first
+    seconds = STEP * max(1.0, math.ceil(needed / STEP)) if math.isfinite(needed) else longest
+    if not earthquake.silence < seconds < longest:
+        return whole
+    last = run(earthquake.silent(seconds))
+    # The steps of an elastic dam are now a ten-thousandth longer or shorter, which matters to one that bounces.
+    return last if reach(last) < math.inf else whole
+
+
+#: How bad an outcome is, the worst first; what is not among them has a result, or none that says how bad it is.
+_FAILURES = ("overturned", "lost", TOO_FAR)
+
+
+def severity(outcome: str) -> int:
+    """Return how bad it is that a run ended so: 2 of a dam that has failed, 1 where nobody knows, 0 of a result."""
+    return 2 if outcome in _FAILURES else 0 if outcome == "ok" else 1
+
+
+def badness(response: Response) -> tuple[int, int, float]:
+    """Return by what the worse of two runs is told: how it ended, how many limits it breaks, how far the dam slips."""
+    slips = [abs(crack.residual_slip_m) for crack in response.cracks] if response.started else [0.0]
+    return severity(response.outcome), sum(not check.met for check in response.limits), max(slips)
+
+
+def worse_way(ways: Mapping[str, R]) -> R:
+    """Return the response of the worse sign of the motion, the first where they are equal, with what each sign does."""
+    worst = max(ways, key=lambda sign: badness(ways[sign]))
+    return replace(ways[worst], signs=tuple(numbers_of_sign(sign, ways[sign], sign == worst) for sign in ways))
+
+
+def numbers_of_sign(sign: str, response: Response, governs: bool) -> SignNumbers:
+    """Return what a response says of one sign of the motion."""
+    known = response.ok and response.started
+    return SignNumbers(
+        sign=sign,
+        governs=governs,
+        outcome=response.outcome,
+        elevation_m=response.cracks[response.asked].elevation if known else None,
+        residual_slip_m=response.residual_slip_m if known else None,
+        opening_m=max(max(c.opening_upstream_m, c.opening_downstream_m) for c in response.cracks) if known else None,
+        limits_not_met=sum(not check.met for check in response.limits),
+    )
+
+
+def rows_until_rest(
+    run: Callable[[Integers, float], Table],
+    reach: Callable[[Table], Floats],
+    rows: Integers,
+    longest: float,
+) -> Iterator[tuple[Integers, Table]]:
+    """Run many blocks as :func:`until_rest` runs one; what comes later takes the place of what came before.
+
+    A block that is at rest stays so while the ground is still: the shortest silence after which it does not move is the
+    one that a single run finds by the time of its last event.
+
+    Parameters
+    ----------
+    run
+        Runs some rows with some silence after their motions [s].
+    reach
+        (n,) infinite where they still move at the end, minus infinite where they ended otherwise, zero at rest.
+    rows
+        (n,) their numbers.
+    longest
+        How much silence there may be [s].
+    """
+    table = run(rows, 0.0)
+    yield rows, table
+    left = rows[reach(table) == math.inf]
+    if not left.size or not longest:
+        return
+    table = run(left, longest)
+    yield left, table
+    # What ends in another way, or never, has nothing to wait for.
+    left = left[np.isfinite(reach(table))]
+    silence = STEP
+    while left.size and silence < longest:
+        table = run(left, silence)
+        moving = reach(table) == math.inf
+        yield left[~moving], {name: values[~moving] for name, values in table.items()}
+        left, silence = left[moving], silence + STEP
+
+
+def reach_of_block(response: Response) -> float:
+    """Return what :func:`until_rest` asks of the run of a block."""
+    return rests_from(response) if response.outcome == "ok" else -math.inf
+
+
+def about_the_anchors(anchors: Sequence[AnchorForce]) -> Iterator[Notice]:
+    """Say which anchors bear more than they are good for, and of which nothing says what that is."""
+    for number, anchor in enumerate(anchors, start=1):
+        if anchor.capacity_n is not None and anchor.peak_force_n > anchor.capacity_n:
+            yield Notice("anchor-overloaded", number=number, force_n=anchor.peak_force_n, capacity_n=anchor.capacity_n)
+    unlimited = [anchor.peak_force_n for anchor in anchors if anchor.capacity_n is None]
+    if unlimited:
+        yield Notice("anchor-unlimited", force_n=max(unlimited))
+
+
+def about_the_end(response: Response, *, asked: bool) -> Iterator[Notice]:
+    """Say where the dam is not at rest when its run ends, or, where the case has `asked` for a silence, that there was
+    no need to wait."""
+    if response.outcome != "ok" or comes_to_rest(response):
+        if asked and not response.silence_s:
+            ended = "nothing moves when the ground motion ends" if response.outcome == "ok" else "the run ends before"
+            yield Notice("fields-idle", field="analysis.silence", fields="analysis.silence", why=ended)
+        return
+    when = Sentence("when the ground motion ends")
+    if response.silence_s:
+        when = Sentence.of("{silence_s:g s} after the ground motion has ended", silence_s=response.silence_s)
+    end = response.end_time_s
+    if not response.elastic:
+        yield Notice(
+            "block-still-moves",
+            time_s=end,
+            when=when,
+            mode=response.final_mode,
+            slip_velocity_m_s=response.final_slip_velocity_m_s,
+            remedy=_what_then(response),
+        )
+        return
+    last = last_of(response)
+    span = "second" if last.seconds == 1.0 else f"{last.seconds:.2g} s"
+    yield Notice(
+        "dam-still-moves",
+        time_s=end,
+        when=when,
+        span=span,
+        what=last.what,
+        change_m=last.change_m,
+        remedy=_what_then(response),
+    )
+
+
+def _what_then(response: Response) -> str:
+    """Say whether waiting longer helps a dam that still moves: not where it slides as fast as a second before."""
+    histories = response.at_crack(response.asked).histories if response.several else response.histories
+    time, slip = histories["time_s"], histories["slip_m"]
+    end, span = time[-1], min(1.0, (time[-1] - time[0]) / 4.0)
+    now, before = np.abs(np.diff(np.interp([end, end - span, end - 2.0 * span], time, slip)))
+    if response.silence_s >= 2.0 * span and now > JOINT_METER_M and now >= _AS_FAST * before:
+        return "it does not slow down, and there is no residual slip to trust"
+    return "a longer analysis.silence may let it come to rest"

@@ -1,0 +1,137 @@
+"""Two models on one case: what the better one says over what the simpler one does, and what their difference means."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from heeltoe.result.contract import HEADLINES, Quantity
+from heeltoe.units.sentences import Sentence
+from heeltoe.units.write import angle, length
+
+# Not at run time: a response says these things in its JSON.
+if TYPE_CHECKING:
+    from heeltoe.result.response import Response
+
+# From which ratio on the models differ by more than the flexible one is known to differ from its references.
+_CLOSE = 1.25
+# Less between two models is no difference. Half a millimetre of slip or opening is what the widths of cracks are told
+# apart by when a dam is inspected. A rotation of a milliradian is 1 cm at the crest of a top of 10 m; what less of it
+# opens along a wide crack is an opening, and compared as such.
+_SAME_M, _SAME_RAD = 5e-4, 1e-3
+# A slip of less is none that matters to a dam [m].
+_LITTLE = 1e-3
+_LITTLE_IN_WORDS = {"si": "a millimetre", "us": "0.04 in"}
+
+_TABLE = Sentence.of(
+    "Zhu 2004, table 7.8: a dam of {moduli_pa:g GPa} slides {slips_m:g mm}, a rigid block {slip_m:g mm}",
+    moduli_pa=(20e9, 200e9, 2000e9, 20000e9),
+    slips_m=(0.218, 0.094, 0.052, 0.037),
+    slip_m=0.036,
+)
+_BLOCKS = {"rigid": "rigid block", "decoupled": "decoupled top"}
+
+
+def ratio(dam: Response, block: Response) -> dict[str, float | None]:
+    """Return dam over block for slips, rotations and openings; None where the block has next to nothing."""
+    return {headline.key: _ratio(headline, dam, block) for headline in HEADLINES}
+
+
+def differing(dam: Response, block: Response) -> tuple[Quantity, ...]:
+    """Return the headline numbers in which two models do not agree.
+
+    They agree in a number where the larger is at most 1.25 times the smaller, with the same sign, or where they are
+    less than 0.5 mm or 1 mrad apart. Those that matter most come first.
+    """
+    return tuple(headline for headline in HEADLINES if not _agree(headline, dam, block))
+
+
+def meaning(dam: Response, block: Response, units: str = "si") -> str:
+    """Say in a sentence or two what the difference means, in units ``"si"`` or ``"us"``."""
+    failed = [response.model for response in (block, dam) if not response.ok]
+    if failed:
+        return f"There is nothing to compare: no result to trust from the {' and the '.join(failed)} model."
+    apart = differing(dam, block)
+    if not apart:
+        return _agreement(block)
+    slips = [headline for headline in apart if headline.kind == "slip"]
+    if not slips:
+        return f"They slide alike, but differ in the {_told(apart[0], dam, block, units)}. Trust the flexible model."
+    far, near = (abs(response.residual_slip_m) for response in (dam, block))
+    if slips[0].key != "residual_slip_m":
+        return f"They end alike, but differ in the {_told(slips[0], dam, block, units)}. Trust the flexible model."
+    if max(far, near) < _LITTLE:
+        text = f"Both say that the dam slides by less than {_LITTLE_IN_WORDS[units]} in the end"
+        others = [headline for headline in apart if headline.key != "residual_slip_m"]
+        if not others:
+            return f"{text}."
+        return f"{text}, but they differ in the {_told(others[0], dam, block, units)}. Trust the flexible model."
+    return _slips_differ(dam, block, units)
+
+
+def _agree(of: Quantity, dam: Response, block: Response) -> bool:
+    one, other = (of.of(response) for response in (dam, block))
+    if abs(one - other) < (_SAME_RAD if of.kind == "rotation" else _SAME_M):
+        return True
+    low, high = sorted((abs(one), abs(other)))
+    return one * other > 0.0 and high <= _CLOSE * low
+
+
+def _agreement(block: Response) -> str:
+    text = "They agree in slips, rotations and openings"
+    if block.model == "decoupled":
+        return f"{text}: the part below shakes the top as if the top never slid on it."
+    return f"{text}: the dam is so stiff against this shaking that a rigid block says what it does."
+
+
+def _told(of: Quantity, dam: Response, block: Response, units: str) -> str:
+    """Return a number of both: what the elastic dam does against what the block does."""
+    # Adding zero makes a negative zero a plain one.
+    values = [of.way * of.of(response) + 0.0 for response in (dam, block)]
+    one, other = (angle(value) if of.kind == "rotation" else length(value, units) for value in values)
+    return f"{of.label} ({one} of the flexible dam, {other} of the {_BLOCKS[block.model]})"
+
+
+def _slips_differ(dam: Response, block: Response, units: str) -> str:
+    far, near = (abs(response.residual_slip_m) for response in (dam, block))
+    opposite = dam.residual_slip_m * block.residual_slip_m < 0.0
+    if block.model == "decoupled":
+        return _slips_of_the_chain(far, near, opposite)
+    if opposite:
+        return "They slide opposite ways: the dam's own vibration decides here. Trust the flexible model."
+    if near < _LITTLE:
+        return (
+            "Only the flexible dam slides: its own vibration adds to the shaking, of which a rigid block knows "
+            f"nothing. Trust the flexible model ({_TABLE.text(units)})."
+        )
+    if far > near:
+        return (
+            f"The flexible dam slides {far / near:.2g} times as far: its own vibration adds to the shaking, of "
+            f"which a rigid block knows nothing. Trust the flexible model ({_TABLE.text(units)})."
+        )
+    share = f"{far / near:.2g} times" if far > 0.01 * near else "less than a hundredth of"
+    return (
+        f"The flexible dam slides only {share} what the rigid block does: its own vibration works against the "
+        "shaking here. Trust the flexible model."
+    )
+
+
+def _slips_of_the_chain(far: float, near: float, opposite: bool) -> str:
+    """Say the same where the block was shaken by the part below it."""
+    if opposite:
+        text = "They slide opposite ways"
+    elif far < 0.01 * near:
+        text = "The flexible dam slides less than a hundredth of what the decoupled top does"
+    elif near < 0.01 * far:
+        text = "The decoupled top slides less than a hundredth of what the flexible dam does"
+    else:
+        text = f"The flexible dam slides {far / near:.2g} times as far as the decoupled top"
+    return (
+        f"{text}: in the decoupled chain the part below vibrates as if the top never slid or rocked, and the top "
+        "does not vibrate itself. Trust the flexible model."
+    )
+
+
+def _ratio(of: Quantity, dam: Response, block: Response) -> float | None:
+    if not (dam.ok and block.ok) or abs(of.of(block)) < of.least:
+        return None
+    return of.of(dam) / of.of(block)

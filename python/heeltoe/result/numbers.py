@@ -1,0 +1,488 @@
+"""The numbers of a result, block by block: what the JSON of ``heeltoe run`` has, with units and meanings.
+
+Signs: slip is positive downstream, rotation positive counter-clockwise (upstream). Forces, energies and masses are
+those of a metre of dam.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from heeltoe.base.blocks import Block, Number
+
+_JOULE, _NEWTON = "J per metre of dam", "N per metre of dam"
+
+
+class SlipByMode(Block):
+    """Slip by the mode of motion that makes it."""
+
+    sliding: Annotated[float, Number("Slip made while sliding, positive downstream.", "m")]
+    slide_rocking: Annotated[float, Number("Slip made while slide-rocking, positive downstream.", "m")]
+    drifting: Annotated[float, Number("Slip made in the air, positive downstream.", "m")]
+
+
+class TimeByMode(Block):
+    """Time by the mode of motion."""
+
+    rest: Annotated[float, Number("How long the crack is at rest in all.", "s")]
+    sliding: Annotated[float, Number("How long it slides in all.", "s")]
+    rocking: Annotated[float, Number("How long it rocks in all.", "s")]
+    slide_rocking: Annotated[float, Number("How long it slides while rocking in all.", "s")]
+    drifting: Annotated[float, Number("How long the part above is in the air in all.", "s")]
+
+
+class AnchorForce(Block):
+    """What an anchor bears."""
+
+    distance_m: Annotated[
+        float | None, Number("Where the anchor crosses the crack, from the heel; null where it misses it.", "m")
+    ]
+    peak_tension_n: Annotated[float, Number("Its largest tension.", _NEWTON)]
+    peak_force_n: Annotated[
+        float, Number("The largest force that it bears, tension and resistance to slip together.", _NEWTON)
+    ]
+    capacity_n: Annotated[
+        float | None, Number("What it is good for, as the case says; null where the case does not.", _NEWTON)
+    ]
+
+
+class CrackEnergy(Block):
+    """What one of several cracks takes of the energy of the dam."""
+
+    friction_j: Annotated[float, Number("Energy lost in its friction.", _JOULE)]
+    impact_j: Annotated[float, Number("Energy lost in its impacts.", _JOULE)]
+
+
+class FrictionLawState(Block):
+    """What the friction law of a crack has come to."""
+
+    name: Annotated[str, Number("Name of the friction law.")]
+    slip_path_m: Annotated[float, Number("How far the crack has slipped, to and fro.", "m")]
+    normal_stress_pa: Annotated[float, Number("Mean normal stress on the crack under the static loads.", "Pa")]
+    apparent_friction_before: Annotated[
+        float, Number("Shear strength over normal stress under the static loads, before the earthquake.")
+    ]
+    apparent_friction_after: Annotated[float, Number("The same after the earthquake.")]
+    cohesion_left_pa: Annotated[float | None, Number("Cohesion that is left; null of a law without.", "Pa")]
+    surface: Annotated[str | None, Number("The surface that the law describes.")]
+
+
+class BlockFrictionLaw(FrictionLawState):
+    """The same under a rigid block."""
+
+    integrated_time_s: Annotated[float, Number("Time that had to be integrated, for want of a closed form.", "s")]
+    integration_error_m: Annotated[float, Number("What that may have added to the slip.", "m")]
+
+
+class ElasticFrictionLaw(FrictionLawState):
+    """The same along the crack of an elastic dam."""
+
+    slip_path_range_m: Annotated[list[float], Number("Least and largest slip, to and fro, along the crack.", "m")]
+    normal_stress_range_pa: Annotated[list[float], Number("Least and largest normal stress along the crack.", "Pa")]
+    apparent_friction_before_range: Annotated[
+        list[float], Number("Least and largest friction along the crack before the earthquake.")
+    ]
+    apparent_friction_after_range: Annotated[
+        list[float], Number("Least and largest friction along the crack after the earthquake.")
+    ]
+    bond_energy_j: Annotated[float | None, Number("Energy that broke the bond; null without cohesion.", _JOULE)]
+
+
+class Roughness(Block):
+    """What the asperities of a rough crack have come to."""
+
+    asperity_height_m: Annotated[float, Number("Height of the asperities.", "m")]
+    wave_length_m: Annotated[float, Number("Their wave length.", "m")]
+    asperity_angle_before_rad: Annotated[float, Number("Angle of their flanks before the earthquake.", "rad")]
+    asperity_angle_after_rad: Annotated[float, Number("Angle of their flanks after it, as worn as they are.", "rad")]
+    apparent_friction_before: Annotated[float, Number("Friction along the mean plane before the earthquake.")]
+    apparent_friction_after: Annotated[float, Number("Friction along the mean plane after it.")]
+    residual_dilation_m: Annotated[float, Number("How far the crack is dilated in the end.", "m")]
+    peak_dilation_m: Annotated[float, Number("How far it was dilated at most.", "m")]
+    plastic_work_j_m2: Annotated[float, Number("Work of friction on the asperities, per area.", "J/m²")]
+    slip_path_m: Annotated[float, Number("How far the crack has slipped, to and fro.", "m")]
+    asperities_passed: Annotated[int, Number("How many crests were passed.")]
+    integration_error_m: Annotated[float, Number("What integration may have added to the slip.", "m")]
+
+
+class ElasticGive(Block):
+    """From when on an elastic dam rocks and drifts."""
+
+    rotation_rad: Annotated[float, Number("Rotation from which on an elastic dam counts as rocking.", "rad")]
+    gap_m: Annotated[float, Number("Gap from which on it counts as lifted off.", "m")]
+
+
+class BeforeShaking(Block):
+    """How a crack stands before the earthquake."""
+
+    stands: Annotated[bool, Number("Whether the dam stands with its crack let go.")]
+    slip_m: Annotated[float, Number("How far it slips until it stands.", "m")]
+    open_contacts: Annotated[int, Number("How many nodes of the crack are open then.")]
+
+
+class Penetration(Block):
+    """How deep the faces of a crack are in each other at most."""
+
+    watched: Annotated[float, Number("Deepest of a watched node into the other face.", "m")]
+    any_in_frames: Annotated[float, Number("Deepest of any node, in the frames that are kept.", "m")]
+
+
+class Mesh(Block):
+    """The meshes of the elastic parts."""
+
+    elements: Annotated[list[int], Number("Number of elements of each part, the upper one first.")]
+    nodes: Annotated[list[int], Number("Number of nodes of each part.")]
+    modes: Annotated[
+        list[int], Number("Vibration modes kept of each part, those of static shapes of the crack included.")
+    ]
+    crack_nodes: Annotated[int, Number("Nodes along the crack.")]
+    basis_error: Annotated[float, Number("What the modes left out miss of the flexibility of the crack, as a share.")]
+
+
+class CrackNumbers(Block):
+    """What a crack did, of every model."""
+
+    elevation_m: Annotated[
+        float | None,
+        Number(
+            "Of several cracks: elevation of the upstream end of this one above the lowest point of the section.",
+            "m",
+            optional=True,
+        ),
+    ] = None
+    residual_slip_m: Annotated[float, Number("Slip at the end, positive downstream.", "m")]
+    peak_slip_downstream_m: Annotated[float, Number("Largest slip on the way.", "m")]
+    peak_slip_upstream_m: Annotated[
+        float, Number("Least slip on the way: negative where it is upstream of the start.", "m")
+    ]
+    rocking_downstream_rad: Annotated[float, Number("Largest rotation about the toe.", "rad")]
+    rocking_upstream_rad: Annotated[float, Number("Largest rotation about the heel.", "rad")]
+    opening_upstream_m: Annotated[float, Number("Largest opening of the crack at the upstream face.", "m")]
+    opening_downstream_m: Annotated[float, Number("Largest opening of the crack at the downstream face.", "m")]
+    largest_gap_heel_m: Annotated[float, Number("Largest gap at the heel, in the air included.", "m")]
+    largest_gap_toe_m: Annotated[float, Number("Largest gap at the toe, in the air included.", "m")]
+    slip_by_mode_m: Annotated[SlipByMode, Number("Slip while sliding, in slide-rocking and in the air.", "m")]
+    time_by_mode_s: Annotated[TimeByMode, Number("How long each mode of motion lasts in all.", "s")]
+    impacts: Annotated[int, Number("Blows; of an elastic dam those of the nodes of its crack.")]
+    largest_impact_velocity_m_s: Annotated[float, Number("Largest velocity of approach at a blow.", "m/s")]
+    final_mode: Annotated[str, Number("Mode of motion at the end.")]
+    final_slip_velocity_m_s: Annotated[float, Number("Slip velocity at the end, positive downstream.", "m/s")]
+    crack_width_m: Annotated[float, Number("Width of the crack.", "m")]
+    friction: Annotated[
+        float | None, Number("Of several cracks: its coefficient of friction while it slips.", optional=True)
+    ] = None
+    crack_energy: Annotated[
+        CrackEnergy | None,
+        Number("Of several cracks: what of the energy of the dam is lost in this one.", optional=True),
+    ] = None
+    anchors: Annotated[
+        list[AnchorForce] | None,
+        Number("Of each anchor: place, largest tension and capacity.", optional=True),
+    ] = None
+
+
+#: What a crack has where it is one of several.
+OF_SEVERAL = ("elevation_m", "friction", "crack_energy")
+
+
+class BlockNumbers(CrackNumbers):
+    """What a crack below a rigid block did."""
+
+    events: Annotated[int, Number("Changes of mode and impacts of a block.")]
+    end_time_s: Annotated[float, Number("When the run ended.", "s")]
+    rotation: Annotated[str, Number("Geometry of a block: small, p-delta or finite.")]
+    uplift_during_shaking: Annotated[str, Number("What the uplift does in the earthquake, as the case says.")]
+    drainage_by_motion: Annotated[
+        list[float] | None,
+        Number("Part of the drainage that each motion of a sequence meets; null where slip closes none."),
+    ]
+    friction_law: Annotated[
+        BlockFrictionLaw | None, Number("What the friction law of a crack has come to; null of coefficients.")
+    ]
+    roughness: Annotated[
+        Roughness | None, Number("What the asperities of a rough crack have come to; null of a flat one.")
+    ]
+    overturned_about: Annotated[str | None, Number("Corner about which a block has overturned; null where it has not.")]
+
+
+class CrackSpectrum(Block):
+    """Response spectra of ground and crack."""
+
+    damping_ratio: Annotated[float, Number("Damping ratio of the spectra.")]
+    periods_s: Annotated[list[float], Number("Their periods.", "s")]
+    ground_g: Annotated[list[float], Number("Spectral acceleration of the ground.", "g")]
+    crack_g: Annotated[list[float], Number("Spectral acceleration of the crack.", "g")]
+    transfer: Annotated[list[float], Number("Motion of the crack over that of the ground, at these periods.")]
+    bonded_transfer: Annotated[list[float], Number("The same of the intact dam.")]
+
+
+class BondedMotion(Block):
+    """The motion of the same place of the intact dam."""
+
+    periods_s: Annotated[list[float], Number("Longest periods of the intact dam.", "s")]
+    peak_horizontal_g: Annotated[float, Number("Peak horizontal acceleration of the same place of it.", "g")]
+    amplification: Annotated[
+        float | None, Number("How many times as strong that shakes as the ground; null without a motion.")
+    ]
+
+
+class CrackMotionConvergence(Block):
+    """How well the motion of the crack is known."""
+
+    step_s: Annotated[float, Number("Step to which the motion of the crack was refined.", "s")]
+    straightness: Annotated[float, Number("How far it is from straight lines between the steps, over its peak.")]
+    half_the_modes: Annotated[float, Number("What the slower half of the modes misses, over its peak.")]
+    coarser_step_s: Annotated[float, Number("Twice that step.", "s")]
+    coarser_residual_slip_m: Annotated[float, Number("Residual slip with it.", "m")]
+    change: Annotated[float, Number("By how much that changes the residual slip, as a share.")]
+
+
+class CrackLevel(Block):
+    """How the crack moves that shakes the block of the decoupled chain."""
+
+    peak_horizontal_g: Annotated[float, Number("Peak horizontal acceleration of the crack.", "g")]
+    peak_vertical_g: Annotated[float, Number("Peak vertical acceleration of the crack.", "g")]
+    peak_rotation_rad_s2: Annotated[float, Number("Peak angular acceleration of the crack.", "rad/s²")]
+    ground_peak_g: Annotated[float, Number("Peak acceleration of the ground.", "g")]
+    amplification: Annotated[
+        float | None, Number("How many times as strong the crack shakes as the ground; null without a motion.")
+    ]
+    felt: Annotated[list[str], Number("Which of these the block feels.")]
+    upper_part: Annotated[str, Number("How the part above is attached to the part below, as the case says.")]
+    periods_s: Annotated[list[float], Number("Longest periods of the part below with the block on it.", "s")]
+    damping_ratio: Annotated[float, Number("Damping ratio of its modes.")]
+    modes: Annotated[int, Number("How many modes.")]
+    spectrum: Annotated[CrackSpectrum, Number("Response spectra of ground and crack, and how one follows the other.")]
+    bonded: Annotated[BondedMotion, Number("The motion of the same place of the intact dam.")]
+    convergence: Annotated[CrackMotionConvergence, Number("How well the motion of the crack is known.")]
+
+
+class Chain(Block):
+    """What the decoupled chain did beside its block."""
+
+    crack_level: Annotated[
+        CrackLevel | None,
+        Number("How the crack moves that shakes the block, and how well that is known.", optional=True),
+    ] = None
+
+
+class SelfExcitation(Block):
+    """Whether a vibration of the dam grows as it slides."""
+
+    growth_1_s: Annotated[float, Number("How fast a vibration grows while the dam slides.", "1/s")]
+    period_s: Annotated[float | None, Number("Period of that vibration; null where nothing swings.", "s")]
+    sliding_time_s: Annotated[float, Number("How long the dam slides.", "s")]
+    twice_damped_slip_m: Annotated[
+        float | None, Number("Residual slip with twice the damping, where damping matters; else null.", "m")
+    ]
+
+
+class StressPlace(Block):
+    """A stress, and when and where it was."""
+
+    stress_pa: Annotated[float, Number("The largest principal stress of the run, without its sign.", "Pa")]
+    time_s: Annotated[float, Number("When it was.", "s")]
+    part: Annotated[str, Number("In which part: above or below the crack; of several cracks which part.")]
+    place: Annotated[str, Number("On which face of it, or inside.")]
+    x_m: Annotated[float, Number("Where: downstream in the axes of the section.", "m")]
+    z_m: Annotated[float, Number("Where: height in the axes of the section.", "m")]
+
+
+class TensileStrength(Block):
+    """The strength of the concrete beside its largest tension."""
+
+    dynamic_pa: Annotated[float, Number("Strength in an earthquake.", "Pa")]
+    static_pa: Annotated[float, Number("Static strength.", "Pa")]
+    exceeds: Annotated[bool, Number("Whether the largest tension is beyond the dynamic strength.")]
+    exceeds_before_shaking: Annotated[
+        bool, Number("Whether the tension before the earthquake is beyond the static one.")
+    ]
+    share_beyond: Annotated[float, Number("Part of the section in which the tension is beyond.")]
+
+
+class TensionByMesh(Block):
+    """What another mesh makes of the largest tension."""
+
+    other_elements_across: Annotated[int, Number("Elements along the crack of that mesh.")]
+    stress_pa: Annotated[float, Number("The largest tension with it.", "Pa")]
+    difference_pa: Annotated[float, Number("By how much the two differ.", "Pa")]
+
+
+class Tension(StressPlace):
+    """The largest tension of a run."""
+
+    direction_rad: Annotated[float, Number("Direction of the tension, from the horizontal.", "rad")]
+    before_shaking_pa: Annotated[float, Number("The largest tension before the earthquake.", "Pa")]
+    strength: Annotated[
+        TensileStrength | None, Number("The strength of the concrete beside it; null where the case gives none.")
+    ]
+    read_from_crack_m: Annotated[
+        float, Number("Nearer to the crack than this, and to other places without a bound, it is not read.", "m")
+    ]
+    mesh: Annotated[TensionByMesh | None, Number("What another mesh makes of it; null where there is none.")]
+    compression: Annotated[StressPlace, Number("The largest principal compression, where and when.")]
+
+
+class HeadlineWorth(Block):
+    """What a headline number is worth, in its unit."""
+
+    value: Annotated[float, Number("The number to trust: that of the run, or the mean where single runs scatter.")]
+    run: Annotated[float, Number("The number of the run itself.")]
+    uncertainty: Annotated[float, Number("How far it may be off: what step, mesh and shaking move it by, together.")]
+    step: Annotated[float, Number("By how much another time step moves it.")]
+    mesh: Annotated[float | None, Number("By how much another mesh moves it; null where there is none beside it.")]
+    shaking: Annotated[
+        float | None,
+        Number("Standard deviation over runs with the shaking varied by up to 1 %; null where there are none."),
+    ]
+
+
+class EvidenceNumbers(Block):
+    """How far step, mesh and 1 % of the shaking move a result."""
+
+    asked: Annotated[str, Number("Which evidence was asked for.")]
+    converged: Annotated[bool, Number("Whether the residual slip is certain enough.")]
+    value_is: Annotated[
+        str, Number("Whether the numbers to trust are those of the run, or means over runs that scatter.")
+    ]
+    moved_most_by: Annotated[str, Number("What moves the residual slip most: step, mesh or shaking.")]
+    allowed_m: Annotated[float, Number("How uncertain a slip may be that is said to be converged.", "m")]
+    time_step_s: Annotated[float, Number("Time step of the run.", "s")]
+    other_time_step_s: Annotated[float, Number("Time step of the run beside it.", "s")]
+    elements_across: Annotated[int, Number("Elements along the crack of the run.")]
+    other_elements_across: Annotated[
+        int | None, Number("The same of the run with another mesh; null where there is none.")
+    ]
+    third_elements_across: Annotated[
+        int | None, Number("The same of a third mesh, where single runs scatter; null where there is none.")
+    ]
+    scales: Annotated[list[float], Number("Factors on the ground motion of the runs with the shaking varied.")]
+    residual_slips_m: Annotated[list[float], Number("Their residual slips.", "m")]
+    failed: Annotated[int, Number("How many of them end without a result.")]
+    runs: Annotated[int, Number("How many runs it took in all.")]
+    work: Annotated[float, Number("What they cost, in runs of the first mesh and step.")]
+    budget: Annotated[float, Number("What they may cost.")]
+    budget_spent: Annotated[bool, Number("Whether that ended the refinement.")]
+    residual_slip_m: Annotated[HeadlineWorth, Number("What the residual slip is worth.", "m")]
+    peak_slip_downstream_m: Annotated[HeadlineWorth, Number("What the peak slip downstream is worth.", "m")]
+    peak_slip_upstream_m: Annotated[HeadlineWorth, Number("What the peak slip upstream is worth.", "m")]
+    rocking_downstream_rad: Annotated[HeadlineWorth, Number("What the rotation downstream is worth.", "rad")]
+    rocking_upstream_rad: Annotated[HeadlineWorth, Number("What the rotation upstream is worth.", "rad")]
+    opening_upstream_m: Annotated[HeadlineWorth, Number("What the opening at the upstream face is worth.", "m")]
+    opening_downstream_m: Annotated[HeadlineWorth, Number("What the opening at the downstream face is worth.", "m")]
+
+
+class ElasticCrack(CrackNumbers):
+    """What a crack of an elastic dam did."""
+
+    elastic_give: Annotated[ElasticGive, Number("Rotation and gap from which on it rocks and drifts.")]
+    peak_normal_force_n: Annotated[float, Number("Largest force across the crack.", _NEWTON)]
+    before_shaking: Annotated[
+        BeforeShaking | None,
+        Number("Whether the dam stands with its crack let go, what slips and opens then; null with penalties."),
+    ]
+    penetration_m: Annotated[
+        Penetration, Number("Deepest into the other face: of watched nodes, of any in a frame.", "m")
+    ]
+    evidence: Annotated[
+        EvidenceNumbers | None,
+        Number("How far step, mesh and 1 % of the shaking move it; null where none was wanted."),
+    ]
+    friction_law: Annotated[
+        ElasticFrictionLaw | None,
+        Number("What the friction law of a crack has come to; null of coefficients."),
+    ]
+
+
+class ElasticDam(Block):
+    """What an elastic dam did as a whole."""
+
+    end_time_s: Annotated[float, Number("When the run ended.", "s")]
+    periods_s: Annotated[list[float], Number("Of the intact dam with its water, longest first.", "s")]
+    mesh: Annotated[Mesh, Number("Elements, nodes and modes of each part, nodes along the crack, error of the basis.")]
+    damping: Annotated[str, Number("How the concrete is damped, as the case says.")]
+    damping_ratio: Annotated[float, Number("Damping ratio of the concrete.")]
+    damping_ratios: Annotated[list[float], Number("What modes 1 to 5 of the intact dam really get.")]
+    rayleigh_mass_1_s: Annotated[float | None, Number("Rayleigh coefficient of mass.", "1/s")]
+    rayleigh_stiffness_s: Annotated[float | None, Number("Rayleigh coefficient of stiffness.", "s")]
+    contact: Annotated[str, Number("How contact is solved, as the case says.")]
+    steps: Annotated[int, Number("How many time steps.")]
+    time_step_s: Annotated[float, Number("Their length.", "s")]
+    contact_iterations_per_step: Annotated[float, Number("Tries until the contact forces are found.")]
+    contact_residual: Annotated[float, Number("Worst violation of the contact conditions, over the impulse.")]
+    uplift_during_shaking: Annotated[str, Number("What the uplift does in the earthquake, as the case says.")]
+    drainage_by_motion: Annotated[
+        list[float] | None,
+        Number("Part of the drainage that each motion of a sequence meets; null where slip closes none."),
+    ]
+    self_excitation: Annotated[
+        SelfExcitation | None,
+        Number("How fast a vibration grows as the dam slides; null where it does not slide."),
+    ]
+    tension: Annotated[
+        Tension | None,
+        Number(
+            "The largest tension over the run, where and when, and whether the concrete bears it; null where it has "
+            "no bound anywhere."
+        ),
+    ]
+
+
+class Statistics(Block):
+    """How a headline number is distributed."""
+
+    mean: Annotated[float, Number("Mean of this headline number.")]
+    std: Annotated[float, Number("Its standard deviation, that of a sample.")]
+    min: Annotated[float, Number("Its smallest value.")]
+    max: Annotated[float, Number("Its largest value.")]
+
+
+class SignNumbers(Block):
+    """What the motion does one way round."""
+
+    sign: Annotated[str, Number("Which way round the motion shakes the dam: recorded or reversed.")]
+    governs: Annotated[bool, Number("Whether it is the worse way, whose numbers lead the result.")]
+    outcome: Annotated[str, Number("How the run ended.")]
+    elevation_m: Annotated[
+        float | None, Number("Of the crack that slips most; null where the run has no result.", "m", optional=True)
+    ]
+    residual_slip_m: Annotated[
+        float | None, Number("Its residual slip, positive downstream; null without a result.", "m", optional=True)
+    ]
+    opening_m: Annotated[
+        float | None, Number("Largest opening of a crack at either face; null without a result.", "m", optional=True)
+    ]
+    limits_not_met: Annotated[int, Number("How many of the limits of the case it does not meet.")]
+
+
+class Spread(Block):
+    """The same run with slightly weaker and stronger shaking."""
+
+    runs: Annotated[int, Number("How many.")]
+    failed: Annotated[int, Number("How many of them ended without a result; they count nowhere else.")]
+    scales: Annotated[list[float], Number("The factors on the ground motion.")]
+    time_step_s: Annotated[float | None, Number("Time step of the runs of the flexible model.", "s", optional=True)] = (
+        None
+    )
+    residual_slips_m: Annotated[list[float | None], Number("Residual slip of each; null where it failed.", "m")]
+    residual_slip_m: Annotated[
+        Statistics | None, Number("Distribution of the residual slip; null of fewer than two runs.", "m")
+    ]
+    peak_slip_downstream_m: Annotated[
+        Statistics | None, Number("Distribution of the peak slip downstream; null of fewer than two runs.", "m")
+    ]
+    peak_slip_upstream_m: Annotated[
+        Statistics | None, Number("Distribution of the peak slip upstream; null of fewer than two runs.", "m")
+    ]
+    rocking_downstream_rad: Annotated[
+        Statistics | None, Number("Distribution of the rotation downstream; null of fewer than two runs.", "rad")
+    ]
+    rocking_upstream_rad: Annotated[
+        Statistics | None, Number("Distribution of the rotation upstream; null of fewer than two runs.", "rad")
+    ]
+    opening_upstream_m: Annotated[
+        Statistics | None, Number("Distribution of the opening upstream; null of fewer than two runs.", "m")
+    ]
+    opening_downstream_m: Annotated[
+        Statistics | None, Number("Distribution of the opening downstream; null of fewer than two runs.", "m")
+    ]

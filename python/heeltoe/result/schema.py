@@ -1,0 +1,90 @@
+"""The JSON schema of ``heeltoe run --json``, from the typed blocks of a result."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from heeltoe.base.blocks import Block, json_schema
+from heeltoe.mechanics.block import CriticalAccelerationsInG, StaticState
+from heeltoe.result.contract import HEADLINES
+from heeltoe.result.limits import LimitCheck
+from heeltoe.result.numbers import OF_SEVERAL, BlockNumbers, Chain, ElasticCrack, ElasticDam, SignNumbers, Spread
+from heeltoe.result.response import OUTCOMES, Chosen, Energy
+from heeltoe.result.sequence import Stage
+from heeltoe.result.write import MotionNumbers
+
+_TEXT, _TEXTS = {"type": "string"}, {"type": "array", "items": {"type": "string"}}
+_MODELS = ("rigid", "decoupled", "flexible")
+
+
+def run_schema() -> dict[str, Any]:
+    """Return the schema: the keys that every result has, and those of the models by model.
+
+    Units stand under ``unit`` beside the meaning, which is the ``description``.
+    """
+    result = {
+        "type": "object",
+        "properties": {**_of_every_run(), **_of_models()},
+        "required": sorted(_of_every_run().keys() - {"spread", "sequence", "signs", "ratio", "meaning", "beside"}),
+    }
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "heeltoe run --json",
+        "$defs": {"result": result},
+        "$ref": "#/$defs/result",
+    }
+
+
+def _of_models() -> dict[str, Any]:
+    """Return the numbers of the crack of ``[crack]`` and of the dam; a run that never started has none."""
+    properties: dict[str, Any] = {}
+    for kind in (BlockNumbers, Chain, ElasticCrack, ElasticDam):
+        for name, schema in _properties(kind).items():
+            known = properties.setdefault(name, schema)
+            if known != schema:
+                # The friction law of a block and that of an elastic dam, say.
+                properties[name] = {"anyOf": [known, schema]}
+    crack = {"anyOf": [json_schema(BlockNumbers), json_schema(ElasticCrack)]}
+    several = {"governing_crack": {"type": "integer"}, "cracks": {"type": "array", "items": crack}}
+    return {name: schema for name, schema in properties.items() if name not in OF_SEVERAL} | several
+
+
+def _of_every_run() -> dict[str, Any]:
+    motion = json_schema(MotionNumbers)
+    # What is no number is left out, and `left_out` says why.
+    static = {name: schema for name, schema in _properties(StaticState).items() if name != "critical_acceleration_g"}
+    ratio = {headline.key: {"type": ["number", "null"]} for headline in HEADLINES}
+    return {
+        "model": {"enum": list(_MODELS)},
+        "chosen": _or_null(json_schema(Chosen)),
+        "title": _TEXT,
+        "outcome": {"enum": list(OUTCOMES)},
+        "advice": {"type": ["string", "null"]},
+        "verdict": _TEXT,
+        "warnings": {"type": "array", "items": {"type": "object", "required": ["code", "text", "severity"]}},
+        "silence_s": {"type": "number", "unit": "s"},
+        "critical_acceleration_g": {"type": "object", "properties": _properties(CriticalAccelerationsInG)},
+        "static": {"type": "object", "properties": static},
+        "left_out": {"type": "object", "additionalProperties": _TEXT},
+        "energy": _or_null(json_schema(Energy)),
+        "spread": json_schema(Spread),
+        "sequence": {"type": "array", "items": json_schema(Stage)},
+        "signs": {"type": "array", "items": json_schema(SignNumbers)},
+        "limits": {"type": "array", "items": json_schema(LimitCheck)},
+        "motion": motion,
+        "vertical_motion": _or_null(motion),
+        "references": _TEXTS,
+        "build": {"type": "object", "additionalProperties": _TEXT},
+        "ratio": {"type": "object", "properties": ratio},
+        "meaning": _TEXT,
+        "beside": {"$ref": "#/$defs/result"},
+    }
+
+
+def _properties(kind: type[Block]) -> dict[str, Any]:
+    properties: dict[str, Any] = json_schema(kind)["properties"]
+    return properties
+
+
+def _or_null(schema: dict[str, Any]) -> dict[str, Any]:
+    return {"anyOf": [schema, {"type": "null"}]}

@@ -1,0 +1,1 @@
+"""What a study says: fragility, sensitivity, comparisons of its models."""

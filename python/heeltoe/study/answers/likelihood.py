@@ -1,0 +1,224 @@
+"""The lognormal curve of greatest likelihood through runs that exceed a limit, or do not."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import stats
+from scipy.optimize import minimize_scalar
+from scipy.special import log_ndtr
+
+from heeltoe.base.arrays import Floats, Integers
+
+# Strengths within this part of each other are one for the fit.
+_ALIKE = 0.002
+#: More than this many different strengths are put together.
+_MANY = 20_000
+# A dispersion below the first is a step, one beyond the second no curve.
+_LEAST, _MOST = 1e-3, 20.0
+_ITERATIONS, _CLOSE = 60, 1e-10
+
+
+@dataclass(frozen=True)
+class Witnesses:
+    """Which of the runs of each event exceed a limit at each strength; what is alike is counted together.
+
+    Attributes
+    ----------
+    logarithm
+        (k,) of the strength.
+    event
+        (k,) place of the event.
+    runs, exceeding
+        (k,) how many there are, and how many of them exceed.
+    """
+
+    logarithm: Floats
+    event: Integers
+    runs: Floats
+    exceeding: Floats
+
+    @property
+    def events(self) -> int:
+        """How many events."""
+        return int(self.event.max()) + 1 if self.event.size else 0
+
+
+class Tally:
+    """Counts part by part which runs exceed a limit; what is alike is counted together, so that it stays small."""
+
+    def __init__(self) -> None:
+        self.unknown = 0
+        self.lowest, self.highest = np.inf, -np.inf
+        self._coarse = False
+        self._label, self._logarithm, self._runs, self._exceeding = (np.zeros(0) for _ in range(4))
+        self._event = np.zeros(0, dtype=np.int64)
+
+    def add(self, strength: Floats, exceeds: Floats, event: Integers) -> None:
+        """Count some runs: strength of the motion, whether they exceed (not a number: not known), event."""
+        known = np.isfinite(exceeds)
+        self.unknown += int((~known).sum())
+        if not known.any():
+            return
+        strength = strength[known]
+        self.lowest, self.highest = min(self.lowest, strength.min()), max(self.highest, strength.max())
+        logarithm = np.log(strength)
+        label = np.rint(logarithm / _ALIKE) if self._coarse else logarithm
+        self._event = np.concatenate([self._event, event[known]])
+        self._label = np.concatenate([self._label, label])
+        self._logarithm = np.concatenate([self._logarithm, logarithm])
+        self._runs = np.concatenate([self._runs, np.ones(label.size)])
+        self._exceeding = np.concatenate([self._exceeding, exceeds[known]])
+        levels = self._together()
+        if levels > _MANY and not self._coarse:
+            self._coarse = True
+            # Each that has been counted has one strength so far.
+            self._label = np.rint(self._logarithm / self._runs / _ALIKE)
+            self._together()
+
+    def _together(self) -> int:
+        """Count together what has the same label and event, and return how many labels there are."""
+        labels, place = np.unique(self._label, return_inverse=True)
+        events = int(self._event.max()) + 1
+        key, which = np.unique(place * events + self._event, return_inverse=True)
+        self._label, self._event = labels[key // events], key % events
+        for name in ("_logarithm", "_runs", "_exceeding"):
+            setattr(self, name, np.bincount(which, getattr(self, name)))
+        return labels.size
+
+    @property
+    def runs(self) -> int:
+        """How many runs of which it is known."""
+        return int(self._runs.sum())
+
+    @property
+    def exceeding(self) -> int:
+        """How many of them exceed."""
+        return int(self._exceeding.sum())
+
+    @property
+    def witnesses(self) -> Witnesses:
+        """What is known."""
+        _, event = np.unique(self._event, return_inverse=True)
+        return Witnesses(self._logarithm / self._runs, event, self._runs, self._exceeding)
+
+
+def witnesses(strength: Floats, exceeds: NDArray[np.bool_], event: Integers) -> Witnesses:
+    """Count the runs of each event at each strength."""
+    tally = Tally()
+    tally.add(strength, exceeds.astype(np.float64), event)
+    return tally.witnesses
+
+
+def fit(seen: Witnesses, weight: Floats) -> Floats:
+    """Return the logarithm of the median and the dispersion of greatest likelihood.
+
+    Parameters
+    ----------
+    seen
+        What is known.
+    weight
+        (r, k) how often each of it counts, in r fits side by side.
+
+    Returns
+    -------
+    ndarray, shape (r, 2)
+        Not a number where a fit has none, as strength does not help to exceed the limit.
+    """
+    # P = Phi(a + b z) with a standard variable z; the likelihood is concave in a and b: Newton's steps, halved as long
+    # as they go down.
+    middle, scale = np.average(seen.logarithm, weights=seen.runs), max(float(seen.logarithm.std()), 1e-9)
+    z = (seen.logarithm - middle) / scale
+    share = (weight @ seen.exceeding) / (weight @ seen.runs)
+    at = np.column_stack([stats.norm.ppf(np.clip(share, 1e-3, 1.0 - 1e-3)), np.ones(len(weight))])
+    value = _likelihood(at, z, seen, weight)
+    for _ in range(_ITERATIONS):
+        step = _newton(at, z, seen, weight)
+        length = np.ones(len(at))
+        for _ in range(30):
+            tried = at + length[:, None] * step
+            new = _likelihood(tried, z, seen, weight)
+            worse = ~(new >= value - 1e-9 * np.abs(value))
+            if not worse.any():
+                break
+            length[worse] /= 2.0
+        at, value = tried, new
+        # A perfect step goes on for ever: it is one long before.
+        if (np.abs(length[:, None] * step).max(axis=1) < _CLOSE * (1.0 + np.abs(at).max(axis=1))).all():
+            break
+        at[:, 1] = np.clip(at[:, 1], -scale / _LEAST, scale / _LEAST)
+    slope = np.where(at[:, 1] > scale / _MOST, at[:, 1], np.nan)
+    return np.column_stack([middle - scale * at[:, 0] / slope, scale / slope])
+
+
+def _likelihood(at: Floats, z: Floats, seen: Witnesses, weight: Floats) -> Floats:
+    linear = at[:, :1] + at[:, 1:] * z
+    return np.asarray(
+        np.sum(weight * (seen.exceeding * log_ndtr(linear) + (seen.runs - seen.exceeding) * log_ndtr(-linear)), axis=1)
+    )
+
+
+def _newton(at: Floats, z: Floats, seen: Witnesses, weight: Floats) -> Floats:
+    linear = at[:, :1] + at[:, 1:] * z
+    density = -0.5 * linear**2 - 0.5 * np.log(2.0 * np.pi)
+    up, down = np.exp(density - log_ndtr(linear)), np.exp(density - log_ndtr(-linear))
+    under = seen.runs - seen.exceeding
+    first = weight * (seen.exceeding * up - under * down)
+    second = weight * (seen.exceeding * up * (up + linear) + under * down * (down - linear))
+    gradient = np.column_stack([first.sum(axis=1), (first * z).sum(axis=1)])
+    s0, s1, s2 = (np.sum(second * z**power, axis=1) for power in range(3))
+    # A trace of the diagonal keeps a flat likelihood from steps without end.
+    s0, s2 = s0 + 1e-9 * (1.0 + s0), s2 + 1e-9 * (1.0 + s2)
+    determinant = np.maximum(s0 * s2 - s1**2, 1e-300)
+    return np.column_stack(
+        [
+            (s2 * gradient[:, 0] - s1 * gradient[:, 1]) / determinant,
+            (s0 * gradient[:, 1] - s1 * gradient[:, 0]) / determinant,
+        ]
+    )
+
+
+def within(seen: Witnesses, dispersion: float) -> float:
+    """Return the dispersion that is left where each event has a median of its own, up to `dispersion` of all.
+
+    Events of which all runs exceed, or none, say nothing of it. It comes out too small where an event has few runs.
+    """
+    total, hits = (np.bincount(seen.event, counts, seen.events) for counts in (seen.runs, seen.exceeding))
+    telling = ((hits > 0.0) & (hits < total))[seen.event]
+    if not telling.any():
+        return 0.0
+    _, event = np.unique(seen.event[telling], return_inverse=True)
+    x, runs, exceeding = seen.logarithm[telling], seen.runs[telling], seen.exceeding[telling]
+    middles = np.bincount(event, x * runs) / np.bincount(event, runs)
+    highest, lowest = np.full(middles.size, -np.inf), np.full(middles.size, np.inf)
+    np.maximum.at(highest, event[exceeding < runs], x[exceeding < runs])
+    np.minimum.at(lowest, event[exceeding > 0.0], x[exceeding > 0.0])
+    if (highest < lowest).all():
+        return 0.0  # each event is a step
+
+    def unlikely(logarithm: float) -> float:
+        width = float(np.exp(logarithm))
+        middle = _middles(middles, width, x, event, runs, exceeding)
+        linear = (x - middle[event]) / width
+        return -float(np.sum(exceeding * log_ndtr(linear) + (runs - exceeding) * log_ndtr(-linear)))
+
+    limits = (np.log(_LEAST), np.log(max(dispersion, 2.0 * _LEAST)))
+    return float(np.exp(minimize_scalar(unlikely, bounds=limits, method="bounded").x))
+
+
+def _middles(start: Floats, width: float, x: Floats, event: Integers, runs: Floats, exceeding: Floats) -> Floats:
+    """Return the median of each event that is most likely where its dispersion is `width`."""
+    middle = start.copy()
+    for _ in range(_ITERATIONS):
+        linear = (x - middle[event]) / width
+        density = -0.5 * linear**2 - 0.5 * np.log(2.0 * np.pi)
+        up, down = np.exp(density - log_ndtr(linear)), np.exp(density - log_ndtr(-linear))
+        first = np.bincount(event, exceeding * up - (runs - exceeding) * down)
+        second = np.bincount(event, exceeding * up * (up + linear) + (runs - exceeding) * down * (down - linear))
+        step = -np.clip(first / np.maximum(second, 1e-12), -1.0, 1.0) * width
+        middle += step
+        if np.abs(step).max() < 1e-9:
+            break
+    return middle

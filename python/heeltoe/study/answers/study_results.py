@@ -1,0 +1,331 @@
+"""The results of a study, complete or not, as the tables that people work with."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from os import PathLike
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from heeltoe.base.arrays import Floats, Integers
+from heeltoe.base.display import Shown
+from heeltoe.case.paths import quantity_of
+from heeltoe.errors.error import InputError
+from heeltoe.models.runner import TRUSTED
+from heeltoe.study.answers.answers import bands, summary
+from heeltoe.study.answers.comparison import compared
+from heeltoe.study.answers.fragility import Curve, counted, curve
+from heeltoe.study.answers.likelihood import Tally
+from heeltoe.study.answers.sensitivity import sobol_indices, tornado
+from heeltoe.study.run.aggregate import SHAKEN, Walk
+from heeltoe.study.run.store import RUNS, Store, read_told
+from heeltoe.units.parse import DIMENSIONS
+
+
+@dataclass(frozen=True, eq=False)
+class Opened(Shown):
+    """The results of a study.
+
+    Attributes
+    ----------
+    store
+        Where they are.
+    told
+        What the study is, as kept beside its runs.
+    """
+
+    store: Store
+    told: dict[str, Any]
+
+    def __repr__(self) -> str:
+        left = "" if self.complete else f", {len(self.store.missing())} of {self.store.parts} parts missing"
+        return f"<Study {self.title!r}: {self.store.count} runs in {self.store.directory}{left}>"
+
+    @property
+    def title(self) -> str:
+        """Of the study."""
+        return str(self.told["title"]) or "untitled study"
+
+    @property
+    def complete(self) -> bool:
+        """Whether all runs are there."""
+        return not self.store.missing()
+
+    @property
+    def dataset(self) -> Any:
+        """All runs that are there, as a ``pyarrow.dataset.Dataset``: nothing is read yet."""
+        import pyarrow.dataset as ds
+
+        return ds.dataset(self.store.directory / RUNS, format="parquet", exclude_invalid_files=False)
+
+    def batches(self, columns: list[str] | None = None) -> Iterator[pa.RecordBatch]:
+        """Walk through the runs in their order, a part at a time."""
+        for part in range(self.store.parts):
+            if self.store.path(part).exists():
+                yield from pq.ParquetFile(self.store.path(part)).read(columns).to_batches()
+
+    def to_table(self, columns: list[str] | None = None) -> pa.Table:
+        """Return the runs as an Arrow table, in their order."""
+        table = pa.Table.from_batches(list(self.batches(columns)))
+        return table.unify_dictionaries()
+
+    def to_pandas(self, columns: list[str] | None = None) -> Any:
+        """Return the runs as a ``pandas.DataFrame``."""
+        try:
+            import pandas  # noqa: F401
+        except ImportError:
+            raise InputError("pandas-package", "to_pandas") from None
+        return self.to_table(columns).to_pandas()
+
+    def duckdb(self) -> Any:
+        """Return a DuckDB connection with the table ``runs``, which reads the files as it needs them."""
+        try:
+            import duckdb
+        except ImportError:
+            raise InputError("study-package", "duckdb", "duckdb") from None
+        connection = duckdb.connect()
+        files = str(self.store.directory / RUNS / "part-*.parquet").replace("'", "''")
+        connection.execute(f"create view runs as select * from read_parquet('{files}')")
+        return connection
+
+    def to_xarray(self) -> Any:
+        """Return the numbers of a grid as an ``xarray.Dataset``, with a dimension for each field that varies, for the
+        motion, its factor and the model.
+
+        Raises
+        ------
+        InputError
+            Where the study is no grid.
+        """
+        if self.told["study"]["method"] != "grid":
+            raise InputError("study-no-grid", "to_xarray", self.told["study"]["method"])
+        try:
+            import pandas  # noqa: F401
+            import xarray  # noqa: F401
+        except ImportError:
+            raise InputError("study-package", "to_xarray", "xarray") from None
+        table = self.to_pandas()
+        table["motion"] = table["motion"].astype(str) + np.where(table["reversed"], ", turned round", "")
+        along = [*self.told["study"]["vary"], "motion", *self._strength(table), "model"]
+        kept = [name for name in along if table[name].nunique() > 1]
+        return table.drop(columns=["run", "sample", "event", "reversed"]).set_index(kept).to_xarray()
+
+    def _strength(self, table: Any) -> list[str]:
+        motions = self.told["study"]["motions"]
+        if motions is None or motions["scale"] is None:
+            return []
+        count = len(motions["scale"]["values"])
+        table["strength"] = (table["run"] // len(self.told["study"]["model"])) % count
+        return ["strength"]
+
+    @cached_property
+    def walk(self) -> Walk:
+        """Walks through the runs, some at a time."""
+        return Walk(self.store, self.told)
+
+    @cached_property
+    def outcomes(self) -> dict[str, int]:
+        """How many runs ended how."""
+        counts: Counter[str] = Counter()
+        for runs in self.walk("outcome"):
+            names, code = runs.words("outcome")
+            counts.update(dict(zip(names, np.bincount(code, minlength=len(names)).tolist(), strict=True)))
+        return dict(counts.most_common())
+
+    @property
+    def all_ok(self) -> bool:
+        """Whether every run is there and has a result to trust."""
+        return self.complete and set(self.outcomes) <= set(TRUSTED)
+
+    @property
+    def answered(self) -> bool:
+        """Whether every run is there, and of each model some have a result: what the study asks for has an answer.
+
+        Runs without a result are counted in every answer; some of them in a study of many dams are no failure of it."""
+        known = [any(row["outcomes"].get(name, 0) for name in TRUSTED) for row in self.summary]
+        return self.complete and len(known) == len(self.walk.models) and all(known)
+
+    @cached_property
+    def summary(self) -> list[dict[str, Any]]:
+        """For each model how its runs ended, how many slide, and how the headline numbers are distributed."""
+        return summary(self.walk)
+
+    @property
+    def fragility(self) -> list[dict[str, Any]]:
+        """The curves that the study asks for.
+
+        Raises
+        ------
+        InputError
+            Where it asks for none.
+        """
+        return [{"model": model, **curve.to_json()} for model, curve in self.curves]
+
+    @cached_property
+    def curves(self) -> list[tuple[str, Curve]]:
+        """The same with what can be asked of a curve, each with its model.
+
+        Raises
+        ------
+        InputError
+            Where it asks for none.
+        """
+        settings = self.told["study"]["fragility"]
+        return [
+            (model, curve(limit, value, settings["measure"], tally, confidence=settings["confidence"]))
+            for (model, limit, value), tally in self.counted.items()
+        ]
+
+    @cached_property
+    def counted(self) -> dict[tuple[str, str, float], Tally]:
+        """How many runs exceed the limits of the curves at each strength, by model, limit and value.
+
+        Raises
+        ------
+        InputError
+            Where the study asks for no curve.
+        """
+        settings = self.told["study"]["fragility"]
+        if settings is None:
+            raise InputError("study-no-fragility", "fragility")
+        return counted(self.walk, settings)
+
+    def bands(self, demand: str = "residual_slip_m", measure: str = "pga", period: str | float | None = None) -> Any:
+        """Return what 16, 50 and 84 % of the runs of each model stay below, by the strength of the motion: incremental
+        dynamic analysis where every motion goes through the same strengths.
+
+        Parameters
+        ----------
+        demand
+            A number of the table; slips count without sign.
+        measure, period
+            As :meth:`strength` takes them.
+        """
+        name, models = self.walk.measure(measure, period), self.walk.models
+
+        def pairs() -> Iterator[tuple[Integers, Floats, Floats]]:
+            for runs in self.walk("model", *SHAKEN, demand):
+                yield runs.model, runs.strength(name), np.abs(runs.numbers(demand))
+
+        pairs_of_model = zip(models, bands(pairs, len(models)), strict=True)
+        return {model: band for model, band in pairs_of_model if band["runs"]}
+
+    @cached_property
+    def _compared(self) -> dict[str, dict[str, Any]]:
+        return compared(self.walk, "residual_slip_m")
+
+    def compared(self, demand: str = "residual_slip_m") -> dict[str, dict[str, Any]]:
+        """Compare the measures of the strength of motions by how well they foretell a slip, for each model; see
+        :meth:`heeltoe.study.answers.comparison.Comparison.told`.
+
+        Parameters
+        ----------
+        demand
+            A slip of the table, which counts without sign.
+        """
+        return self._compared if demand == "residual_slip_m" else compared(self.walk, demand)
+
+    def sensitivity(self, demand: str = "residual_slip_m") -> dict[str, dict[str, Any]]:
+        """Return Sobol's indices of a number for each model, without its sign; see
+        :func:`heeltoe.study.answers.sensitivity.sobol_indices`. A dam that meets several motions counts by the mean.
+
+        Raises
+        ------
+        InputError
+            Where the study was not drawn for them.
+        """
+        study = self._asked("sensitivity")
+        names = [
+            *study["vary"],
+            *([] if self.walk.every else ["motion"]),
+            *(["strength"] if self.walk.strengths is None else []),
+        ]
+        means = np.abs(self.walk.cube(demand)).mean(axis=(1, 2)).reshape(-1, len(names) + 2, len(study["model"]))
+        return {model: sobol_indices(means[:, :, place], names) for place, model in enumerate(study["model"])}
+
+    def tornado(self, demand: str = "residual_slip_m") -> dict[str, dict[str, Any]]:
+        """Return what each field by itself does to a number for each model, without its sign; see
+        :func:`heeltoe.study.answers.sensitivity.tornado`.
+
+        Raises
+        ------
+        InputError
+            Where the fields do not vary one at a time.
+        """
+        study = self._asked("one at a time")
+        fields, first = [], 1
+        for path, entry in study["vary"].items():
+            count = len(entry) if isinstance(entry, list) else entry["count"]
+            fields.append((path, self._written(path, entry, range(first, first + count))))
+            first += count
+        values = np.abs(self.walk.cube(demand))
+        values = values.reshape(len(values), -1, len(study["model"]))
+        return {model: tornado(values[:, :, place], fields) for place, model in enumerate(study["model"])}
+
+    def _written(self, path: str, entry: Any, dams: range) -> list[str]:
+        """Return the values of a field as people write them."""
+        if isinstance(entry, list):
+            return [str(value) for value in entry]
+        quantity = quantity_of(path)
+        unit = DIMENSIONS[quantity].unit if quantity else ""
+        table = self.to_table(["sample", path])
+        at = dict(zip(table["sample"].to_pylist(), table[path].to_pylist(), strict=True))
+        return [f"{at[dam]:.4g} {unit}".strip() if dam in at else "?" for dam in dams]
+
+    def _asked(self, method: str) -> dict[str, Any]:
+        study: dict[str, Any] = self.told["study"]
+        if study["method"] != method:
+            raise InputError("study-no-answer", "method", study["method"], method=method)
+        return study
+
+    def to_json(self) -> dict[str, Any]:
+        """Return what the study says, without its runs."""
+        return {
+            "title": self.title,
+            "directory": str(self.store.directory),
+            "runs": self.store.count,
+            "complete": self.complete,
+            "outcomes": self.outcomes,
+            "summary": self.summary,
+            "fragility": None if self.told["study"]["fragility"] is None else self.fragility,
+            "measures_compared": self.compared(),
+            "sensitivity": self.sensitivity() if self.told["study"]["method"] == "sensitivity" else None,
+            "one_at_a_time": self.tornado() if self.told["study"]["method"] == "one at a time" else None,
+            "warnings": self.told["warnings"],
+            "pilot": self.told["pilot"],
+            "seconds": self.told.get("seconds"),
+            "study": self.told["study"],
+            "build": self.told["build"],
+        }
+
+    def strength(self, name: str, period: str | float | None = None) -> np.ndarray[Any, Any]:
+        """Return how strong the motion of each run is, by the name of a measure, SI; see
+        :mod:`heeltoe.motion.intensity`. ``"sa"`` is that at a period which the study names.
+
+        Raises
+        ------
+        InputError
+            Where it is not known.
+        """
+        measure = self.walk.measure(name, period)
+        return np.concatenate([np.zeros(0), *(runs.strength(measure) for runs in self.walk(*SHAKEN))])
+
+
+def open_study(directory: str | PathLike[str]) -> Opened:
+    """Open the results of a study, complete or not.
+
+    Raises
+    ------
+    InputError
+        Where there is none.
+    """
+    place = Path(directory)
+    record = read_told(place)
+    return Opened(Store(place, record["count"], record["size"]), record)

@@ -1,1 +1,0 @@
-"""Several cracks in a study."""

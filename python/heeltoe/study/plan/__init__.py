@@ -1,0 +1,1 @@
+"""What a study runs: its file, what varies, samples and motions."""

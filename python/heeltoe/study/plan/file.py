@@ -1,0 +1,282 @@
+"""The study file: a base case, what varies, how it is sampled, which earthquakes, and what is asked of the results."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from os import PathLike
+from pathlib import Path
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import (
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    Field,
+    PrivateAttr,
+    Tag,
+    ValidationError,
+    model_validator,
+)
+
+from heeltoe.base.display import Shown
+from heeltoe.case.fields import Count, Fields, TimeSpan, Truth
+from heeltoe.case.quantities import DimensionlessNumber, Duration, Length
+from heeltoe.case.read import read_fields
+from heeltoe.case.sentences import collected, first_error, gathered
+from heeltoe.errors.error import InputError, shown
+from heeltoe.units.parse import acceleration_unit
+
+#: A value of some field as a case file has it; which quantity it is depends on the field.
+Value = str | int | float
+Model = Literal["rigid", "decoupled", "flexible"]
+Method = Literal["grid", "one at a time", "latin hypercube", "sobol", "sensitivity"]
+Measure = Literal[
+    "pga", "pgv", "sa", "arias", "velocity spectrum intensity", "housner intensity", "cumulative absolute velocity"
+]
+
+
+def _listed(value: Any) -> Any:
+    return [value] if isinstance(value, str) else value
+
+
+class Distribution(Fields):
+    """Values that are drawn. Quantities have units as in a case file."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, use_attribute_docstrings=True, populate_by_name=True)
+
+    distribution: Literal["uniform", "normal", "lognormal", "triangular"] = "uniform"
+    """How the values are distributed."""
+    from_: Value | None = Field(default=None, alias="from")
+    """Lowest value of `uniform` and `triangular`."""
+    to: Value | None = None
+    """Highest value of `uniform` and `triangular`."""
+    mode: Value | None = None
+    """Most likely value of `triangular`."""
+    mean: Value | None = None
+    """Mean of `normal`."""
+    std: Value | None = None
+    """Standard deviation of `normal`."""
+    median: Value | None = None
+    """Median of `lognormal`."""
+    dispersion: Annotated[DimensionlessNumber, Field(gt=0.0, le=3.0)] | None = None
+    """Standard deviation of the logarithm of `lognormal`."""
+    lower: Value | None = None
+    """Cuts `normal` and `lognormal` below: nothing less is drawn."""
+    upper: Value | None = None
+    """Cuts `normal` and `lognormal` above."""
+    count: Annotated[int, Field(strict=True, ge=2, le=10_000)] | None = None
+    """How many equally likely values a `grid` or `one at a time` takes of it; of a uniform one both ends are among
+    them."""
+
+    @model_validator(mode="after")
+    @gathered
+    def _complete(self) -> Iterator[InputError]:
+        needed = {
+            "uniform": ("from", "to"),
+            "triangular": ("from", "mode", "to"),
+            "normal": ("mean", "std"),
+            "lognormal": ("median", "dispersion"),
+        }[self.distribution]
+        also = ("lower", "upper") if self.distribution in ("normal", "lognormal") else ()
+        fields = {
+            name: getattr(self, "from_" if name == "from" else name)
+            for name in ("from", "to", "mode", "mean", "std", "median", "dispersion", "lower", "upper")
+        }
+        for name, value in fields.items():
+            if value is None and name in needed:
+                yield InputError("distribution-incomplete", name, distribution=self.distribution)
+            if value is not None and name not in (*needed, *also):
+                yield InputError(
+                    "distribution-foreign", name, distribution=self.distribution, fields=", ".join((*needed, *also))
+                )
+
+
+# Without names of their own the kinds leave no trace in the path of what is wrong with one.
+Values = Annotated[
+    Annotated[tuple[Value, ...], Field(min_length=1), Tag(" ")] | Annotated[Distribution, Tag("")],
+    Discriminator(lambda entry: "" if isinstance(entry, Mapping | Distribution) else " "),
+]
+
+
+class Event(Fields):
+    """Components of one earthquake at one place."""
+
+    name: Annotated[str, Field(strict=True)] = ""
+    """What it is called; its first file where it is not given."""
+    horizontal: Annotated[tuple[str, ...], BeforeValidator(_listed), Field(min_length=1, max_length=2)]
+    """One or two horizontal components: files, relative to the study file, or names of the catalogue."""
+    vertical: str | None = None
+    """The vertical component, which shakes the dam together with each horizontal one, scaled by the same factor."""
+    magnitude: Annotated[DimensionlessNumber, Field(ge=0.0, le=10.0)] | None = None
+    """Moment magnitude; nothing hangs on it but the comparison of measures of strength."""
+    distance: Annotated[Length, Field(gt=0.0)] | None = None
+    """From the fault to the place; for the same."""
+
+
+class Scale(Fields):
+    """How strong the motions are."""
+
+    measure: Literal["factor", "pga", "pgv", "sa", "arias"] = "pga"
+    """What `values` are: factors on the record; or what the scaled motion has: its peak acceleration, its peak
+    velocity, its spectral acceleration at `period` with 5 % damping, its Arias intensity."""
+    period: Annotated[Duration, Field(ge=0.01, le=20.0)] | None = None
+    """Of `sa`: the period at which it is."""
+    values: Values
+    """A list, through which every motion goes, or a distribution of which each run draws one."""
+
+    @model_validator(mode="after")
+    @collected
+    def _period(self) -> Self:
+        if (self.measure == "sa") != (self.period is not None):
+            if self.period is None:
+                raise InputError("missing-field", "period", example='period = "0.3 s"')
+            raise InputError("needs-other", "period", other='measure = "sa"')
+        return self
+
+
+class Motions(Fields):
+    """The earthquakes; without them all runs meet that of the case."""
+
+    folder: str | None = Field(default=None, strict=True, min_length=1)
+    """Every record in it; components of one event are told by their names, which differ in their last part alone."""
+    files: Annotated[tuple[str, ...], Field(min_length=1)] | None = None
+    """Records, grouped by their names as in a folder."""
+    events: Annotated[tuple[Event, ...], Field(min_length=1)] | None = None
+    """Events with their components, said one by one."""
+    pairs: Truth = False
+    """Two horizontal components of each event are expected; they keep the ratio of their strengths, since the factor of
+    `scale` is that which the geometric mean of both needs, and count as one event wherever events are counted."""
+    vertical: Truth = False
+    """A vertical component of each event is expected and used."""
+    both_signs: Truth | None = None
+    """Each motion also reversed, as a run of its own: the default, unless the case says which way round its motion is
+    (`motion.sign`)."""
+    every: Truth | None = None
+    """Whether every sample meets every motion, as in a grid or one at a time, or one motion each, evenly drawn, as
+    otherwise."""
+    scale: Scale | None = None
+    """How strong they are; as recorded where it is not given."""
+    unit: str | None = Field(default=None, strict=True)
+    """Unit of the numbers in files that do not state it."""
+    time_step: TimeSpan | None = None
+    """Time between the numbers of files that do not state it."""
+
+    @model_validator(mode="after")
+    @gathered
+    def _one_source(self) -> Iterator[InputError]:
+        sources = [name for name in ("folder", "files", "events") if getattr(self, name) is not None]
+        if not sources:
+            yield InputError("study-motions", "folder")
+        if len(sources) > 1:
+            yield InputError("fields-conflict", sources[0], other=sources[1])
+        if self.unit is not None:
+            try:
+                acceleration_unit(self.unit, "unit")
+            except InputError as error:
+                yield error
+
+
+class FragilityLimits(Fields):
+    """What a dam is said to have failed beyond, each a list of limits."""
+
+    residual_slip: Annotated[tuple[Length, ...], BeforeValidator(_listed)] = ()
+    """Of the slip that remains, either way."""
+    peak_slip: Annotated[tuple[Length, ...], BeforeValidator(_listed)] = ()
+    """Of the largest slip, either way."""
+    opening: Annotated[tuple[Length, ...], BeforeValidator(_listed)] = ()
+    """Of the largest opening at either face."""
+    rotation: Annotated[tuple[DimensionlessNumber, ...], BeforeValidator(_listed)] = ()
+    """Of the largest rotation [rad]."""
+
+
+class Fragility(Fields):
+    """Fragility curves: the probability that a limit is exceeded, given how strong the motion is."""
+
+    limits: FragilityLimits
+    """One curve each."""
+    measure: Measure = "pga"
+    """How strong the motion is."""
+    period: Annotated[Duration, Field(ge=0.01, le=20.0)] | None = None
+    """Of `sa`: the period at which it is."""
+    confidence: Annotated[DimensionlessNumber, Field(ge=0.5, lt=1.0)] = 0.9
+    """Probability of the intervals."""
+
+
+class Study(Shown, Fields):
+    """Many runs of one dam: what varies, and how."""
+
+    title: str = Field(default="", strict=True)
+    """What the results are called; the case's title where it is not given."""
+    case: str = Field(strict=True, min_length=1)
+    """The base case: a file, relative to the study file."""
+    model: Annotated[tuple[Model, ...], BeforeValidator(_listed), Field(min_length=1)] = ("rigid",)
+    """The model, or several side by side on the same dams and motions."""
+    method: Method = "grid"
+    """Every combination of the values; each field by itself, the others as in the case; a Latin hypercube; Sobol's
+    sequence; or what Sobol's sensitivity indices need."""
+    samples: Count | None = None
+    """How many dams are drawn, where the method draws any; `sensitivity` runs each once for each field, and twice."""
+    seed: Annotated[int, Field(strict=True, ge=0, le=2**63 - 1)] = 1
+    """Of what is drawn: the same seed, the same runs."""
+    vary: dict[str, Values] = Field(default_factory=dict)
+    """Fields of the case by their paths: a list of values, or a distribution."""
+    correlation: tuple[tuple[str, str, Annotated[DimensionlessNumber, Field(gt=-1.0, lt=1.0)]], ...] = ()
+    """Pairs of fields that are drawn together, and the rank correlation of each."""
+    motions: Motions | None = None
+    """The earthquakes."""
+    fragility: Fragility | None = None
+    """Limits and curves."""
+
+    _directory: Path = PrivateAttr(default_factory=Path)
+
+    @property
+    def directory(self) -> Path:
+        """Where relative paths start: that of the study file, or the current one."""
+        return self._directory
+
+    @property
+    def drawn(self) -> bool:
+        """Whether dams are drawn, not listed."""
+        return self.method in ("latin hypercube", "sobol", "sensitivity")
+
+    @model_validator(mode="after")
+    @gathered
+    def _agree(self) -> Iterator[InputError]:
+        if self.drawn and self.samples is None:
+            yield InputError("missing-field", "samples", example="samples = 1000")
+        if not self.drawn and self.samples is not None:
+            yield InputError("needs-other", "samples", other="a method that draws")
+        if self.correlation and self.method not in ("latin hypercube", "sobol"):
+            yield InputError("needs-other", "correlation", other='method "latin hypercube" or "sobol"')
+        if self.method in ("sobol", "sensitivity") and self.samples and self.samples & (self.samples - 1):
+            near = 2 ** max(1, self.samples.bit_length() - 1)
+            yield InputError("study-power", "samples", self.samples, below=near, above=2 * near)
+        if len(set(self.model)) < len(self.model):
+            yield InputError("study-twice", "model", shown(list(self.model)))
+        for place, (first, second, _) in enumerate(self.correlation if self.drawn else ()):
+            for name in (first, second):
+                if not isinstance(self.vary.get(name), Distribution):
+                    yield InputError("study-correlation", f"correlation[{place}]", shown(name))
+            if first == second:
+                yield InputError("study-correlation", f"correlation[{place}]", shown(first))
+        for path in self.vary:
+            if re.split(r"[.\[]", path, maxsplit=1)[0] in ("motion", "aftershocks"):
+                yield InputError("study-motion-varies", f"vary.{path}")
+
+
+def read_study(source: str | PathLike[str]) -> Study:
+    """Read and check a study file, without what it names.
+
+    Raises
+    ------
+    InputError
+        The first thing that is wrong, with the others.
+    """
+    path = Path(source)
+    try:
+        study = Study.model_validate(read_fields(path, "study-file-missing"))
+    except ValidationError as found:
+        raise first_error(found, Study) from None
+    study._directory = path.parent
+    return study

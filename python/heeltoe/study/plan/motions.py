@@ -1,0 +1,185 @@
+"""The earthquakes of a study: events with their components, how strong each is, and the factors that make them as
+strong as is wanted."""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from pydantic import ValidationError
+
+from heeltoe.base.arrays import Floats
+from heeltoe.case.model import Case
+from heeltoe.case.motion import Source
+from heeltoe.case.sentences import first_error
+from heeltoe.case.shaking import read_source
+from heeltoe.errors.error import InputError, shown
+from heeltoe.errors.sanitize import harmless
+from heeltoe.models.run import runs_both_signs
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.motion.intensity import intensity
+from heeltoe.motion.records.catalog import is_record
+from heeltoe.study.plan.file import Event, Motions
+from heeltoe.study.plan.problems import Problems
+
+# What the last part of a vertical component's name is.
+_VERTICAL = re.compile(r"up|ud\d?|v|ver|vert|vertical|z|dwn|down", re.IGNORECASE)
+# The last part of a name, which tells the components of an event apart: behind a dash, an underscore or a blank.
+_LAST = re.compile(r"(.+)[-_ .]([^-_ .]+)")
+
+
+@dataclass(frozen=True, eq=False)
+class Shake:
+    """A motion that dams meet.
+
+    Attributes
+    ----------
+    name
+        Of the horizontal component.
+    event
+        That it belongs to, counting from zero.
+    horizontal, vertical
+        As recorded [m/s2]; the vertical one None where there is none.
+    turned
+        Whether the horizontal one is turned round before it shakes a dam.
+    reference
+        What the measure of the scale is for factor one: the geometric mean of both components of a pair.
+    end
+        Of the shaking [s]; that of the horizontal motion where it is zero.
+    """
+
+    name: str
+    event: int
+    horizontal: GroundMotion
+    vertical: GroundMotion | None
+    turned: bool = False
+    reference: float = 1.0
+    end: float = 0.0
+
+    def factor(self, strength: Floats, measure: str) -> Floats:
+        """Return the factors that make the motion so strong."""
+        if measure == "factor":
+            return strength
+        ratio = strength / self.reference
+        return np.sqrt(ratio) if measure == "arias" else ratio
+
+
+def shakes_of(motions: Motions, case: Case, directory: Path) -> tuple[tuple[Shake, ...], tuple[str, ...]]:
+    """Read the motions of a study.
+
+    Returns
+    -------
+    shakes
+        In the order of the events.
+    events
+        Their names.
+
+    Raises
+    ------
+    InputError
+        Where a record cannot be found, read or trusted, or components that are expected are not there.
+    """
+    events = list(_events(motions, directory))
+    shakes, problems = list[Shake](), Problems()
+    for number, event in enumerate(events):
+        with problems:
+            shakes += _shakes(motions, case, directory, number, event)
+    problems.tell()
+    # Halves of letters are none that a table can hold.
+    return tuple(replace(shake, name=harmless(shake.name)) for shake in shakes), tuple(
+        harmless(event.name) for event in events
+    )
+
+
+def _shakes(motions: Motions, case: Case, directory: Path, number: int, event: Event) -> Iterator[Shake]:
+    """Walk the motions of an event."""
+    if motions.pairs and len(event.horizontal) != 2:
+        raise InputError("study-pair", "motions.pairs", shown(event.name), count=len(event.horizontal))
+    if motions.vertical and event.vertical is None:
+        raise InputError("study-vertical", "motions.vertical", shown(event.name))
+    horizontal, vertical, problems = list[GroundMotion](), None, Problems()
+    for name in event.horizontal:
+        with problems:
+            horizontal.append(_read(motions, case, directory, name, "horizontal"))
+    with problems:
+        vertical = event.vertical and _read(motions, case, directory, event.vertical, "vertical")
+    problems.tell()
+    references = [_reference(motions, motion, case) for motion in horizontal]
+    if motions.pairs:
+        references = [float(np.sqrt(np.prod(references)))] * 2
+    for motion, reference in zip(horizontal, references, strict=True):
+        shake = Shake(motion.name, number, motion, vertical or None, reference=reference)
+        yield shake
+        if both_signs(motions, case):
+            yield replace(shake, turned=True)
+
+
+def both_signs(motions: Motions | None, case: Case) -> bool:
+    """Whether each motion of a study comes as recorded and reversed."""
+    chosen = None if motions is None else motions.both_signs
+    return runs_both_signs(case) if chosen is None else chosen
+
+
+def _reference(motions: Motions, motion: GroundMotion, case: Case) -> float:
+    if motions.scale is None or motions.scale.measure == "factor":
+        return 1.0
+    value = intensity(motion, motions.scale.measure, motions.scale.period, case.gravity)
+    if value <= 0.0:
+        raise InputError("motion-zero", motion.name)
+    return value
+
+
+def _read(motions: Motions, case: Case, directory: Path, name: str, way: str) -> GroundMotion:
+    try:
+        source = Source(file=name, unit=motions.unit, time_step=motions.time_step)
+    except ValidationError as found:
+        raise first_error(found, Source) from None
+    field = f"motions: {name}"
+    return read_source(source, case.gravity, directory, field, upward=way == "vertical")
+
+
+def _events(motions: Motions, directory: Path) -> Iterator[Event]:
+    """Walk the events; components of files without a word of which belong together are told by their names."""
+    if motions.events is not None:
+        for event in motions.events:
+            yield event if event.name else event.model_copy(update={"name": Path(event.horizontal[0]).stem})
+        return
+    names = motions.files or _folder(motions.folder or "", directory)
+    groups: dict[str, list[str]] = {}
+    for name in names:
+        common, _ = _parts(name)
+        groups.setdefault(common, []).append(name)
+    for common, files in groups.items():
+        vertical = [file for file in files if _VERTICAL.fullmatch(_parts(file)[1])]
+        horizontal = [file for file in files if file not in vertical]
+        if not horizontal:
+            raise InputError("study-horizontal", "motions", shown(vertical[0]))
+        if len(vertical) > 1 or len(horizontal) > 2:
+            raise InputError("study-components", "motions", shown(common), names=", ".join(files))
+        used = vertical[0] if vertical and motions.vertical else None
+        yield Event(name=common, horizontal=tuple(horizontal), vertical=used)
+
+
+def _parts(name: str) -> tuple[str, str]:
+    """Return what the components of one event have in common in their names, and the part that tells them apart; a name
+    of one part is an event by itself."""
+    stem = Path(name).stem
+    match = _LAST.fullmatch(stem)
+    return (match[1], match[2]) if match else (stem, "")
+
+
+def _folder(name: str, directory: Path) -> list[str]:
+    """Return the records of a folder, in the order of their names."""
+    # Unlike that of paths, it leaves the home of nobody as it is.
+    root = directory / os.path.expanduser(name)
+    # A name that is too long for any file is no folder, either: Path.is_dir raises.
+    if not os.path.isdir(root):
+        raise InputError("study-folder", "motions.folder", shown(name))
+    files = [str(path.resolve()) for path in sorted(root.iterdir()) if is_record(path)]
+    if not files:
+        raise InputError("study-folder-empty", "motions.folder", shown(name))
+    return files

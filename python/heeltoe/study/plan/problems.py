@@ -1,0 +1,40 @@
+"""What is wrong with a study, gathered until all of it can be told at once."""
+
+from __future__ import annotations
+
+from types import TracebackType
+
+from heeltoe.errors.error import InputError
+
+
+class Problems:
+    """Keeps the errors that are raised in its ``with`` blocks, and goes on behind them."""
+
+    def __init__(self) -> None:
+        self._found: dict[str, InputError] = {}
+
+    def __enter__(self) -> None:
+        return None
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> bool:
+        if not isinstance(error, InputError):
+            return False
+        for problem in (error, *error.others):
+            self._found.setdefault(str(problem), problem)
+        error.others = ()
+        error.__dict__.pop("__notes__", None)
+        return True
+
+    def tell(self) -> None:
+        """Raise what is wrong, if anything is.
+
+        Raises
+        ------
+        InputError
+            The first problem, with the others.
+        """
+        if self._found:
+            error, *others = self._found.values()
+            raise error.with_others(others)

@@ -1,0 +1,1 @@
+"""The runs of a study: in batches, stored, resumed, summed up."""

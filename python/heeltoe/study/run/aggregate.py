@@ -1,0 +1,184 @@
+"""The runs of a study walked through some at a time, words as numbers: memory does not grow with their count."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from heeltoe.base.arrays import Floats, Integers
+from heeltoe.errors.error import InputError
+from heeltoe.motion.intensity import at_factor
+from heeltoe.study.plan.crack_columns import column_of
+from heeltoe.study.run.store import Store
+
+#: Runs that are looked at together; of so many times as many all are kept once they have been read.
+_TOGETHER, _KEPT = 65_536, 4
+
+
+@dataclass(frozen=True)
+class Walk:
+    """Walks through the runs of a study.
+
+    Attributes
+    ----------
+    store
+        Where they are.
+    told
+        What the study is.
+    """
+
+    store: Store
+    told: Mapping[str, Any]
+
+    def __call__(self, *columns: str) -> Iterator[Stretch]:
+        """Walk through the runs that are there, in their order."""
+        if self.store.count <= _KEPT * _TOGETHER:
+            for table in self._small:
+                yield Stretch(table.select(list(columns)), self.told)
+            return
+        for parts in self._stretches():
+            yield Stretch(_read(self.store, parts, list(columns)), self.told)
+
+    @cached_property
+    def _small(self) -> list[pa.Table]:
+        return [_read(self.store, parts, None) for parts in self._stretches()]
+
+    def _stretches(self) -> Iterator[list[int]]:
+        """Walk through numbers of parts that are there, some together."""
+        parts = sorted(set(range(self.store.parts)) - set(self.store.missing()))
+        many = max(1, _TOGETHER // self.store.size)
+        for start in range(0, len(parts), many):
+            yield parts[start : start + many]
+
+    @property
+    def models(self) -> list[str]:
+        """The models, in the order of their places."""
+        return list(self.told["study"]["model"])
+
+    @property
+    def cracks(self) -> int:
+        """How many cracks the dams have."""
+        return 1 + len(self.told["case"].get("further_cracks", ()))
+
+    def of_cracks(self, name: str) -> list[str]:
+        """Return the columns of a headline number at each of several cracks, from the crest down; none of one crack."""
+        return [column_of(place, name) for place in range(self.cracks)] if self.cracks > 1 else []
+
+    def measure(self, name: str, period: str | float | None = None) -> str:
+        """Return what a measure of strength is called among those that are known of the motions.
+
+        Raises
+        ------
+        InputError
+            Where it is none of them.
+        """
+        if name == "sa" and period is not None:
+            name = f"sa({float(str(period).split()[0]):g})"
+        known = ", ".join(self.told["motions"][0]["measures"])
+        if any(name not in motion["measures"] for motion in self.told["motions"]):
+            raise InputError("study-measure", "measure", name, known=known)
+        return name
+
+    @property
+    def every(self) -> bool:
+        """Whether every dam meets every motion, or one each."""
+        study = self.told["study"]
+        chosen = study["motions"] and study["motions"]["every"]
+        return study["method"] in ("grid", "one at a time") if chosen is None else bool(chosen)
+
+    @property
+    def strengths(self) -> int | None:
+        """Through how many strengths each motion goes; None where each dam draws one."""
+        motions = self.told["study"]["motions"]
+        scale = motions and motions["scale"]
+        if not scale:
+            return 1
+        return len(scale["values"]) if isinstance(scale["values"], list) else None
+
+    def cube(self, name: str) -> Floats:
+        """Return a number of all runs in an array of dams, motions of each, strengths of each motion, and models; not a
+        number where a run has no such result."""
+        cube = np.full(self.store.count, np.nan)
+        for runs in self("run", name):
+            cube[runs.whole("run")] = runs.numbers(name)
+        motions = len(self.told["motions"]) if self.every else 1
+        return cube.reshape(-1, motions, self.strengths or 1, len(self.models))
+
+
+#: What tells the strength of a run.
+SHAKEN = ("motion", "reversed", "factor")
+
+
+@dataclass(frozen=True, eq=False)
+class Stretch:
+    """Some runs.
+
+    Attributes
+    ----------
+    table
+        The columns that were asked for.
+    told
+        What the study is.
+    """
+
+    table: pa.Table
+    told: Mapping[str, Any]
+
+    @property
+    def model(self) -> Integers:
+        """(n,) place among the models of the study."""
+        return self._places("model", {name: place for place, name in enumerate(self.told["study"]["model"])})
+
+    @property
+    def event(self) -> Integers:
+        """(n,) place among the events of the study."""
+        return self._places("event", {name: place for place, name in enumerate(self.told["events"])})
+
+    @cached_property
+    def motion(self) -> Integers:
+        """(n,) place among the motions of the study."""
+        both = [
+            {motion["name"]: place for place, motion in enumerate(self.told["motions"]) if motion["reversed"] == turned}
+            for turned in (False, True)
+        ]
+        ways = [self._places("motion", known) for known in both]
+        return np.where(self.table["reversed"].to_numpy(), ways[1], ways[0])
+
+    def strength(self, measure: str) -> Floats:
+        """Return how strong the motion of each run is, (n,) SI, by what :meth:`Walk.measure` returns."""
+        values = np.array([motion["measures"][measure] for motion in self.told["motions"]], dtype=np.float64)
+        return np.asarray(at_factor(values[self.motion], measure, self.numbers("factor")), dtype=np.float64)
+
+    def numbers(self, name: str) -> Floats:
+        """Return a column of numbers, (n,); not a number where a run has none."""
+        return np.asarray(self.table[name].to_numpy(), dtype=np.float64)
+
+    def largest(self, *names: str) -> Floats:
+        """Return the largest of some columns of numbers, (n,), without signs."""
+        return np.asarray(np.max([np.abs(self.numbers(name)) for name in names], axis=0))
+
+    def whole(self, name: str) -> Integers:
+        """Return a column of whole numbers, (n,)."""
+        return np.asarray(self.table[name].to_numpy(), dtype=np.int64)
+
+    def words(self, name: str) -> tuple[list[str], Integers]:
+        """Return the words of a column, and the place of each run's among them."""
+        column = self.table[name].combine_chunks()
+        if isinstance(column, pa.ChunkedArray):
+            column = column.chunk(0) if column.num_chunks else pa.array([], pa.dictionary(pa.int32(), pa.string()))
+        return column.dictionary.to_pylist(), np.asarray(column.indices.to_numpy(), dtype=np.int64)
+
+    def _places(self, name: str, known: Mapping[str, int]) -> Integers:
+        words, code = self.words(name)
+        return np.array([known.get(word, 0) for word in words], dtype=np.int64)[code]
+
+
+def _read(store: Store, parts: list[int], columns: list[str] | None) -> pa.Table:
+    tables = [pq.ParquetFile(store.path(part)).read(columns, use_threads=False) for part in parts]
+    return pa.concat_tables(tables).unify_dictionaries().combine_chunks()

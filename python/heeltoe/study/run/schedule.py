@@ -1,0 +1,120 @@
+"""Who runs the parts of a study: this process, worker processes beside it, or a cluster."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack
+from importlib.util import find_spec
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+import pyarrow as pa
+
+from heeltoe.errors.error import InputError
+from heeltoe.study.plan.plan import Plan
+from heeltoe.study.run.batches import run_part
+
+#: Parts that are under way for each worker: it need not wait for the next, and results do not pile up.
+_AHEAD = 2
+#: What the folders begin with in which workers of ours put aside what they do not hold.
+_ASIDE = ".workers-"
+Part = tuple[int, int, int]
+
+
+def run_here(plan: Plan, parts: Sequence[Part]) -> Iterator[tuple[int, pa.Table]]:
+    """Yield the parts, given by number, first run and end, one by one on all cores of this process."""
+    for part, start, stop in parts:
+        yield part, run_part(plan, start, stop, threads=0)
+
+
+def run_on_workers(
+    plan: Plan, parts: Sequence[Part], directory: Path, address: str | None = None
+) -> Iterator[tuple[int, pa.Table]]:
+    """Yield the parts as they get done by workers of Dask.
+
+    Parameters
+    ----------
+    plan
+        The study.
+    parts
+        Number, first run and end of each.
+    directory
+        Of the results; workers that are started here leave nothing outside of it, nor in it.
+    address
+        Of a scheduler that is there; one worker for each core of this machine is started where it is not given.
+
+    Raises
+    ------
+    InputError
+        Where Dask is not installed, or there is no scheduler at the address.
+    """
+    check_workers(None)
+    from distributed import Client, LocalCluster, as_completed
+
+    with ExitStack() as stack:
+        if address is None:
+            cores = min(os.cpu_count() or 1, len(parts))
+            for left in directory.glob(f"{_ASIDE}*"):
+                shutil.rmtree(left, ignore_errors=True)
+            aside = TemporaryDirectory(prefix=_ASIDE, dir=directory, ignore_cleanup_errors=True)
+            # Workers are started anew, not forked: what the parent's threads hold would be held for ever.
+            # Any port does for a server that nobody asks: the usual one may be that of another study.
+            cluster = stack.enter_context(
+                LocalCluster(
+                    n_workers=cores,
+                    threads_per_worker=1,
+                    dashboard_address=None,
+                    scheduler_kwargs={"dashboard_address": ":0"},
+                    # What ends a study is raised; a worker that loses its scheduler as both end is no news.
+                    silence_logs=50,
+                    local_directory=stack.enter_context(aside),
+                )
+            )
+            client = stack.enter_context(Client(cluster))
+        else:
+            client = stack.enter_context(_reached(address))
+        everywhere = client.scatter(plan, broadcast=True, hash=False)
+        waiting = iter(parts)
+        workers = max(1, len(client.scheduler_info()["workers"]))
+        running: Any = as_completed(with_results=True)
+
+        def more(count: int) -> None:
+            for _, (part, start, stop) in zip(range(count), waiting, strict=False):
+                running.add(client.submit(_one, everywhere, part, start, stop, pure=False, retries=3))
+
+        more(_AHEAD * workers)
+        for future, result in running:
+            future.release()
+            more(1)
+            yield result
+
+
+def check_workers(address: str | None) -> None:
+    """Make sure that there is somebody to run parts, before anything is written.
+
+    Raises
+    ------
+    InputError
+        Where Dask is not installed, or there is no scheduler at the address.
+    """
+    if find_spec("distributed") is None:
+        raise InputError("study-package", "--scheduler", "dask")
+    if address is not None:
+        _reached(address).close()
+
+
+def _reached(address: str) -> Any:
+    """Return a client of a scheduler."""
+    from distributed import Client
+
+    try:
+        return Client(address, timeout=10)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise InputError("study-scheduler", "--scheduler", address, reason=str(error).split("\n")[0]) from None
+
+
+def _one(plan: Plan, part: int, start: int, stop: int) -> tuple[int, pa.Table]:
+    return part, run_part(plan, start, stop)

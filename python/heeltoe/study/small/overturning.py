@@ -1,0 +1,221 @@
+"""Which pulses overturn a block: maps over their frequency and amplitude, with the safe gap.
+
+A block may be overturned by a weaker pulse after it has struck once, stand a stronger one, and be overturned by a still
+stronger one without a blow: Zhang and Makris (2001). In between lies the safe gap, so that "what is the least
+acceleration that overturns it" has no single answer."""
+
+from __future__ import annotations
+
+import math
+import os
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, Literal
+
+import numpy as np
+import pyarrow as pa
+from numpy.typing import NDArray
+
+from heeltoe.base.arrays import Floats
+from heeltoe.base.display import Shown
+from heeltoe.case.combinations import check
+from heeltoe.case.model import Case
+from heeltoe.errors.error import InputError, expect
+from heeltoe.kernel.shaking import Shaking
+from heeltoe.mechanics.block import Block, CriticalAccelerations, build_block
+from heeltoe.models.rigid.walk import walk
+from heeltoe.result.write import build_info
+
+Pulse = Literal["sine", "half-sine", "cosine"]
+
+#: What a pulse does to a block, by the numbers of a map.
+ENDS = ("does not rock", "rocks and stands", "overturns after an impact", "overturns without impact", "no result")
+_MOST = 400
+_PIECES = 200
+# What overturns does so within so many times 1/p, with p of :attr:`OverturningMap.frequency_parameter_1_s`.
+_WAIT = 12.0
+
+
+@dataclass(frozen=True, eq=False)
+class OverturningMap(Shown):
+    """Ends of a block in pulses of many frequencies and amplitudes.
+
+    Attributes
+    ----------
+    title
+        Of the case.
+    pulse
+        ``sine`` (one full one), ``half-sine`` or ``cosine`` (one full one).
+    frequency_hz
+        (f,) of the pulse.
+    amplitude_g
+        (a,) of its acceleration.
+    end
+        (f, a) counting :data:`ENDS`.
+    frequency_parameter_1_s
+        p of the block under its weight about the corner it overturns most easily about: sqrt(m g R / I).
+    slenderness_rad
+        Angle at which its centroid is above that corner.
+    """
+
+    title: str
+    pulse: str
+    frequency_hz: Floats
+    amplitude_g: Floats
+    end: NDArray[np.int8]
+    frequency_parameter_1_s: float
+    slenderness_rad: float
+
+    def safe_gap(self) -> list[tuple[float, float, float]]:
+        """Return (frequency [Hz], from, to [g]) wherever the block stands pulses that are stronger than one that
+        overturns it and weaker than another one that does."""
+        gaps = []
+        for frequency, column in zip(self.frequency_hz, self._falls(), strict=True):
+            places = np.flatnonzero(column)
+            gaps += [
+                (float(frequency), float(self.amplitude_g[before + 1]), float(self.amplitude_g[after - 1]))
+                for before, after in pairwise(places)
+                if after - before > 1
+            ]
+        return gaps
+
+    def least_g(self) -> list[float | None]:
+        """Return for each frequency the least amplitude [g] that overturns; None where none of the map does."""
+        return [float(self.amplitude_g[np.argmax(column)]) if column.any() else None for column in self._falls()]
+
+    def _falls(self) -> NDArray[np.bool_]:
+        return np.isin(self.end, [k for k, name in enumerate(ENDS) if name.startswith("overturns")])
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain numbers, strings and lists."""
+        return {
+            "title": self.title,
+            "pulse": self.pulse,
+            "frequency_hz": self.frequency_hz.tolist(),
+            "amplitude_g": self.amplitude_g.tolist(),
+            "ends": list(ENDS),
+            "end": self.end.tolist(),
+            "least_g": self.least_g(),
+            "safe_gap": [
+                {"frequency_hz": frequency, "from_g": low, "to_g": high} for frequency, low, high in self.safe_gap()
+            ],
+            "frequency_parameter_1_s": self.frequency_parameter_1_s,
+            "slenderness_rad": self.slenderness_rad,
+            "build": build_info(),
+        }
+
+    def to_table(self) -> pa.Table:
+        """Return the map as a table with a row for each pulse."""
+        frequency, amplitude = np.meshgrid(self.frequency_hz, self.amplitude_g, indexing="ij")
+        return pa.table(
+            {
+                "frequency_hz": frequency.reshape(-1),
+                "amplitude_g": amplitude.reshape(-1),
+                "end": [ENDS[k] for k in self.end.reshape(-1)],
+            }
+        )
+
+
+def overturning_map(
+    case: Case,
+    pulse: str = "sine",
+    *,
+    frequencies_hz: Floats | None = None,
+    amplitudes_g: Floats | None = None,
+    count: int = 60,
+) -> OverturningMap:
+    """Run the block of a case through pulses of many frequencies and amplitudes.
+
+    Parameters
+    ----------
+    case
+        Its ``analysis.rotation`` says by which geometry; ``small`` knows no overturning and is taken as ``finite``.
+    pulse
+        ``sine``, ``half-sine`` or ``cosine``.
+    frequencies_hz, amplitudes_g
+        (f,) and (a,) ascending; `count` of each where they are not given: w/p from 0.5 to 8, amplitudes from half of
+        to ten times that at which the block starts to rock.
+    count
+        How many of each, 2 to 400.
+
+    Raises
+    ------
+    InputError
+        Where the pulse is none of these, or there are too many, or the block stands not even without a pulse.
+    """
+    expect(case, Case, "not-a-case", "case")
+    if pulse not in ("sine", "half-sine", "cosine"):
+        raise InputError("pulse-kind", "pulse", pulse)
+    if not 2 <= count <= _MOST:
+        raise InputError("pulse-count", "count", count, most=_MOST)
+    if case.analysis.rotation == "small":
+        case = case.model_copy(update={"analysis": case.analysis.model_copy(update={"rotation": "finite"})})
+    block, critical = _standing(case)
+    rate, slenderness = _inverted_pendulum(block)
+    if frequencies_hz is None:
+        frequencies_hz = np.linspace(0.5, 8.0, count) * rate / (2.0 * math.pi)
+    if amplitudes_g is None:
+        amplitudes_g = np.linspace(0.5, 10.0, count) * critical.rocking / case.gravity
+    # The side on which the block is overturned more easily gets the first push.
+    sign = -1.0 if critical.rocking_downstream < critical.rocking_upstream else 1.0
+
+    def column(frequency: float) -> list[int]:
+        return [
+            _end(case, block, _pulse(pulse, frequency, sign * amplitude * case.gravity, _WAIT / rate))
+            for amplitude in amplitudes_g
+        ]
+
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        ends = list(pool.map(column, frequencies_hz))
+    return OverturningMap(
+        title=case.title,
+        pulse=pulse,
+        frequency_hz=np.asarray(frequencies_hz, dtype=np.float64),
+        amplitude_g=np.asarray(amplitudes_g, dtype=np.float64),
+        end=np.array(ends, dtype=np.int8),
+        frequency_parameter_1_s=rate,
+        slenderness_rad=slenderness,
+    )
+
+
+def _standing(case: Case) -> tuple[Block, CriticalAccelerations]:
+    """Return a block that stands without a pulse, and what moves it."""
+    check(case, "map")
+    block = build_block(case)
+    critical = block.critical_accelerations()
+    if min(critical.rocking, critical.sliding) <= 0.0 or block.normal_force <= 0.0:
+        raise InputError("pulse-unstable", "case")
+    return block, critical
+
+
+def _inverted_pendulum(block: Block) -> tuple[float, float]:
+    """Return p and the slenderness of the concrete about the nearer corner (Housner 1963)."""
+    section = block.section
+    x, z = section.in_crack_frame(section.centroid[0] - section.heel[0], section.centroid[1] - section.heel[1])
+    arm = min(x, block.width - x)
+    radius = math.hypot(arm, z)
+    per_mass = section.polar_inertia / section.area + radius**2
+    return math.sqrt(block.gravity * radius / per_mass), math.atan2(arm, z)
+
+
+def _pulse(kind: str, frequency: float, amplitude: float, wait: float) -> Shaking:
+    """Return a pulse and the quiet after it."""
+    end = (0.5 if kind == "half-sine" else 1.0) / frequency
+    time = np.linspace(0.0, end, _PIECES + 1)
+    phase = 2.0 * math.pi * frequency * time
+    values: Floats = amplitude * (np.cos(phase) if kind == "cosine" else np.sin(phase))
+    if kind != "cosine":
+        values[-1] = 0.0
+        return Shaking(np.append(time, end + wait), np.append(values, 0.0))
+    # It starts and ends with a jump.
+    return Shaking(np.concatenate([time, [end, end + wait]]), np.concatenate([values, [0.0, 0.0]]))
+
+
+def _end(case: Case, block: Block, shaking: Shaking) -> int:
+    run = walk(case, block, shaking)
+    if run.outcome == "overturned":
+        return 2 if run.summary.impacts else 3
+    if run.outcome != "ok":
+        return 4
+    return int(max(run.summary.largest_gap_heel, run.summary.largest_gap_toe) > 0.0)

@@ -1,0 +1,176 @@
+"""Static checks as they are asked for: at every section, with the slip of a run, and for a table of dams."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from heeltoe.case.model import Case
+from heeltoe.models.run import AUTO, cost_of, run
+from heeltoe.models.statics.after import joints_after
+from heeltoe.models.statics.joints import Joints, statics_of_sections
+from heeltoe.models.statics.model import statics
+from heeltoe.result.response import Response
+from heeltoe.study.plan.axes import Axis
+from heeltoe.study.small.run_table import Table, cases_of, check_together
+
+Say = Callable[[str], None]
+
+
+@dataclass(frozen=True)
+class After:
+    """Where the slip of the post-seismic case comes from.
+
+    Attributes
+    ----------
+    slip_m
+        Given; None where it is that of the case, or of a run.
+    source
+        Who gives it.
+    model
+        Whose run says it, whatever slip the case gives; None for the slip of the case, or of the model that fits it.
+    """
+
+    slip_m: float | None = None
+    source: str = "given"
+    model: str | None = None
+
+    def runs(self, case: Case) -> bool:
+        """Whether an earthquake is to be run."""
+        if self.slip_m is not None:
+            return False
+        return self.model is not None or (case.motion is not None and case.statics.residual_slip is None)
+
+
+def judge(case: Case, after: After = After(), say: Say = lambda text: None) -> Joints:
+    """Judge the stability of a dam at each of its sections, after the earthquake, too.
+
+    Parameters
+    ----------
+    case
+        Dam, water, earthquake and the choices of ``[statics]``.
+    after
+        Where the slip of the post-seismic case comes from.
+    say
+        Told what goes on.
+
+    Raises
+    ------
+    InputError
+        Where something of the case cannot be used; without a motion where a model is to say the slip.
+    """
+    slip_m = after.slip_m
+    if slip_m is not None:
+        return statics_of_sections(case, lambda alone, place: statics(alone, slip_m, slip_source=after.source))
+    if not after.runs(case):
+        return statics_of_sections(case)
+    if case.statics.residual_slip is not None:
+        # What was asked for goes before what the case says.
+        case = case.model_copy(update={"statics": case.statics.model_copy(update={"residual_slip": None})})
+    whole: list[Response] = []
+
+    def runs() -> Sequence[Response]:
+        if not whole:
+            say("running the earthquake")
+            whole.extend(reversed(run(case, after.model or AUTO).responses))
+        return whole
+
+    def run_alone(alone: Case) -> Sequence[Response]:
+        say(f"running the earthquake, crack at {alone.crack.elevation:g} m alone")
+        return tuple(reversed(run(alone, after.model or AUTO).responses))
+
+    return joints_after(case, runs, run_alone)
+
+
+@dataclass(frozen=True, eq=False)
+class StaticsTable(Table):
+    """Static checks of every combination of some values.
+
+    Attributes
+    ----------
+    found
+        The checks of each, in the order of `cells`.
+    """
+
+    found: tuple[Joints, ...]
+
+    @property
+    def title(self) -> str:
+        """Of the case."""
+        return self.found[0].title
+
+    @property
+    def ok(self) -> bool:
+        """Whether every check of every dam is met."""
+        return all(joints.ok for joints in self.found)
+
+    def numbers(self) -> Iterable[dict[str, Any]]:
+        """Return how many checks of each dam are not met, what governs, and the least factors."""
+        return map(_numbers, self.found)
+
+    def to_json(self) -> dict[str, Any]:
+        """Return all checks in full, with the values that belong to them."""
+        runs = ({**row, **statics_json(joints)} for row, joints in zip(self.rows(), self.found, strict=True))
+        return {"model": "statics", "title": self.title, "ok": self.ok, **self.runs_json(runs)}
+
+
+def statics_json(joints: Joints) -> dict[str, Any]:
+    """Return the JSON of the checks at many sections, or of those at the only one by themselves."""
+    return joints.to_json() if len(joints.joints) > 1 else joints.joints[0].statics.to_json()
+
+
+def _numbers(joints: Joints) -> dict[str, Any]:
+    governing = joints.governing
+    worst = governing.governing
+    cases = [case for joint in joints.joints for case in joint.statics.cases]
+    checks = [check for joint in joints.joints for check in joint.statics.checks]
+    return {
+        "checks_not_met": sum(not check.met for check in checks),
+        "governing_elevation_m": governing.elevation_m,
+        "governing_load_case": None if worst is None else worst.load_case,
+        "governing_check": None if worst is None else worst.name,
+        "governing_margin": None if worst is None else worst.margin,
+        "least_sliding_factor": _least(case.sliding_factor for case in cases),
+        "least_overturning_factor": _least(case.overturning_factor for case in cases),
+        "least_flotation_factor": _least(case.flotation_factor for case in cases),
+        "longest_crack_m": max((case.cracked_length_m for case in cases), default=None),
+        "slip_m": governing.statics.slip_m,
+    }
+
+
+def _least(values: Any) -> float | None:
+    return min((value for value in values if value is not None), default=None)
+
+
+def statics_table(
+    source: str | os.PathLike[str] | Mapping[str, Any],
+    changes: Sequence[str],
+    axes: Sequence[Axis],
+    after: After = After(),
+    say: Say = lambda text: None,
+) -> StaticsTable:
+    """Judge every combination of some values.
+
+    Parameters
+    ----------
+    source, changes
+        As :func:`heeltoe.read_case` takes them; the varied fields win.
+    axes
+        From :func:`heeltoe.study.small.run_table.parse_axes`.
+    after, say
+        As :func:`judge` takes them.
+
+    Raises
+    ------
+    InputError
+        Where a value cannot be used, or the runs of all dams take more than the first case allows.
+    """
+    cells, cases = cases_of(source, changes, axes)
+    check_together(cases, lambda case: cost_of(case, after.model or AUTO) if after.runs(case) else None)
+    table = []
+    for done, case in enumerate(cases):
+        say(f"judging, {done} of {len(cases)} dams done")
+        table.append(judge(case, after, say))
+    return StaticsTable(tuple(axes), cells, tuple(table))

@@ -1,0 +1,56 @@
+"""A report from a subject: the sections in their order."""
+
+from __future__ import annotations
+
+from heeltoe.errors.sanitize import plain
+from heeltoe.result.write import build_info
+from heeltoe.views.content.checks import static_checks
+from heeltoe.views.content.evidence import evidence
+from heeltoe.views.content.input import defaults, given_input, input_hash, rerun
+from heeltoe.views.content.limits import limits
+from heeltoe.views.content.method import method
+from heeltoe.views.content.motion import ground_motion
+from heeltoe.views.content.one_unit import one_unit_each
+from heeltoe.views.content.question import question
+from heeltoe.views.content.results import results
+from heeltoe.views.content.subject import Subject
+from heeltoe.views.content.tree import Block, Document, References, Section, without_gaps
+
+
+def run_sections(subject: Subject) -> tuple[Block, ...]:
+    """Return what a run did in words and numbers: the report without input, method and appendices."""
+    sections = (
+        question(subject),
+        ground_motion(subject),
+        results(subject),
+        evidence(subject),
+        limits(subject),
+    )
+    return one_unit_each(sections, subject.numbers)
+
+
+def document(subject: Subject) -> Document:
+    """Return the whole report."""
+    models = " and ".join(run.model for run in subject.runs)
+    hashed = input_hash(subject.case, (subject.first.response.motion, subject.first.response.vertical))
+    sections = (
+        question(subject),
+        given_input(subject),
+        ground_motion(subject),
+        method(subject),
+        results(subject),
+        evidence(subject),
+        static_checks(subject),
+        limits(subject),
+        Section("References", (References(subject.references),)),
+        rerun(subject),
+        defaults(subject),
+    )
+    blocks = without_gaps(*sections)
+    return Document(
+        title=subject.title,
+        subtitle=f"What the dam does in the earthquake, by {models}",
+        footer=f"heeltoe {build_info()['heeltoe']} · input {hashed[:12]}",
+        blocks=one_unit_each(blocks, subject.numbers),
+        about=tuple((label, plain(words)) for label, words in subject.case.project.rows()),
+    )

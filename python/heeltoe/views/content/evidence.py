@@ -1,0 +1,167 @@
+"""How far to trust the numbers: spread, convergence, energy ledger, contact."""
+
+from __future__ import annotations
+
+from heeltoe.models.rigid.varying import varies
+from heeltoe.result.contract import HEADLINES
+from heeltoe.units.write import NOTHING
+from heeltoe.views.content.subject import Run, Subject
+from heeltoe.views.content.tree import Block, Code, Inline, Section, Table, paragraph
+
+_ENERGY = (
+    ("Put in", "input_j"),
+    ("Friction", "friction_j"),
+    ("Impacts", "impact_j"),
+    ("Damping of the concrete", "damping_j"),
+    ("Lost by the time stepping", "numerical_j"),
+    ("Left in the dam", "kinetic_j"),
+    ("Made by contact, which should be none", "gained_j"),
+    ("What the ledger leaves unexplained, over the turnover", "residual"),
+)
+_FLEXIBLE = (
+    ("Time step", "time_step_s", None),
+    ("Steps", "steps", None),
+    ("Step of the run beside it", "evidence.other_time_step_s", None),
+    ("Elements along the crack", "evidence.elements_across", None),
+    ("Those of the mesh beside it", "evidence.other_elements_across", None),
+    ("Those of a third mesh, where runs scatter", "evidence.third_elements_across", None),
+    ("Residual slip to trust", "evidence.residual_slip_m.value", "displacement"),
+    ("How uncertain it is, give or take", "evidence.residual_slip_m.uncertainty", "displacement"),
+    ("Of that, by the time step", "evidence.residual_slip_m.step", "displacement"),
+    ("Of that, by the mesh", "evidence.residual_slip_m.mesh", "displacement"),
+    ("Of that, by the shaking, 0.99 to 1.01 times", "evidence.residual_slip_m.shaking", "displacement"),
+    ("Uncertainty that is allowed", "evidence.allowed_m", None),
+    ("Slip under the static loads before the shaking", "before_shaking.slip_m", "displacement"),
+    ("Nodes of the crack that open then", "before_shaking.open_contacts", None),
+    ("Growth rate of a vibration in steady sliding", "self_excitation.growth_1_s", None),
+    ("Time it slides", "self_excitation.sliding_time_s", None),
+    ("Residual slip with twice the damping", "self_excitation.twice_damped_slip_m", "displacement"),
+    ("Tries per step until contact is found", "contact_iterations_per_step", None),
+    ("Worst violation of the contact conditions, over the impulse", "contact_residual", None),
+)
+
+_STANDS = {
+    True: "The residual slip has converged: step, mesh and 1 % of the shaking move it by less than is allowed.",
+    False: "The residual slip has NOT converged: step, mesh and 1 % of the shaking move it by more than is allowed.",
+}
+_MEAN = {
+    True: " Single runs scatter: the slip to trust is the mean of those with the shaking varied; histories and figures "
+    "are those of one of them.",
+    False: "",
+}
+
+_WALK = {
+    False: "The rigid block is computed exactly from event to event: there is no time step to converge in.",
+    True: "The rigid block is integrated to a relative error of 10⁻¹² a step: no time step is left to choose.",
+}
+
+
+def evidence(subject: Subject) -> Section:
+    """Return the section that says how far to trust the numbers."""
+    blocks: list[Block] = []
+    for run in subject.runs:
+        blocks += _spread(subject, run)
+    if any(run.response.energy is not None for run in subject.runs):
+        rows = tuple(_energy_row(subject, label, name) for label, name in _ENERGY)
+        blocks.append(Table(subject.head(), _seen(rows), f"Energy ledger, {subject.per_width}.", subject.align()))
+        blocks += subject.figure("energy")[-1:]
+    for run in subject.runs:
+        if run.response.elastic and run.response.summary:
+            blocks += _convergence(subject, run)
+        elif run.response.model == "rigid" and run.response.summary:
+            blocks.append(paragraph(_WALK[varies(subject.case)]))
+    return Section("How far to trust it", tuple(blocks))
+
+
+def _energy_row(subject: Subject, label: str, name: str) -> tuple[Inline, ...]:
+    return subject.row(label, f"energy.{name}")
+
+
+def _seen(rows: tuple[tuple[Inline, ...], ...]) -> tuple[tuple[Inline, ...], ...]:
+    """Leave out rows in which no run has anything but zero."""
+
+    def counts(cell: Inline) -> bool:
+        return not isinstance(cell, str) and getattr(cell, "number", 1) != 0
+
+    return tuple(row for row in rows if any(map(counts, row[1:])))
+
+
+def _spread(subject: Subject, run: Run) -> list[Block]:
+    if not run.response.summary:
+        return []
+    if run.response.spread is None and not run.response.ok:
+        return []
+    if run.response.spread is None:
+        whose = "" if len(subject.runs) == 1 else f" of the {run.name}"
+        return [
+            paragraph(
+                f"How much the result{whose} hangs on the exact strength of the shaking was not asked; ",
+                Code("--spread"),
+                " runs it 11 more times, scaled by 0.99 to 1.01. The slip of a dam that strikes means little without.",
+            )
+        ]
+    n, prefix = subject.numbers, f"{run.prefix}spread."
+    rows: list[tuple[Inline, ...]] = []
+    for each in HEADLINES:
+        name, sign = each.key, each.way
+        if not n.raw(prefix + name):
+            continue
+        low, high = ("min", "max") if sign > 0 else ("max", "min")
+        cells = [n(run.prefix + name, sign=sign), n(f"{prefix}{name}.mean", sign=sign), n(f"{prefix}{name}.std")]
+        cells += [n(f"{prefix}{name}.{end}", sign=sign) for end in (low, high)]
+        if any(cell != NOTHING and getattr(cell, "number", 0) for cell in cells):
+            rows.append((each.label.capitalize(), *cells))
+    found = run.response.spread
+    scales = found["scales"]
+    failed = f"; {found['failed']} of them without a result" if found["failed"] else ""
+    caption = f"Spread over {found['runs']} runs, the shaking scaled by {scales[0]:g} to {scales[-1]:g}{failed}."
+    if len(subject.runs) > 1:
+        caption = f"{run.name.capitalize()}. {caption}"
+    if not rows:
+        return [paragraph(caption.removesuffix("."), ": nothing moves in any of them.")]
+    return [Table(("", "this run", "mean", "std. deviation", "least", "most"), tuple(rows), caption, "lrrrrr")]
+
+
+def _convergence(subject: Subject, run: Run) -> list[Block]:
+    n = subject.numbers
+    rows = [(label, n(run.prefix + key, quantity)) for label, key, quantity in _FLEXIBLE]
+    shown: list[tuple[Inline, ...]] = [row for row in rows if row[1] != NOTHING]
+    tables = [Table(("", "value"), tuple(shown), "Evidence, time step and contact of the flexible model.", "lr")]
+    shown = []
+    mesh = run.response.summary["mesh"]
+    parts = ["above the crack", "below the crack"]
+    if run.response.several:
+        parts = [f"of part {place + 1} from the crest down" for place in range(len(mesh["elements"]))]
+    for place in range(len(mesh["elements"])):
+        where = parts[place]
+        for label, name in (("Elements", "elements"), ("Nodes", "nodes"), ("Modes kept", "modes")):
+            shown.append((f"{label} {where}", n(f"{run.prefix}mesh.{name}.{place}")))
+    shown.append(("Nodes along the crack", n(f"{run.prefix}mesh.crack_nodes")))
+    shown.append(("Error left by modes that are not kept", n(f"{run.prefix}mesh.basis_error", "share")))
+    for place in range(len(run.response.summary["periods_s"])):
+        label = f"Period {place + 1} of the intact dam, with its water"
+        shown.append((label, n(f"{run.prefix}periods_s.{place}", "time")))
+    for place in range(len(run.response.summary["damping_ratios"])):
+        label = f"Damping that mode {place + 1} of the intact dam gets"
+        shown.append((label, n(f"{run.prefix}damping_ratios.{place}", "share")))
+    for label, key in (
+        ("Rayleigh damping, mass term a₀", "rayleigh_mass_1_s"),
+        ("Rayleigh damping, stiffness term a₁", "rayleigh_stiffness_s"),
+    ):
+        cell = n(run.prefix + key)
+        if cell != NOTHING:
+            shown.append((label, cell))
+    blocks: list[Block] = []
+    found = run.response.summary["evidence"]
+    if run.response.outcome == "unstable":
+        blocks.append(
+            paragraph("A dam that does not stand has no slip to be certain of: it was run once, at one step.")
+        )
+    elif found is None:
+        blocks.append(
+            paragraph("Whether time step and mesh are fine enough was not asked (", Code("flexible.evidence"), ").")
+        )
+    else:
+        blocks.append(paragraph(_STANDS[found["converged"]] + _MEAN[found["value_is"] == "mean"]))
+    tables.append(Table(("", "value"), tuple(shown), "Mesh, modes and damping of the flexible model.", "lr"))
+    return [*blocks, *tables]

@@ -1,0 +1,112 @@
+"""The input: section, what the case says, what was left to defaults; its hash and how to run it again."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+
+import numpy as np
+
+from heeltoe.case.model import Case
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.result.write import build_info
+from heeltoe.views.content.subject import Subject
+from heeltoe.views.content.tree import Block, Code, Inline, Listing, Section, Strong, Table, paragraph
+from heeltoe.views.words.fields import fields
+
+_SYSTEMS = {"si": "SI", "us": "US"}
+# Blocks that only one model looks at.
+_OWNERS = {"flexible": ("flexible",), "decoupled": ("decoupled",), "analysis": ("rigid", "decoupled")}
+
+
+def given_input(subject: Subject) -> Section:
+    """Return the section with the drawing of the dam and all fields that the case gives."""
+    rows = _rows(subject, given=True)
+    text = (
+        f"All that the case says, in {_SYSTEMS[subject.units]} units {subject.per_width}; x points downstream, z up. "
+        "What it leaves to the program’s defaults is in the appendix."
+    )
+    return Section(
+        "Input",
+        (
+            paragraph(text),
+            Table(("field", "value", "meaning"), rows, "Given by the case.", "lll", (3.8, 2.7, 5.7)),
+            *subject.figure("section"),
+        ),
+    )
+
+
+def defaults(subject: Subject) -> Section:
+    """Return the appendix with all fields at their defaults."""
+    rows = _rows(subject, given=False)
+    return Section(
+        "Appendix: defaults",
+        (
+            paragraph(
+                f"Fields that the case does not give, with the values that were used. {_unused(subject)}".strip()
+            ),
+            Table(("field", "value", "meaning"), rows, "Left to defaults.", "lll", (3.8, 2.7, 5.7)),
+        ),
+    )
+
+
+def rerun(subject: Subject) -> Section:
+    """Return the section that lets anyone run the same again."""
+    build = " ".join(f"{name} {version}" for name, version in build_info().items())
+    digest = input_hash(subject.case, *((run.response.motion, run.response.vertical) for run in subject.runs[:1]))
+    blocks: list[Block] = [
+        paragraph("With the input above, this command writes this report again:"),
+        Listing(subject.command or _command(subject)),
+        paragraph(Strong("Build. "), Code(build)),
+        paragraph(Strong("Input, SHA-256. "), Code(digest)),
+        paragraph(
+            "The hash covers every field of the case in SI units, defaults included and the title block left out, and "
+            "the samples of the ground motion as used, so that the same hash and the same build mean the same numbers."
+        ),
+    ]
+    return Section("To run it again", tuple(blocks))
+
+
+def input_hash(case: Case, motions: tuple[GroundMotion, GroundMotion | None]) -> str:
+    """Return the SHA-256 of a case as canonical JSON, of its mesh files and of the samples of its motions."""
+    hashed = hashlib.sha256()
+    written = case.model_dump(mode="json", exclude={"project"})
+    text = json.dumps(written, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
+    hashed.update(text.encode())
+    for name in (case.flexible.mesh_above, case.flexible.mesh_below):
+        path = name and case.base_directory / name
+        if path and path.is_file():
+            hashed.update(path.read_bytes())
+    for motion in motions:
+        if motion is not None:
+            for samples in (motion.time, motion.acceleration):
+                hashed.update(np.ascontiguousarray(samples, dtype="<f8").tobytes())
+    return hashed.hexdigest()
+
+
+def _command(subject: Subject) -> str:
+    chosen = subject.result.chosen
+    model = subject.result.model if chosen is None else chosen.asked
+    spread = " --spread" if any(run.response.spread is not None for run in subject.runs) else ""
+    units = "" if subject.units == subject.case.units else f" --units {subject.units}"
+    return f"heeltoe run CASE.toml --model {model}{spread}{units} --report"
+
+
+def _rows(subject: Subject, *, given: bool) -> tuple[tuple[Inline, ...], ...]:
+    return case_rows(subject.case, subject.units, given=given)
+
+
+def case_rows(case: Case, units: str, *, given: bool) -> tuple[tuple[Inline, ...], ...]:
+    """Return the fields of a case that are given, or those that are not: path, value, meaning."""
+    written = case.model_dump(mode="json")
+    return tuple(
+        (Code(path), value, meaning.replace("`", ""))
+        for path, value, _, meaning in fields(case, written, units=units, given=given)
+    )
+
+
+def _unused(subject: Subject) -> str:
+    """Say which blocks the models of this report do not look at."""
+    models = {run.response.model for run in subject.runs}
+    blocks = [f"[{block}]" for block, owners in _OWNERS.items() if not models & set(owners)]
+    return f"Fields of {' and '.join(blocks)} play no part in this report." if blocks else ""

@@ -1,0 +1,87 @@
+"""The ground motion: where it comes from, what was done to it, its measures, and what is suspicious about it."""
+
+from __future__ import annotations
+
+from heeltoe.errors.sanitize import plain
+from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.units.sentences import written
+from heeltoe.units.write import NOTHING
+from heeltoe.views.content.subject import Subject
+from heeltoe.views.content.tree import Block, Code, Inline, Notes, Section, Table, paragraph, without_gaps
+
+# Of all steps of processing together.
+_LONGEST = 2000
+_WORDS = (
+    ("Event", "event"),
+    ("Station", "station"),
+    ("Component", "component"),
+    ("Date", "date"),
+    ("Source", "source"),
+    ("Read as", "units_as_read"),
+)
+_NUMBERS = (
+    ("Peak acceleration", "pga_g"),
+    ("Peak velocity", "pgv_m_s"),
+    ("Peak displacement", "pgd_m"),
+    ("Velocity at the end, from rest", "end_velocity_m_s"),
+    ("Arias intensity", "arias_intensity_m_s"),
+    ("Cumulative absolute velocity", "cav_m_s"),
+    ("Significant duration, 5–95 %", "significant_duration_s"),
+    ("Mean period", "mean_period_s"),
+    ("Time step", "dt_s"),
+    ("Duration", "duration_s"),
+    ("Samples", "samples"),
+)
+
+
+def ground_motion(subject: Subject) -> Section:
+    """Return the section about the ground motion."""
+    response = subject.first.response
+    motions = {"horizontal, + downstream": (response.motion, "motion")}
+    if response.vertical is not None:
+        motions["vertical, + up"] = (response.vertical, "vertical_motion")
+    n, prefix = subject.numbers, subject.first.prefix
+
+    rows: list[tuple[Inline, ...]] = [("Name", *(Code(plain(motion.name)) for motion, _ in motions.values()))]
+    for label, name in _WORDS:
+        words = [getattr(motion, name) for motion, _ in motions.values()]
+        if any(words):
+            rows.append((label, *(plain(word or NOTHING) for word in words)))
+    rows.append(
+        ("Processing", *(plain("; ".join(motion.processing) or "none", _LONGEST) for motion, _ in motions.values()))
+    )
+    for label, name in _NUMBERS:
+        cells = [n(f"{prefix}{key}.{name}") for _, key in motions.values()]
+        if any(cell != NOTHING for cell in cells):
+            rows.append((label, *cells))
+    table = Table(
+        ("", *motions),
+        tuple(rows),
+        "The ground motion, as used.",
+        "l" + "l" * len(motions),
+        (3.0, *(6.0 / len(motions) for _ in motions)),
+    )
+    gravity = written("One g is taken as {gravity_m_s2:.6g m/s²}.", subject.units, gravity_m_s2=subject.case.gravity)
+    blocks = (
+        paragraph(gravity),
+        table,
+        _checks([motion for motion, _ in motions.values()], subject.units),
+        *subject.figure("motion")[:1],
+        *_spectrum(subject),
+    )
+    return Section("Ground motion", without_gaps(*blocks))
+
+
+def _checks(motions: list[GroundMotion], units: str) -> Block:
+    said = [warning.text(units) for motion in motions for warning in motion.warnings]
+    if said:
+        return Notes("warning", "Checks of the motion", tuple((text,) for text in said))
+    return paragraph(
+        "Checks of the motion (finite samples in order of time, a plausible peak, velocity and displacement at the "
+        "end) found nothing to warn of."
+    )
+
+
+def _spectrum(subject: Subject) -> tuple[Block, ...]:
+    # Both models are shaken by the same motion; one spectrum is enough, and that of the flexible dam shows its periods.
+    return subject.figure("spectrum")[-1:]

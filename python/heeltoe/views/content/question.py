@@ -1,0 +1,171 @@
+"""Page one: the question, the answer, what failed, what to be warned of, the numbers that matter."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from heeltoe.result.contract import HEADLINES
+from heeltoe.result.rest import comes_to_rest
+from heeltoe.result.verdict import advice, verdict
+from heeltoe.units.write import NOTHING, digits, length
+from heeltoe.views.content.checks import missed_of
+from heeltoe.views.content.subject import Run, Subject
+from heeltoe.views.content.tree import (
+    Block,
+    Code,
+    Inline,
+    Notes,
+    Section,
+    Strong,
+    Table,
+    glued,
+    paragraph,
+    without_gaps,
+)
+from heeltoe.views.words.warnings import listed
+from heeltoe.warnings.notice import Notice
+
+# Static checks that are not met and have room on page one; the others are counted there.
+_MOST_MISSED = 3
+
+
+def question(subject: Subject) -> Section:
+    """Return the first section: question, answer, warnings and key numbers."""
+    answers: list[Block] = [_question(subject)]
+    result = subject.result
+    if result.ok:
+        answers.append(paragraph(Strong("Answer. "), glued(verdict(result, subject.units))))
+    if result.ok and result.beside is not None and result.beside.ok:
+        label = f"{subject.runs[0].name.capitalize()} beside it. "
+        answers.append(paragraph(Strong(label), glued(result.meaning(subject.units))))
+    if result.ok and not result.limits:
+        answers.append(
+            paragraph(
+                "Whether that is safe enough is not judged: the case sets no limits under ", Code("[limits]"), "."
+            )
+        )
+    shown = subject.figure("summary")[:1]
+    # The picture before the warnings: it stays on page one, however many these are.
+    blocks = (_failures(subject), *answers, _not_met(subject), *shown, _warnings(subject), _numbers(subject))
+    return Section("Question and answer", without_gaps(*blocks))
+
+
+def _question(subject: Subject) -> Block:
+    motion = subject.first.prefix + "motion."
+    n = subject.numbers
+    return paragraph(
+        Strong("Question. "),
+        "What does the part of “",
+        subject.title,
+        "” above its crack do in the ground motion ",
+        Code(subject.first.response.motion.name),
+        ", ",
+        n(motion + "pga_g"),
+        " at its peak and ",
+        n(motion + "duration_s"),
+        " long: does it slide, rock about its heel or its toe, lift off, and where does it come to rest?",
+    )
+
+
+def _failures(subject: Subject) -> Block | None:
+    """Say what failed, and why."""
+    failed = [run.response for run in subject.runs if not run.response.ok]
+    if not failed:
+        return None
+    items: list[tuple[Inline, ...]] = [
+        (
+            Strong(f"{run.model[0].upper()}{run.model[1:]}, outcome “{run.response.outcome}”: "),
+            f"{advice(run.response, subject.units)}.",
+        )
+        for run in subject.runs
+        if not run.response.ok
+    ]
+    rest = [run for run in subject.runs if run.response.ok]
+    if rest:
+        items.append((f"There is nothing to compare; what {rest[0].model} found stands below.",))
+    elif failed[0].summary:
+        items.append(("Numbers below are those of the moment at which the run stopped; they are no result.",))
+    return Notes("failure", "No result to trust", tuple(items))
+
+
+def _not_met(subject: Subject) -> Block | None:
+    """Say which limits and static checks are not met."""
+    units = subject.units
+    items: list[tuple[Inline, ...]] = []
+    for check in subject.result.limits:
+        if not check.met:
+            found, allowed = length(check.value_m, units), length(check.allowed_m, units)
+            text = f"{check.label} of {found}, {allowed} allowed{', by a dam that has failed' if check.failed else ''}."
+            items.append((Strong("Limit. "), glued(text)))
+    if subject.joints is not None:
+        items += missed_of(subject.joints, units, _MOST_MISSED)
+    return Notes("failure", "Not met", tuple(items)) if items else None
+
+
+def warnings(subject: Subject) -> tuple[str, ...]:
+    """Return every warning once; those of one of two models say whose they are."""
+    responses = [run.response for run in subject.runs]
+    if subject.statics is not None:
+        responses = [replace(each, warnings=tuple(_beside_statics(each.warnings))) for each in responses]
+    return listed(responses, subject.units)
+
+
+def _beside_statics(notices: Sequence[Notice]) -> Iterator[Notice]:
+    """Return warnings for a report that has the static checks, which make use of their own fields."""
+    for notice in notices:
+        said = dict(notice.quantities)
+        if notice.code != "fields-unused":
+            yield notice
+            continue
+        fields = [path for path in said["fields"].split(", ") if not path.startswith("statics.")]
+        if fields:
+            yield Notice(notice.code, **{**said, "fields": ", ".join(fields)})
+
+
+def _warnings(subject: Subject) -> Block | None:
+    said = warnings(subject)
+    return Notes("warning", "Before using these numbers", tuple((glued(text),) for text in said)) if said else None
+
+
+def _numbers(subject: Subject) -> Block:
+    both = len(subject.runs) > 1
+    rows: list[tuple[Inline, ...]] = []
+    if any(run.response.summary for run in subject.runs):
+        for each in HEADLINES:
+            row = subject.row(each.full.capitalize(), each.key, sign=each.way)
+            rows.append(row + ((_ratio(subject, each.key),) if both else ()))
+        rows.append(("At the end of the run", *map(_end, subject.runs), *([""] if both else [])))
+    tensions = [run.response.summary.get("tension") for run in subject.runs]
+    if any(tensions):
+        rows.append(subject.row("Largest tension in the concrete", "tension.stress_pa") + (("",) if both else ()))
+    if any(each and each["strength"] for each in tensions):
+        bears = subject.row("What it bears in an earthquake", "tension.strength.dynamic_pa")
+        rows.append(bears + (("",) if both else ()))
+    static = subject.row("Sliding safety factor under static loads", "static.sliding_safety_factor")
+    rows.append(static + (("",) if both else ()))
+    more = ("flexible / rigid",) if both else ()
+    if both and not subject.ran("rigid"):
+        more = ("flexible / block",)
+    return Table(
+        subject.head(*more),
+        tuple(rows),
+        f"Key numbers, {subject.per_width}. Openings and rotations are magnitudes; rotation downstream, about the "
+        "toe, opens the crack at the upstream face.",
+        subject.align(len(more)),
+    )
+
+
+def _ratio(subject: Subject, key: str) -> Inline:
+    return subject.numbers(f"ratio.{key}", "ratio")
+
+
+def _end(run: Run) -> str:
+    if not run.response.summary:
+        return NOTHING
+    seconds = digits(run.response.end_time_s, 4)
+    if not run.response.ok:
+        return f"stopped at {seconds} s"
+    if run.response.outcome == "overturned":
+        return f"overturned at {seconds} s"
+    return "at rest" if comes_to_rest(run.response) else f"still moving at {seconds} s"

@@ -1,0 +1,284 @@
+"""The results in full: how it slides, how long, how it strikes, and all figures of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from heeltoe.result.response import Response
+from heeltoe.units.sentences import written
+from heeltoe.views.content.subject import Subject
+from heeltoe.views.content.tree import Block, Inline, Section, Table, paragraph
+from heeltoe.views.words.law import law_line, roughness_line
+from heeltoe.views.words.numbers import Value
+from heeltoe.views.words.sequence import COLUMNS, sequence_rows
+from heeltoe.views.words.starts import starts
+from heeltoe.views.words.tension import tension_line, tension_worth
+
+_ROWS: tuple[tuple[str, str, str | None], ...] = (
+    ("Slip while sliding", "slip_by_mode_m.sliding", "displacement"),
+    ("Slip while slide-rocking", "slip_by_mode_m.slide_rocking", "displacement"),
+    ("Slip while drifting", "slip_by_mode_m.drifting", "displacement"),
+    ("Time at rest", "time_by_mode_s.rest", "time"),
+    ("Time sliding", "time_by_mode_s.sliding", "time"),
+    ("Time rocking", "time_by_mode_s.rocking", "time"),
+    ("Time slide-rocking", "time_by_mode_s.slide_rocking", "time"),
+    ("Time drifting, in touch with nothing", "time_by_mode_s.drifting", "time"),
+    ("Strikes (of corners; of nodes of the crack)", "impacts", None),
+    ("Fastest strike", "largest_impact_velocity_m_s", None),
+    ("Events of the walk", "events", None),
+    ("Largest normal force on the crack", "peak_normal_force_n", None),
+    ("Slip velocity at the end", "final_slip_velocity_m_s", None),
+    ("End of the run", "end_time_s", None),
+    ("Of it silence, after the ground motion", "silence_s", "time"),
+)
+_ALWAYS = ("impacts", "final_slip_velocity_m_s", "end_time_s")
+_STATIC: tuple[tuple[str, str, str | None], ...] = (
+    ("Sliding safety factor", "static.sliding_safety_factor", None),
+    ("Normal force on the crack", "static.normal_force_n", None),
+    ("Force along the crack, + downstream", "static.horizontal_force_n", None),
+    ("Resultant from the heel", "static.resultant_from_heel_m", "length"),
+    ("Width of the crack", "crack_width_m", "length"),
+    ("Mass of the concrete above the crack", "static.concrete_mass_kg", None),
+    ("Virtual mass of the water", "static.virtual_mass_kg", None),
+)
+_STARTS = {
+    ("sliding", "downstream"): "Sliding downstream starts at",
+    ("sliding", "upstream"): "Sliding upstream starts at",
+    ("rocking", "downstream"): "Rocking downstream, about the toe, starts at",
+    ("rocking", "upstream"): "Rocking upstream, about the heel, starts at",
+}
+_OF_CRACKS: tuple[tuple[str, str, str | None], ...] = (
+    ("Residual slip, + downstream", "residual_slip_m", "displacement"),
+    ("Peak slip downstream", "peak_slip_downstream_m", "displacement"),
+    ("Largest rotation downstream", "rocking_downstream_rad", None),
+    ("Largest rotation upstream", "rocking_upstream_rad", None),
+    ("Opening, upstream face", "opening_upstream_m", "displacement"),
+    ("Opening, downstream face", "opening_downstream_m", "displacement"),
+    ("Strikes of nodes", "impacts", None),
+    ("Lost in friction", "crack_energy.friction_j", None),
+    ("Lost in impacts", "crack_energy.impact_j", None),
+)
+_CRACK_LEVEL: tuple[tuple[str, str, str | None], ...] = (
+    ("Peak of the ground", "ground_peak_g", "g"),
+    ("Peak at the crack, horizontal", "peak_horizontal_g", "g"),
+    ("Peak at the crack, over that of the ground", "amplification", None),
+    ("Peak at the crack, upward", "peak_vertical_g", "g"),
+    ("Peak rotational acceleration of the crack", "peak_rotation_rad_s2", None),
+    ("First period of the part below with the part above attached", "periods_s.0", "time"),
+    ("First period of the dam without a crack, all of it elastic", "bonded.periods_s.0", "time"),
+    ("Peak in that dam at the place of the crack", "bonded.peak_horizontal_g", "g"),
+    ("Spacing of the motion of the crack", "convergence.step_s", "time"),
+    ("Residual slip with twice that", "convergence.coarser_residual_slip_m", "displacement"),
+)
+_LAW: tuple[tuple[str, str, str | None], ...] = (
+    ("Slip path, to and fro", "slip_path_m", "displacement"),
+    ("Normal stress under the static loads", "normal_stress_pa", None),
+    ("Apparent friction before the earthquake", "apparent_friction_before", None),
+    ("Apparent friction after it", "apparent_friction_after", None),
+    ("Cohesion left", "cohesion_left_pa", None),
+    ("Work that broke the bond", "bond_energy_j", "energy"),
+    ("Least slip path of a node", "slip_path_range_m.0", "displacement"),
+    ("Largest slip path of a node", "slip_path_range_m.1", "displacement"),
+    ("Apparent friction of a node after it, least", "apparent_friction_after_range.0", None),
+    ("Apparent friction of a node after it, largest", "apparent_friction_after_range.1", None),
+    ("Time walked by integration, the rest exactly", "integrated_time_s", "time"),
+    ("Estimated error of the integration", "integration_error_m", None),
+)
+_FIGURES = (
+    "comparison",
+    "response",
+    "slip-by-mode",
+    "friction",
+    "asperities",
+    "crack-level",
+    "accelerations",
+    "forces",
+    "path",
+    "crack",
+    "pressure",
+    "deformed",
+    "tension",
+)
+
+
+def results(subject: Subject) -> Section:
+    """Return the section with all numbers and figures of what happens."""
+    n, prefix = subject.numbers, subject.first.prefix
+    static: list[tuple[Inline, ...]] = [(label, n(prefix + key, quantity)) for label, key, quantity in _STATIC]
+    for (kind, way), start in starts(subject.first.response).items():
+        static.append((_STARTS[kind, way], n(f"{prefix}critical_acceleration_g.{kind}_{way}", "g")))
+        if start.varied:
+            static.append(("with the vertical motion", start.varied))
+    blocks: list[Block] = [
+        Table(
+            ("", "value"),
+            tuple(static),
+            f"Before the earthquake, {subject.per_width}; accelerations at which a rigid part above the crack starts "
+            "to move.",
+            "lr",
+        )
+    ]
+    if any(run.response.summary for run in subject.runs):
+        rows: list[tuple[Inline, ...]] = []
+        for label, key, quantity in _ROWS:
+            row = subject.row(label, key, quantity)
+            if key in _ALWAYS or any(isinstance(cell, Value) and cell.number for cell in row[1:]):
+                rows.append(row)
+        blocks.append(
+            Table(
+                subject.head(),
+                tuple(rows),
+                f"How it moves, {subject.per_width}; modes that do not happen are left out.",
+                subject.align(),
+            )
+        )
+        blocks += [
+            *_signs(subject),
+            *_cracks(subject),
+            *_tension(subject),
+            *_at_the_crack(subject),
+            *_anchors(subject),
+            *_law(subject),
+            *_sequence(subject),
+        ]
+    else:
+        blocks.append(paragraph("The run never started, so that there are no results and no figures of it."))
+    return Section("Results", (*blocks, *subject.figure(*_FIGURES)))
+
+
+def _signs(subject: Subject) -> list[Block]:
+    """Return what the motion does both ways round."""
+    signs, n = subject.result.signs, subject.numbers
+    rows: list[tuple[Inline, ...]] = []
+    for place, way in enumerate(signs):
+        key = f"signs.{place}."
+        crack = (n(f"{key}elevation_m", "length"),) if subject.result.several else ()
+        slip, opening = n(f"{key}residual_slip_m"), n(f"{key}opening_m", "opening")
+        rows.append((way.sign, way.outcome, *crack, slip, opening, "leads" if way.governs else ""))
+    crack_head = ("crack",) if subject.result.several else ()
+    head = ("motion", "outcome", *crack_head, "residual slip", "largest opening", "")
+    caption = "The motion as recorded and reversed; all other numbers are those of the sign that leads."
+    return [Table(head, tuple(rows), caption, "ll" + "r" * (len(head) - 3) + "l")] if rows else []
+
+
+def _cracks(subject: Subject) -> list[Block]:
+    """Return what each of several cracks did."""
+    if not subject.result.several:
+        return []
+    found = subject.result.cracks
+    n = subject.numbers
+    head = ("", *(f"crack at {written('{at_m:g m}', subject.units, at_m=each.elevation)}" for each in found))
+    rows: list[tuple[Inline, ...]] = [
+        (label, *(n(f"cracks.{place}.{key}", quantity) for place in range(len(found))))
+        for label, key, quantity in _OF_CRACKS
+    ]
+    caption = "Each crack by itself, from the crest down; unless stated, values are those of the crack that slips most."
+    return [Table(head, tuple(rows), caption, "l" + "r" * len(found))]
+
+
+def _tension(subject: Subject) -> list[Block]:
+    """Return the largest tension of an elastic dam, and what the concrete bears."""
+    blocks: list[Block] = []
+    for run in subject.runs:
+        found = run.response.summary.get("tension")
+        if found is not None:
+            said = tension_line(found, subject.units), tension_worth(found, subject.units)
+            blocks.append(paragraph(f"The largest tension in the concrete is {said[0]}. It is {said[1]}."))
+    return blocks
+
+
+def _at_the_crack(subject: Subject) -> list[Block]:
+    """Return how the crack moves that shakes a decoupled block."""
+    return [
+        Table(
+            ("", "value"),
+            tuple(
+                (label, subject.numbers(f"{run.prefix}crack_level.{key}", quantity))
+                for label, key, quantity in _CRACK_LEVEL
+            ),
+            "The motion of the crack, which shakes the block.",
+            "lr",
+        )
+        for run in subject.runs
+        if "crack_level" in run.response.summary
+    ]
+
+
+def _anchors(subject: Subject) -> list[Block]:
+    """Return what the anchors bear."""
+    if not subject.case.anchors:
+        return []
+    runs = [run for run in subject.runs if run.response.summary.get("anchors")]
+    head = ("anchor", "from the heel", *(f"largest force, {run.name}" for run in runs), "capacity")
+    rows = tuple(
+        (
+            f"{place + 1}",
+            subject.numbers(f"{runs[0].prefix}anchors.{place}.distance_m", "length"),
+            *(subject.numbers(f"{run.prefix}anchors.{place}.peak_force_n") for run in runs),
+            subject.numbers(f"{runs[0].prefix}anchors.{place}.capacity_n"),
+        )
+        for place in range(len(subject.case.anchors))
+        if runs
+    )
+    caption = f"What the anchors bear, tension and resistance to slip together, {subject.per_width}."
+    return [Table(head, rows, caption, "l" + "r" * (2 + len(runs)))] if rows else []
+
+
+def _rough(subject: Subject) -> list[Block]:
+    """Return what a rough crack has come to."""
+    blocks: list[Block] = []
+    for run in subject.runs:
+        found = run.response.summary.get("roughness")
+        if found is not None:
+            whose = "" if len(subject.runs) == 1 else f", {run.name}"
+            blocks.append(paragraph(f"The rough crack{whose}: {roughness_line(found, subject.units)}."))
+    return blocks
+
+
+def _law(subject: Subject) -> list[Block]:
+    """Return what a friction law is, looks like, and has come to, or a rough crack."""
+    alone = [each for each in subject.case.single_crack_cases if each.crack.law is not None]
+    if not alone:
+        return _rough(subject)
+    several = bool(subject.case.further_cracks)
+    blocks: list[Block] = []
+    for each in alone:
+        at = written(" at {at_m:g m}", subject.units, at_m=each.crack.elevation) if several else ""
+        assert each.crack.law is not None
+        said = f"The friction of the crack{at} goes by the law {each.crack.law.name}; its figure shows what is borne."
+        blocks.append(paragraph(said))
+    blocks += subject.figure("law")
+    for run in subject.runs:
+        whose = "" if len(subject.runs) == 1 else f", {run.name}"
+        for prefix, found in _laws_of(run.response):
+            at = written(" at {at_m:g m}", subject.units, at_m=found["elevation_m"]) if "elevation_m" in found else ""
+            law = found["friction_law"]
+            blocks.append(paragraph(f"What it has come to{at}{whose}: {law_line(law, subject.units)}."))
+            rows = tuple(
+                (label, subject.numbers(f"{run.prefix}{prefix}friction_law.{key}", quantity))
+                for label, key, quantity in _LAW
+                if key.split(".")[0] in law
+            )
+            blocks.append(Table(("", "value"), rows, f"The friction law{at}{whose}.", "lr"))
+    return blocks
+
+
+def _laws_of(response: Response) -> list[tuple[str, Mapping[str, Any]]]:
+    """Return what says what laws have come to, of each of several cracks or of the only one, and where that stands."""
+    if not response.several:
+        laws = [("", response.summary)]
+    else:
+        laws = [(f"cracks.{place}.", crack.to_json()) for place, crack in enumerate(response.cracks)]
+    return [(prefix, numbers) for prefix, numbers in laws if numbers.get("friction_law") is not None]
+
+
+def _sequence(subject: Subject) -> list[Block]:
+    """Return what each motion of a sequence does."""
+    blocks: list[Block] = []
+    for run in subject.runs:
+        rows = tuple(map(tuple, sequence_rows(run.response, subject.units)))
+        if rows:
+            caption = f"Motion by motion, {run.name}; slips from before the first one, + downstream."
+            blocks.append(Table(COLUMNS, rows, caption, "l" + "r" * (len(COLUMNS) - 1)))
+    return blocks

@@ -1,0 +1,355 @@
+"""The report of a study: what was varied, what shook the dams, what came out, and how to run it again."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from heeltoe.case.model import Case
+from heeltoe.errors.error import InputError
+from heeltoe.errors.sanitize import plain
+from heeltoe.mechanics.references import cited
+from heeltoe.models.runner import TRUSTED
+from heeltoe.result.verdict import verdict
+from heeltoe.study.answers.study_results import Opened
+from heeltoe.units.parse import STANDARD_GRAVITY
+from heeltoe.units.write import NOTHING, digits
+from heeltoe.views.content.drawings import drawing
+from heeltoe.views.content.input import case_rows
+from heeltoe.views.content.one_unit import one_unit_each
+from heeltoe.views.content.study_answers import answer, fragility, hangs_on, measures_compared, results
+from heeltoe.views.content.tree import (
+    Block,
+    Code,
+    Document,
+    FigureBlock,
+    Listing,
+    Notes,
+    References,
+    Section,
+    Strong,
+    Table,
+    paragraph,
+    without_gaps,
+)
+from heeltoe.views.words.fields import shown
+from heeltoe.views.words.numbers import Numbers
+from heeltoe.views.words.studies import values_said
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_CAPTIONS = {
+    "section": "Section of the base case with its crack, water levels and the pressure in the crack.",
+    "bands": "What 16, 50 and 84 % of the runs stay below, by the strength of the motion; runs without a result count "
+    "as infinitely far. Thin lines, if any, are single dams in single motions.",
+    "fragility": "Fragility curves, what they lie within (shaded), and the shares of the runs that exceed (points).",
+    "slips": "Share of the runs that slide farther than so much.",
+    "modes": "Which mode of motion makes most of the slip, in shares of the runs that slide; above the bars how many.",
+    "sobol": "Sobol’s indices of the residual slip with their intervals.",
+    "tornado": "What each field by itself makes of the mean residual slip; the line is the case as it is.",
+}
+_SOURCES = {"fragility": ("fragility", "likelihood", "jackknife"), "measures": ("measures",), "sensitivity": ("sobol",)}
+
+
+@dataclass(frozen=True, eq=False)
+class StudySubject:
+    """What the report is about.
+
+    Attributes
+    ----------
+    found
+        The study.
+    directory
+        Where relative paths of its base case start.
+    numbers
+        Writes the numbers of the study's JSON.
+    figures
+        Of the study, by name.
+    command
+        What was typed; empty if it was not typed.
+    """
+
+    found: Opened
+    directory: Path
+    numbers: Numbers
+    figures: Mapping[str, FigureBlock]
+    command: str
+
+    @cached_property
+    def case(self) -> Case:
+        """Its base case."""
+        return Case.of(self.found.told["case"], self.directory)
+
+    @property
+    def study(self) -> dict[str, Any]:
+        """The study file as read."""
+        return dict(self.found.told["study"])
+
+    @property
+    def units(self) -> str:
+        """The name of the units, ``"si"`` or ``"us"``."""
+        return self.numbers.units.name
+
+    def figure(self, *names: str) -> tuple[FigureBlock, ...]:
+        """Return those of the figures that are there."""
+        return tuple(self.figures[name] for name in names if name in self.figures)
+
+
+def study_subject(
+    found: Opened, directory: Path, units: str, command: str, figures: Mapping[str, Figure] | None
+) -> StudySubject:
+    """Gather what a report needs.
+
+    Parameters
+    ----------
+    found
+        The study.
+    directory
+        Where relative paths of its base case start.
+    units
+        ``"si"`` or ``"us"``.
+    command
+        What was typed.
+    figures
+        Of the study, drawn before; they lose their headings.
+    """
+    from heeltoe.views.figures.section import section_figure
+    from heeltoe.views.figures.studies.all import study_figures
+
+    subject = StudySubject(found, directory, Numbers(found.to_json(), units), {}, command)
+    drawn = {
+        "section": section_figure(subject.case, units),
+        **(study_figures(found, units) if figures is None else figures),
+    }
+    blocks = {name: drawing(name, figure, _CAPTIONS[name]) for name, figure in drawn.items()}
+    return replace(subject, figures=blocks)
+
+
+def study_answer(found: Opened, units: str) -> tuple[Block, ...]:
+    """Return what the study says in sentences, and which runs are missing or have no result."""
+    subject = StudySubject(found, Path(), Numbers(found.to_json(), units), {}, "")
+    return without_gaps(_missing(found), *answer(subject), _lost(found))
+
+
+def study_sections(found: Opened, units: str) -> tuple[Block, ...]:
+    """Return the results of a study in tables."""
+    subject = StudySubject(found, Path(), Numbers(found.to_json(), units), {}, "")
+    sections = (
+        results(subject),
+        fragility(subject),
+        measures_compared(subject),
+        hangs_on(subject),
+        _fine(subject),
+    )
+    return one_unit_each(without_gaps(*sections), subject.numbers)
+
+
+def study_document(subject: StudySubject) -> Document:
+    """Return the whole report."""
+    found = subject.found
+    sections = (
+        _question(subject),
+        _varied(subject),
+        _motions(subject),
+        results(subject),
+        fragility(subject),
+        measures_compared(subject),
+        hangs_on(subject),
+        _fine(subject),
+        Section("References", (References(_references(subject)),)),
+        _rerun(subject),
+        _base(subject),
+    )
+    *others, last = found.walk.models
+    models = f"{', '.join(others)} and {last}" if others else last
+    return Document(
+        title=plain(found.title),
+        subtitle=f"A study of {found.store.count:,} runs, by the {models} model{'s' * bool(others)}",
+        footer=f"heeltoe {found.told['build']['heeltoe']} · study {found.told['fingerprint'][:12]}",
+        blocks=one_unit_each(without_gaps(*sections), subject.numbers),
+    )
+
+
+def _question(subject: StudySubject) -> Section:
+    found = subject.found
+    dams = found.store.count // max(1, _each(subject))
+    motions = len(found.told["motions"])
+    asked = (
+        f"What does the part above the crack do in {found.store.count:,} runs: {dams:,} "
+        f"dam{'s' * (dams != 1)}, {motions:,} ground motion{'s' * (motions != 1)} of "
+        f"{len(found.told['events']):,} event{'s' * (len(found.told['events']) != 1)}?"
+    )
+    asked += "" if found.walk.every or motions == 1 else " Each dam meets one of them."
+    blocks: list[Block | None] = [
+        _missing(found),
+        paragraph(Strong("Question. "), asked),
+        *answer(subject),
+        _base_case(subject),
+        _lost(found),
+    ]
+    if found.told["warnings"]:
+        warned = tuple((plain(text, 1000),) for text in found.told["warnings"])
+        blocks.append(Notes("warning", "Warnings", warned))
+    return Section("Question and answer", without_gaps(*blocks))
+
+
+def _missing(found: Opened) -> Block | None:
+    """Say how many runs are missing."""
+    if found.complete:
+        return None
+    text = f"{len(found.store.missing()):,} of {found.store.parts:,} parts of the runs are missing."
+    return Notes("warning", "Not complete", ((text,),))
+
+
+def _lost(found: Opened) -> Block | None:
+    """Say which runs ended without a result."""
+    lost = {name: count for name, count in found.outcomes.items() if name not in TRUSTED}
+    if not sum(lost.values()):
+        return None
+    ended = ", ".join(f"{name} {count:,}" for name, count in lost.items())
+    items = (
+        f"{sum(lost.values()):,} of {sum(found.outcomes.values()):,} runs ended without a result: {ended}.",
+        "They are counted, never dropped: unstable dams and too large rotations exceed every limit, the others are "
+        "behind no fragility curve and count as infinitely far in bands.",
+    )
+    return Notes("failure", "Runs without a result", tuple((item,) for item in items))
+
+
+def _each(subject: StudySubject) -> int:
+    """Return how many runs each dam has."""
+    walk = subject.found.walk
+    return (len(subject.found.told["motions"]) if walk.every else 1) * (walk.strengths or 1) * len(walk.models)
+
+
+def _base_case(subject: StudySubject) -> Block | None:
+    """Say what the base case does in its own motion, as a rigid block, which takes no time."""
+    from heeltoe.models.run import run
+
+    try:
+        response = run(subject.case, "rigid")
+    except InputError as error:
+        return paragraph(Strong("Base case. "), f"Not run by itself: {plain(error, 300)}.")
+    end = f"as a rigid block it ends without a result ({response.outcome})."
+    said = verdict(response, subject.units) if response.ok else end
+    motion = f", peak {response.motion.pga / response.gravity:.3g} g: "
+    return paragraph(Strong("Base case by itself. "), "In ", Code(plain(response.motion.name)), motion, said)
+
+
+def _varied(subject: StudySubject) -> Section:
+    study, blocks = subject.study, list[Block]()
+    drawn = study["samples"] is not None
+    how = f"By the method “{study['method']}”"
+    how += f", {study['samples']:,} samples, seed {study['seed']}." if drawn else "."
+    blocks.append(paragraph(how))
+    if study["vary"]:
+        varied = tuple((Code(path), values_said(given, subject.units, path)) for path, given in study["vary"].items())
+        blocks.append(Table(("field", "values"), varied, "What varies; all else is as in the base case.", "ll", (4, 8)))
+    else:
+        blocks.append(paragraph("No field of the case varies."))
+    if study["correlation"]:
+        rows = tuple((Code(first), Code(second), f"{value:g}") for first, second, value in study["correlation"])
+        blocks.append(Table(("field", "and field", "rank correlation"), rows, "What is drawn together.", "llr"))
+    return Section("What was varied", (*blocks, *subject.figure("section")))
+
+
+def _motions(subject: StudySubject) -> Section:
+    motions = subject.found.told["motions"]
+    given = subject.study["motions"]
+    scale = given and given["scale"]
+    said = (
+        "The motion of the base case, as it is." if given is None else "As recorded; the table has them before scaling."
+    )
+    if scale:
+        period = f" at {shown(scale['period'], subject.units)}" if scale["period"] is not None else ""
+        what = "a factor" if scale["measure"] == "factor" else f"{scale['measure'].upper()}{period}"
+        said += f" They are scaled to {what}: {values_said(scale['values'], subject.units)}"
+        said += ", pairs of components by their geometric mean." if given["pairs"] else "."
+    if given and given["both_signs"]:
+        said += " Each runs both ways round."
+    rows = []
+    for each in motions:
+        if not each["reversed"]:
+            measured, traits = each["measures"], each["traits"]
+            rows.append(
+                (
+                    plain(each["event"]),
+                    Code(plain(each["name"])),
+                    f"{digits(measured['pga'] / STANDARD_GRAVITY, 3)} g",
+                    subject.numbers.text(measured["pgv"], "velocity"),
+                    _seconds(traits["mean_period_s"]),
+                    _seconds(traits["significant_duration_s"]),
+                )
+            )
+    head = ("event", "motion", "PGA", "PGV", "mean period", "duration")
+    table = Table(
+        head,
+        tuple(rows),
+        "Ground motions; duration from 5 to 95 % of the Arias intensity.",
+        "llrrrr",
+        (3.2, 3.8, 1.4, 1.7, 1.5, 1.7),
+    )
+    return Section("Ground motions", (paragraph(said), table))
+
+
+def _seconds(value: float | None) -> str:
+    return NOTHING if value is None else f"{digits(value, 3)} s"
+
+
+def _fine(subject: StudySubject) -> Section | None:
+    """Say how fine flexible runs are, and where the time went."""
+    pilot, seconds = subject.found.told["pilot"], subject.found.told.get("seconds")
+    blocks: list[Block] = []
+    if pilot is not None:
+        below = pilot["elements_across_below"]
+        mesh = f"{pilot['elements_across']} elements across the crack" + (f", {below} below it" if below else "")
+        step = f", and a time step of {1e3 * pilot['time_step_s']:.3g} ms"
+        text = f"Flexible runs have {mesh}{step}, as one run of the base case with its evidence asked for; "
+        blocks.append(paragraph(text + "the single runs of the study have none of their own."))
+        told = (pilot["evidence"] or {}).get("residual_slip_m")
+        if told:
+            worth = subject.numbers.text(told["uncertainty"], "displacement")
+            value = subject.numbers.text(told["value"], "displacement")
+            blocks.append(paragraph(f"There the residual slip was {value}, uncertain by {worth}."))
+    if seconds:
+        rows = tuple((name, f"{value:.3g} s") for name, value in seconds.items())
+        blocks.append(Table(("", "time"), rows, "Where the time of the runs went, all workers together.", "lr"))
+    return Section("How it was computed", tuple(blocks)) if blocks else None
+
+
+def _references(subject: StudySubject) -> tuple[str, ...]:
+    keys = list(subject.found.walk.models)
+    if subject.study["fragility"]:
+        keys += _SOURCES["fragility"]
+    if len({each["name"] for each in subject.found.told["motions"]}) > 1:
+        keys += _SOURCES["measures"]
+    if subject.study["method"] == "sensitivity":
+        keys += _SOURCES["sensitivity"]
+    return cited(*keys)
+
+
+def _rerun(subject: StudySubject) -> Section:
+    found = subject.found
+    build = " ".join(f"{name} {version}" for name, version in found.told["build"].items())
+    return Section(
+        "To run it again",
+        (
+            paragraph("With the study file, its base case and its records, this command makes the same numbers again:"),
+            Listing(subject.command or "heeltoe study STUDY.toml --report"),
+            paragraph(Strong("Build. "), Code(build)),
+            paragraph(Strong("Study, SHA-256. "), Code(found.told["fingerprint"])),
+            paragraph(
+                "The hash covers the study, every field of the base case in SI units, defaults included, and the "
+                "samples of all ground motions, so that the same hash and the same build mean the same numbers."
+            ),
+        ),
+    )
+
+
+def _base(subject: StudySubject) -> Section:
+    rows = case_rows(subject.case, subject.units, given=True)
+    table = Table(("field", "value", "meaning"), rows, "Given by the base case.", "lll", (3.8, 2.7, 5.7))
+    return Section("Appendix: the base case", (table,))

@@ -1,0 +1,252 @@
+"""The answers of a study in its report: results, fragility, measures of strength, what the slip hangs on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from heeltoe.result.contract import HEADLINES
+from heeltoe.study.answers.answers import MODES
+from heeltoe.units.write import NOTHING, scaled
+from heeltoe.views.content.tree import Block, Code, Inline, Section, Strong, Table, paragraph
+from heeltoe.views.words.numbers import Amount, in_one_unit
+from heeltoe.views.words.studies import ABOUT_CRACKS, TRAITS, ends_of, left_out, limit_of, limits_of, strength_scale
+
+if TYPE_CHECKING:
+    from heeltoe.views.content.study import StudySubject
+
+_SHARES = (("50%", "half stay below"), ("84%", "84 % stay below"), ("95%", "95 % stay below"), ("largest", "largest"))
+_A = {"residual_slip": "a", "peak_slip": "a", "opening": "an", "rotation": "a"}
+_NAMES = {"pga": "PGA", "pgv": "PGV", "sa": "SA", "arias": "Arias intensity", "housner intensity": "Housner intensity"}
+_SHOWN = ("residual_slip_m", "opening_upstream_m", "rocking_upstream_rad")
+
+
+def answer(subject: StudySubject) -> list[Block]:
+    """Return what the study says in a few sentences, model by model."""
+    found: list[Block] = []
+    for each in subject.found.summary:
+        slip = each["residual_slip_m"]
+        said = f"{_percent(each['share_that_slides'])} of {each['runs']:,} runs slide more than a joint meter reads"
+        if slip["50%"] is not None:
+            (amounts,) = in_one_unit(
+                [[Amount(slip[key], zero="0") for key in ("50%", "84%", "largest")]], subject.units
+            )
+            of = " of the crack that leads" if subject.found.walk.cracks > 1 else ""
+            said += f"; the residual slip{of}, positive downstream, has the median {amounts[0]}, 84 % stay below "
+            said += f"{amounts[1]}, and the farthest run ends at {amounts[2]}"
+        said = f"{said}. " + " ".join(_exceeded(subject, each["model"]))
+        found.append(paragraph(Strong(f"Answer, {each['model']} model. "), said.strip()))
+    return found
+
+
+def _exceeded(subject: StudySubject, model: str) -> list[str]:
+    said = []
+    for each in subject.found.fragility if subject.study["fragility"] else ():
+        if each["model"] != model:
+            continue
+        what = f"{_A[each['limit']]} {limit_of(each['limit'], each['value'], subject.units, ' of')}"
+        if each["median"] is None:
+            said.append(f"Of {what}: {each['why']}.")
+            continue
+        middle, ends = _median(each, subject.units)
+        guess = "" if each["reached"] else ", which no motion here has"
+        where = " at any crack" if subject.found.walk.cracks > 1 else ""
+        said.append(f"Half of the dams exceed {what}{where} at {_article(_named(each))} of {middle}{ends}{guess}.")
+    return said
+
+
+def results(subject: StudySubject) -> Section:
+    """Return the section on how runs ended, how far they slide and by which mode."""
+    summary, n = subject.found.summary, subject.numbers
+    places = range(len(summary))
+    head = ("", *(each["model"] for each in summary))
+    align = "l" + "r" * len(summary)
+    outcomes = sorted({name for each in summary for name in each["outcomes"]})
+    ended: list[tuple[Inline, ...]] = [("all runs", *(f"{each['runs']:,}" for each in summary))]
+    ended += [(name, *(f"{each['outcomes'].get(name, 0):,}" for each in summary)) for name in outcomes]
+    labels = {each.key: each.label for each in HEADLINES}
+    rows: list[tuple[Inline, ...]] = [
+        ("that slide", *(_percent(each["share_that_slides"]) for each in summary)),
+        ("that slide farther than the crack is long", *(f"{each['slid_off']:,}" for each in summary)),
+        ("not determined: bounces amplify the last digit", *(f"{each['undetermined']:,}" for each in summary)),
+        *(
+            (
+                f"{of}{labels[key]}: {what}",
+                *(n(f"summary.{place}.{at}{key}.{name}", _QUANTITIES[key]) for place in places),
+            )
+            for of, at in _of_cracks(subject.found.walk.cracks)
+            for key in _SHOWN
+            for name, what in _SHARES
+        ),
+        *(
+            (f"most of the slip by {mode.replace('_', '-')}", *(_share(each, mode) for each in summary))
+            for mode in MODES
+            if any(each["dominant_mode"].get(mode) for each in summary)
+        ),
+    ]
+    cracks = f"; {ABOUT_CRACKS}" if subject.found.walk.cracks > 1 else ""
+    return Section(
+        "Results",
+        (
+            Table(head, tuple(ended), "How the runs ended.", align),
+            Table(head, tuple(rows), f"How the numbers are distributed; slip positive downstream{cracks}.", align),
+            *subject.figure("bands", "slips", "modes"),
+        ),
+    )
+
+
+_QUANTITIES = {
+    "residual_slip_m": "displacement",
+    "opening_upstream_m": "displacement",
+    "rocking_upstream_rad": "rotation",
+}
+
+
+def _of_cracks(count: int) -> list[tuple[str, str]]:
+    """Return what stands before the labels of the numbers of each crack, and before their names in a summary."""
+    return [(f"crack {k + 1}, ", f"cracks.{k}.") for k in range(count)] if count > 1 else [("", "")]
+
+
+def _share(each: dict[str, Any], mode: str) -> str:
+    return _percent(each["dominant_mode"][mode]) if each["dominant_mode"] else NOTHING
+
+
+def fragility(subject: StudySubject) -> Section | None:
+    """Return the section with the fragility curves, where the study asks for some."""
+    asked = subject.study["fragility"]
+    if asked is None:
+        return None
+    curves = subject.found.fragility
+    limits = limits_of([(each["limit"], each["value"]) for each in curves], subject.units)
+    rows: list[tuple[Inline, ...]] = []
+    for each in curves:
+        what = limits[each["limit"], each["value"]]
+        label = f"{what}, {each['model']}" if len(subject.found.walk.models) > 1 else what
+        exceeding = f"{each['exceeding']:,} of {each['runs']:,}"
+        if each["median"] is None:
+            rows.append((label, each["why"], "", "", "", exceeding))
+            continue
+        median, within = _median(each, subject.units)
+        median += ("" if each["reached"] else " *") + within
+        spread = f"{each['dispersion']:.2f}"
+        about = each["dispersion_interval"]
+        if about:
+            spread += f" ({about[0]:.2f} to {about[1]:.2f})"
+        rows.append((label, median, spread, *(_part(each[name]) for name in ("record", "other")), exceeding))
+    head = ("exceeded", f"median {_named(asked)}", "dispersion", "from event to event", "other", "runs that exceed")
+    text = (
+        f"Lognormal curves of greatest likelihood over {_named(asked)}. In brackets what median and dispersion lie "
+        f"within with {asked['confidence']:.0%}, from leaving out one event at a time. Dams that overturn, do not "
+        "stand or turn too far for small rotations exceed every limit."
+    )
+    if any(each["median"] is not None and not each["reached"] for each in curves):
+        text += " * stronger or weaker than any motion here: a guess."
+    unknown = max((each["unknown"] for each in curves), default=0)
+    if unknown:
+        text += f" {unknown:,} runs without a result are behind no curve."
+    table = Table(head, tuple(rows), "Fragility.", "llllrr", (3.0, 3.0, 2.6, 1.3, 1.0, 2.0))
+    return Section("Fragility", (paragraph(text), table, *subject.figure("fragility")))
+
+
+def measures_compared(subject: StudySubject) -> Section | None:
+    """Return the section that compares measures of the strength of motions, where there are several motions."""
+    if len({each["name"] for each in subject.found.told["motions"]}) < 2:
+        return None
+    blocks: list[Block] = []
+    for model, told in subject.found.compared().items():
+        if not told["measures"]:
+            continue
+        traits = [name for name in TRAITS if any(each["sufficiency"].get(name) for each in told["measures"])]
+        rows = tuple(
+            (each["measure"], f"{each['efficiency']:.2f}", *(_p(each["sufficiency"][name]) for name in traits))
+            for each in told["measures"]
+        )
+        caption = f"Measures of strength, {model} model, over {told['runs']:,} runs; {left_out(told, subject.units)}."
+        head = ("measure", "scatter", *(f"p, {TRAITS[name]}" for name in traits))
+        blocks.append(Table(head, rows, caption, "l" + "r" * (len(head) - 1)))
+    if not blocks:
+        return None
+    text = (
+        "How well each measure foretells the residual slip: the scatter is the standard deviation of the logarithm of "
+        "the slip about a line over the logarithm of the measure; less is better. A small p says that what is left "
+        "over hangs on something else of the events; with few events a large one says little."
+    )
+    return Section("Measures of strength compared", (paragraph(text), *blocks))
+
+
+def hangs_on(subject: StudySubject) -> Section | None:
+    """Return the section on what the slip hangs on, where the study is made for it."""
+    method, found = subject.study["method"], subject.found
+    if method == "sensitivity":
+        blocks = [_sobol(model, told) for model, told in found.sensitivity().items()]
+    elif method == "one at a time":
+        blocks = [_tornado(model, told, subject.units) for model, told in found.tornado().items()]
+    else:
+        return None
+    return Section("What the slip hangs on", (*blocks, *subject.figure("sobol", "tornado")))
+
+
+def _sobol(model: str, told: dict[str, Any]) -> Block:
+    if not told["indices"]:
+        return paragraph(f"No indices of the {model} model: the slip does not vary.")
+    rows: tuple[tuple[Inline, ...], ...] = tuple(
+        (Code(each["name"]), *(_within(each[kind], each[f"{kind}_interval"]) for kind in ("first", "total")))
+        for each in told["indices"]
+    )
+    left = f"; {told['left_out']:,} left out with a run without a slip" if told["left_out"] else ""
+    caption = f"Sobol’s indices, {model} model, {told['confidence']:.0%} intervals, over {told['rows']:,} rows{left}."
+    return Table(("field", "by itself", "with all others"), rows, caption, "lrr")
+
+
+def _tornado(model: str, told: dict[str, Any], units: str) -> Block:
+    if told["base"] is None:
+        return paragraph(
+            f"No motion gave every dam of the {model} model a slip: nothing can be held against each other."
+        )
+    amounts = [
+        [(Amount(slip, zero="0"), f" ({value})") for slip, value in ends_of(each, units)] for each in told["fields"]
+    ]
+    # The case as it is, below the table, has its units.
+    *written, (base,) = in_one_unit([*amounts, (Amount(told["base"], zero="0"),)], units)
+    rows: tuple[tuple[Inline, ...], ...] = tuple(
+        (Code(each["name"]), *cells) for each, cells in zip(told["fields"], written, strict=True)
+    )
+    left = f"; {told['left_out']:,} left out" if told["left_out"] else ""
+    caption = (
+        f"Mean residual slip, {model} model, over {told['motions']:,} motions at their strengths{left}; "
+        f"{base} as the case is."
+    )
+    return Table(("field", "from", "to"), rows, caption, "lrr")
+
+
+def _within(value: float, interval: Sequence[float]) -> str:
+    return f"{value:.2f} ({interval[0]:.2f} to {interval[1]:.2f})"
+
+
+def _p(line: dict[str, float] | None) -> str:
+    return NOTHING if line is None else f"{line['p']:.2f}"
+
+
+def _part(value: float | None) -> str:
+    return NOTHING if value is None else f"{value:.2f}"
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.1f} %"
+
+
+def _named(asked: dict[str, Any]) -> str:
+    period = asked.get("period")
+    name = _NAMES.get(asked["measure"], str(asked["measure"]))
+    return f"{name} at {period}" if period else name
+
+
+def _article(name: str) -> str:
+    return f"{'an' if name.startswith(('A', 'SA')) else 'a'} {name}"
+
+
+def _median(each: dict[str, Any], units: str) -> tuple[str, str]:
+    """Write the median strength of a curve, and what it lies within."""
+    scale, ends = strength_scale(each["measure"], units), each["median_interval"]
+    within = f" ({scaled(ends[0], scale)} to {scaled(ends[1], scale)})" if ends else ""
+    return scaled(each["median"], scale), within

@@ -1,0 +1,134 @@
+"""What a report is about: the case, its result, and the numbers in the result's JSON."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+from heeltoe.case.model import Case
+from heeltoe.errors.sanitize import plain
+from heeltoe.result.response import Response
+from heeltoe.views.content.tree import FigureBlock, Inline
+from heeltoe.views.words.numbers import Numbers
+
+if TYPE_CHECKING:
+    from heeltoe.models.statics.joints import Joints
+    from heeltoe.models.statics.model import Statics
+
+NAMES = {"rigid": "rigid block", "flexible": "flexible dam", "decoupled": "decoupled block"}
+MODELS = {
+    "rigid": "the rigid model",
+    "flexible": "the flexible model",
+    "decoupled": "the decoupled chain",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """One response, and where it stands in the JSON: the prefix is empty, or ``beside.``."""
+
+    response: Response
+    prefix: str
+
+    @property
+    def name(self) -> str:
+        """What a column of it is headed by."""
+        return NAMES.get(self.response.model, self.response.model)
+
+    @property
+    def model(self) -> str:
+        """What computed it, in a sentence."""
+        return MODELS.get(self.response.model, f"the {self.response.model} model")
+
+
+@dataclass(frozen=True, eq=False)
+class Subject:
+    """All that the builders need to know.
+
+    Attributes
+    ----------
+    case, result
+        What was asked, and what came out.
+    numbers
+        Writes the numbers of the result's JSON.
+    figures
+        By name, as :func:`heeltoe.views.figures.all.all_figures` calls them.
+    joints
+        Static checks at the cracks and at the sections that the case lists, if there are any.
+    command
+        What was typed to get this report; empty if it was not typed.
+    """
+
+    case: Case
+    result: Response
+    numbers: Numbers
+    figures: Mapping[str, FigureBlock]
+    joints: Joints | None = None
+    command: str = ""
+
+    @cached_property
+    def runs(self) -> tuple[Run, ...]:
+        """Return the response, after the one beside it."""
+        return tuple(Run(each, "" if each is self.result else "beside.") for each in self.result.responses)
+
+    @cached_property
+    def others(self) -> Mapping[str, Response]:
+        """Return the response at further cracks, by name."""
+        return self.result.others
+
+    @property
+    def statics(self) -> Statics | None:
+        """The static checks of the section that governs."""
+        return None if self.joints is None else self.joints.governing.statics
+
+    @cached_property
+    def references(self) -> tuple[str, ...]:
+        """Return the sources for exactly what was used, in the order of their numbers."""
+        cited = [text for run in self.runs for text in run.response.citation()]
+        joints = () if self.joints is None else self.joints.joints
+        checked = [text for joint in joints for text in joint.statics.references]
+        return tuple(dict.fromkeys([*cited, *checked]))
+
+    @property
+    def first(self) -> Run:
+        """Return the run that is judged, and stands for what all have in common: case, motion, static loads."""
+        return self.runs[-1]
+
+    @property
+    def units(self) -> str:
+        """The name of the units, ``"si"`` or ``"us"``."""
+        return self.numbers.units.name
+
+    @property
+    def per_width(self) -> str:
+        """What forces, energies and masses are per."""
+        return "per foot of dam" if self.units == "us" else "per metre of dam"
+
+    @property
+    def title(self) -> str:
+        """What the case is called."""
+        return plain(self.case.title) or "Untitled case"
+
+    def ran(self, model: str) -> bool:
+        """Whether a model is part of the report."""
+        return any(run.response.model == model for run in self.runs)
+
+    def row(self, label: Inline, key: str, quantity: str | None = None, *, sign: float = 1.0) -> tuple[Inline, ...]:
+        """Return a row of a table: the same number of every run."""
+        return (label, *(self.numbers(run.prefix + key, quantity, sign=sign) for run in self.runs))
+
+    def figure(self, *names: str) -> tuple[FigureBlock, ...]:
+        """Return those of the named figures that are there, of every run."""
+        prefixes = ["", *(f"{name}/" for name in self.others), *(f"{run.response.model}/" for run in self.runs[:-1])]
+        keys = [f"{prefix}{name}" for prefix in prefixes for name in names]
+        return tuple(self.figures[key] for key in keys if key in self.figures)
+
+    def head(self, *columns: str) -> tuple[str, ...]:
+        """Return the head of a table of :meth:`row`."""
+        return ("", *((run.name for run in self.runs) if len(self.runs) > 1 else ("value",)), *columns)
+
+    def align(self, more: int = 0) -> str:
+        """Return the alignment of a table of :meth:`row`."""
+        return "l" + "r" * (len(self.runs) + more)

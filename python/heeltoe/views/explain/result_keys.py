@@ -1,0 +1,150 @@
+"""What stands nowhere else of the keys of the JSON and of the columns of tables: names with their meaning.
+
+Keys that are attributes of a class with a description are not here; :mod:`heeltoe.views.explain.keys` takes that.
+"""
+
+from __future__ import annotations
+
+#: Keys of ``heeltoe run --json``.
+OF_A_RUN: dict[str, str] = {
+    "model": "Which model, or which checks, the numbers are from.",
+    "outcome": "How the run ended: ok or overturned have a result to trust, anything else says what stopped it.",
+    "advice": "What to do where the run has no result to trust; null where it has one.",
+    "sequence[].static.*": "An answer of the static checks: ok, what is missed in words, or the drainage that is left.",
+    "limits": "The results beside the limits that the user has set; none of a block beside a better model.",
+    "limits[].met": "Whether the dam holds, and the result is within the limit.",
+    "limits[].certain": "Whether that is so wherever within its uncertainty the result lies.",
+    "verdict": "What the dam does, in one sentence: what the terminal ends with.",
+    "chosen": "How the model came to be chosen; null where one was named in Python.",
+    "left_out": "Numbers that are not there, by their paths, and why each is none.",
+    "warnings[].text": "The sentence, in SI.",
+    "warnings[].severity": "How grave it is: note (nothing is wrong), caution, or grave (a number misleads).",
+    "warnings[].quantities.*": "A number of the sentence, by its name with its unit.",
+    "signs": "What the motion does as recorded and reversed, where the case does not say which way round it is.",
+    "sequence": "What each motion does where the dam meets several, one after the other.",
+    "cracks": "Of several cracks: what each did, from the crest down, with the keys of one.",
+    "governing_crack": "Which of several cracks slips most, from the crest down.",
+    "critical_acceleration_g": "Ground accelerations at which the block at rest starts to move.",
+    "static.critical_acceleration_per_vertical.*": "By how much this critical acceleration grows with each g of upward "
+    "ground acceleration.",
+    "static": "The state under the static loads, before the earthquake.",
+    "motion": "The horizontal ground motion, as used.",
+    "vertical_motion": "The vertical one, with the same keys; null where there is none.",
+    "build": "Which build made the result: versions of heeltoe and NumPy, kind of its kernel.",
+    "build.*": "Version, or kind of the kernel.",
+    "ratio": "Of two models side by side: the better one's headline numbers over the other's; null where that is "
+    "next to nothing.",
+    "ratio.*": "The better model's number over that of the one beside it.",
+    "meaning": "What the difference of two models means, in a sentence.",
+    "beside": "What the simpler model makes of the same case, with the same keys.",
+    "spread": "The same run with slightly weaker and stronger shaking.",
+    "varied": "Of `--vary`: the fields that vary, with their values; of each run those that it has.",
+    "runs": "Of `--vary`: every run in full, with these same keys; of a study how many there are.",
+}
+
+#: Keys of ``heeltoe statics --json`` that mean something of their own.
+OF_STATICS: dict[str, str] = {
+    "criteria": "Whose required factors the checks are judged by.",
+    "structure": "Whether the dam is critical or normal, as the case says.",
+    "site_information": "How well strengths are known, as the case says.",
+    "slip_m": "Residual slip of the post-seismic case; null without that case.",
+    "slip_source": "Where that slip comes from: given, the case, or the run of a model.",
+    "cases[].normal_force_n": "Force across the crack, uplift taken off.",
+    "cases[].shear_force_n": "Force along the crack, positive downstream.",
+    "cases[].heel_stress_pa": "Normal stress at the heel of what is closed: compression positive, water taken off.",
+    "cases[].toe_stress_pa": "Normal stress at the toe of what is closed: compression positive, water taken off.",
+    "cases[].contact_from_m": "Where the contact begins, from the heel of the crack.",
+    "cases[].contact_to_m": "Where it ends: the whole crack but what a slip has left.",
+    "cases[].cracked_length_m": "How far the contact is open.",
+    "cases[].cracked_from": "From which end it is open: heel or toe.",
+    "cases[].overturning_factor": "Stabilising over overturning moments about the end of the contact that the forces "
+    "push to; null where nothing overturns.",
+    "cases[].overturning_about": "About which end: heel or toe.",
+    "checks[].value": "What there is: a factor, the distance of the resultant from the middle of the contact over its "
+    "width, or a stress over the strength; null where there is none.",
+    "checks[].required": "What is asked for, in the same measure; null where nothing is.",
+    "cases[].forces[].moment_about_heel_nm": "Moment about the heel of the crack, positive counter-clockwise.",
+    "cases[].forces[].moment_about_toe_nm": "Moment about the toe of the contact.",
+    "critical_water_level_m.*": "Depth of the reservoir that brings this about; null where none up to the crest does.",
+    "sections": "Of many joints: the checks of each, the worst first.",
+    "governing": "Of many joints: each check where its margin is smallest, by the name of the check.",
+    "governing.*": "The check there, with the keys of `checks`.",
+    "governing.*.elevation_m": "At which elevation.",
+    "sections[].elevation_m": "Elevation of the joint.",
+    "sections[].statics": "Its checks, as of the crack.",
+    "governing_elevation_m": "Elevation of the joint that is worst.",
+}
+
+#: Columns of the histories, of a block and of an elastic dam.
+OF_HISTORIES: dict[str, str] = {
+    "time_s": "The moment.",
+    "ground_acceleration_m_s2": "Acceleration of the ground, positive downstream; of the chain that of the crack.",
+    "vertical_ground_acceleration_m_s2": "The same upwards.",
+    "ground_rotation_rad_s2": "Angular acceleration of the crack under the block of the chain.",
+    "slip_m": "Slip of the part above the crack, positive downstream.",
+    "slip_velocity_m_s": "Its velocity.",
+    "slip_acceleration_m_s2": "Its acceleration.",
+    "gap_heel_m": "Opening of the crack at the upstream face.",
+    "gap_toe_m": "Opening of the crack at the downstream face.",
+    "rotation_rad": "Rotation, positive counter-clockwise: upstream, about the heel.",
+    "rotation_velocity_rad_s": "Its velocity.",
+    "friction_strength_n": "Friction that a crack with a law could bear at the moment, per metre of dam.",
+    "dilation_m": "How high the flank of a rough crack is under the block, over the valley in which it stood at first.",
+    "asperity_angle_rad": "Angle of the flanks of a rough crack, as worn as they are.",
+    "plastic_work_j_m2": "Work of friction on the asperities of a rough crack, per area.",
+    "slip_path_m": "How far a crack with a friction law has slipped, to and fro.",
+    "friction_force_n": "Friction on the part above, positive downstream, per metre of dam.",
+    "normal_force_heel_n": "Force across the crack at the heel.",
+    "normal_force_toe_n": "Force across the crack at the toe.",
+    "normal_force_n": "Force across the whole crack.",
+    "touching": "Number of contacts along the crack that touch.",
+    "stored_energy_j": "Kinetic and strain energy.",
+    "input_energy_j": "Work of the earthquake and the loads up to here.",
+    "damping_energy_j": "Lost in the concrete's damping up to here.",
+    "friction_energy_j": "Lost in friction up to here.",
+    "impact_energy_j": "Lost in impacts up to here.",
+    "mode": "Mode of motion: rest, sliding, rocking, slide-rocking, drifting.",
+}
+
+#: Columns of the events of a block.
+OF_EVENTS: dict[str, str] = {
+    "time_s": "Moment of the event.",
+    "kind": "What happens.",
+    "mode_before": "Mode of motion until then.",
+    "mode_after": "Mode of motion from then on.",
+    "slip_m": "Slip, positive downstream.",
+    "gap_heel_m": "Gap at the heel.",
+    "gap_toe_m": "Gap at the toe.",
+    "slip_velocity_m_s": "Slip velocity after the event.",
+    "gap_velocity_heel_m_s": "Velocity of the gap at the heel after the event.",
+    "gap_velocity_toe_m_s": "Velocity of the gap at the toe after the event.",
+    "approach_slip_velocity_m_s": "Slip velocity before a blow.",
+    "approach_velocity_heel_m_s": "Velocity of the gap at the heel before a blow.",
+    "approach_velocity_toe_m_s": "Velocity of the gap at the toe before a blow.",
+    "friction_impulse_n_s": "Impulse of friction of a blow.",
+    "heel_impulse_n_s": "Impulse at the heel.",
+    "toe_impulse_n_s": "Impulse at the toe.",
+    "energy_lost_j": "Energy lost in the event.",
+}
+
+#: Columns of the runs of a study, beside those of what varies and the headline numbers.
+OF_STUDIES: dict[str, str] = {
+    "run": "Number of the run.",
+    "sample": "Number of its dam.",
+    "model": "Which model.",
+    "event": "Name of the earthquake.",
+    "motion": "Name of the motion, a component of it.",
+    "reversed": "Whether the motion is turned round.",
+    "factor": "Factor on the record.",
+    "outcome": "How the run ends; only ok has a result to trust.",
+    "impacts": "Number of blows.",
+    "slip_sliding_m": "Slip made while sliding.",
+    "slip_slide_rocking_m": "Slip made while slide-rocking.",
+    "slip_drifting_m": "Slip made in the air.",
+    **{
+        f"time_{mode}_s": f"How long the mode {mode.replace('_', '-')} lasts in all."
+        for mode in ("rest", "sliding", "rocking", "slide_rocking", "drifting")
+    },
+    "energy_residual": "What is left of the balance of energies, over the turnover.",
+    "slid_off": "Whether the part above has slid off.",
+}

@@ -1,0 +1,59 @@
+"""What cracks and motions that follow each other make a reader know; see :mod:`heeltoe.warnings.notice`."""
+
+from __future__ import annotations
+
+from heeltoe.warnings.input import Severity
+
+#: Code -> (how grave, field of the case, sentence).
+OF_CRACKS: dict[str, tuple[Severity, str, str]] = {
+    "sequence-ends": (
+        "grave",
+        "aftershocks",
+        "the run ends in motion {number:d}, {name}: the {left:d} after it are not computed",
+    ),
+    "sequence-moves": (
+        "caution",
+        "aftershocks",
+        "{name} leaves the dam moving when the next begins at {time_s:.4g s}: a longer {field} lets it come to rest",
+    ),
+    "sequence-statics": (
+        "grave",
+        "aftershocks",
+        "the dam that {name} leaves does not meet the static checks before the next motion: {missed}",
+    ),
+    "sequence-drains-close": (
+        "caution",
+        "aftershocks",
+        "the slip that {name} leaves keeps {share:.2g %} of the drainage: the motions after it are computed with "
+        "uplift.drain_efficiency = {efficiency:.3g}",
+    ),
+    "sequence-drains": (
+        "grave",
+        "aftershocks",
+        "the slip that {name} leaves keeps {share:.2g %} of the drainage, and the motions after it are computed with "
+        "all of it: a run with uplift.drain_efficiency = {efficiency:.3g} bounds what they do",
+    ),
+    "rough-steep": (
+        "caution",
+        "crack.roughness",
+        "{field}: flanks of {angle_deg:.3g} degrees shear off rather than being climbed; no model here represents that",
+    ),
+    "rough-tall": (
+        "caution",
+        "crack.roughness.asperity_height",
+        "{field}: asperities of {height_m:.3g m} are {share:.2g %} of the crack's width, {width_m:.4g m}; the geometry "
+        "of the block leaves them out",
+    ),
+    "rough-long": (
+        "caution",
+        "crack.roughness.wave_length",
+        "{field}: {wave_m:.3g m} is more than the crack is wide, {width_m:.4g m}: heel and toe would not stand on like "
+        "flanks",
+    ),
+    "further-crack-uncertain": (
+        "grave",
+        "flexible.evidence",
+        "the slip of the crack at {elevation_m:.4g m} has not converged, or its runs scatter: {slip_m:.4g mm} "
+        "± {uncertainty_m:.3g mm}",
+    ),
+}

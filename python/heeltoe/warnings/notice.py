@@ -1,0 +1,392 @@
+"""Everything that a reader of a result is warned of, declared once, with its quantities and how grave it is.
+
+A :class:`Notice` is what a run, a case or a record makes of it: the code, the quantities in SI, where in the case and
+when in the run. Its sentence is written when it is shown, in the units of who reads it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from string import Formatter
+from typing import Any
+
+from heeltoe.units.sentences import Sentence
+from heeltoe.warnings.cracks import OF_CRACKS
+from heeltoe.warnings.input import OF_INPUT, Severity
+from heeltoe.warnings.statics import OF_STATICS
+
+# What is said of a field, and of no number.
+_OF_FIELDS = ("fields-unused", "fields-idle")
+#: What a reader of a block's result does for that of the dam.
+AS_ELASTIC = "run it with --model auto"
+# Code -> (how grave, field of the case, sentence). Quantities are called as in the JSON, with their unit at the end;
+# how they are written stands in the braces, see heeltoe.units.sentences. {field} is the field, {time_s} the moment.
+CATALOGUE: dict[str, tuple[Severity, str, str]] = {
+    **OF_INPUT,
+    **OF_CRACKS,
+    **OF_STATICS,
+    # any run
+    "energy-open": (
+        "grave",
+        "",
+        "the energy ledger does not close: residual {residual:.1e} of the turnover",
+    ),
+    "crack-opens-through": (
+        "grave",
+        "uplift",
+        "under its usual loads the crack opens right through where water follows it, and the dam does not stand "
+        "(heeltoe statics); this run keeps the uplift of the case, so that its slip says nothing of such a dam: add "
+        "drains or anchors, or lower the water, until heeltoe statics finds that it stands",
+    ),
+    "crack-opens": (
+        "caution",
+        "uplift",
+        "the usual loads open {length_m:.2f m} of the crack from its {corner}, {share:.2g %} of its width; the water "
+        "that follows lifts with {lift_n:.4g kN/m} {more} than the uplift of the case, which this run keeps: {remedy}",
+    ),
+    "slid-off": (
+        "grave",
+        "",
+        "the part above the crack slides {slip_m:.3g m}, farther than its crack of {width_m:.3g m} is wide: it has "
+        "left what it stood on, and the slip means failure, not a length",
+    ),
+    # rigid model
+    "slides-on": (
+        "grave",
+        "crack.friction",
+        "the static loads need a friction of {needed:.3g}, and once the crack slips{where} it has {sliding:.3g}: a "
+        "slip that begins does not end by itself",
+    ),
+    "not-determined": (
+        "grave",
+        "crack.restitution",
+        "not determined: with the motion 1 + 1e-9 times as strong the block {other}, instead of sliding "
+        "{slip_m:.4g mm}; bounces with a restitution of {restitution:g} amplify the last digit",
+    ),
+    "slid-far": (
+        "caution",
+        "",
+        "the part above the crack slides {share:.2g %} of the width of its crack: loads, contact and uplift are those "
+        "of the place where it began; heeltoe statics --slip judges where it ends",
+    ),
+    "rigid-block": (
+        "caution",
+        "concrete.modulus",
+        "a rigid block leaves out the vibration of the dam: with {moduli_pa:g GPa|to} it swings in about "
+        "{periods_s:.2g s|to}, where this motion shakes it with {accelerations_g:.2g g|to}, {times:.2g|to} times its "
+        "peak{level}",
+    ),
+    "rigid-slides": (
+        "caution",
+        "concrete.modulus",
+        "a dam of this stiffness slides {times:g|to} times as far as its block{chain} (as did {share:.2g %} of "
+        "{cases:d} studied cases): {remedy}, and the dam is elastic",
+    ),
+    "rigid-holds": (
+        "caution",
+        "concrete.modulus",
+        "its block slides less than {least_m:.2g mm}, but {shares:.2g %|to} of the dams like it slide more than "
+        "{far_m:.2g mm} ({cases:d} studied cases): {remedy}, and the dam is elastic",
+    ),
+    "rigid-unlike": (
+        "caution",
+        "concrete.modulus",
+        "a dam may slide and rock several times as far as its block, and none like this one was studied ({why}): "
+        "{remedy}, and the dam is elastic",
+    ),
+    "study-vertical-left-out": (
+        "caution",
+        "motion.vertical",
+        "the motions of the study replace that of the case and have no vertical component; add vertical = true under "
+        "[motions] and the vertical records",
+    ),
+    "study-rigid": (
+        "caution",
+        "model",
+        "all runs are of rigid blocks, which leave out the vibration of the dam: it may slide and rock several times "
+        'as far; model = ["rigid", "flexible"] shows both',
+    ),
+    "study-scatter": (
+        "caution",
+        "flexible.evidence",
+        "single runs of the base case scatter: the mean of five is {value_m:.4g mm}, the run itself {run_m:.4g mm}; "
+        "each run of the study is a single one, so read their distribution, not one of them",
+    ),
+    "study-uncertain": (
+        "caution",
+        "flexible.evidence",
+        "the residual slip of the base case has not converged: {value_m:.4g mm} ± {uncertainty_m:.4g mm}; the runs of "
+        "the study have the same mesh and step",
+    ),
+    "rigid-top": (
+        "caution",
+        "decoupled",
+        "the decoupled chain leaves out the vibration of the part above the crack, and what its sliding and rocking "
+        f"spare the part below: {AS_ELASTIC}, and the dam is elastic",
+    ),
+    "block-still-moves": (
+        "caution",
+        "analysis.silence",
+        "the block still moves {when} ({mode}, slip velocity {slip_velocity_m_s:.3g m/s}): the residual slip is that "
+        "of this moment; {remedy}",
+    ),
+    "restitution-lowered": (
+        "note",
+        "crack.restitution",
+        "{impacts:d} impact(s) would have created energy with the restitution given; theirs was lowered to the "
+        "largest that does not",
+    ),
+    "paradox-jammed": (
+        "caution",
+        "analysis.paradox",
+        "{jams:d} Painlevé paradox(es) were resolved by a tangential impact, as analysis.paradox asks",
+    ),
+    "slip-in-the-air": (
+        "caution",
+        "crack.restitution",
+        "most of the slip, {slip_m:.4g mm}, happens in the air after blows that rebound by crack.restitution = "
+        "{restitution:g}: compare with 0, which may leave a small part of it",
+    ),
+    "restitution-decides": (
+        "grave",
+        "crack.restitution",
+        "the slip depends on {field}: {slip_m:.4g mm} with {restitution:g}, {dead_slip_m:.4g mm} with 0",
+    ),
+    "anchor-overloaded": (
+        "grave",
+        "anchors",
+        "anchor {number:d} bears {force_n:.4g MN/m}, tension and resistance to slip together, more than its capacity "
+        "of {capacity_n:.4g MN/m}: it would yield or break, and this result, which takes it to hold, is too favourable",
+    ),
+    "anchor-unlimited": (
+        "caution",
+        "anchors.capacity",
+        "an anchor without a capacity bears any force, here up to {force_n:.4g MN/m}: give {field} to have it judged",
+    ),
+    "rotation-large": (
+        "caution",
+        "analysis.rotation",
+        "it rotates by {rotation_rad:.3g rad} about its {corner}, {share:.2g %} of the {slenderness_rad:.3g rad} at "
+        'which it would overturn: set analysis.rotation = "finite", because the small-rotation model cannot '
+        "represent overturning",
+    ),
+    # flexible model
+    "evidence-none": (
+        "note",
+        "flexible.evidence",
+        "{field} is none: nothing shows that time step and mesh are fine enough, and what 1 % of the shaking does",
+    ),
+    "evidence-failures": (
+        "grave",
+        "flexible.evidence",
+        "{failed} of the {runs} runs with the shaking varied by 1 % end without a result",
+    ),
+    "runs-scatter": (
+        "caution",
+        "flexible.evidence",
+        "single runs scatter: {runs} of them, the shaking varied by 1 %, slide {slip_m:.4g mm} in the mean with a "
+        "standard deviation of {scatter_m:.3g mm}; the numbers are means, histories and figures those of one run",
+    ),
+    "not-converged": (
+        "grave",
+        "flexible.evidence",
+        "the residual slip has not converged: {slip_m:.4g mm} ± {uncertainty_m:.3g mm}, where "
+        "{allowed_m:.3g mm} are allowed; {most} moves it most, and {stopped}",
+    ),
+    "anchors-hold": (
+        "caution",
+        "anchors",
+        "friction and prestress alone do not hold the dam before the earthquake (sliding safety factor {factor:.3f}): "
+        "it slides at first until its anchors hold it",
+    ),
+    "steps-hold": (
+        "caution",
+        "crack.kinks",
+        "friction on the straight line from heel to toe alone does not hold the dam before the earthquake (sliding "
+        "safety factor {factor:.3f}): the steps of its crack do, as long as none shears off",
+    ),
+    "slides-by-itself": (
+        "grave",
+        "",
+        "the dam slides under its static loads alone (sliding safety factor {factor:.3f}): its slip grows as long as "
+        "the run lasts",
+    ),
+    "no-rest": (
+        "grave",
+        "",
+        "no state of rest was found in which friction holds the crack before the earthquake; the run starts from the "
+        "dam with its crack bonded",
+    ),
+    "outline-simplified": (
+        "note",
+        "section.polygon",
+        "corners of the section are finer than the mesh, which misses some of them by {missed_m:.3g m}; loads of the "
+        "flexible model are those of its mesh, and more flexible.elements_across follow closer",
+    ),
+    "self-excited": (
+        "grave",
+        "concrete.damping",
+        "self-excited sliding: a vibration of the sliding dam grows by {growth_1_s:.3g 1/s}, for {sliding_s:.3g s} of "
+        "sliding, so that the slip depends on damping: {slip_m:.4g mm}, with twice the damping {damped_slip_m:.4g mm}",
+    ),
+    "damping-hardly": (
+        "grave",
+        "concrete.damping",
+        "{field}: with hardly any damping under a full reservoir the dam creeps downstream for as long as it "
+        "vibrates; the slip says little",
+    ),
+    "poisson-unusual": ("caution", "concrete.poisson", "{field}: {poisson:g} is unusual for concrete"),
+    "modulus-unusual": ("caution", "concrete.modulus", "{field}: {modulus_pa:.4g GPa} is not that of concrete"),
+    "modes-few": (
+        "caution",
+        "flexible.modes",
+        "the modes kept leave an error of {error:.2g %} in the flexibility of the crack; raise {field}",
+    ),
+    "dam-still-moves": (
+        "caution",
+        "analysis.silence",
+        "the dam still moves {when}: in the last {span} its {what} changes by {change_m:.3g mm}; the residual slip is "
+        "that of this moment; {remedy}",
+    ),
+    "tension-exceeds": (
+        "grave",
+        "concrete.tensile_strength",
+        "a tension of {stress_pa:.3g MPa} {where}, {z_m:.3g m} up, at {time_s:.2f s} exceeds the "
+        "{strength_pa:.3g MPa} that the concrete bears in an earthquake, over {share:.2g %} of the section: the "
+        "assumption that nothing cracks further does not hold",
+    ),
+    "tension-unjudged": (
+        "caution",
+        "concrete.tensile_strength",
+        "a tension of {stress_pa:.3g MPa} in the concrete is held against nothing: give {field} to have it judged",
+    ),
+    "tension-before": (
+        "grave",
+        "concrete.tensile_strength",
+        "a tension of {stress_pa:.3g MPa} before the earthquake exceeds the {strength_pa:.3g MPa} that the concrete "
+        "bears: the dam is cracked elsewhere, too, or its loads are not these",
+    ),
+    "anchor-misses": (
+        "caution",
+        "anchors",
+        "{field}: anchor {number:d} does not cross the crack, and holds nothing there",
+    ),
+    "anchor-head-wet": (
+        "note",
+        "anchors",
+        "{field}: the head of anchor {number:d} is on the {side} face {depth_m:.3g m} below the water, at an elevation "
+        "of {elevation_m:.4g m}",
+    ),
+    "anchor-head-outside": (
+        "caution",
+        "anchors",
+        "{field}: the head of anchor {number:d} is {distance_m:.3g m} outside the dam",
+    ),
+    "drains-miss": (
+        "caution",
+        "uplift.drain_x",
+        "{field}: the drains do not cross the crack, whose water they leave as it is without drains",
+    ),
+    "faces-penetrate": (
+        "caution",
+        "flexible.contactors",
+        "the crack faces penetrate each other by up to {depth_m:.3g mm} where no node is watched (contactors of type "
+        "{contactors:d}); types 3 to 5 prevent it",
+    ),
+    "contact-loose": (
+        "caution",
+        "flexible.time_step",
+        "contact holds only to {residual:.1e} of the impulse: give a shorter {field}",
+    ),
+    "energy-made": (
+        "grave",
+        "flexible.contact",
+        "contact has created energy, {gained_j:.3g J} in a turnover of {turnover_j:.3g J}, as a penalty "
+        'does at every blow: compare with another time_step and with flexible.contact = "coulomb"',
+    ),
+    # decoupled chain, spread
+    "sampling-matters": (
+        "caution",
+        "",
+        "the slip depends on details: it is {coarser_slip_m:.4g mm} where the motion of the crack is sampled every "
+        "{coarser_step_s:.3g ms} instead of {step_s:.3g ms}",
+    ),
+    "spread-failures": (
+        "caution",
+        "",
+        "{failed:d} of the {runs:d} runs with slightly different shaking ended without a result",
+    ),
+    "spread-large": (
+        "caution",
+        "",
+        "the residual slip depends on details: it is {slips_m:.4g mm|to} when the shaking is scaled by {scales:g|to}",
+    ),
+}
+
+
+@dataclass(frozen=True, init=False)
+class Notice:
+    """What a reader of a result must know before using its numbers.
+
+    Attributes
+    ----------
+    code
+        Key of :data:`CATALOGUE`.
+    quantities
+        Names with numbers in SI, or words.
+    field
+        Which field of the case it is about; empty where it is about none.
+    time_s
+        When in the motion or in the run [s]; None where it is about no moment.
+    """
+
+    code: str
+    quantities: tuple[tuple[str, Any], ...]
+    field: str
+    time_s: float | None
+
+    def __init__(self, code: str, *, field: str | None = None, time_s: float | None = None, **quantities: Any) -> None:
+        _, usual, template = CATALOGUE[code]
+        names = _names(template) - {"field", "time_s"}
+        if names != set(quantities):
+            raise TypeError(f"{code} takes {', '.join(sorted(names)) or 'nothing'}, not {', '.join(quantities)}")
+        object.__setattr__(self, "code", code)
+        object.__setattr__(self, "quantities", tuple(quantities.items()))
+        object.__setattr__(self, "field", usual if field is None else field)
+        object.__setattr__(self, "time_s", time_s)
+
+    @property
+    def severity(self) -> Severity:
+        """How grave it is."""
+        return CATALOGUE[self.code][0]
+
+    def text(self, units: str = "si") -> str:
+        """Return its sentence in units ``"si"`` or ``"us"``."""
+        places = {"field": self.field, "time_s": self.time_s}
+        return Sentence.of(CATALOGUE[self.code][2], **places, **dict(self.quantities)).text(units)
+
+    def __str__(self) -> str:
+        return self.text()
+
+    def to_json(self) -> dict[str, Any]:
+        """Return it as the contract has it: sentence and quantities in SI; words stand in the sentence alone."""
+        numbers = {name: value for name, value in self.quantities if not isinstance(value, str | Sentence)}
+        return {
+            "code": self.code,
+            "text": self.text(),
+            "severity": self.severity,
+            "field": self.field or None,
+            "time_s": self.time_s,
+            "quantities": {name: list(value) if isinstance(value, tuple) else value for name, value in numbers.items()},
+        }
+
+
+def by_gravity(notices: Iterable[Notice]) -> tuple[Notice, ...]:
+    """Return notices, the grave ones first and those of fields without an effect last."""
+    ranks = {"grave": 0, "caution": 1, "note": 2}
+    return tuple(sorted(notices, key=lambda notice: 3 if notice.code in _OF_FIELDS else ranks[notice.severity]))
+
+
+def _names(template: str) -> set[str]:
+    return {name for _, name, _, _ in Formatter().parse(template) if name}

@@ -1,0 +1,74 @@
+"""The keeper of what is dear to build: the last few, once each, for threads too."""
+
+import threading
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+
+from heeltoe.base.cache import Kept
+
+
+def test_the_last_few_are_kept():
+    built = []
+    kept = Kept(2)
+
+    def get(key):
+        return kept.get(key, lambda: built.append(key) or key.upper())
+
+    assert [get(key) for key in "abab"] == ["A", "B", "A", "B"]
+    assert built == ["a", "b"]
+    # The one asked for longest ago goes.
+    get("a")
+    get("c")
+    assert built == ["a", "b", "c"]
+    get("a")
+    assert built == ["a", "b", "c"]
+    get("b")
+    assert built == ["a", "b", "c", "b"]
+
+
+def test_threads_that_want_the_same_build_it_once():
+    kept, built, together = Kept(4), [], threading.Barrier(8)
+    go_on = threading.Event()
+
+    def build():
+        built.append(1)
+        go_on.wait(10.0)
+        return object()
+
+    def get():
+        together.wait(10.0)
+        return kept.get("dam", build)
+
+    with ThreadPoolExecutor(8) as pool:
+        waiting = [pool.submit(get) for _ in range(8)]
+        go_on.set()
+        found = {id(each.result(10.0)) for each in waiting}
+    assert len(found) == len(built) == 1
+
+
+def test_others_need_not_wait():
+    kept, inside, go_on = Kept(4), threading.Event(), threading.Event()
+
+    def slow():
+        inside.set()
+        assert go_on.wait(10.0)
+        return "slow"
+
+    with ThreadPoolExecutor(1) as pool:
+        waiting = pool.submit(kept.get, "slow", slow)
+        assert inside.wait(10.0)
+        assert kept.get("quick", lambda: "quick") == "quick"
+        go_on.set()
+        assert waiting.result(10.0) == "slow"
+
+
+def test_what_cannot_be_built_is_not_kept():
+    kept = Kept(1)
+
+    def fail():
+        raise ValueError("no mesh")
+
+    with pytest.raises(ValueError, match="no mesh"):
+        kept.get("dam", fail)
+    assert kept.get("dam", lambda: "built") == "built"
