@@ -14,6 +14,23 @@ OF_RECORDS: dict[str, tuple[str, str]] = {
     ),
     "record-format-later": ("is in {value} format, which is not read", "give the corrected record"),
     "record-header": ("its header states no {value} that can be used", "download it again"),
+    "record-damaged": ("is damaged: {reason}", "download it again"),
+    "record-count-far": (
+        "states {stated} values and has {value}: a part of it is missing, or belongs to another record",
+        "get the whole file, or correct the number in its header",
+    ),
+    "record-factor": (
+        "its header has the factor {value}, and does not say whether the values contain it",
+        "apply it to the values, or not, and take it out of the header",
+    ),
+    "record-time-unit": (
+        "its times are in {value}, which is not a unit of time that heeltoe reads",
+        "give them in s, ms, min or h",
+    ),
+    "record-rows-missing": (
+        "has no values between {start} s and {end} s, where all others are {step} s apart",
+        "get the missing rows, or cut the record before or after them",
+    ),
     "record-columns": (
         "has {value} columns of numbers, and no line above them that names each",
         "name them there, as in `time [s], NS [g], EW [g]`, or keep two of them, time and acceleration, or one",

@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from heeltoe import InputError, read_record
+from heeltoe import GroundMotion, InputError, read_record
+from heeltoe.motion.measures import fourier_amplitudes, measures
 from heeltoe.motion.records import read_text
 from heeltoe.motion.records.catalog import available, find
 from heeltoe.motion.records.to_motion import Options
@@ -83,10 +84,13 @@ def test_what_the_header_says_is_kept():
 
 
 def test_wrong_counts_are_said_not_swallowed():
-    for stated in (4, 6, 10**12):
+    for stated in (4, 6, 12):
         motion = read(NGA + f"NPTS= {stated}, DT= .01 SEC\n .01 -.02 .3 -.12345 0\n")
         assert motion.time.size == 5
         assert f"states {stated:g} values and has 5" in str(motion.warnings[0])
+    for stated in (400, 10**12):
+        with pytest.raises(InputError, match=re.escape(f"states {stated:g} values and has 5")):
+            read(NGA + f"NPTS= {stated}, DT= .01 SEC\n .01 -.02 .3 -.12345 0\n")
     motion = read("# units: [g]\n# time step: 0.01 s\n# number of points: 7\n0.1\n0.2\n")
     assert "states 7 values and has 2" in str(motion.warnings[0])
     motion = read("# units: column 2 acceleration [g]\n# time step: 0.02 s\n0 0.1\n0.01 0.2\n0.02 0\n")
@@ -134,7 +138,7 @@ def test_a_unit_that_is_only_part_of_what_the_header_says_is_not_taken_for_it(he
         read(f"# {header}\n# dt: 0.01\n1\n2\n")
 
 
-@pytest.mark.parametrize("header", ["processing: two-step 4 pole filter", "dt: 0.01 minutes", "dt [h]: 1", "dt: 1.2.3"])
+@pytest.mark.parametrize("header", ["processing: two-step 4 pole filter", "dt: 0.01 fortnights", "dt: 1.2.3"])
 def test_a_time_step_that_is_none_is_not_taken_for_one(header):
     with pytest.raises(InputError, match="does not state its time step"):
         read(f"# units: [g]\n# {header}\n0.1\n0.2\n")
@@ -287,3 +291,79 @@ def test_a_path_is_relative_to_the_case_first(tmp_path, monkeypatch):
     assert find("r.txt", tmp_path / "case").read_text() == "case"
     with pytest.raises(InputError, match="it is a directory"):
         find("case", tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("header", "times", "last"),
+    [
+        ("time [min], acceleration [g]", ("0", "0.0005", "0.001"), 0.06),
+        ("time (h), acceleration (g)", ("0", "0.00001", "0.00002"), 0.072),
+        ("time in minutes, acceleration in g", ("0", "0.0005", "0.001"), 0.06),
+        ("t [ms], acceleration [g]", ("0", "20", "40"), 0.04),
+        ("time [s], acceleration [g]", ("0", "0.02", "0.04"), 0.04),
+    ],
+)
+def test_times_are_in_the_unit_that_the_header_states(header, times, last):
+    motion = read(
+        f"{header}\n" + "".join(f"{time} {value}\n" for time, value in zip(times, (0.1, -0.2, 0), strict=True))
+    )
+    assert motion.time[-1] == pytest.approx(last, rel=1e-14)
+
+
+def test_a_step_in_minutes_is_one():
+    assert read("# units: [g]\n# dt: 0.001 min\n0.1\n0.2\n").dt == pytest.approx(0.06, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("time [fortnights], acceleration [g]\n0 0.1\n1 0.2\n", "record-time-unit"),
+        ("frequency [Hz], acceleration [g]\n0 0.1\n1 0.2\n", "record-not-acceleration"),
+        ("Period (s), Sa [g]\n0 0.1\n1 0.2\n", "record-not-acceleration"),
+        ("f [Hz], EW [g], NS [g]\n0 0.1 0.1\n1 0.2 0.1\n", "record-not-acceleration"),
+        ("# scale factor: 0.1\n# units: [g]\n# dt: 0.01\n0.1\n0.2\n", "record-factor"),
+        ("# units: acceleration [x 10 gal]\n# dt: 0.01\n0.1\n0.2\n", "record-factor"),
+        ("# units: acceleration [g] x 10^-3\n# dt: 0.01\n0.1\n0.2\n", "record-factor"),
+    ],
+)
+def test_what_a_header_says_is_followed_or_refused(text, code):
+    with pytest.raises(InputError) as caught:
+        read(text)
+    assert caught.value.code == code
+
+
+def test_a_factor_of_one_is_none():
+    assert read("# scale factor: 1.0\n# units: [g]\n# dt: 0.01\n0.1\n0.2\n").pga == pytest.approx(0.2 * G)
+
+
+def test_rows_that_are_missing_are_not_bridged():
+    rows = [f"{0.02 * k:.2f} {np.sin(k):.4f}\n" for k in range(200)]
+    header = "time [s], acceleration [g]\n"
+    assert read(header + "".join(rows)).time.size == 200
+    with pytest.raises(InputError, match=r"no values between 1.98 s and 2.6 s, where all others are 0.02 s apart"):
+        read(header + "".join(rows[:100] + rows[130:]))
+
+
+def test_decimal_commas_between_blanks_are_read():
+    motion = read("time [s]  acceleration [g]\n0,00 0,010\n0,02 -0,25\n0,04 1,250\n")
+    assert motion.time.tolist() == [0.0, 0.02, 0.04]
+    assert motion.acceleration / G == pytest.approx([0.01, -0.25, 1.25])
+
+
+def test_three_points_a_tenth_of_a_microsecond_apart_take_no_memory():
+    """The zeros that a padded transform would want behind them are 1.6 GB, and more for the transform."""
+    import resource
+
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    motion = GroundMotion("short", np.array([0.0, 1e-7, 1e-3]), np.array([0.0, 1.0, 0.0]))
+    assert measures(motion)["mean_period_s"] > 0.0
+    assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 200_000  # kilobytes
+
+
+def test_amplitudes_of_a_band_are_those_of_the_padded_transform(monkeypatch):
+    motion = GroundMotion("short", 0.01 * np.arange(300), np.sin(np.arange(300.0)) * np.arange(300))
+    padded = fourier_amplitudes(motion, 0.001, (0.25, 20.0))
+    monkeypatch.setattr("heeltoe.motion.measures._PADDED", 0)
+    direct = fourier_amplitudes(motion, 0.001, (0.25, 20.0))
+    assert direct[0] == pytest.approx(padded[0], rel=1e-12)
+    assert direct[1] == pytest.approx(padded[1], abs=1e-9 * padded[1].max())

@@ -13,6 +13,8 @@ from heeltoe.motion.records.lines import unglued
 from heeltoe.units.parse import acceleration_unit
 from heeltoe.warnings.notice import Notice
 
+# A last line is cut off, or a first value counts as a header; more values than these, or this share, are neither.
+_FEW, _FAR_COUNT = 8, 0.05
 #: A number of Fortran's, for patterns that ignore case; see :func:`real`.
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[ED][-+]?\d+)?"
 
@@ -137,9 +139,17 @@ def check_series(
 
 
 def counted(values: Floats, stated: float, name: str) -> tuple[Notice, ...]:
-    """Return a warning where a file states another number of values than it has."""
+    """Return a warning where a file states another number of values than it has.
+
+    Raises
+    ------
+    InputError
+        Where the two are so far apart that a part of the file is missing.
+    """
     if values.size == stated:
         return ()
+    if not abs(values.size - stated) <= max(_FEW, _FAR_COUNT * max(values.size, stated)):
+        raise InputError("record-count-far", name, values.size, stated=f"{stated:g}")
     return (Notice("record-count", name=name, stated=stated, found=values.size),)
 
 

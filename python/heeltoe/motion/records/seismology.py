@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from heeltoe.errors.error import InputError
+from heeltoe.errors.sanitize import plain
 from heeltoe.motion.records.raw import RawRecord, peaked
 
 _MINISEED = re.compile(rb"\d{6}[DRQM][ \0]")
@@ -73,22 +74,31 @@ def read(data: bytes, name: str, stations: list[bytes]) -> list[RawRecord]:
     """
     if find_spec("obspy") is None:
         raise InputError("record-package", name)
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
+    with warnings.catch_warnings(record=True) as doubts:
+        warnings.simplefilter("always")
         import obspy
 
         seed = is_miniseed(data)
+        doubts.clear()
         try:
             stream = obspy.read(io.BytesIO(data), format="MSEED" if seed else "SAC")
             stream.merge(method=-1)
         # A damaged file ends in whatever the reader stumbles over.
         except Exception:
             raise InputError("record-header", name, "channel") from None
+        # The sums of a packed block do not come out, or bytes belong to no block: its numbers are not those recorded.
+        if damage := next((doubt for doubt in doubts if "mseed" in type(doubt.message).__module__), None):
+            raise InputError("record-damaged", name, reason=_first_sentence(str(damage.message)))
         ids = [trace.id for trace in stream]
         twice = next((channel for channel in ids if ids.count(channel) > 1), None)
         if twice is not None:
             raise InputError("record-gaps", name, twice)
         return [_of_counts(trace, name, stations) if seed else _of_sac(trace, name) for trace in stream]
+
+
+def _first_sentence(text: str) -> str:
+    """Return a text up to its first full stop."""
+    return plain(text).partition(". ")[0].rstrip(".")
 
 
 def _of_counts(trace: Any, name: str, stations: list[bytes]) -> RawRecord:

@@ -21,6 +21,9 @@ _LARGEST_VALUE, _LARGEST_GAP = 1e12, 1e4
 _LONGEST_STEP = 1.0
 # What stands for a missing value: nines alone, and far from all that was measured.
 _NINES, _FAR = re.compile(r"9{3,}(?:\.9*0*)?"), 1.5
+# A record of more rows than these, nearly all of them a step apart within so much of it, lacks some where two are
+# farther apart than this many steps.
+_FEW, _EVEN, _MOSTLY, _LACKING = 20, 0.02, 0.9, 2.5
 # The commonest of digitised records.
 _LIKELY_STEP = 0.01
 
@@ -92,6 +95,20 @@ def _check_markers(raw: RawRecord, name: str) -> None:
         raise InputError("record-marker", name, f"{raw.values[worst]:g}", number=worst + 1)
 
 
+def _check_rows(time: Floats, step: float, name: str) -> None:
+    """Refuse a record in equal steps that lacks some: a straight line would stand for what was measured."""
+    steps = np.diff(time)
+    even = np.abs(steps - step) <= _EVEN * step
+    if time.size <= _FEW or even.mean() < _MOSTLY:
+        return
+    # What stands before the first moving sample, or behind the last one, may be one long step of nothing.
+    longest = int(np.argmax(steps[1:-1])) + 1
+    if steps[longest] > _LACKING * step:
+        raise InputError(
+            "record-rows-missing", name, start=f"{time[longest]:g}", end=f"{time[longest + 1]:g}", step=f"{step:g}"
+        )
+
+
 def _unit(raw: RawRecord, name: str, peak: float, options: Options) -> tuple[str, str, tuple[Notice, ...]]:
     """The unit of the values, how it is known, and a warning if it is only assumed."""
     field = f"{options.field}.unit"
@@ -131,6 +148,7 @@ def _time(raw: RawRecord, name: str, options: Options) -> tuple[Floats, tuple[No
         middle = float(np.median(np.diff(raw.time)))
         if gap > _LARGEST_GAP or middle > _LONGEST_STEP:
             raise InputError("record-step", name, f"{gap if gap > _LARGEST_GAP else middle:g} s")
+        _check_rows(raw.time, middle, name)
         return raw.time, ()
     step, field = raw.time_step or options.time_step, f"{options.field}.time_step"
     warnings: tuple[Notice, ...] = ()

@@ -1,8 +1,8 @@
 """Plain columns: time and acceleration, or acceleration alone; a header in words or behind ``#`` if there is one. More
 columns than two are read where a line above them names each.
 
-Columns are parted by blanks, tabs, commas or semicolons; beside semicolons and tabs, commas are decimal. A header may
-state the unit and the step::
+Columns are parted by blanks, tabs, commas or semicolons; beside semicolons and tabs, commas are decimal, and beside
+blanks where every cell has one within. A header may state the units and the step::
 
     # time step: 0.02 s
     # units: column 1 time [s], column 2 acceleration [g]
@@ -28,7 +28,7 @@ from heeltoe.motion.records.quantities import (
     unit_of,
     units_in,
 )
-from heeltoe.motion.records.raw import RawRecord, check_series, numbers
+from heeltoe.motion.records.raw import NUMBER, RawRecord, check_series, numbers, real
 from heeltoe.warnings.notice import Notice
 
 FORMAT = "columns"
@@ -38,8 +38,23 @@ _STEP = re.compile(
     r"\s*(?:[\[(]\s*([a-z]+)\s*[\])])?\s*[:=]?\s*([\d.]+(?:e[-+]?\d+)?)\s*([a-z]*)",
     re.IGNORECASE,
 )
-_SECONDS, _MILLISECONDS = r"s|secs?|seconds?", r"ms|msecs?|milliseconds?"
-_TIME_IN_MS = re.compile(rf"\bt(?:ime)?\s*[\[(]\s*(?:{_MILLISECONDS})\s*[\])]", re.IGNORECASE)
+# Seconds in each unit of time, by the pattern of its names.
+_UNITS_OF_TIME = {
+    "s": (r"s|secs?|seconds?", 1.0),
+    "ms": (r"ms|msecs?|milliseconds?", 1e-3),
+    "min": (r"mins?|minutes?", 60.0),
+    "h": (r"h|hrs?|hours?", 3600.0),
+}
+_TIME_IN = re.compile(r"\btime\s+in\s+([^\W\d]+)|\bt(?:ime)?\s*[\[(]\s*([^\])]{1,30}?)\s*[\])]", re.IGNORECASE)
+# A factor beside a table, or one within its unit, as in "x 10 gal" or "g * 1e-3".
+_FACTOR = re.compile(
+    r"\b(?:scale|scaling|multiplication|multiplier|conversion|calibration|amplification)(?:[ _-]?factor)?\s*[:=]\s*"
+    rf"({NUMBER})|\bfactor\s*[:=]\s*({NUMBER})|[x×*]\s*(10\s*(?:\^|\*\*|e)?\s*[-+]?\d*)\b",
+    re.IGNORECASE,
+)
+_AGAINST = re.compile(
+    r"\s*(?:freq(?:uency|\.)?|period|omega)\b|[^\W_]*\s*[\[(]\s*(?:hz|1/s|rad/s)\s*[\])]", re.IGNORECASE
+)
 _STATED = re.compile(r"(?:number of points|points|npts|samples)\s*[:=]\s*(\d{1,12})\b", re.IGNORECASE)
 _HEADER_LINES, _HEADER_WIDTH = 100, 400
 # More moments than this that are 1 s apart count samples: no record is so slow.
@@ -47,6 +62,7 @@ _FEW = 20
 # A line of data is shorter; of a longer one, a part tells what it is.
 _DATA_WIDTH, _MOST_COLUMNS = 4000, 20
 _DECIMAL_COMMA = re.compile(r"\d,\d")
+_BLANK_CELLS = re.compile(r"\s*[-+]?\d+,\d+(?:[eE][-+]?\d+)?(?:\s+[-+]?\d+,\d+(?:[eE][-+]?\d+)?)+\s*")
 _CELL = re.compile(r"\s*[-+]?\d+(?:,\d+)?(?:[eE][-+]?\d+)?\s*")
 # 1,250 is 1250 to some, and 1.25 to others; 0,250 is clear, since no thousands begin with a zero.
 _THOUSANDS = re.compile(r"\s*[-+]?[1-9]\d{0,2},\d{3}\s*")
@@ -84,6 +100,9 @@ def read(lines: list[str], name: str) -> list[RawRecord]:
     data = [parted(line.split("#")[0]) for line in _with_points(lines[first:], name, first + 1)]
     width = len(data[0].split())
     names = names_of(header, width)
+    if any(_AGAINST.match(column) for column in names or ()):
+        raise InputError("record-not-acceleration", name, "spectrum, no time history: a")
+    _check_factor(header, name)
     if width > 2 and names is None:
         raise InputError("record-columns", name, width)
     for k, line in enumerate(data):
@@ -129,13 +148,45 @@ class _Clock:
     counts: bool = False
 
 
+def _check_factor(header: list[str], name: str) -> None:
+    """Refuse a header with a factor other than 1: whether the values contain it nobody can tell."""
+    for line in header:
+        for match in () if _ABOUT.match(line) else _FACTOR.finditer(line):
+            value = match[1] or match[2]
+            if value is None or real(value) != 1.0:
+                raise InputError("record-factor", name, repr(value or match[0]))
+
+
+def _seconds_in(unit: str) -> float | None:
+    """Return how many seconds a unit of time has; None where it is not known."""
+    return next(
+        (size for names, size in _UNITS_OF_TIME.values() if re.fullmatch(names, unit.strip(". "), re.IGNORECASE)), None
+    )
+
+
+def _time_unit(header: list[str], name: str) -> tuple[str, float]:
+    """Return the unit in which the header states the times, and how many seconds it has; seconds without one."""
+    for line in header:
+        if match := _TIME_IN.search(line):
+            unit = match[1] or match[2]
+            size = _seconds_in(unit)
+            if size is None and match[1] is None:
+                raise InputError("record-time-unit", name, repr(unit))
+            if size is not None:
+                return unit, size
+    return "s", 1.0
+
+
 def _clock(time: Floats | None, header: list[str], name: str) -> _Clock:
     step = next((value for line in header if (value := _step(line)) is not None), None)
     if time is None:
         return _Clock(None, step)
     processing: tuple[str, ...] = ()
-    if any(_TIME_IN_MS.search(line) for line in header):
-        time, processing = time / 1e3, ("time read in ms",)
+    unit, seconds = _time_unit(header, name)
+    if seconds != 1.0:
+        # Thousandths are divided, so that 20 ms are 0.02 s to the last bit.
+        time = time / (1.0 / seconds) if seconds < 1.0 else time * seconds
+        processing = (f"time read in {unit}",)
     elif time.size > _FEW and (np.diff(time) == 1.0).all():
         return _Clock(None, step, ("the first column counts the samples",), counts=True)
     if step is not None and time.size > 1:
@@ -173,14 +224,14 @@ def _step(line: str) -> float | None:
     match = _STEP.search(line)
     if not match:
         return None
-    unit = (match[1] or match[3] or "s").lower()
+    seconds = _seconds_in(match[1] or match[3] or "s")
     try:
         value = float(match[2])
     except ValueError:
         return None
-    if re.fullmatch(_MILLISECONDS, unit):
-        return value / 1e3
-    return value if re.fullmatch(_SECONDS, unit) else None
+    if seconds is None:
+        return None
+    return value / 1e3 if seconds == 1e-3 else value * seconds
 
 
 def _with_points(lines: list[str], name: str, first_line: int) -> list[str]:
@@ -205,7 +256,8 @@ def _with_points(lines: list[str], name: str, first_line: int) -> list[str]:
         return lines
     surely = False
     for number, (line, text) in enumerate(zip(lines, texts, strict=True), first_line):
-        cells = [cell for cell in re.split(r"[;\t]", text) if cell.strip()]
+        parting = r"\s+" if _BLANK_CELLS.fullmatch(text) else r"[;\t]"
+        cells = [cell for cell in re.split(parting, text) if cell.strip()]
         if not all(_CELL.fullmatch(cell) for cell in cells):
             raise InputError("record-comma", name, repr(line.strip()[:30]), line=number)
         surely = surely or any("," in cell and not _THOUSANDS.fullmatch(cell) for cell in cells)
@@ -216,4 +268,6 @@ def _with_points(lines: list[str], name: str, first_line: int) -> list[str]:
 
 def _has_decimal_comma(text: str) -> bool:
     text = text.strip()
+    if _BLANK_CELLS.fullmatch(text):
+        return True
     return (";" in text or "\t" in text) and _DECIMAL_COMMA.search(text) is not None
