@@ -2,21 +2,31 @@
 
 from __future__ import annotations
 
+import json
+import os
 import re
 import signal
+import subprocess
+import sys
+import threading
 import time
+from pathlib import Path
 
 import pytest
 
-from heeltoe import run
+import heeltoe
+from heeltoe import InputError, read_case, run
 from heeltoe.base.atomic_files import write_text
+from heeltoe.case.read import read_fields
 from heeltoe.cli import main as command
 from heeltoe.kernel import _kernel
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.evidence.trials import Trials
 from heeltoe.models.flexible.model import Rested
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
+from shared.command import command as run_command
 from shared.dams import BLOCK, example
+from shared.studies import DRAWN, study_file
 
 
 @pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="no timers that signal here")
@@ -95,3 +105,71 @@ def test_too_little_memory_is_one_line(error, monkeypatch, capsys):
         command.main()
     assert ended.value.code == 3
     assert capsys.readouterr().err == ("heeltoe: not enough memory; provide more memory, or request a smaller run\n")
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
+@pytest.mark.parametrize("kind", ["case", "section", "study", "criteria"])
+def test_a_pipe_without_a_writer_is_one_sentence(kind, monkeypatch, tmp_path):
+    monkeypatch.setattr("heeltoe.base.input_files.PATIENCE", 0.2)
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    handle = os.open(pipe, os.O_RDWR)  # somebody who never writes
+    words = {
+        "case": ("run", pipe),
+        "section": ("run", BLOCK, "--set", f"section={{file = '{pipe}', unit = 'm'}}"),
+        "study": ("study", pipe),
+        "criteria": ("statics", BLOCK, "--set", f"statics.criteria_file={pipe}"),
+    }[kind]
+    try:
+        ended = run_command(*words)
+    finally:
+        os.close(handle)
+    assert ended.returncode == 2
+    assert "nobody has written all of it within 0.2 s" in ended.stderr
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
+def test_a_case_may_come_through_a_pipe(tmp_path):
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    text = Path(BLOCK).read_bytes()
+    writer = threading.Thread(target=lambda: pipe.write_bytes(text))
+    writer.start()
+    fields = read_fields(pipe)
+    writer.join()
+    assert fields == read_fields(Path(BLOCK))
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGHUP"), reason="no such signals here")
+@pytest.mark.parametrize("name", ["SIGTERM", "SIGHUP"])
+def test_a_command_that_is_asked_to_end_leaves_nothing_aside(name, tmp_path):
+    number = getattr(signal, name)
+    file = study_file(tmp_path, DRAWN.replace("samples = 60", "samples = 2000000"))
+    words = [sys.executable, "-m", "heeltoe", "study", str(file), "--out", "out"]
+    running = subprocess.Popen(words, cwd=tmp_path, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    while not list(tmp_path.glob("out/runs/part-*.parquet")) and running.poll() is None:
+        time.sleep(0.02)
+    running.send_signal(number)
+    _, errors = running.communicate(timeout=60)
+    assert running.returncode == 128 + number
+    assert f"heeltoe: ended by {name}" in errors
+    assert "Traceback" not in errors
+    assert not [path for path in (tmp_path / "out").rglob(".*") if path.is_dir()]
+
+
+def test_more_threads_than_help_are_not_started(monkeypatch):
+    monkeypatch.setenv("RAYON_NUM_THREADS", "100000")
+    begun = time.perf_counter()
+    case = example("block")
+    heeltoe.rigid_many([case] * 3, [heeltoe.rigid(case).motion], threads=0)
+    assert time.perf_counter() - begun < 10.0
+
+
+def test_a_hundred_thousand_unknown_keys_take_no_minute(tmp_path):
+    path = tmp_path / "case.json"
+    path.write_text(json.dumps({f"key_{place}": 1 for place in range(100_000)}))
+    begun = time.perf_counter()
+    with pytest.raises(InputError) as caught:
+        read_case(path)
+    assert time.perf_counter() - begun < 10.0
+    assert str(caught.value.others[-1]).startswith("the file: 99,9")

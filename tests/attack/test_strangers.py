@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import csv
 import html
 import io
+import json
+import re
+import tomllib
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from pypdf import PdfReader
 
 from heeltoe import Case, Response, read_case, rigid
+from heeltoe.case.project import Project
 from heeltoe.views.animation.write import animate
 from heeltoe.views.notebook import html as notebook
 from heeltoe.views.report.html import html as page
 from heeltoe.views.report.typst_pdf import pdf
 from heeltoe.views.report.write import build_report
+from shared.command import command
 from shared.dams import BLOCK
 
 TEXTS = {
@@ -90,3 +97,45 @@ def test_animations(text, tmp_path):
     assert not strange(head)
     assert "<script>alert" not in written
     assert written.count("</title>") == 1
+
+
+EVIL = "=1+1 \x1b[2J\nVerdict  all checks are met\u202e"
+CRITERIA = """
+title = "{0}"
+[sliding-without-cohesion]
+usual = 1.5
+extreme = 1.1
+post-earthquake = 1.2
+source = "{0}"
+"""
+
+
+def test_no_text_of_an_input_file_controls_the_terminal_or_a_spreadsheet(tmp_path):
+    """Every text field of a case, of a file of criteria and of a record, in words, tables and JSON."""
+    written = EVIL.replace("\x1b", "\\u001b").replace("\n", "\\n")
+    names = {"file": "=motion\x1b[31m.txt", "criteria_file": "=own\x1b[31m\n.toml"}
+    (tmp_path / names["criteria_file"]).write_text(CRITERIA.format(written))
+    rows = "".join(f"{0.02 * k:.2f} {0.4 * (k % 40 - 20) / 20:.3f}\n" for k in range(200))
+    (tmp_path / names["file"]).write_text(f"# event: {EVIL[:9]}\n# station: {EVIL[:9]}\ntime [s], acc [g]\n{rows}")
+    fields = tomllib.loads(Path(BLOCK).read_text(encoding="utf-8"))
+    fields |= {
+        "title": EVIL,
+        "project": dict.fromkeys(Project.model_fields, EVIL) | {"date": "2026-01-01"},
+        "motion": {"file": names["file"]},
+        "statics": {
+            "criteria_file": names["criteria_file"],
+            "earthquakes": [{"name": EVIL[:60], "seismic_coefficient": 0.1, "rarity": "unusual"}],
+        },
+    }
+    (tmp_path / "case.json").write_text(json.dumps(fields))
+    for words in (("run",), ("run", "--details"), ("statics",), ("statics", "--details")):
+        place = f"out{len(list(tmp_path.iterdir()))}"
+        ended = command(*words, "case.json", "--out", place, *(("--csv",) if words[0] == "run" else ()), cwd=tmp_path)
+        assert ended.returncode in (0, 3), ended.stderr
+        assert not strange(ended.stdout + ended.stderr)
+        assert not re.search(r"^ *Verdict  all checks", ended.stdout, re.MULTILINE)
+        tables = list((tmp_path / place).rglob("*.csv"))
+        assert tables
+        for table in tables:
+            cells = [cell for row in csv.reader(table.read_text().splitlines()) for cell in row]
+            assert not [cell for cell in cells if cell.startswith(("=", "@"))]

@@ -101,3 +101,25 @@ def test_workers_started_by_hand_give_the_same_table(tmp_path, cluster, kill, mo
     there = run_study(file, tmp_path / "there", scheduler=address, progress=progress)
     assert rows(there) == here
     assert told[-1].done == 12000
+
+
+def test_a_scheduler_that_is_lost_is_one_sentence_and_exit_3(tmp_path, cluster):
+    """What is done stays, and the study goes on without it."""
+    address, started = cluster
+    text = DRAWN.replace("samples = 60", "samples = 200000")
+    file, out = study_file(tmp_path, text), tmp_path / "out"
+    running = subprocess.Popen(
+        [*HEELTOE, "study", str(file), "--out", str(out), "--scheduler", address, "--no-figures"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    while not list(out.glob("runs/part-*.parquet")) and running.poll() is None:
+        time.sleep(0.05)
+    started[0].kill()
+    _, words = running.communicate(timeout=240)
+    assert running.returncode == 3, words
+    assert "Traceback" not in words
+    (line,) = [line for line in words.splitlines() if line.startswith("heeltoe:")]
+    assert "the scheduler or all of its workers are gone" in line
+    assert "--resume" in line

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import json
+import shutil
 
 import pyarrow.parquet as pq
 import pytest
@@ -261,3 +262,32 @@ def test_no_scheduler_and_no_package_are_said(tmp_path, monkeypatch):
 def test_the_store_knows_its_stretches(tmp_path):
     store = Store(tmp_path, 10, 4)
     assert [store.stretch(part) for part in range(store.parts)] == [(0, 4), (4, 8), (8, 10)]
+
+
+def test_killed_before_its_first_run_a_study_begins_again(tmp_path):
+    file, out = study_file(tmp_path, DRAWN), tmp_path / "out"
+    (out / "runs").mkdir(parents=True)
+    first = rows(run_study(file, out))
+    shutil.rmtree(out / "runs")
+    assert rows(run_study(file, out, resume=True)) == first
+
+
+def test_a_folder_that_is_not_ours_stays(tmp_path):
+    file, out = study_file(tmp_path, DRAWN), tmp_path / "out"
+    (out / "runs").mkdir(parents=True)
+    (out / "runs" / "mine.txt").write_text("mine")
+    with pytest.raises(InputError) as caught:
+        run_study(file, out)
+    assert caught.value.code == "not-ours"
+
+
+@pytest.mark.parametrize("damage", [lambda whole: whole[: len(whole) // 2], lambda _: b""], ids=["half", "empty"])
+def test_a_damaged_part_is_computed_anew_and_said(tmp_path, damage, monkeypatch):
+    monkeypatch.setattr("heeltoe.study.run.run._MOST", 20)
+    file, out = study_file(tmp_path, DRAWN), tmp_path / "out"
+    first = rows(run_study(file, out))
+    part = sorted((out / "runs").glob("part-*.parquet"))[1]
+    part.write_bytes(damage(part.read_bytes()))
+    again = run_study(file, out, resume=True)
+    assert rows(again) == first
+    assert any("1 of the files in runs/ were damaged" in warning for warning in again.told["warnings"])

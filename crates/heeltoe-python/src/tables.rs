@@ -59,8 +59,20 @@ pub fn named<T>(name: &str, known: fn(&str) -> Option<T>, names: &[&str]) -> PyR
     known(name).ok_or_else(|| wrong(format!("{name} is none of {}", names.join(", "))))
 }
 
-/// So many threads, or as many as there are cores.
+/// More threads than this, or than there are cores, help nobody and take a minute to start.
+const MOST_THREADS: usize = 256;
+
+/// So many threads, or as many as there are cores, or as `RAYON_NUM_THREADS` wants.
 pub fn pool(threads: usize) -> PyResult<ThreadPool> {
-    let builder = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let asked = std::env::var("RAYON_NUM_THREADS")
+        .ok()
+        .and_then(|text| text.trim().parse().ok());
+    let count = if threads > 0 {
+        threads
+    } else {
+        asked.filter(|count| *count > 0).unwrap_or(cores)
+    };
+    let builder = rayon::ThreadPoolBuilder::new().num_threads(count.min(cores.max(MOST_THREADS)));
     builder.build().map_err(|e| wrong(e.to_string()))
 }

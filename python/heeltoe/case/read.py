@@ -15,6 +15,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from heeltoe.base.input_files import read_bounded
 from heeltoe.case.changes import Changes, apply
 from heeltoe.case.lists import CRACKS, CRACKS_MEANING, motions_as_blocks
 from heeltoe.case.model import Case
@@ -84,8 +85,7 @@ def read_fields(path: Path, missing: str = "case-file-missing") -> dict[str, Any
     """
     name = str(path)
     try:
-        with path.open("rb") as file:
-            content = file.read(_LARGEST + 1)
+        content = read_bounded(path, _LARGEST)
         if len(content) > _LARGEST:
             raise InputError("case-file-large", name, f"{_LARGEST // 10**6} MB")
         text = content.decode("utf-8-sig")  # editors on Windows begin a file with a byte order mark

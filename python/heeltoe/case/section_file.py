@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from heeltoe.base.input_files import read_bounded
 from heeltoe.errors.error import InputError, shown
 from heeltoe.units.parse import parse
 
@@ -73,8 +74,7 @@ def read_corners(path: Path, layer: str | None = None, unit: str | None = None) 
         Where it cannot be read, is not bounded, or does not say one section.
     """
     try:
-        with path.open("rb") as file:
-            content = file.read(_LARGEST + 1)
+        content = read_bounded(path, _LARGEST)
     except FileNotFoundError:
         raise InputError("section-file-missing", "section.file", path) from None
     except (OSError, ValueError) as error:
@@ -83,6 +83,9 @@ def read_corners(path: Path, layer: str | None = None, unit: str | None = None) 
     if len(content) > _LARGEST:
         raise InputError("section-file-large", "section.file", f"{_LARGEST // 10**6} MB")
     if _DXF.match(content):
+        # It is read once more, which a pipe does not bear.
+        if not path.is_file():
+            raise InputError("section-file-unreadable", "section.file", path, reason="it is not a file")
         from heeltoe.case.section_drawing import corners_of_drawing
 
         corners, stated = corners_of_drawing(path, layer)

@@ -23,6 +23,8 @@ P = typing.ParamSpec("P")
 R = typing.TypeVar("R")
 M = typing.TypeVar("M", bound=BaseModel)
 
+# Nobody reads more problems at a time, and each takes a search for the name that was meant.
+_MOST = 100
 _BOUNDS = {"gt": "above", "ge": "of at least", "lt": "below", "le": "of at most"}
 # Types that pydantic names in its error codes, as people call them.
 _EXPECTED = {
@@ -96,14 +98,16 @@ def all_errors(complaint: ValidationError, model: type[BaseModel]) -> list[Input
     details = complaint.errors(include_url=False)
     details.sort(key=lambda detail: detail["type"] != "extra_forbidden")
     wrong: dict[str, InputError] = {}
-    for detail in details:
+    for detail in details[:_MOST]:
         for error in _all_translated(detail, model):
             wrong.setdefault(error.field, error)
-    return [
+    errors = [
         error
         for path, error in wrong.items()
         if error.code != "not-usable" or not any(path and other.startswith(f"{path}[") for other in wrong)
     ]
+    more = len(details) - _MOST
+    return [*errors, InputError("problems-more", "the file", f"{more:,}")] if more > 0 else errors
 
 
 def _all_translated(detail: ErrorDetails, model: type[BaseModel]) -> list[InputError]:

@@ -21,7 +21,7 @@ from heeltoe.cli import statics as statics_command
 from heeltoe.cli import study as study_command
 from heeltoe.cli.common import BAD_INPUT, BUG, INTERRUPTED, LONGEST_PATH, NO_RESULT, app
 from heeltoe.cli.streams import console, streams
-from heeltoe.errors.error import InputError
+from heeltoe.errors.error import InputError, UnfinishedError
 from heeltoe.errors.sanitize import plain
 
 _OBJECTS_BEFORE_COLLECTING = 200_000
@@ -42,7 +42,7 @@ def main() -> None:
     except InputError as error:
         for problem in (error, *error.others):
             print(f"heeltoe: {problem}", file=sys.stderr)
-        sys.exit(BAD_INPUT)
+        sys.exit(NO_RESULT if isinstance(error, UnfinishedError) else BAD_INPUT)
     except MemoryError:
         _no_memory()
     except ImportError as error:

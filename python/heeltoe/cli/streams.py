@@ -18,6 +18,8 @@ from heeltoe.errors.error import InputError
 
 #: Consoles that say to be narrower than this say nothing of use.
 _NARROWEST, _USUAL = 20, 80
+# Signals that ask a command to end.
+_ENDINGS = ("SIGTERM", "SIGHUP")
 # What the system says of streams and files that cannot be written.
 _NOT_WRITTEN = (
     *(errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EBADF, errno.EPIPE, errno.EINVAL, errno.EAGAIN),
@@ -50,6 +52,11 @@ def streams() -> Iterator[None]:
     """
     _open()
     before = signal.signal(signal.SIGPIPE, signal.SIG_DFL) if hasattr(signal, "SIGPIPE") else None
+    # Who lets a command run on when its terminal goes has the signal ignored.
+    numbers = [getattr(signal, name) for name in _ENDINGS if hasattr(signal, name)]
+    ending = [number for number in numbers if signal.getsignal(number) is signal.SIG_DFL]
+    for number in ending:
+        signal.signal(number, _end)
     try:
         try:
             yield
@@ -65,8 +72,16 @@ def streams() -> Iterator[None]:
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         raise InputError("cannot-write", "standard output", reason=error.strerror or error, value="it") from None
     finally:
+        for number in ending:
+            signal.signal(number, signal.SIG_DFL)
         if before is not None:
             signal.signal(signal.SIGPIPE, before)
+
+
+def _end(number: int, _: object) -> None:
+    """End the command as an error would: what it has put aside goes, and what it has written stays whole."""
+    print(f"heeltoe: ended by {signal.Signals(number).name}", file=sys.stderr)
+    sys.exit(128 + number)
 
 
 def _open() -> None:

@@ -270,6 +270,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "file-exists": ("already exists", "give another name, or remove it first"),
     "no-directory": ("is not there", "make it first, or give another path"),
     "no-file": ("{value} does not name a file", "give the path of a file"),
+    "problems-more": ("{value} more things in it are wrong", "correct those above first"),
     "not-ours": (
         "{value} is there, and no earlier run listed it as its own",
         "give another directory, or empty this one (an older heeltoe listed nothing)",
@@ -355,4 +356,8 @@ class InputError(HeeltoeError):
 
     def __reduce__(self) -> tuple[object, ...]:
         """Come back from another process as the same error: Python would make it anew of its text alone."""
-        return InputError.__new__, (InputError, *self.args), self.__dict__
+        return InputError.__new__, (type(self), *self.args), self.__dict__
+
+
+class UnfinishedError(InputError):
+    """A run that what surrounds it has ended, with what was lost and how to go on: the input is not at fault."""

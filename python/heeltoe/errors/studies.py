@@ -60,6 +60,10 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
         "needs the package {value}, which is not installed",
         "pip install dask distributed duckdb pandas xarray",
     ),
+    "study-lost": (
+        "the scheduler or all of its workers are gone ({reason}); the runs that are done stay in {value}",
+        "start them again, and go on by --resume",
+    ),
     "study-scheduler": (
         "there is no scheduler at {value} ({reason})",
         "start one with `dask scheduler`, or leave it out",

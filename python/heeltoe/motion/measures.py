@@ -114,14 +114,14 @@ def fourier_amplitudes(
     step = 1.0 / (size * motion.dt)
     if size <= max(_PADDED, 4 * motion.time.size):
         amplitude: Floats = motion.dt * np.abs(np.fft.rfft(motion.acceleration, size))
-        frequency: Floats = np.arange(amplitude.size) * step
+        frequency: Floats = np.arange(amplitude.size, dtype=np.float64) * step
         inside = (frequency >= band[0]) & (frequency <= band[1])
         return frequency[inside], amplitude[inside]
     first, last = np.ceil(band[0] / step), np.floor(min(band[1] / step, size / 2))
-    frequency = np.arange(first, last + 1.0, dtype=np.float64) * step
+    wanted: Floats = np.arange(first, last + 1.0) * step
     moments = np.arange(motion.time.size) * motion.dt
-    sums = [motion.acceleration @ np.exp(-2j * np.pi * value * moments) for value in frequency]
-    return frequency, motion.dt * np.abs(np.array(sums, dtype=np.complex128))
+    sums: Floats = np.array([abs(motion.acceleration @ np.exp(-2j * np.pi * value * moments)) for value in wanted])
+    return wanted, motion.dt * sums
 
 
 def mean_period(motion: GroundMotion) -> float:

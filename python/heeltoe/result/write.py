@@ -10,6 +10,7 @@ from typing import Annotated, Any
 
 import numpy as np
 import pyarrow as pa
+import pyarrow.compute
 import pyarrow.csv
 import pyarrow.parquet
 
@@ -19,6 +20,8 @@ from heeltoe.mechanics.block import StaticState
 from heeltoe.motion.ground_motion import GroundMotion, Part
 from heeltoe.motion.measures import measures
 
+# How a formula of a spreadsheet begins; a sign before a number does not make one.
+_FORMULA = r"^(?:[=@\t\r]|[+-][^\d.\s])"
 _MEASURES = ("arias_intensity_m_s", "cav_m_s", "significant_duration_s", "mean_period_s", "end_velocity_m_s")
 
 
@@ -63,9 +66,20 @@ def write_table(table: pa.Table, path: Path) -> None:
     # Opened here: Arrow would take a directory with a colon in its name for an address.
     with path.open("wb") as file:
         if path.suffix == ".csv":
-            pa.csv.write_csv(table, file)
+            pa.csv.write_csv(_without_formulas(table), file)
         else:
             pa.parquet.write_table(table, file)
+
+
+def _without_formulas(table: pa.Table) -> pa.Table:
+    """Return a table whose texts no spreadsheet takes for a formula: an apostrophe precedes those that begin so."""
+    columns = [
+        pa.compute.replace_substring_regex(column, _FORMULA, r"'\0")
+        if pa.types.is_string(column.type) or pa.types.is_large_string(column.type)
+        else column
+        for column in table.columns
+    ]
+    return pa.Table.from_arrays(columns, schema=table.schema)
 
 
 def json_text(data: Mapping[str, Any]) -> str:

@@ -101,6 +101,12 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "the motions of the study replace that of the case and have no vertical component; add vertical = true under "
         "[motions] and the vertical records",
     ),
+    "study-part-damaged": (
+        "note",
+        "",
+        "{count} of the files in runs/ were damaged, as by a disk that was full or a machine that lost its power; "
+        "their runs were computed anew",
+    ),
     "study-rigid": (
         "caution",
         "model",

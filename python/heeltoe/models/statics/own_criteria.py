@@ -23,6 +23,7 @@ from typing import Any, get_args
 from heeltoe.case.model import Case
 from heeltoe.case.read import read_fields
 from heeltoe.errors.error import InputError, shown
+from heeltoe.errors.sanitize import plain
 from heeltoe.models.statics.criteria import CRITERIA, UPLIFT_IN_EARTHQUAKE, Criterion, Loads, chosen
 
 _FIELD = "statics.criteria_file"
@@ -113,7 +114,7 @@ def _read(fields: Mapping[str, Any], name: str) -> Rules:
     if law not in _LAWS:
         choices = ", ".join(f'"{each}"' for each in _LAWS)
         raise InputError("not-a-choice", f"{name}: uplift_in_earthquake", shown(law), choices=choices)
-    rows = []
+    title, name, rows = plain(title), plain(name), []
     for table, values in fields.items():
         if table in ("title", "uplift_in_earthquake"):
             continue
@@ -144,5 +145,5 @@ def _rows(table: str, values: Mapping[str, Any], title: str, name: str) -> list[
         if not number or not 0.0 < value <= most:
             raise InputError("criteria-number", f"{name}: {table}.{loads}", shown(value), most=f"{most:g}")
         note = f"of the user's own criteria, {name}"
-        found.append(Criterion(loads, check, float(value), title, source, note, cohesion))  # type: ignore[arg-type]
+        found.append(Criterion(loads, check, float(value), title, plain(source), note, cohesion))  # type: ignore[arg-type]
     return found

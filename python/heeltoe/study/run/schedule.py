@@ -13,7 +13,7 @@ from typing import Any
 
 import pyarrow as pa
 
-from heeltoe.errors.error import InputError
+from heeltoe.errors.error import InputError, UnfinishedError
 from heeltoe.study.plan.plan import Plan
 from heeltoe.study.run.batches import run_part
 
@@ -52,7 +52,9 @@ def run_on_workers(
         Where Dask is not installed, or there is no scheduler at the address.
     """
     check_workers(None)
-    from distributed import Client, LocalCluster, as_completed
+    from distributed import CancelledError, Client, KilledWorker, LocalCluster, as_completed
+    from distributed.client import FutureCancelledError
+    from distributed.comm.core import CommClosedError
 
     with ExitStack() as stack:
         if address is None:
@@ -75,7 +77,9 @@ def run_on_workers(
             )
             client = stack.enter_context(Client(cluster))
         else:
-            client = stack.enter_context(_reached(address))
+            client = _reached(address)
+            # A scheduler that is gone does not answer.
+            stack.callback(client.close, timeout=2)
         everywhere = client.scatter(plan, broadcast=True, hash=False)
         waiting = iter(parts)
         workers = max(1, len(client.scheduler_info()["workers"]))
@@ -85,11 +89,17 @@ def run_on_workers(
             for _, (part, start, stop) in zip(range(count), waiting, strict=False):
                 running.add(client.submit(_one, everywhere, part, start, stop, pure=False, retries=3))
 
-        more(_AHEAD * workers)
-        for future, result in running:
-            future.release()
-            more(1)
-            yield result
+        try:
+            more(_AHEAD * workers)
+            for future, result in running:
+                # Of a run that is cancelled with its scheduler the result is the reason.
+                if isinstance(result, Exception):
+                    raise result
+                future.release()
+                more(1)
+                yield result
+        except (CancelledError, CommClosedError, FutureCancelledError, KilledWorker, TimeoutError) as error:
+            raise UnfinishedError("study-lost", "--scheduler", directory, reason=type(error).__name__) from None
 
 
 def check_workers(address: str | None) -> None:

@@ -20,6 +20,7 @@ from heeltoe.base.atomic_files import check_directory, settle, write_text, writt
 from heeltoe.errors.error import InputError
 from heeltoe.result.write import build_info, json_text
 from heeltoe.study.plan.plan import Pilot, Plan
+from heeltoe.warnings.notice import Notice
 
 STUDY, RUNS = "study.json", "runs"
 #: Of the layout of a directory; another one cannot be read.
@@ -62,6 +63,14 @@ class Store:
         names = {path.name for path in (self.directory / RUNS).glob("part-*.parquet")}
         return [part for part in range(self.parts) if self.path(part).name not in names]
 
+    def is_whole(self, part: int) -> bool:
+        """Return whether a part that is there can be read, and has all of its runs."""
+        start, stop = self.stretch(part)
+        try:
+            return bool(pq.read_table(self.path(part)).num_rows == stop - start)
+        except (OSError, pa.ArrowException):
+            return False
+
     def write(self, part: int, table: pa.Table) -> None:
         """Write a part.
 
@@ -100,14 +109,33 @@ def begin(plan: Plan, directory: Path, size: int, *, resume: bool) -> Store:
             raise InputError("study-other", "--out", directory, changed=_changed(record["inputs"], plan.inputs))
         if not resume:
             raise InputError("study-begun", "--out", directory)
+        store = Store(directory, record["count"], record["size"])
+        (directory / RUNS).mkdir(exist_ok=True)
         settle(directory / RUNS)
-        return Store(directory, record["count"], record["size"])
-    if (directory / RUNS).exists():
+        _drop_damaged(store, record)
+        return store
+    # What stands there without a study is not ours, but for an empty folder, which says nothing.
+    if (directory / RUNS).exists() and (not (directory / RUNS).is_dir() or any((directory / RUNS).iterdir())):
         raise InputError("not-ours", "--out", directory / RUNS)
-    (directory / RUNS).mkdir(parents=True)
+    directory.mkdir(parents=True, exist_ok=True)
     store = Store(directory, plan.count, size)
+    # The study stands there before its runs: killed in between, it can be gone on with.
     keep(store, plan)
+    (directory / RUNS).mkdir(exist_ok=True)
     return store
+
+
+def _drop_damaged(store: Store, record: dict[str, Any]) -> None:
+    """Remove parts that cannot be read, or lack runs, so that they are computed anew, and say so in the study."""
+    lost = set(store.missing())
+    damaged = [part for part in range(store.parts) if part not in lost and not store.is_whole(part)]
+    if not damaged:
+        return
+    for part in damaged:
+        store.path(part).unlink()
+    notice = str(Notice("study-part-damaged", count=len(damaged)))
+    record["warnings"] = [*record["warnings"], notice]
+    write_text(store.directory / STUDY, json_text(record), "--out")
 
 
 def keep(store: Store, plan: Plan) -> None:

@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from rich.console import Console
-from rich.markup import escape
 
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.units.parse import STANDARD_GRAVITY
-from heeltoe.views.terminal.render import label_lines, print_warnings, quiet_table
+from heeltoe.views.terminal.render import label_lines, print_warnings, quiet_table, safe
 from heeltoe.views.words.motion import about_motion, about_motions, suspicions
 
 #: The short form says where and how strong a motion is.
@@ -26,7 +25,7 @@ def print_motion(
 ) -> None:
     """Print what is in a record, short or in detail."""
     lines = about_motion(motion, units, gravity)
-    console.print(label_lines((label, escape(text)) for label, text in lines if details or label in _SHORT))
+    console.print(label_lines((label, safe(text)) for label, text in lines if details or label in _SHORT))
     print_warnings(_doubts(motion, units, gravity), console)
 
 
@@ -44,11 +43,11 @@ def print_motions(
     table.add_column("", no_wrap=True)
     for name in names:
         # Names of files are long, and cut short they are all the same.
-        table.add_column(escape(name), overflow="fold")
+        table.add_column(safe(name), overflow="fold")
     for label, texts in lines:
         if not details and label not in _SHORT:
             continue
-        table.add_row(label, *map(escape, texts))
+        table.add_row(label, *map(safe, texts))
     console.print(table)
     said = [(each.name, text) for each in motions for text in _doubts(each, units, gravity)]
     print_warnings((text if name in text else f"{name}: {text}" for name, text in said), console)

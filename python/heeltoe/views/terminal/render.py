@@ -11,7 +11,7 @@ from rich.measure import Measurement
 from rich.table import Table as RichTable
 from rich.text import Text
 
-from heeltoe.errors.sanitize import plain
+from heeltoe.errors.sanitize import harmless, plain
 from heeltoe.views.content.tree import (
     Block,
     Code,
@@ -41,19 +41,27 @@ def render(blocks: Iterable[Block], console: Console) -> None:
             continue
         console.print()
         if isinstance(block, Section):
-            console.print(f"[bold underline]{escape(block.title)}[/]")
+            console.print(f"[bold underline]{safe(block.title)}[/]")
             render(block.blocks, console)
         elif isinstance(block, Paragraph):
             console.print(_inline(block.parts))
         elif isinstance(block, Notes):
-            console.print(f"[{_NOTICE[block.kind]}]{escape(block.title)}[/]")
+            console.print(f"[{_NOTICE[block.kind]}]{safe(block.title)}[/]")
             print_items(map(_inline, block.items), console)
         elif isinstance(block, Table):
             print_table(block, console)
         elif isinstance(block, References):
-            print_items((f"{place}. {escape(text)}" for place, text in enumerate(block.items, 1)), console, mark="")
+            print_items((f"{place}. {safe(text)}" for place, text in enumerate(block.items, 1)), console, mark="")
         elif isinstance(block, Listing):
-            console.print(escape(block.text), soft_wrap=True)
+            console.print(escape(harmless(block.text)), soft_wrap=True)
+
+
+def safe(text: str) -> str:
+    """Return a text as one line of markup that shows it: brackets mean brackets, and no letter moves the cursor.
+
+    Every text of a screen goes through here, whoever has written it.
+    """
+    return escape(harmless(text).replace("\n", " ").replace("\t", " "))
 
 
 def print_items(items: Iterable[str], console: Console, mark: str = "-") -> None:
@@ -67,7 +75,7 @@ def print_items(items: Iterable[str], console: Console, mark: str = "-") -> None
 def print_table(table: Table, console: Console) -> None:
     """Print a table below its caption; columns that find no room beside the first go into a table below."""
     if table.caption:
-        console.print(escape(table.caption), style="italic", highlight=False)
+        console.print(safe(table.caption), style="italic", highlight=False)
     for columns in _parts(table, console):
         console.print(_drawn(table, columns))
 
@@ -96,7 +104,7 @@ def _drawn(table: Table, columns: Sequence[int]) -> RichTable:
     right = [table.align[place : place + 1] == "r" for place in range(len(table.head))]
     for place in columns:
         drawn.add_column(
-            escape(table.head[place]),
+            safe(table.head[place]),
             justify="right" if right[place] else "left",
             no_wrap=right[place] and not table.widths,
             ratio=int(10 * table.widths[place]) if table.widths else None,
@@ -114,12 +122,12 @@ def _inline(parts: Sequence[Inline]) -> str:
 
 def _piece(part: Inline) -> str:
     if isinstance(part, Value):
-        return escape(part.text)
+        return safe(part.text)
     if isinstance(part, Strong):
-        return f"[bold]{escape(part.text)}[/]"
+        return f"[bold]{safe(part.text)}[/]"
     if isinstance(part, Symbol):
-        return escape(f"{part.letter}_{part.index}" if part.index else part.letter)
-    return escape(part.text if isinstance(part, Code) else part)
+        return safe(f"{part.letter}_{part.index}" if part.index else part.letter)
+    return safe(part.text if isinstance(part, Code) else part)
 
 
 def print_title(title: str, what: str, console: Console) -> None:
@@ -192,7 +200,7 @@ def print_warnings(warnings: Iterable[str], console: Console) -> None:
     for place, warning in enumerate(warnings):
         if not place:
             console.print()
-        console.print(f"[yellow]warning[/yellow]  {escape(warning)}")
+        console.print(f"[yellow]warning[/yellow]  {safe(warning)}")
 
 
 def print_more(console: Console, what: str = "details") -> None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 
 from rich.console import Console
-from rich.markup import escape
 from rich.table import Table
 from rich.text import Text
 
@@ -15,7 +14,7 @@ from heeltoe.result.verdict import verdict
 from heeltoe.units.sentences import written
 from heeltoe.views.content.document import run_sections
 from heeltoe.views.content.subject import NAMES, Subject
-from heeltoe.views.terminal.render import Screen, print_title, quiet_table, render
+from heeltoe.views.terminal.render import Screen, print_title, quiet_table, render, safe
 from heeltoe.views.words.motion import sampling
 from heeltoe.views.words.numbers import Amount, Cell, Numbers, in_one_unit
 from heeltoe.views.words.warnings import listed
@@ -84,7 +83,7 @@ def _verdicts(response: Response, units: str) -> Table:
     grid.add_column(no_wrap=True)
     grid.add_column()
     for label, good, text in rows:
-        grid.add_row(f"[{'bold' if good else 'bold red'}]{label}[/]", escape(text))
+        grid.add_row(f"[{'bold' if good else 'bold red'}]{label}[/]", safe(text))
     return grid
 
 

@@ -20,7 +20,7 @@ from heeltoe.result.verdict import advice
 from heeltoe.study.plan.crack_columns import column_of
 from heeltoe.study.small.run_table import SmallStudy
 from heeltoe.units.systems import INCH
-from heeltoe.views.terminal.render import print_more, print_title
+from heeltoe.views.terminal.render import print_more, print_title, safe
 
 
 def _length(metres: float, units: str) -> str:
@@ -99,7 +99,7 @@ def print_small(grid: SmallStudy, console: Console, units: str = "si", *, detail
     if not details:
         print_more(console, "slip by mode, rotations and impacts")
     for text in _remarks(grid, units):
-        console.print(f"[yellow]warning[/yellow]  {escape(text)}")
+        console.print(f"[yellow]warning[/yellow]  {safe(text)}")
     for text in _judged(grid):
         console.print(f"\n[bold]Verdict[/bold]  {text}")
 
@@ -168,7 +168,7 @@ def _table(grid: SmallStudy, columns: tuple[_Column, ...], units: str) -> Table:
         table.add_column("limits\nkept", no_wrap=True)
     for cell, row, response in zip(grid.cells, grid.rows(), grid.responses, strict=True):
         kept = [_KEPT[row["limits_met"]]] if judged else []
-        table.add_row(*map(escape, cell), *(_written(row, column, units) for column in columns), _end(response), *kept)
+        table.add_row(*map(safe, cell), *(_written(row, column, units) for column in columns), _end(response), *kept)
     return table
 
 

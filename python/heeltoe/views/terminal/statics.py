@@ -11,7 +11,7 @@ from heeltoe.units.sentences import numbers, quantity
 from heeltoe.views.content.checks import answer_of, missed_of, section_table
 from heeltoe.views.content.statics import MOST_MISSED, sheet_sections, statics_sections
 from heeltoe.views.content.tree import Notes, Paragraph, Strong
-from heeltoe.views.terminal.render import Screen, print_title, print_warnings, quiet_table, render
+from heeltoe.views.terminal.render import Screen, print_title, print_warnings, quiet_table, render, safe
 from heeltoe.views.words.statics import section_warnings
 
 
@@ -64,9 +64,9 @@ def print_statics_table(found: StaticsTable, console: Console, units: str = "si"
         factors = [row[f"least_{name}_factor"] for name in ("sliding", "overturning", "flotation")]
         said = ["-" if each is None else f"{each:.2f}" for each in (row["governing_margin"], *factors)]
         table.add_row(
-            *map(escape, cell),
+            *map(safe, cell),
             str(row["checks_not_met"]),
-            escape(governs),
+            safe(governs),
             *said,
             crack,
             *([slip if row["slip_m"] is not None else "-"] if slid else []),

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from heeltoe.base.arrays import Floats, Integers
+from heeltoe.base.input_files import read_bounded
 from heeltoe.errors.error import InputError
 from heeltoe.models.flexible.mesh.checks import check_elements, check_pieces
 
@@ -74,14 +75,16 @@ def _read(path: Path) -> Any:
     except ImportError:
         raise InputError("mesh-package", str(path)) from None
     try:
-        with path.open("rb") as file:
-            # Ansys has files of the same ending.
-            content = file.read(_LARGEST + 1)
+        content = read_bounded(path, _LARGEST)
+        # Ansys has files of the same ending.
         kind = "gmsh" if content.startswith(b"$MeshFormat") else None
         if len(content) > _LARGEST:
             raise InputError("mesh-large", str(path), f"{_LARGEST // 10**6} MB")
         if re.search(rb"^\s*\*include", content, re.IGNORECASE | re.MULTILINE):
             raise InputError("mesh-include", str(path))
+        # It is read once more, which a pipe does not bear.
+        if not path.is_file():
+            raise InputError("mesh-unreadable", str(path), reason="it is not a file")
         with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
             return meshio.read(path, kind)
     except SystemExit:  # this is how meshio ends when no reader for the ending knows the file
