@@ -17,7 +17,7 @@ from heeltoe.views.explain.meaning import KINDS
 from shared.command import command
 from shared.dams import FAST, HEIGHT, KOYNA, SLENDER, example
 from shared.every_field import leaves
-from shared.studies import DRAWN, study_file
+from shared.studies import BLOCK, DRAWN, study_file
 
 LAW = {
     "friction": None,
@@ -42,7 +42,8 @@ def keys(found, path=""):
 @pytest.fixture(scope="module")
 def study(tmp_path_factory):
     place = tmp_path_factory.mktemp("study")
-    run_study(study_file(place, DRAWN), place / "out")
+    allowed = '[limits]\nresidual_slip = "50 mm"\n'
+    run_study(study_file(place, DRAWN, case=BLOCK + allowed), place / "out")
     return open_study(place / "out")
 
 

@@ -17,7 +17,7 @@ from heeltoe.views.figures.studies.all import study_figures
 from heeltoe.views.report.html import html
 from heeltoe.views.terminal.study import print_study
 from heeltoe.views.words.fields import fields
-from heeltoe.views.words.numbers import Amount, in_one_unit
+from heeltoe.views.words.numbers import Amount, Numbers, in_one_unit
 from heeltoe.views.words.studies import limits_of, values_said
 from shared.studies import BLOCK, study_file
 
@@ -152,3 +152,9 @@ def test_input_has_one_unit_for_each_quantity(units, said):
     case = read_case("examples/block.toml", changes)
     rows = {path: text for path, text, *_ in fields(case, case.model_dump(mode="json"), units=units, given=True)}
     assert said <= set(rows.values()), rows
+
+
+def test_a_stress_that_rounding_leaves_is_none_beside_others_too():
+    numbers = Numbers({"heel_stress_pa": -4.7e-10, "toe_stress_pa": 1.25e6})
+    values = [numbers("heel_stress_pa"), numbers("toe_stress_pa")]
+    assert [value.text for value in numbers.alike(values)] == ["0 MPa", "1.250 MPa"]

@@ -12,8 +12,8 @@ if TYPE_CHECKING:
     from heeltoe.result.response import CrackResponse, Response
 
 
-# What the fields of ``limits`` limit.
-_LABELS = {
+#: What the fields of ``limits`` limit.
+LABELS = {
     "residual_slip": "residual slip",
     "peak_slip": "largest slip",
     "opening_upstream": "opening at the upstream face",
@@ -46,7 +46,7 @@ class LimitCheck(Block):
     @property
     def label(self) -> str:
         """What people call the result."""
-        return _LABELS[self.name]
+        return LABELS[self.name]
 
     @property
     def met(self) -> bool:
@@ -75,7 +75,7 @@ def check_limits(limits: Limits, response: Response) -> tuple[LimitCheck, ...]:
     # Of several cracks any may break a limit.
     checks = [
         max((_check(name, limit, crack, failed=failed) for crack in response.cracks), key=lambda check: check.value_m)
-        for name in _LABELS
+        for name in LABELS
         if (limit := getattr(limits, name)) is not None
     ]
     return tuple(check if response.several else replace(check, elevation_m=None) for check in checks)

@@ -353,9 +353,7 @@ class EvidenceNumbers(Block):
     other_elements_across: Annotated[
         int | None, Number("The same of the run with another mesh; null where there is none.")
     ]
-    third_elements_across: Annotated[
-        int | None, Number("The same of a third mesh, where single runs scatter; null where there is none.")
-    ]
+    third_elements_across: Annotated[int | None, Number("The same of a third, coarser mesh; null where there is none.")]
     scales: Annotated[list[float], Number("Factors on the ground motion of the runs with the shaking varied.")]
     residual_slips_m: Annotated[list[float], Number("Their residual slips.", "m")]
     failed: Annotated[int, Number("How many of them end without a result.")]

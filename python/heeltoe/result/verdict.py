@@ -86,7 +86,7 @@ def _limits(response: Response, units: str) -> str:
     if response.outcome == "overturned":
         return "It keeps none of its limits: a dam that has overturned has failed."
     broken = [
-        f"{_limited(check, units)} of {_judged(check, units)} is more than the {length(check.allowed_m, units)} allowed"
+        f"{limited(check, units)} of {_judged(check, units)} is more than the {length(check.allowed_m, units)} allowed"
         for check in response.limits
         if not check.met
     ]
@@ -94,7 +94,7 @@ def _limits(response: Response, units: str) -> str:
         doubt = "" if all(check.certain for check in response.limits if not check.met) else ", though not for certain"
         return f"It does not keep within its limits{doubt}: its {' and its '.join(broken)}."
     doubted = [
-        f"{_limited(check, units)} of {_judged(check, units)} may be more than the "
+        f"{limited(check, units)} of {_judged(check, units)} may be more than the "
         f"{length(check.allowed_m, units)} allowed"
         for check in response.limits
         if not check.certain
@@ -108,8 +108,8 @@ def _limits(response: Response, units: str) -> str:
     return "It keeps within its limits."
 
 
-def _limited(check: LimitCheck, units: str) -> str:
-    """Say what is limited, and at which of several cracks."""
+def limited(check: LimitCheck, units: str = "si") -> str:
+    """Say what is limited, and at which of several cracks, in units ``"si"`` or ``"us"``."""
     at = "" if check.elevation_m is None else f" at the crack at {_level(check.elevation_m, units)}"
     return check.label + at
 

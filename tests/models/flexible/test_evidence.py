@@ -9,7 +9,7 @@ from heeltoe import InputError, flexible, read_case
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.evidence import refinement
 from heeltoe.models.flexible.evidence.evidence import Evidence, Worth
-from heeltoe.models.flexible.evidence.refinement import _finer
+from heeltoe.models.flexible.evidence.refinement import _finer, _moved_by_mesh
 from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials, with_mesh
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.motion.earthquake import Earthquake
@@ -43,7 +43,8 @@ def test_each_part_is_the_difference_of_two_runs_of_ones_own():
     found = response.evidence
     step = response.time_step_s
     assert response.residual_slip_m > 0.01
-    assert (found["elements_across"], found["other_elements_across"]) == (6, 3)
+    meshes = [found[f"{which}elements_across"] for which in ("", "other_", "third_")]
+    assert meshes == [6, 3, 2]
     assert found["other_time_step_s"] == pytest.approx(2.0 * step)
     assert found["value_is"] == "run"
     worth = found["residual_slip_m"]
@@ -51,12 +52,23 @@ def test_each_part_is_the_difference_of_two_runs_of_ones_own():
     longer = f"{2.0 * step} s"
     other = slip(elements_across=6, time_step=longer)
     assert worth["step"] == pytest.approx(abs(worth["value"] - other), abs=1e-12)
-    assert worth["mesh"] == pytest.approx(abs(other - slip(elements_across=3, time_step=longer)), abs=1e-12)
+    coarse, coarser = (slip(elements_across=across, time_step=longer) for across in (3, 2))
+    assert worth["mesh"] == pytest.approx(max(abs(other - coarse), 0.25 * abs(coarse - coarser)), abs=1e-12)
     members = [slip(scale, elements_across=3, time_step=longer) for scale in SCALES]
     assert found["residual_slips_m"] == pytest.approx(members, abs=1e-12)
     assert worth["shaking"] == pytest.approx(np.std(members, ddof=1), abs=1e-12)
     assert worth["uncertainty"] == pytest.approx(worth["step"] + worth["mesh"] + worth["shaking"])
-    assert found["runs"] == 7
+    assert found["runs"] == 8
+
+
+def test_two_meshes_that_agree_better_than_their_order_promises_are_not_believed():
+    def moved(*slips):
+        own, beside, third = ({"slip": np.array([each])} for each in slips)
+        return _moved_by_mesh("slip", own, beside, third)
+
+    assert moved(1.0, 1.001, 1.4) == pytest.approx(0.25 * 0.399)
+    # These converge no better than they may.
+    assert moved(1.0, 1.1, 1.4) == pytest.approx(0.1)
 
 
 def test_a_result_is_the_same_whatever_is_compared_with_it():

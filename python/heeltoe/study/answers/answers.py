@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.result.contract import HEADLINES, JOINT_METER_M
+from heeltoe.study.answers.fragility import not_met
 from heeltoe.study.plan.crack_columns import column_of, columns_of_cracks
 from heeltoe.study.plan.rank_correlation import quantiles
 from heeltoe.study.run.aggregate import SHAKEN, Stretch, Walk
@@ -58,7 +59,7 @@ def summary(walk: Walk) -> list[dict[str, Any]]:
                 known[place, column] += fine.size
                 far = float(fine[np.abs(fine).argmax()]) if fine.size else 0.0
                 largest[place, column] = max(largest[place, column], far, key=abs)
-    below = _below(walk, keys).tolist()
+    below, broken = _below(walk, keys).tolist(), not_met(walk)
 
     def distributions(place: int) -> Iterator[tuple[str, dict[str, float | None]]]:
         for column, key in enumerate(keys):
@@ -73,6 +74,7 @@ def summary(walk: Walk) -> list[dict[str, Any]]:
             "share_that_slides": float(slid[place] / outcomes[place].total()),
             "slid_off": int(off[place]),
             "undetermined": int(undetermined[place]),
+            "limits_not_met": broken[name],
             "dominant_mode": dict(zip(MODES, (by_mode[place] / slid[place]).tolist(), strict=True))
             if slid[place]
             else {},

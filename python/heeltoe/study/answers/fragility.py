@@ -31,6 +31,8 @@ LIMITED = {
     "residual_slip": ("residual_slip_m",),
     "peak_slip": ("peak_slip_downstream_m", "peak_slip_upstream_m"),
     "opening": ("opening_upstream_m", "opening_downstream_m"),
+    "opening_upstream": ("opening_upstream_m",),
+    "opening_downstream": ("opening_downstream_m",),
     "rotation": ("rocking_downstream_rad", "rocking_upstream_rad"),
 }
 
@@ -109,6 +111,23 @@ def exceeding(table: Mapping[str, Floats], outcome: NDArray[Any], limit: str, va
     largest = np.max([np.abs(table[name]) for name in LIMITED[limit]], axis=0)
     share = np.where(outcome == "ok", (largest > value).astype(np.float64), np.nan)
     return np.where(np.isin(outcome, FAILED), 1.0, share)
+
+
+def not_met(walk: Walk) -> dict[str, dict[str, int]]:
+    """Return for each model how many runs do not keep within the limits of the case, by the name of the limit: where
+    any crack exceeds it, or the dam fails. A run without a result is not counted."""
+    limits = {limit: _number(value) for limit, value in walk.limits.items()}
+    names = sorted({name for limit in limits for name in LIMITED[limit]})
+    counts = {model: dict.fromkeys(limits, 0) for model in walk.models}
+    for runs in walk("model", "outcome", *names, *(column for name in names for column in walk.of_cracks(name))):
+        words, code = runs.words("outcome")
+        outcome, model = np.array(words)[code], runs.model
+        values = {name: runs.largest(name, *walk.of_cracks(name)) for name in names}
+        for limit, value in limits.items():
+            exceeds = exceeding(values, outcome, limit, value) == 1.0
+            for place, name in enumerate(walk.models):
+                counts[name][limit] += int(np.count_nonzero(exceeds & (model == place)))
+    return counts
 
 
 def curve(limit: str, value: float, measure: str, seen: Tally, *, confidence: float) -> Curve:

@@ -66,6 +66,12 @@ class Walk:
         """How many cracks the dams have."""
         return 1 + len(self.told["case"].get("further_cracks", ()))
 
+    @property
+    def limits(self) -> dict[str, Any]:
+        """What the base case allows, by the name of the limit."""
+        limits = self.told["case"].get("limits") or {}
+        return {name: value for name, value in limits.items() if value is not None}
+
     def of_cracks(self, name: str) -> list[str]:
         """Return the columns of a headline number at each of several cracks, from the crest down; none of one crack."""
         return [column_of(place, name) for place in range(self.cracks)] if self.cracks > 1 else []

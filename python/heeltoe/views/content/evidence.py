@@ -24,7 +24,7 @@ _FLEXIBLE = (
     ("Step of the run beside it", "evidence.other_time_step_s", None),
     ("Elements along the crack", "evidence.elements_across", None),
     ("Those of the mesh beside it", "evidence.other_elements_across", None),
-    ("Those of a third mesh, where runs scatter", "evidence.third_elements_across", None),
+    ("Those of a third mesh, by which two that agree by chance are found out", "evidence.third_elements_across", None),
     ("Residual slip to trust", "evidence.residual_slip_m.value", "displacement"),
     ("How uncertain it is, give or take", "evidence.residual_slip_m.uncertainty", "displacement"),
     ("Of that, by the time step", "evidence.residual_slip_m.step", "displacement"),

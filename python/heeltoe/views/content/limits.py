@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from heeltoe.models.statics.joints import Joint
+from heeltoe.result.verdict import limited
 from heeltoe.units.sentences import quantity
 from heeltoe.views.content.subject import Subject
 from heeltoe.views.content.tree import Block, Code, Inline, Section, Table, paragraph
@@ -17,7 +18,8 @@ def limits(subject: Subject) -> Section:
     for run in subject.runs:
         for place, check in enumerate(run.response.limits):
             key = f"{run.prefix}limits.{place}."
-            label = check.label.capitalize()
+            label = limited(check, subject.units)
+            label = label[0].upper() + label[1:]
             rows.append(
                 (
                     label if len(subject.runs) == 1 else f"{label}, {run.name}",

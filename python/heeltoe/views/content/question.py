@@ -7,7 +7,8 @@ from dataclasses import replace
 
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.rest import comes_to_rest
-from heeltoe.result.verdict import advice, verdict
+from heeltoe.result.verdict import advice, limited, verdict
+from heeltoe.units.sentences import written
 from heeltoe.units.write import NOTHING, digits, length
 from heeltoe.views.content.checks import missed_of
 from heeltoe.views.content.subject import Run, Subject
@@ -28,6 +29,9 @@ from heeltoe.warnings.notice import Notice
 
 # Static checks that are not met and have room on page one; the others are counted there.
 _MOST_MISSED = 3
+_MAGNITUDES = (
+    "Openings and rotations are magnitudes; rotation downstream, about the toe, opens the crack at the upstream face."
+)
 
 
 def question(subject: Subject) -> Section:
@@ -96,7 +100,9 @@ def _not_met(subject: Subject) -> Block | None:
     for check in subject.result.limits:
         if not check.met:
             found, allowed = length(check.value_m, units), length(check.allowed_m, units)
-            text = f"{check.label} of {found}, {allowed} allowed{', by a dam that has failed' if check.failed else ''}."
+            doubt = "" if check.certain else f" ± {length(check.uncertainty_m, units)}"
+            text = f"{limited(check, units)} of {found}{doubt}, {allowed} allowed"
+            text += f"{', by a dam that has failed' if check.failed else ''}."
             items.append((Strong("Limit. "), glued(text)))
     if subject.joints is not None:
         items += missed_of(subject.joints, units, _MOST_MISSED)
@@ -129,6 +135,8 @@ def _warnings(subject: Subject) -> Block | None:
 
 
 def _numbers(subject: Subject) -> Block:
+    if subject.result.several and subject.result.summary:
+        return _numbers_of_cracks(subject)
     both = len(subject.runs) > 1
     rows: list[tuple[Inline, ...]] = []
     if any(run.response.summary for run in subject.runs):
@@ -150,10 +158,39 @@ def _numbers(subject: Subject) -> Block:
     return Table(
         subject.head(*more),
         tuple(rows),
-        f"Key numbers, {subject.per_width}. Openings and rotations are magnitudes; rotation downstream, about the "
-        "toe, opens the crack at the upstream face.",
+        f"Key numbers, {subject.per_width}. {_MAGNITUDES}",
         subject.align(len(more)),
     )
+
+
+def _numbers_of_cracks(subject: Subject) -> Block:
+    """Return the key numbers at each of several cracks, the one that leads first."""
+    result, run = subject.result, subject.first
+    places = sorted(range(len(result.cracks)), key=lambda place: place != result.asked)
+    blank = ("",) * (len(places) - 1)
+    rows: list[tuple[Inline, ...]] = [
+        (
+            each.full.capitalize(),
+            *(subject.numbers(f"{run.prefix}cracks.{place}.{each.key}", sign=each.way) for place in places),
+        )
+        for each in HEADLINES
+    ]
+    factors = [result.cracks[place].static.sliding_safety_factor for place in places]
+    rows.append(
+        ("Sliding safety factor under static loads", *(NOTHING if at is None else digits(at, 4) for at in factors))
+    )
+    rows.append(("At the end of the run", _end(run), *blank))
+    tension = result.summary.get("tension")
+    if tension:
+        rows.append((*subject.row("Largest tension in the concrete", "tension.stress_pa"), *blank))
+    if tension and tension["strength"]:
+        rows.append((*subject.row("What it bears in an earthquake", "tension.strength.dynamic_pa"), *blank))
+    head = (
+        "",
+        *(written("crack at {at_m:.4g m}", subject.units, at_m=result.cracks[place].elevation) for place in places),
+    )
+    caption = f"Key numbers, {subject.per_width}; the crack that slips most first. {_MAGNITUDES}"
+    return Table(head, tuple(rows), caption, "l" + "r" * len(places))
 
 
 def _ratio(subject: Subject, key: str) -> Inline:

@@ -154,7 +154,7 @@ def _signs(subject: Subject) -> list[Block]:
     for place, way in enumerate(signs):
         key = f"signs.{place}."
         crack = (n(f"{key}elevation_m", "length"),) if subject.result.several else ()
-        slip, opening = n(f"{key}residual_slip_m"), n(f"{key}opening_m", "opening")
+        slip, opening = n(f"{key}residual_slip_m"), n(f"{key}opening_m")
         rows.append((way.sign, way.outcome, *crack, slip, opening, "leads" if way.governs else ""))
     crack_head = ("crack",) if subject.result.several else ()
     head = ("motion", "outcome", *crack_head, "residual slip", "largest opening", "")

@@ -6,8 +6,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from heeltoe.result.contract import HEADLINES
+from heeltoe.result.limits import LABELS
 from heeltoe.study.answers.answers import MODES
-from heeltoe.units.write import NOTHING, scaled
+from heeltoe.units.write import NOTHING, length, scaled
 from heeltoe.views.content.tree import Block, Code, Inline, Section, Strong, Table, paragraph
 from heeltoe.views.words.numbers import Amount, in_one_unit
 from heeltoe.views.words.studies import ABOUT_CRACKS, TRAITS, ends_of, left_out, limit_of, limits_of, strength_scale
@@ -34,9 +35,27 @@ def answer(subject: StudySubject) -> list[Block]:
             of = " of the crack that leads" if subject.found.walk.cracks > 1 else ""
             said += f"; the residual slip{of}, positive downstream, has the median {amounts[0]}, 84 % stay below "
             said += f"{amounts[1]}, and the farthest run ends at {amounts[2]}"
-        said = f"{said}. " + " ".join(_exceeded(subject, each["model"]))
+        said = f"{said}. " + " ".join((*_not_kept(subject, each), *_exceeded(subject, each["model"])))
         found.append(paragraph(Strong(f"Answer, {each['model']} model. "), said.strip()))
     return found
+
+
+def _limits(subject: StudySubject) -> dict[str, str]:
+    """Return the limits of the base case in words, by their names."""
+    limits = subject.case.limits
+    return {
+        name: f"{LABELS[name]} of {length(getattr(limits, name), subject.units)}" for name in subject.found.walk.limits
+    }
+
+
+def _not_kept(subject: StudySubject, summary: dict[str, Any]) -> list[str]:
+    """Say how many runs do not keep within each limit of the base case."""
+    where = ", at one crack at least" if subject.found.walk.cracks > 1 else ""
+    return [
+        f"{summary['limits_not_met'][name]:,} of {summary['runs']:,} runs exceed the {limit} that the case "
+        f"allows{where}."
+        for name, limit in _limits(subject).items()
+    ]
 
 
 def _exceeded(subject: StudySubject, model: str) -> list[str]:
@@ -68,6 +87,10 @@ def results(subject: StudySubject) -> Section:
     rows: list[tuple[Inline, ...]] = [
         ("that slide", *(_percent(each["share_that_slides"]) for each in summary)),
         ("that slide farther than the crack is long", *(f"{each['slid_off']:,}" for each in summary)),
+        *(
+            (f"that exceed the {limit} allowed", *(f"{each['limits_not_met'][name]:,}" for each in summary))
+            for name, limit in _limits(subject).items()
+        ),
         ("not determined: bounces amplify the last digit", *(f"{each['undetermined']:,}" for each in summary)),
         *(
             (

@@ -98,6 +98,8 @@ class Numbers:
         shown = number if sign > 0.0 else 0.0 - number
         number = number if isinstance(number, int) else float(number)
         what = quantity or kind(key)
+        if what == "pressure" and abs(shown) < _NO_PRESSURE:
+            shown = 0.0
         return Value(key, number, self.text(shown, what), what, float(shown))
 
     def alike(self, values: Sequence[Value]) -> list[Value]:
@@ -133,8 +135,6 @@ class Numbers:
     def _scaled(self, number: float, quantity: str) -> str:
         if quantity == "displacement":
             return length(number, self.units.name)
-        if quantity == "pressure" and abs(number) < _NO_PRESSURE:
-            number = 0.0
         scale = self.units.scale(quantity, abs(number))
         return f"{digits(scale(number), 3 if quantity == 'velocity' else 4)} {scale.unit}"
 

@@ -95,7 +95,7 @@ class Evidence:
     across, other_across
         Elements along its crack, and along that of the mesh beside it; None where there is none.
     third_across
-        The same of a third mesh, with which means are compared; None where there is none.
+        The same of a third mesh, by which two that agree by chance are found out; None where there is none.
     failed
         How many of the runs with the shaking varied end without a result.
     slips

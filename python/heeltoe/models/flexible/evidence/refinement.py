@@ -18,8 +18,8 @@ from heeltoe.result.contract import HEADLINES
 
 #: Fewer elements along the crack than these have no coarser mesh worth a comparison.
 _FEWEST_ACROSS = 4
-# Two meshes may agree by chance. Halving the elements of quadratic shape makes what they leave a quarter at best, so of
-# what moves a mean from the third mesh to the second at least this part is left; meshes coarser than this say nothing.
+# Two meshes may agree by chance. Twice the elements of quadratic shape make what they leave a quarter at best, so of
+# what moves a number from the third mesh to the second at least this part is left; coarser meshes say nothing.
 _LEFT, _LEAST_ACROSS = 0.25, 2
 # Single runs scatter where what a straight line through them leaves is more than this part of the uncertainty that is
 # allowed, or where half the step, which moves a smooth run by a few thousandths, moves it by more than this one.
@@ -164,7 +164,7 @@ class _Stand:
 
     @cached_property
     def _third(self) -> Level | None:
-        """A mesh that is coarser still, with which means are compared, too; None where there is none."""
+        """A mesh that is coarser still, by which two that agree by chance are found out; None where there is none."""
         if self.mesh is None or self.mesh.mesh > self._level.mesh:
             return None
         third = Level(self.mesh.mesh - 1, self._halvings)
@@ -186,8 +186,8 @@ class _Stand:
             wanted += [(self._cheap, SCALES), (self._own, SCALES if means else _AS_IT_IS)]
             if self.mesh is not None:
                 wanted.append((self.mesh, SCALES if means else _AS_IT_IS))
-            if means and self._third is not None:
-                wanted.append((self._third, SCALES))
+            if self._third is not None:
+                wanted.append((self._third, SCALES if means else _AS_IT_IS))
         return wanted
 
     def evidences(self, *, spent: bool = False) -> tuple[Evidence, ...]:
@@ -207,7 +207,7 @@ class _Stand:
         scales = SCALES if mean else _AS_IT_IS
         beside = None if self.mesh is None else trials.numbers(self.mesh, scales, crack)
         own = trials.numbers(self._own, scales, crack) if self._full else run
-        third = trials.numbers(self._third, SCALES, crack) if mean and self._third is not None else None
+        third = None if self._third is None else trials.numbers(self._third, scales, crack)
         # Of runs that scatter those of both meshes tell by how much.
         ensembles = ([own] if beside is None else [own, beside]) if mean else None if varied is None else [varied]
         worth = {
