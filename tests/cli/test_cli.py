@@ -175,7 +175,7 @@ def test_flexible_says_what_its_result_rests_on(tmp_path):
     assert len(data["periods_s"]) == 5
     assert data["evidence"]["other_time_step_s"] == pytest.approx(2.0 * data["time_step_s"], rel=1e-3)
     energy = data["energy"]
-    parts = ("friction_j", "impact_j", "damping_j", "numerical_j", "kinetic_j")
+    parts = ("friction_j", "impact_j", "damping_j", "numerical_j", "left_j")
     assert sum(energy[name] for name in parts) == pytest.approx(energy["input_j"], rel=1e-6)
     assert (tmp_path / "crack.parquet").exists()
 

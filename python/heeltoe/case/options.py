@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from typing import Annotated, Literal, Self, get_args
 
@@ -138,8 +139,9 @@ class StaticsSection(Fields):
     """Tensile strength of the bonded part."""
 
 
-#: Earthquakes that are unusual loads and no extreme ones, by what people call them.
-_UNUSUAL = ("obe", "operating basis earthquake")
+# Earthquakes that are unusual loads, and those that are extreme ones, by what people call them.
+_UNUSUAL = ("obe", "operating basis")
+_EXTREME = ("mde", "mce", "see", "maximum design", "maximum credible", "safety evaluation")
 
 
 class StaticsEarthquake(Fields):
@@ -152,13 +154,23 @@ class StaticsEarthquake(Fields):
     vertical_seismic_coefficient: Annotated[DimensionlessNumber, Field(ge=0.0, le=3.0)] = 0.0
     """Its vertical acceleration at the same time in g, up and down."""
     rarity: Literal["unusual", "extreme"] | None = None
-    """Whether it is an unusual load, as the operating basis earthquake (OBE) is, or an extreme one, as all others are;
-    by its name where it is not given."""
+    """Whether it is an unusual load, as the operating basis earthquake (OBE) is, or an extreme one, as the maximum
+    design, maximum credible and safety evaluation earthquakes (MDE, MCE, SEE) are; a name that says neither needs
+    it."""
+
+    @property
+    def known_rarity(self) -> Literal["unusual", "extreme"] | None:
+        """What it is: as given, or as its name says; None where that says neither, or both."""
+        if self.rarity is not None:
+            return self.rarity
+        words = f" {' '.join(re.findall('[a-z]+', self.name.lower()))} "
+        unusual, extreme = (any(f" {name} " in words for name in names) for names in (_UNUSUAL, _EXTREME))
+        return None if unusual == extreme else "unusual" if unusual else "extreme"
 
     @property
     def is_unusual(self) -> bool:
         """Whether it is an unusual load."""
-        return self.rarity == "unusual" or (self.rarity is None and self.name.strip().lower() in _UNUSUAL)
+        return self.known_rarity == "unusual"
 
 
 def _section_of(value: object) -> object:
@@ -244,6 +256,9 @@ class StaticsChoice(Fields):
         again = next((title for title in called if called.count(title) > 1), None)
         if again is not None:
             yield InputError("earthquakes-twice", "earthquakes", shown(again))
+        for place, earthquake in enumerate(self.earthquakes):
+            if earthquake.known_rarity is None:
+                yield InputError("earthquake-rarity", f"earthquakes[{place}].name", shown(earthquake.name))
         if self.uplift_in_earthquake != "criteria" and not self.pseudo_static:
             yield InputError("needs-other", "uplift_in_earthquake", other="seismic_coefficient or earthquakes")
         if self.flood_rarity == "extreme" and self.flood_depth is None:

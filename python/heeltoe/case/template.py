@@ -191,7 +191,7 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # flood_rarity = "unusual"         # or extreme
 # seismic_coefficient = 0.1        # of the pseudo-static check, in g
 # vertical_seismic_coefficient = 0.05
-# Several in place of that one; an OBE is an unusual load, others are extreme ones, or as rarity says:
+# Several in place of that one; an OBE is an unusual load, MDE, MCE and SEE are extreme ones; else rarity says it:
 # earthquakes = [{{ name = "OBE", seismic_coefficient = 0.1 }}, {{ name = "MDE", seismic_coefficient = 0.2 }}]
 # uplift_in_earthquake = "criteria"    # where that opens the crack; or "unchanged", "zero", "full"
 # residual_friction = 0.8          # after the earthquake

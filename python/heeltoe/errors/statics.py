@@ -25,4 +25,9 @@ OF_STATICS: dict[str, tuple[str, str]] = {
     "section-misfit": ("at {value} the case does not fit: {reason}", "change that, or leave this section out"),
     "earthquakes-twice": ("{value} is listed twice", "give each earthquake a name of its own"),
     "sections-twice": ("{value} is listed twice", "name each elevation once"),
+    "earthquake-rarity": (
+        "{value} does not say whether the earthquake is an unusual or an extreme load",
+        'add rarity = "unusual", as of an operating basis earthquake (OBE), or "extreme", as of a maximum design, '
+        "maximum credible or safety evaluation earthquake (MDE, MCE, SEE)",
+    ),
 }

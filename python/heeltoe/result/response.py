@@ -58,10 +58,12 @@ class Energy(Block):
     ]
     friction_j: Annotated[float, Number("Energy lost in friction.", _J)]
     impact_j: Annotated[float, Number("Energy lost in impacts.", _J)]
-    kinetic_j: Annotated[
+    left_j: Annotated[
         float,
         Number(
-            "Kinetic energy left at the end; of elastic parts with their strain energy, less that at the start.", _J
+            "Energy left in the dam at the end: kinetic, and of elastic parts with that of their strain and anchors, less "
+            "what there was at the start; below zero where the dam has let go of some.",
+            _J,
         ),
     ]
     residual: Annotated[

@@ -58,7 +58,7 @@ def test_a_dowel_stops_a_block_where_the_closed_form_says():
     assert found.residual_slip_m == pytest.approx(expected, rel=0.01)
     assert found.energy.residual < 1e-12
     # What the dowel holds in the end.
-    assert found.energy.kinetic_j == pytest.approx(stiffness * expected**2 / 2.0, rel=0.02)
+    assert found.energy.left_j == pytest.approx(stiffness * expected**2 / 2.0, rel=0.02)
 
 
 def test_an_anchor_holds_a_block_that_would_fly():
@@ -223,7 +223,7 @@ def test_anchors_hold_a_dam(elevation):
     assert held.summary["anchors"][0]["peak_tension_n"] > 2e6
     # The frames close too, with what the anchors hold.
     h, e = held.histories, held.energy
-    assert h["stored_energy_j"][-1] - h["stored_energy_j"][0] == pytest.approx(e.kinetic_j, rel=1e-9)
+    assert h["stored_energy_j"][-1] - h["stored_energy_j"][0] == pytest.approx(e.left_j, rel=1e-9)
 
 
 def test_water_that_changes_nothing_changes_nothing():

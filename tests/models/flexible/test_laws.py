@@ -88,5 +88,5 @@ def test_the_ledger_closes(elevation):
     assert abs(response.residual_slip_m) > 1e-3
     assert energy.residual < 1e-12
     losses = energy.friction_j + energy.impact_j + energy.damping_j + energy.numerical_j
-    assert losses + energy.kinetic_j == pytest.approx(energy.input_j, rel=1e-6)
+    assert losses + energy.left_j == pytest.approx(energy.input_j, rel=1e-6)
     assert energy.gained_j < 1e-5 * energy.input_j

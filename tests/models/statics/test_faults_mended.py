@@ -137,6 +137,15 @@ def test_the_single_coefficient_means_what_it_meant_and_the_rarity_may_be_said()
     assert set(required(rare, "sliding factor").values()) == {1.3}
 
 
+@pytest.mark.parametrize(
+    ("name", "sliding"),
+    [("OBE", 1.7), ("obe, 145 years", 1.7), ("Operating Basis Earthquake", 1.7), ("SEE", 1.3), ("MCE (deep)", 1.3)],
+)
+def test_the_usual_names_of_earthquakes_are_understood(name, sliding):
+    found = heeltoe.statics(dam(statics__earthquakes=[{"name": name, "seismic_coefficient": 0.1}]))
+    assert set(required(found, "sliding factor").values()) == {sliding}
+
+
 def test_criteria_with_one_set_of_factors_say_so():
     found = heeltoe.statics(
         dam(statics__criteria="CDA", statics__earthquakes=[{"name": "OBE", "seismic_coefficient": 0.1}])
@@ -150,6 +159,8 @@ def test_criteria_with_one_set_of_factors_say_so():
     [
         ({"earthquakes": [{"name": "OBE", "seismic_coefficient": 0.1}], "seismic_coefficient": 0.1}, "earthquakes"),
         ({"earthquakes": [{"name": "OBE", "seismic_coefficient": 0.1}] * 2}, "give each earthquake a name of its own"),
+        ({"earthquakes": [{"name": "design", "seismic_coefficient": 0.1}]}, "add rarity"),
+        ({"earthquakes": [{"name": "OBE = MDE", "seismic_coefficient": 0.1}]}, "statics.earthquakes[0].name"),
         ({"earthquakes": [{"name": "OBE", "seismic_coefficient": 0.0}]}, "statics.earthquakes[0].seismic_coefficient"),
     ],
 )

@@ -132,7 +132,7 @@ def energy_of(run: BlockRun) -> Energy:
         input_j=raw.energy_input,
         friction_j=raw.energy_friction,
         impact_j=raw.energy_impact,
-        kinetic_j=raw.energy_kinetic,
+        left_j=raw.energy_kinetic,
         residual=raw.energy_residual,
     )
 

@@ -14,7 +14,7 @@ _ENERGY = (
     ("Impacts", "impact_j"),
     ("Damping of the concrete", "damping_j"),
     ("Lost by the time stepping", "numerical_j"),
-    ("Left in the dam", "kinetic_j"),
+    ("Left in the dam", "left_j"),
     ("Made by contact, which should be none", "gained_j"),
     ("What the ledger leaves unexplained, over the turnover", "residual"),
 )

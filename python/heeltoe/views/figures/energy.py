@@ -102,7 +102,7 @@ def _bars(ledger: Energy) -> list[tuple[_Entry, float]]:
         (_FRICTION, ledger.friction_j),
         (_DAMPING, ledger.damping_j),
         (_IMPACT, ledger.impact_j),
-        (_STORED, ledger.kinetic_j),
+        (_STORED, ledger.left_j),
         (_NUMERICAL, ledger.numerical_j),
     ]
     least = _SLIGHT * abs(ledger.input_j)

@@ -171,7 +171,7 @@ def energy_of(run: DamRun) -> Energy:
         input_j=raw.energy_input,
         friction_j=raw.energy_friction,
         impact_j=raw.energy_impact,
-        kinetic_j=raw.energy_stored + raw.energy_penalty - raw.energy_start,
+        left_j=raw.energy_stored + raw.energy_penalty - raw.energy_start,
         residual=raw.energy_residual,
         damping_j=raw.energy_damping,
         numerical_j=raw.energy_numerical,
