@@ -150,6 +150,7 @@ def test_periods_name_the_part_between_two_cracks():
     periods = heeltoe.dam_periods(example("two-cracks"))
     low, high = sorted(crack.elevation for crack in example("two-cracks").cracks)
     assert list(periods.parts)[:2] == [f"above {high:g} m", f"{low:g} to {high:g} m"]
+    assert periods.part_names("us") == ["above 295.3 ft", "0 to 295.3 ft"]
     one = heeltoe.dam_periods(example("koyna-top"))
     assert list(one.parts) == ["above the crack", "below the crack"]
     assert one.below is not None

@@ -48,8 +48,15 @@ def periods(
     with status() as say:
         say("building the elastic parts")
         periods = dam_periods(loaded, count, field="--count")
-    dam = about_dam(loaded, units_of(loaded, units))
-    finish(periods.to_json(), json_, [], lambda console: print_periods(periods, console, dam, details=details))
+    shown = units_of(loaded, units)
+    dam = about_dam(loaded, shown)
+
+    finish(
+        periods.to_json(),
+        json_,
+        [],
+        lambda console: print_periods(periods, console, dam, details=details, units=shown),
+    )
 
 
 def overturning(

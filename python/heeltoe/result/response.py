@@ -61,8 +61,8 @@ class Energy(Block):
     left_j: Annotated[
         float,
         Number(
-            "Energy left in the dam at the end: kinetic, and of elastic parts with that of their strain and anchors, less "
-            "what there was at the start; below zero where the dam has let go of some.",
+            "Energy left in the dam at the end: kinetic, and of elastic parts with that of strain and anchors, "
+            "less that at the start; below zero where the dam has let go of some.",
             _J,
         ),
     ]

@@ -45,14 +45,17 @@ def about_dam(case: Case, units: str = "si") -> str:
     return written(text, units, **sizes)
 
 
-def print_periods(periods: DamPeriods, console: Console, dam: str = "", *, details: bool = False) -> None:
+def print_periods(
+    periods: DamPeriods, console: Console, dam: str = "", *, details: bool = False, units: str = "si"
+) -> None:
     """Print the periods of a dam and of its parts; in detail with what they were computed from."""
+    names = periods.part_names(units)
     print_title(periods.title, "periods", console)
     console.print()
     columns = {
         "intact, dry": periods.intact_dry,
         "intact, with water": periods.intact,
-        **periods.parts,
+        **dict(zip(names, periods.parts.values(), strict=True)),
     }
     table = quiet_table()
     table.add_column("")
@@ -71,7 +74,7 @@ def print_periods(periods: DamPeriods, console: Console, dam: str = "", *, detai
     below = "; the lowest part is fixed at its base" if periods.grounded else ""
     free = "the parts above a crack are" if len(periods.parts) > 2 else "the part above is"
     grid.add_row("parts", f"separate, with their water; {free} free, without rigid-body modes{below}")
-    grid.add_row("mesh", _mesh_line(list(periods.parts), periods.elements, periods.nodes))
+    grid.add_row("mesh", _mesh_line(names, periods.elements, periods.nodes))
     grid.add_row("damping", _damping_line(periods.damping, periods.damping_ratios, periods.rayleigh))
     console.print(grid)
 

@@ -93,9 +93,7 @@ def print_small(grid: SmallStudy, console: Console, units: str = "si", *, detail
     footer = f"slips and openings in {_UNITS[units]}, slip positive downstream; rotations in mrad"
     console.print(footer, style="dim")
     if several:
-        console.print(
-            escape("cracks count from the crest down; the other columns refer to the crack in [crack]"), style="dim"
-        )
+        console.print("cracks count from the crest down; the other columns are of the one that slips most", style="dim")
     if not details:
         print_more(console, "slip by mode, rotations and impacts")
     for text in _remarks(grid, units):

@@ -12,6 +12,7 @@ from heeltoe.errors.error import InputError, expect
 from heeltoe.models.flexible.body.modes import intact_periods, part_periods
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.result.write import build_info
+from heeltoe.units.sentences import written
 
 COUNT = 5
 _MOST = 50
@@ -30,6 +31,8 @@ class DamPeriods:
     parts
         Each part by itself with its water, from the crest down, by where it is: the lowest held at its base where no
         crack is there, the others free, whose rigid-body motion is none of them.
+    elevations
+        Of the cracks, from the crest down [m].
     grounded
         Whether the lowest part is held at its base.
     rayleigh
@@ -46,6 +49,7 @@ class DamPeriods:
     intact_dry: tuple[float, ...]
     intact: tuple[float, ...]
     parts: dict[str, tuple[float, ...]]
+    elevations: tuple[float, ...]
     grounded: bool
     rayleigh: tuple[float, float] | None
     damping: str
@@ -63,6 +67,10 @@ class DamPeriods:
     def below(self) -> tuple[float, ...] | None:
         """Those of the part below the lowest crack; None where that is at the base."""
         return list(self.parts.values())[-1] if self.grounded else None
+
+    def part_names(self, units: str = "si") -> list[str]:
+        """Return where each part is, from the crest down, in units ``"si"`` or ``"us"``."""
+        return _names(self.elevations, len(self.parts), units)
 
     def to_json(self) -> dict[str, Any]:
         """Return plain numbers, strings and lists."""
@@ -107,12 +115,14 @@ def dam_periods(case: Case, count: int = COUNT, *, field: str = "count") -> DamP
     if not 1 <= count <= _MOST:
         raise InputError("period-count", field, count, most=_MOST)
     dam = build_flexible_dam(case)
-    names = _names([crack.elevation for crack in case.cracks], len(dam.modes))
+    elevations = tuple(crack.elevation for crack in case.cracks)
+    names = _names(elevations, len(dam.modes))
     return DamPeriods(
         title=case.title,
         intact_dry=tuple(intact_periods(dam, count, water=False).tolist()),
         intact=tuple(intact_periods(dam, count).tolist()),
         parts={name: tuple(part_periods(modes, count).tolist()) for name, modes in zip(names, dam.modes, strict=True)},
+        elevations=elevations,
         grounded=len(names) > len(case.cracks),
         rayleigh=dam.damping.coefficients,
         damping=case.flexible.damping,
@@ -123,9 +133,13 @@ def dam_periods(case: Case, count: int = COUNT, *, field: str = "count") -> DamP
     )
 
 
-def _names(elevations: Sequence[float], count: int) -> list[str]:
+def _names(elevations: Sequence[float], count: int, units: str = "si") -> list[str]:
     """Return where each part is, from the crest down, of a dam cracked at these elevations [m]."""
     if len(elevations) == 1:
         return ["above the crack", "below the crack"][:count]
-    between = [f"{low:g} to {high:g} m" for high, low in pairwise(elevations)]
-    return [f"above {elevations[0]:g} m", *between, f"below {elevations[-1]:g} m"][:count]
+    between = [written("{ends_m:.4g m|to}", units, ends_m=[low, high]) for high, low in pairwise(elevations)]
+    above, below = (
+        written(f"{word} {{at_m:.4g m}}", units, at_m=at)
+        for word, at in (("above", elevations[0]), ("below", elevations[-1]))
+    )
+    return [above, *between, below][:count]
