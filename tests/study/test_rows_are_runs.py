@@ -207,3 +207,12 @@ def test_a_row_whose_bounces_amplify_the_last_digit_is_counted(tmp_path, name, c
     assert name == "two-cracks" or not all(found)
     run_study(study, tmp_path / "out")
     assert open_study(tmp_path / "out").summary[0]["undetermined"] == sum(found)
+
+
+@pytest.mark.parametrize("model", DAMS)
+def test_a_row_of_a_dam_that_does_not_stand_ends_as_its_run(model, tmp_path):
+    name = "typical-height" if model == "decoupled" else "typical-base"
+    changes = COARSE if model == "flexible" else ()
+    row, response = row_and_run(tmp_path, example(name, "crack.friction=0.05", "motion.duration=2 s", *changes), model)
+    assert row["outcome"] == response.outcome == "unstable"
+    assert all(row[name] is None for name in NUMBERS)

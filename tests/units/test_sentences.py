@@ -32,7 +32,9 @@ from heeltoe.units.sentences import UNITS, Sentence, numbers, quantity, written
         (-2e-12, "z.3f MPa", "0.000 MPa", "0.0 psi"),
         # Without an exponent where people would write none, and without what rounding leaves.
         (1.0, ".2g %", "100 %", "100 %"),
-        (184.6, ".4g mm", "184600 mm", "605.6 ft"),
+        (184.6, ".4g mm", "184.6 m", "605.6 ft"),
+        (1.4612, ".1f mm", "1.46 m", "57.528 in"),
+        ((0.1, 1.5), ".4g mm|to", "0.1 to 1.5 m", "3.937 to 59.06 in"),
         (6.98e-10, ".3g MPa", "0 MPa", "0 psi"),
         # The same everywhere.
         (0.012, ".3g ms", "12 ms", "12 ms"),

@@ -50,6 +50,8 @@ UNITS: dict[str, tuple[float, str]] = {
 }
 # The same everywhere, but not SI units themselves.
 _OTHERS = {"ms": 1e-3, "%": 1e-2}
+# A displacement from this on is written in metres [m].
+_METRES_FROM = 1.0
 # Digits of what is written in full in SI (format "g").
 _IN_FULL = 4
 # Words within a sentence may be sentences themselves.
@@ -101,6 +103,9 @@ def numbers(values: Sequence[float], form: str, units: str = "si") -> tuple[list
     if units == "us" and unit in UNITS:
         to = scale(UNITS[unit][1], max(map(abs, values), default=0.0))
         return [_in_us(to(value), spec, si * to.factor) for value in values], to.unit
+    if unit == "mm" and max(map(abs, values), default=0.0) >= _METRES_FROM:
+        # As heeltoe.units.write.length says it: limits and slips of one size are in one unit everywhere.
+        return [_in_si(value, ".2f" if spec.endswith("f") else spec) for value in values], "m"
     # Whole factors leave round numbers round.
     return [_in_si(value / si if si > 1.0 else value * round(1.0 / si), spec) for value in values], unit
 

@@ -9,6 +9,7 @@ from heeltoe.models.statics.checks import Check
 from heeltoe.models.statics.joints import Joint, Joints
 from heeltoe.models.statics.model import Statics
 from heeltoe.units.sentences import numbers, quantity
+from heeltoe.units.write import length
 
 
 def basis(found: Statics, units: str) -> list[tuple[str, str]]:
@@ -32,7 +33,7 @@ def basis(found: Statics, units: str) -> list[tuple[str, str]]:
         depth = none if level is None else f"{quantity(level, '.2f m', units)} of water"
         lines.append((label, f"{depth}, with cohesion" if bonded and key.startswith("sliding") else depth))
     if found.slip_m is not None:
-        lines.append(("residual slip", f"{quantity(found.slip_m, '.1f mm', units)}: {found.slip_source}"))
+        lines.append(("residual slip", f"{length(found.slip_m, units)}: {found.slip_source}"))
     return lines
 
 
@@ -57,7 +58,7 @@ def section_rows(found: Joints, units: str) -> tuple[tuple[str, ...], list[tuple
     lengths, crack_unit = numbers(cracks, "z.2f m", units)
     head = (f"at, {unit}", "governs", "check", "margin", "sliding", "overturning", f"open, {crack_unit}", "not met")
     rows = []
-    for joint, height, length in zip(found.ranked, heights, lengths, strict=True):
+    for joint, height, reach in zip(found.ranked, heights, lengths, strict=True):
         worst, missed = joint.governing, sum(not check.met for check in joint.statics.checks)
         least = [
             min((each for case in joint.statics.cases if (each := getattr(case, name)) is not None), default=None)
@@ -70,7 +71,7 @@ def section_rows(found: Joints, units: str) -> tuple[tuple[str, ...], list[tuple
                 "-" if worst is None else worst.name.removesuffix(" factor"),
                 "-" if worst is None or worst.margin is None else f"{worst.margin:.2f}",
                 *("-" if each is None else f"{each:.2f}" for each in least),
-                length,
+                reach,
                 f"{missed} of {len(joint.statics.checks)}",
             )
         )
