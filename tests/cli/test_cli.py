@@ -128,11 +128,13 @@ def test_set_motion_pga_reverse_duration():
     assert slip("--motion", "pacoima-1971-164-nga") != plain
 
 
-@pytest.mark.parametrize("option", ["--motion", "--pga"])
-def test_two_motions_are_refused(option):
-    result = command("run", *RIGID, option, "elcentro-1940-180-nga", f"{option}=0.3 g")
+@pytest.mark.parametrize(
+    ("name", "option"), [("run", "--motion"), ("run", "--pga"), ("statics", "--criteria"), ("statics", "--slip")]
+)
+def test_what_looks_like_a_list_and_is_none_is_refused(name, option):
+    result = command(name, *RIGID, option, "elcentro-1940-180-nga", f"{option}=0.3 g")
     assert result.returncode == 2
-    assert result.stderr == f"heeltoe: {option}: is given 2 times; give it once; a study runs several\n"
+    assert result.stderr == f"heeltoe: {option}: is given 2 times; give it once; a study runs several values\n"
 
 
 def test_a_motion_on_the_command_line_is_relative_to_where_the_user_stands(tmp_path):

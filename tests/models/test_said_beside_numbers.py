@@ -98,6 +98,14 @@ def test_an_anchor_without_a_capacity_is_said_to_be_judged_by_nothing():
     assert "anchor-unlimited" in codes(found)
 
 
+def test_a_slip_that_few_tendons_bear_is_said_in_the_run():
+    anchors = {"anchors": [{"distance": "5 m", "prestress": "1 MN/m", "capacity": "2 MN/m"}]}
+    for strength, crossed in (("0.8g", True), ("0.1g", False)):
+        found = rigid(read_case(BASE, [anchors, f"motion.pga={strength}"]))
+        assert (found.peak_slip_downstream_m > 0.01) == crossed
+        assert ("anchors-cross-slip" in codes(found)) == crossed
+
+
 def test_anchors_that_a_slip_has_crossed_are_counted_with_and_without():
     anchors = {"anchors": [{"distance": "5 m", "prestress": "3 MN/m"}]}
     case = read_case(BASE, [anchors, "crack.friction=1.2"])

@@ -27,8 +27,8 @@ if TYPE_CHECKING:
 _UsageError: Any = typer.BadParameter.__mro__[1]
 
 
-# Several of these look like a list of motions; the last one would win silently.
-_ONCE = ("--motion", "--pga")
+# Several of these look like a list; the last one would win silently.
+_ONCE = ("--motion", "--pga", "--criteria", "--slip")
 
 
 class Commands(TyperGroup):

@@ -40,7 +40,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     "not-a-motion": ("a {kind} is not a ground motion", "give what heeltoe.read_record returns"),
     "not-a-list": ("a {kind} is not a list", "put it into one"),
     "usage": ("{value}", "`{command} --help` lists the options"),
-    "option-repeated": ("is given {value} times", "give it once; a study runs several"),
+    "option-repeated": ("is given {value} times", "give it once; a study runs several values"),
     "override-form": ("{value} does not set a field", "write PATH=VALUE, for example crack.friction=1.0"),
     "unit-missing": ("{value} has no unit", "write for example {example}"),
     "unit-unknown": ("{value} has the unknown unit {unit}", "write for example {example}"),

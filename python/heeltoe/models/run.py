@@ -30,6 +30,7 @@ from heeltoe.models.runner import (
 from heeltoe.models.statics.standing import standing_warnings
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.ground_motion import GroundMotion
+from heeltoe.result.contract import SHEARS_M
 from heeltoe.result.limits import check_limits
 from heeltoe.result.response import Chosen, Response
 from heeltoe.units.sentences import Sentence
@@ -373,7 +374,9 @@ def _alone(response: R, case: Case, chosen: Chosen | None = None) -> R:
 def _completed(response: R, case: Case, models: Sequence[str], chosen: Chosen, *, alone: bool = False) -> R:
     """Add what every result has, and to one that stands `alone` what it leaves out; a field that one of the `models`
     side by side reads is not said to change nothing. A run that never started says why by itself."""
-    off = (*_slides_on(case, response), *_slid_off(response)) if response.started else ()
+    off: tuple[Notice, ...] = ()
+    if response.started:
+        off = (*_slides_on(case, response), *_anchors_crossed(case, response), *_slid_off(response))
     response, between = _sequence(case, response)
     unused = unused_fields(case, models)
     vertical = () if response.vertical is None else response.vertical.warnings
@@ -429,6 +432,15 @@ def _slides_on(case: Case, response: Response) -> Iterator[Notice]:
         if at_rest / factor > sliding * (1.0 + 1e-9):
             where = Sentence.of(" at {at_m:g m}", at_m=crack.elevation) if case.further_cracks else ""
             yield Notice("slides-on", needed=at_rest / factor, sliding=sliding, where=where)
+
+
+def _anchors_crossed(case: Case, response: Response) -> Iterator[Notice]:
+    """Say where a slip crosses anchors that keep their prestress through it."""
+    for crack, alone in zip(response.cracks, case.single_crack_cases, strict=True):
+        slip = max(abs(crack.peak_slip_downstream_m), abs(crack.peak_slip_upstream_m))
+        if slip >= SHEARS_M and any(anchor.prestress for anchor in alone.anchors_at_crack):
+            where = Sentence.of(" at {at_m:g m}", at_m=crack.elevation) if case.further_cracks else ""
+            yield Notice("anchors-cross-slip", slip_m=slip, where=where)
 
 
 def _slid_off(response: Response) -> tuple[Notice, ...]:

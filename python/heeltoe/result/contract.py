@@ -68,6 +68,8 @@ LEAST_M, LEAST_RAD = 1e-5, 1e-6
 #: What a joint meter on a dam is read to: slips that differ by less differ by nothing, and both ends of the crack of an
 #: elastic dam shift by hundredths of a millimetre in every earthquake, with nothing happening to the dam.
 JOINT_METER_M = 1e-4
+#: So much slip is more than grout and bore hole leave a tendon that crosses the crack.
+SHEARS_M = 0.01
 
 #: Small rotations are told from large ones here [rad]: the cosine of more is no longer one within half a per cent, and
 #: the models that take rotations for small have no result beyond.

@@ -170,6 +170,12 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
         "anchors.capacity",
         "an anchor without a capacity bears any force, here up to {force_n:.4g MN/m}: give {field} to have it judged",
     ),
+    "anchors-cross-slip": (
+        "caution",
+        "anchors",
+        "a slip of {slip_m:.3g mm} crosses anchors{where} whose prestress counts to the end of the run, and few "
+        "tendons bear that: a run without {field} bounds what the dam does if they break",
+    ),
     "rotation-large": (
         "caution",
         "analysis.rotation",

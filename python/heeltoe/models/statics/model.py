@@ -22,6 +22,7 @@ from heeltoe.models.statics.criteria import unread
 from heeltoe.models.statics.levels import critical_water_levels, highest_level
 from heeltoe.models.statics.load_case import LoadCase, along_line
 from heeltoe.models.statics.own_criteria import Rules, rules_of
+from heeltoe.result.contract import SHEARS_M
 from heeltoe.result.write import build_info, critical_json
 from heeltoe.warnings.notice import Notice, by_gravity
 
@@ -237,7 +238,7 @@ def _about_the_drains(case: Case) -> Iterator[Notice]:
 
 def _about_anchors_after(case: Case, slip: float, source: str, after: LoadCase) -> Iterator[Notice]:
     """Say what stays of the sliding factor after the earthquake if its slip has broken the anchors."""
-    if not any(anchor.prestress for anchor in case.anchors) or abs(slip) < _SHEARS:
+    if not any(anchor.prestress for anchor in case.anchors) or abs(slip) < SHEARS_M:
         return
     bare = post_seismic(case.model_copy(update={"anchors": ()}), slip, source)
     factor = None if bare is None else bare.load_case.sliding_factor
@@ -266,8 +267,6 @@ def _unread(case: Case, rules: Rules) -> tuple[Notice, ...]:
     return (Notice("fields-idle", field=idle[0], fields=", ".join(idle), why=why),) if idle else ()
 
 
-# So much slip [m] is more than grout and bore hole leave a tendon that crosses the crack.
-_SHEARS = 0.01
 _UNKNOWN = "no slip is given, taken as zero"
 
 
