@@ -114,3 +114,10 @@ def test_the_uplift_diagram_has_the_shape_of_the_pressure():
 def test_a_crack_near_the_crest_has_a_picture_of_its_own():
     assert len(section_figure(case(name="typical-height")).axes) == 2
     assert len(section_figure(case()).axes) == 1
+
+
+def test_the_picture_of_page_one_has_every_crack():
+    from heeltoe.views.figures.summary import summary_figure
+
+    texts = [text.get_text() for axes in summary_figure(example("two-cracks"), ()).axes for text in axes.texts]
+    assert {"crack", "another crack"} <= set(texts)

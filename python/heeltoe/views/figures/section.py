@@ -72,7 +72,7 @@ def section_figure(case: Case, units: str = "si") -> Figure:
     draw_crack(canvases[-1], case, small=False)
     if not one:
         draw_crack(canvases[0], case, small=True)
-    _draw_further(canvases[0], case)
+    draw_further(canvases[0], case)
     if anchored is not None:
         canvases[-1].label("anchors" if len(case.anchors) > 1 else "anchor", anchored, "#B22222", first=(1, 1))
     draw_forces(canvases[-1], case, system)
@@ -160,7 +160,7 @@ def draw_crack(canvas: Canvas, case: Case, *, small: bool) -> None:
     canvas.label("centroid", section.centroid, first=(-1, 1))
 
 
-def _draw_further(canvas: Canvas, case: Case) -> None:
+def draw_further(canvas: Canvas, case: Case) -> None:
     """Draw the cracks beside that of ``[crack]``."""
     for place, each in enumerate(case.single_crack_cases):
         if place != case.asked:

@@ -10,7 +10,7 @@ from heeltoe.result.response import Response
 from heeltoe.units.systems import Units, unit_system
 from heeltoe.views.figures.canvas import Canvas
 from heeltoe.views.figures.panels import beside, largest, slip_in_the_end
-from heeltoe.views.figures.section import corners, draw_bodies, draw_crack, draw_dimensions
+from heeltoe.views.figures.section import corners, draw_bodies, draw_crack, draw_dimensions, draw_further
 from heeltoe.views.figures.shaking import draw_horizontal
 from heeltoe.views.figures.style import COLOURS, WIDTH, styled
 from heeltoe.views.figures.time_axis import time_axis
@@ -58,6 +58,7 @@ def _draw_section(axes: Axes, case: Case, units: Units) -> None:
     draw_bodies(canvas, case)
     draw_dimensions(canvas, case, units, 0.0)
     draw_crack(canvas, case, small=True)
+    draw_further(canvas, case)
     axes.set_axis_off()
 
 
