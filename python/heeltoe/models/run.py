@@ -477,14 +477,14 @@ def _rigid(case: Case, earthquake: Earthquake, output_step: float | None) -> Res
 
 
 def _decoupled(case: Case, earthquake: Earthquake, output_step: float | None) -> DecoupledResponse:
-    from heeltoe.models.decoupled.model import run_decoupled
+    from heeltoe.models.decoupled.model import block_of_chain, run_decoupled
 
     found = run_decoupled(case, earthquake, output_step)
     if found.outcome != "ok" or not found.impacts or not case.crack.restitution:
         return found
     # Blows are where the block and the dam differ most, and the restitution is seldom known.
     dead = case.model_copy(update={"crack": case.crack.model_copy(update={"restitution": 0.0})})
-    other = run_decoupled(dead, earthquake.silent(found.silence_s), output_step)
+    other = block_of_chain(dead, earthquake.silent(found.silence_s), output_step)
     slip, without = found.residual_slip_m, other.residual_slip_m
     if other.outcome != "ok" or abs(slip - without) <= max(_DECIDES * abs(slip), _SLIGHT_M):
         return found

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats
+from heeltoe.base.cache import Kept
 from heeltoe.case.model import Case
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.models.decoupled.chain import Chain
@@ -53,6 +54,10 @@ class CrackMotion:
             ground.run_end,
             self.rotation if case.decoupled.rotation else None,
         )
+
+
+# The same motion of the same crack is asked for again: by a block without restitution, and by a longer run's first try.
+_KEPT: Kept[tuple[Floats, Floats, Floats]] = Kept(16)
 
 
 def crack_motion(chain: Chain, ground: Earthquake) -> tuple[CrackMotion, float]:
@@ -141,6 +146,12 @@ def accelerations(chain: Chain, shaking: Shaking, step: float) -> tuple[Floats, 
     ground : ndarray, shape (2, k)
         The ground's, on the same moments.
     """
+    moved = [None if row is None else row.tobytes() for row in (shaking.time, shaking.horizontal, shaking.up)]
+    return _KEPT.get((chain, step, *moved), lambda: _accelerations(chain, shaking, step))
+
+
+def _accelerations(chain: Chain, shaking: Shaking, step: float) -> tuple[Floats, Floats, Floats]:
+    """Compute what :func:`accelerations` returns."""
     time, up = shaking.time, shaking.up
     pieces = np.diff(time)
     base = np.stack([shaking.horizontal, np.zeros_like(time) if up is None else up])

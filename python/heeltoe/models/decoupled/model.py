@@ -12,7 +12,7 @@ from heeltoe.base.arrays import Floats
 from heeltoe.base.blas import one_blas_thread
 from heeltoe.case.model import Case
 from heeltoe.case.warnings import concrete_warnings
-from heeltoe.mechanics.block import build_block
+from heeltoe.mechanics.block import Block, build_block
 from heeltoe.mechanics.references import cited
 from heeltoe.models.decoupled.chain import Chain as Part
 from heeltoe.models.decoupled.chain import bonded_chain, chain
@@ -74,14 +74,8 @@ def run_decoupled(case: Case, earthquake: Earthquake, output_step: float | None 
         Where the crack is at the base, or the case has no modulus.
     """
 
-    def run(through: Earthquake) -> _Run:
-        check_cost(case, Cost(0.0, _BYTES * through.end / FIRST_STEP), "motion.duration")
-        at_crack, straightness = crack_motion(part, through)
-        step = step_of(through) if output_step is None else output_step
-        return _Run(through, at_crack, straightness, run_rigid(case, at_crack.felt(case, through), step, block))
-
     part, block = chain(case), build_block(case)
-    last = until_rest(run, lambda each: reach_of_block(each.found), earthquake, case.analysis.silence, swings=True)
+    last = _run_until_rest(case, part, block, earthquake, output_step)
     found, earthquake, at_crack = last.found, last.earthquake, last.at_crack
     if not found.started:
         return of_the_chain(found, earthquake)
@@ -103,6 +97,21 @@ def run_decoupled(case: Case, earthquake: Earthquake, output_step: float | None 
         warnings=(*found.warnings, *concrete_warnings(case), *_warnings(level)),
         references=(*found.references, *cited("decoupled", "piecewise exact")),
     )
+
+
+def block_of_chain(case: Case, earthquake: Earthquake, output_step: float | None = None) -> Response:
+    """Return what the block of the chain does, without what :func:`run_decoupled` says of the motion of the crack."""
+    return _run_until_rest(case, chain(case), build_block(case), earthquake, output_step).found
+
+
+def _run_until_rest(case: Case, part: Part, block: Block, earthquake: Earthquake, output_step: float | None) -> _Run:
+    def run(through: Earthquake) -> _Run:
+        check_cost(case, Cost(0.0, _BYTES * through.end / FIRST_STEP), "motion.duration")
+        at_crack, straightness = crack_motion(part, through)
+        step = step_of(through) if output_step is None else output_step
+        return _Run(through, at_crack, straightness, run_rigid(case, at_crack.felt(case, through), step, block))
+
+    return until_rest(run, lambda each: reach_of_block(each.found), earthquake, case.analysis.silence, swings=True)
 
 
 def step_of(earthquake: Earthquake) -> float:

@@ -18,6 +18,7 @@ from heeltoe.models.flexible.body.modes import part_periods
 from heeltoe.models.flexible.body.reduced import FlexibleDam
 from heeltoe.models.flexible.body.step import longest_step
 from heeltoe.models.flexible.body.stress_places import StressRows, in_bodies
+from heeltoe.models.runner import STEP
 from heeltoe.motion.moments import step_ends, step_means
 from heeltoe.result.contract import JOINT_METER_M
 from heeltoe.result.rest import LAST_S
@@ -33,7 +34,7 @@ _ENOUGH_STEPS, _FEWEST_STEPS = 30.0, 8.0
 _TOO_FEW_STEPS = 16.0
 #: Stresses are looked at about so often [s]; twice as often finds 1.3 % more at most (docs/flexible.md).
 _STRESS_STEP = 2e-3
-# Steps fit a silence where so little of it is left [of it].
+# A silence is a multiple of its parts where so little of one is left.
 _FITS = 1e-9
 
 
@@ -123,14 +124,13 @@ class ShakenDam:
         )
 
     def pauses(self, step: float, seconds: float, longest: float) -> Pauses | None:
-        """Return how a run at about this step goes on through up to `longest` [s] of silence, `seconds` at a time; None
-        where steps do not fit them, or the motion is taken at the ends of steps."""
+        """Return how a run at about this step goes on through up to `longest` [s] of silence, `seconds` at a time, in
+        whole steps; None where it is no multiple of them, or the motion is taken at the ends of steps."""
         _, step = _steps(self.shaking, step)
-        steps, count = seconds / step, longest / seconds
-        fits = abs(steps - round(steps)) < _FITS * steps and abs(count - round(count)) < _FITS
-        if not fits or self.case.flexible.contact == "idce":
+        count = longest / seconds
+        if abs(count - round(count)) > _FITS or self.case.flexible.contact == "idce":
             return None
-        return Pauses(round(steps), round(count))
+        return Pauses(round(seconds / step), round(count))
 
     def run_scaled(
         self, step: float, scales: Floats, ending: Ending | None = None, threads: int = 0
@@ -161,17 +161,18 @@ class ShakenDam:
 
     def _ground(self, step: float) -> tuple[int, float, Floats]:
         """Return how many steps of about this length make the whole run, their length [s], and what the kernel needs to
-        know of the ground in them. Silence after a motion leaves the steps before it as they are, where they fit it."""
+        know of the ground in them. Silence after a motion leaves the steps before it as they are: it lasts whole steps,
+        each of its parts of :data:`~heeltoe.models.runner.STEP` as many."""
         shaking, before = self.shaking, self.shaking.before
         if self.case.flexible.contact == "idce":
             count, step = _steps(shaking, step)
             return count, step, step_ends(shaking, count)
         if before is not None:
             count, short = _steps(before, step)
-            silent = (shaking.end - before.end) / short
-            if abs(silent - round(silent)) < _FITS * silent:
-                means = step_means(before, count)
-                return count + round(silent), short, np.vstack([means, np.zeros((round(silent), 2))])
+            parts = (shaking.end - before.end) / STEP
+            whole = abs(parts - round(parts)) < _FITS
+            silent = round(parts) * round(STEP / short) if whole else round((shaking.end - before.end) / short)
+            return count + silent, short, np.vstack([step_means(before, count), np.zeros((silent, 2))])
         count, step = _steps(shaking, step)
         return count, step, step_means(shaking, count)
 
