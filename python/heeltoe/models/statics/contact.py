@@ -9,7 +9,6 @@ from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial import Chebyshev
-from scipy.optimize import brentq
 
 from heeltoe.base.arrays import Floats
 from heeltoe.mechanics.loads import Resultant
@@ -153,6 +152,8 @@ class _State:
 
     def first_safe(self, side: str) -> tuple[float | None, int]:
         """Return the smallest opening from one end that stays as it is, and the iterations it took to find it."""
+        from scipy.optimize import brentq
+
         iterations = 0
         for low, high in self._stretches(side):
             # Just before its end a stretch still has the strength and the drains of its beginning.

@@ -9,7 +9,6 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from scipy import stats
 
 from heeltoe.base.arrays import Floats, Integers
 from heeltoe.result.contract import JOINT_METER_M
@@ -149,6 +148,8 @@ def compared(walk: Walk, demand: str) -> dict[str, dict[str, Any]]:
 
 def _line(trait: Floats, over: Floats) -> dict[str, float] | None:
     """Return slope and p-value of a line; None where too few events tell of one."""
+    from scipy import stats
+
     known = np.isfinite(trait)
     if known.sum() < _LEAST or np.ptp(trait[known]) <= 1e-9:
         return None

@@ -13,7 +13,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
 from scipy.special import ndtr
 
 from heeltoe.base.arrays import Floats
@@ -93,6 +92,8 @@ class Curve:
 
     def within(self, strength: Floats) -> tuple[Floats, Floats] | None:
         """Return what the probability lies within at some strengths, to first order; None where that is not known."""
+        from scipy import stats
+
         if self.covariance is None or self.median is None or self.dispersion is None:
             return None
         middle, both, spread = self.covariance
@@ -245,6 +246,8 @@ def _intervals(
     far as Student's distribution has it. Of intervals that ought to hold in 90 % of all cases, those of 21 and of 42
     events hold in 87 to 89 % for the dispersion; a bootstrap of events, without its bias or not, in 75 to 86 %.
     """
+    from scipy import stats
+
     events, mean = len(left), left.mean(axis=0)
     deviation = np.sqrt((events - 1.0) / events * np.sum((left - mean) ** 2, axis=0))
     middle = np.array(estimate) - (events - 1.0) * (mean - estimate)

@@ -6,8 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
-from scipy.optimize import minimize_scalar
 from scipy.special import log_ndtr
 
 from heeltoe.base.arrays import Floats, Integers
@@ -129,6 +127,8 @@ def fit(seen: Witnesses, weight: Floats) -> Floats:
     """
     # P = Phi(a + b z) with a standard variable z; the likelihood is concave in a and b: Newton's steps, halved as long
     # as they go down.
+    from scipy import stats
+
     middle, scale = np.average(seen.logarithm, weights=seen.runs), max(float(seen.logarithm.std()), 1e-9)
     z = (seen.logarithm - middle) / scale
     share = (weight @ seen.exceeding) / (weight @ seen.runs)
@@ -185,6 +185,8 @@ def within(seen: Witnesses, dispersion: float) -> float:
 
     Events of which all runs exceed, or none, say nothing of it. It comes out too small where an event has few runs.
     """
+    from scipy.optimize import minimize_scalar
+
     total, hits = (np.bincount(seen.event, counts, seen.events) for counts in (seen.runs, seen.exceeding))
     telling = ((hits > 0.0) & (hits < total))[seen.event]
     if not telling.any():

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
 
 from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
@@ -157,6 +156,8 @@ def law_of(distribution: Distribution, read: Callable[[object, str], float], fie
         Where its numbers do not make one.
     """
 
+    from scipy import stats
+
     numbers, problems = dict[str, float](), Problems()
     for name in ("from", "mode", "to", "mean", "std", "median", "lower", "upper"):
         value = getattr(distribution, "from_" if name == "from" else name)
@@ -198,6 +199,8 @@ class _CutLognormal:
     """The lognormal distribution between two bounds, which scipy has not; what is used of it."""
 
     def __init__(self, median: float, dispersion: float, low: float, high: float) -> None:
+        from scipy import stats
+
         self._normal = stats.truncnorm(low, high, 0.0, 1.0)
         self._median, self._dispersion = median, dispersion
 

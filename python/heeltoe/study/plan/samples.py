@@ -8,8 +8,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
-from scipy.stats import qmc
 
 from heeltoe.base.arrays import Floats
 from heeltoe.errors.error import InputError
@@ -130,6 +128,8 @@ class Samples:
 
     def _mixed(self, shares: Floats) -> Floats:
         """Correlate columns through normal ones: by the matrix, each column keeping its distribution."""
+        from scipy import stats
+
         assert self._mixing is not None
         size = len(self._mixing)
         normal = stats.norm.ppf(np.clip(shares[:, :size], 1e-12, 1.0 - 1e-12)) @ self._mixing.T
@@ -138,6 +138,8 @@ class Samples:
 
 def _sobol(dimensions: int, seed: int, first: int, count: int) -> Floats:
     """Return points of Sobol's sequence from `first` on."""
+    from scipy.stats import qmc
+
     sequence = qmc.Sobol(dimensions, rng=np.random.default_rng([seed, 0]))
     if first:
         return np.asarray(sequence.fast_forward(first).random(count), dtype=np.float64)
@@ -147,6 +149,8 @@ def _sobol(dimensions: int, seed: int, first: int, count: int) -> Floats:
 
 @lru_cache(maxsize=2)
 def _block(method: str, dimensions: int, size: int, seed: int, block: int) -> Floats:
+    from scipy.stats import qmc
+
     if method == "sobol":
         return _sobol(dimensions, seed, block * BLOCK, size)
     cube = qmc.LatinHypercube(dimensions, rng=np.random.default_rng([seed, block]))
