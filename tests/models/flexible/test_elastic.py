@@ -222,13 +222,18 @@ def test_mirror_image(corners, tenths, up, down):
     mirrored = [(-x, z) for x, z in corners]
     two = built(mirrored, tenths / 10 * top, reservoir=water[1], tailwater=water[0], flexible=options)[2]
     moved, image = bonded(one), bonded(two)
+    # A slender column bends so much more than it is strained that the last bit of its stiffness shows: by the fourth
+    # power of its slenderness, 2e-11 at 12, 1e-9 at 48, 1.5e-7 at 150.
+    faces = (one.upper.mesh.nodes[face, 0] for face in (one.upper.mesh.upstream, one.upper.mesh.downstream))
+    slenderness = top / np.abs(np.subtract(*faces)).min()
+    rounded = max(1e-7, 2e-14 * slenderness**4)
     assert image[2].reshape(-1, 2)[::-1] * [-1, 1] == pytest.approx(
-        moved[2].reshape(-1, 2), abs=1e-7 * np.abs(moved[2]).max()
+        moved[2].reshape(-1, 2), abs=rounded * np.abs(moved[2]).max()
     )
     for face, other in (("upstream", "downstream"), ("downstream", "upstream")):
         found = image[0].reshape(-1, 2)[getattr(two.upper.mesh, face)] * [-1, 1]
         expected = moved[0].reshape(-1, 2)[getattr(one.upper.mesh, other)]
-        assert found == pytest.approx(expected, abs=1e-7 * np.abs(moved[0]).max())
+        assert found == pytest.approx(expected, abs=rounded * np.abs(moved[0]).max())
 
 
 # Errors
