@@ -15,6 +15,12 @@ from shared.dams import ROOT
 STEEL = {"head_x": "3 m", "head_elevation": "99 m", "foot_x": "9 m", "foot_elevation": "-9 m", "prestress": "2 MN/m"}
 LAW = {"name": "slip weakening", "peak_friction": 1.1, "residual_friction": 0.9, "slip": "20 mm"}
 BOND = {"name": "cohesion", "cohesion": "0.1 MPa", "residual_friction": 0.9}
+JOINT = {
+    "tensile_strength": "0.5 MPa",
+    "cohesion": "1 MPa",
+    "fracture_energy": "100 N/m",
+    "shear_energy": "500 N/m",
+}
 # A feature, and the changes that give it to the case.
 CHANGES = {
     "several cracks": {"further_cracks": [{"elevation": "70 m"}]},
@@ -24,6 +30,8 @@ CHANGES = {
     "roughness": {"crack.roughness": {"asperity_height": "2 mm", "wave_length": "50 mm"}},
     "a friction law": {"crack.law": LAW},
     "a law with cohesion": {"crack.law": BOND},
+    "a bonded joint": {"crack.bond": JOINT},
+    "all nodes watched twice": {"flexible.contactors": 5},
     "cohesion of the static checks": {"statics.cohesion": "0.1 MPa", "statics.bonded": 0.5},
     "uplift that changes during shaking": {"uplift.during_shaking": "zero while open"},
     "an anchor placed on one crack": {"anchors": [{"distance": "5 m", "prestress": "1 MN/m"}]},

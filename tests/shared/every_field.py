@@ -212,6 +212,19 @@ _STRAIGHT_ALONE = (
     "uplift.opening",
     "flexible.elements_across_below",
 )
+# Strong enough to hold for a while, weak enough to break.
+BONDED: Fields = {
+    "tensile_strength": "0.1 MPa",
+    "cohesion": "0.3 MPa",
+    "fracture_energy": "300 N/m",
+    "shear_energy": "100 N/m",
+    "dynamic_factor": 1.1,
+}
+HELPED |= {f"crack.bond.{name}": ({"crack.bond": BONDED}, None) for name in BONDED}
+HELPED |= {
+    f"further_cracks[0].bond.{name}": (SEVERAL | {"further_cracks": [SECOND | {"bond": BONDED}]}, None)
+    for name in BONDED
+}
 HELPED["crack.kinks"] = (dict.fromkeys(_STRAIGHT_ALONE, GONE), [["8 m", "0.5 m"]])
 HELPED |= {
     "crack.uplift": (SEVERAL | {"crack.uplift": "none"}, "uniform"),

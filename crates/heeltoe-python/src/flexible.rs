@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use heeltoe::flexible::{
-    many, rest, simulate, Dam, FaceAnchor, Inside, Line, Modes, Penalty, Point, RisingWater,
+    many, rest, simulate, BondLaw, Dam, FaceAnchor, Inside, Line, Modes, Penalty, Point, RisingWater,
     RockingThresholds, Scheme, Shaking, Sides, Span, Stressed, Stresses, Summary, UntilRest, Wanted,
 };
 use heeltoe::inside::Law;
@@ -127,6 +127,7 @@ pub struct CrackLine<'py> {
     lower: (usize, usize),
     friction: [f64; 2],
     law: Option<Bound<'py, FrictionLaw>>,
+    bond: Option<[f64; 5]>,
     give: (f64, f64),
     angles: [Vec<f64>; 2],
 }
@@ -138,6 +139,14 @@ impl CrackLine<'_> {
             nodes: [span(self.upper), span(self.lower)],
             friction: self.friction,
             law: self.law.as_ref().map(|law| law.get().0.clone()),
+            bond: self
+                .bond
+                .map(|[tensile, cohesion, opening, shear, dynamic]| BondLaw {
+                    tensile,
+                    cohesion,
+                    energy: [opening, shear],
+                    dynamic,
+                }),
             give: RockingThresholds {
                 rotation: self.give.0,
                 gap: self.give.1,
@@ -194,8 +203,13 @@ impl CrackedDam {
         if self.dam.cracks.len() > 1 {
             return Err(wrong("the penalty method knows one crack"));
         }
-        if self.dam.cracks.iter().any(|line| line.law.is_some()) {
-            return Err(wrong("the penalty method knows constant friction"));
+        if self
+            .dam
+            .cracks
+            .iter()
+            .any(|line| line.law.is_some() || line.bond.is_some())
+        {
+            return Err(wrong("the penalty method knows constant friction and no bond"));
         }
         if self.dam.bodies.upper.dampers() > 0 {
             return Err(wrong("the penalty method has no dashpots between the modes"));

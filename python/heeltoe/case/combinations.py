@@ -172,6 +172,7 @@ FEATURES = {
         Feature(
             "a friction law", ("crack.law", "further_cracks.law"), "give coefficients of friction", _of_cracks("law")
         ),
+        Feature("a bonded joint", ("crack.bond", "further_cracks.bond"), "remove bond", _of_cracks("bond")),
         Feature(
             "a law with cohesion", ("crack.law.cohesion",), "give the cohesion in statics.cohesion alone", _cohesive_law
         ),
@@ -232,6 +233,12 @@ FEATURES = {
             _options("flexible.damping", "flexible.virtual_mass", among=("thesis",)),
         ),
         Feature(
+            "all nodes watched twice",
+            ("flexible.contactors",),
+            "leave flexible.contactors out",
+            _options("flexible.contactors", among=(5,)),
+        ),
+        Feature(
             "meshes from files",
             ("flexible.mesh_above", "flexible.mesh_below"),
             "remove the meshes",
@@ -278,6 +285,11 @@ RULES = (
     Rule("an anchor with stiffness", "roughness", (), "no model combines them"),
     Rule("roughness", "a friction law", (), "coefficients of a law are those of plane flanks"),
     Rule("roughness", "kinks", (), _STRAIGHT),
+    Rule("a bonded joint", "kinks", (), _STRAIGHT),
+    Rule("a bonded joint", "a friction law", (), "below the bond there is constant friction"),
+    Rule("a bonded joint", "roughness", (), "below the bond the faces are plane"),
+    Rule("a bonded joint", "penalty contact", (), _NOT_THERE),
+    Rule("a bonded joint", "all nodes watched twice", (), "each node would have its bond twice"),
     Rule("uplift that changes during shaking", "kinks", (), _STRAIGHT),
     Rule("penalty contact", "kinks", (), _STRAIGHT),
     Rule("meshes from files", "kinks", (), _STRAIGHT),
@@ -292,6 +304,7 @@ RULES = (
         "what is above one of several cracks is not a single block",
     ),
     Rule("kinks", "", _OF_BLOCKS, "a block slides on a straight line"),
+    Rule("a bonded joint", "", _OF_BLOCKS, "a rigid block has no stresses that could break a bond step by step"),
     Rule("aftershocks", "several cracks", ("rigid",), "two blocks run through one motion"),
     Rule("a friction law", "several cracks", ("rigid",), "two blocks have constant coefficients of friction"),
     Rule("rotation beyond small angles", "several cracks", ("rigid",), "two blocks rotate by small angles"),

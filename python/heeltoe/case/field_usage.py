@@ -49,6 +49,8 @@ READ_BY: dict[str, frozenset[str]] = {
     **dict.fromkeys(
         (f"further_cracks.law.{name}" for name in ("form", "slip", "speed", "surface")), frozenset({"flexible"})
     ),
+    "crack.bond": frozenset({"flexible"}),
+    "further_cracks.bond": frozenset({"flexible"}),
     "reservoir.virtual_mass_rotates": _BLOCKS,
     "tailwater.virtual_mass_rotates": _BLOCKS,
     "reservoir.hydrodynamic": _BLOCKS | {"statics"},

@@ -76,6 +76,13 @@ restitution = 0.5                  # of a rocking block's impacts: 0 stays down,
 # wave_length = "200 mm"           # from peak to peak
 # wear = "1e-6 m^2/J"              # c in i = i0 exp(-c W), W the work of friction per area
 
+# [crack.bond]                     # a joint that is not cracked before the earthquake; cores give its numbers
+# tensile_strength = "0.8 MPa"     # static; mass concrete itself has 1 to 3 MPa
+# cohesion = "1.2 MPa"             # at least friction times tensile_strength
+# fracture_energy = "100 N/m"      # to open it; mass concrete takes 100 to 300 N/m
+# shear_energy = "1000 N/m"        # to shear it off, beside friction
+# dynamic_factor = 1.0             # on both strengths during the earthquake
+
 # A friction law, in place of the coefficients (heeltoe law NAME draws one); each knows some of these fields:
 # [crack.law]
 # name = "slip weakening"          # or "speed weakening", "cohesion", "barton-bandis", "lift joint"

@@ -90,6 +90,10 @@ OF_DAMS: dict[str, tuple[str, str]] = {
         "the strength falls with the normal stress before {value}",
         "give points between which the coefficient times the stress grows",
     ),
+    "bond-apex": (
+        "{value} is less than friction times tensile_strength, {least}: the joint would slip before it bears that",
+        "give a cohesion of at least {least}, or a lower bond.tensile_strength",
+    ),
     "rough-locks": (
         "friction and flanks come to {value} together: a crack that steep locks",
         "lower it, or the friction, or give a longer wave_length, so that they stay below 85 degrees",

@@ -70,7 +70,7 @@ CATALOGUE: dict[str, tuple[str, str]] = {
     ),
     "step-stiff": (
         "is so stiff that the time step would have to be below {step}",
-        "give a wider uplift.opening or a softer anchor, or a flexible.time_step of that size",
+        "give a wider uplift.opening, a softer anchor or a tougher bond, or a flexible.time_step of that size",
     ),
     "motion-source": ("has no source", "give file or points"),
     "motion-points": ("the times {value} do not ascend", "give at least two points in order of time"),

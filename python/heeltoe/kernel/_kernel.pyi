@@ -448,6 +448,8 @@ class CrackLine(Protocol):
     def give(self) -> tuple[float, float]: ...
     @property
     def angles(self) -> tuple[list[float], list[float]]: ...
+    @property
+    def bond(self) -> tuple[float, float, float, float, float] | None: ...
 
 class StressRows(Protocol):
     """Stresses by the modes; see :class:`heeltoe.models.flexible.body.stress_places.StressRows`."""
@@ -505,6 +507,15 @@ class DamSummary:
     crack_impact: Final[float]
     slip_path: Final[float]
     bond_energy: Final[float]
+    energy_fracture: Final[float]
+    crack_fracture: Final[float]
+    first_cracking: Final[float]
+    first_cracking_place: Final[float]
+    cracked_through: Final[float]
+    cracked_from_heel: Final[float]
+    cracked_from_toe: Final[float]
+    cracked_length: Final[float]
+    softening_length: Final[float]
 
     def by_name(self) -> dict[str, float]:
         """Return the numbers by their names, for tables."""
@@ -531,6 +542,11 @@ class DamFrames:
     energy_numerical: Final[Floats]
     slip_path: Final[Floats]
     friction_strength: Final[Floats]
+    energy_fracture: Final[Floats]
+    cracked_from_heel: Final[Floats]
+    cracked_from_toe: Final[Floats]
+    cracked_length: Final[Floats]
+    softening_length: Final[Floats]
 
     def by_name(self) -> dict[str, Floats]:
         """Return the columns by their names, for tables."""

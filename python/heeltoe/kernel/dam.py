@@ -42,6 +42,9 @@ class CrackLine:
         A friction law in place of the coefficients.
     angles
         Of the segments of the upper and of the lower face to the line from heel to toe [rad]; none of a straight crack.
+    bond
+        Of a bonded joint: tensile strength and cohesion [Pa], energies of opening and of shear [J/m2], and the factor
+        on both strengths during the earthquake.
     """
 
     upper: tuple[int, int]
@@ -50,6 +53,7 @@ class CrackLine:
     give: tuple[float, float] = (0.0, 0.0)
     law: FrictionLaw | None = None
     angles: tuple[list[float], list[float]] = ([], [])
+    bond: tuple[float, float, float, float, float] | None = None
 
 
 def only_crack(

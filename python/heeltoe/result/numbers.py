@@ -88,6 +88,28 @@ class ElasticFrictionLaw(FrictionLawState):
     bond_energy_j: Annotated[float | None, Number("Energy that broke the bond; null without cohesion.", _JOULE)]
 
 
+class BondState(Block):
+    """What has become of the bond of a joint."""
+
+    first_cracking_s: Annotated[float | None, Number("When the joint begins to crack; null where it holds.", "s")]
+    first_cracking_at_m: Annotated[
+        float | None, Number("Where it begins to crack, from the upstream face; null where it holds.", "m")
+    ]
+    cracked_through_s: Annotated[
+        float | None, Number("When it is cracked from face to face; null where a ligament is left.", "s")
+    ]
+    cracked_upstream_m: Annotated[float, Number("Length cracked from the upstream face in the end.", "m")]
+    cracked_downstream_m: Annotated[float, Number("Length cracked from the downstream face in the end.", "m")]
+    cracked_length_m: Annotated[float, Number("Length cracked in all.", "m")]
+    softening_length_m: Annotated[float, Number("Length that has begun to crack and still holds in part.", "m")]
+    fracture_energy_j: Annotated[float, Number("Energy that the bond took.", _JOULE)]
+    process_zone_m: Annotated[float, Number("Length over which the concrete softens at the tip of a crack.", "m")]
+    element_m: Annotated[float, Number("Longest element along the joint.", "m")]
+    tensile_strength_pa: Annotated[
+        float, Number("Tensile strength that the model takes: lower than given where elements are long.", "Pa")
+    ]
+
+
 class Roughness(Block):
     """What the asperities of a rough crack have come to."""
 
@@ -390,6 +412,7 @@ class ElasticCrack(CrackNumbers):
         ElasticFrictionLaw | None,
         Number("What the friction law of a crack has come to; null of coefficients."),
     ]
+    bond: Annotated[BondState | None, Number("What has become of the bond of a joint; null of a crack.")]
 
 
 class ElasticDam(Block):

@@ -25,6 +25,7 @@ from heeltoe.result.limits import LimitCheck
 from heeltoe.result.numbers import (
     OF_SEVERAL,
     AnchorForce,
+    BondState,
     CrackNumbers,
     FrictionLawState,
     Roughness,
@@ -139,6 +140,7 @@ class Numbered(ABC):
     events = Of[int]()
     rotation = Of[str]()
     friction_law = Of[FrictionLawState | None]()
+    bond = Of[BondState | None]()
     roughness = Of[Roughness | None]()
     drainage_by_motion = Of[list[float] | None]()
     overturned_about = Of[str | None]()

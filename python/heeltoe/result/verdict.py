@@ -14,6 +14,7 @@ from heeltoe.units.write import angle, length, speed
 # Not at run time: a response says its verdict in its JSON.
 if TYPE_CHECKING:
     from heeltoe.result.limits import LimitCheck
+    from heeltoe.result.numbers import BondState
     from heeltoe.result.response import Response
 
 # Less time in the air in all [s] is a few bounces, which the strikes tell of.
@@ -43,6 +44,7 @@ def verdict(response: Response, units: str = "si", *, brief: bool = False) -> st
         ]
     elif response.elastic:
         sentences = [
+            joint_said(response, units),
             _elastic_slip(response, units),
             _elastic_rocking(response) if brief else _openings(response, units),
             _other_cracks(response, units, brief),
@@ -146,6 +148,40 @@ def _slip(response: Response, units: str) -> str:
         return f"{dam} slides to and fro by up to {length(max(down, up), units)} and ends where it began."
     text = f"{dam} slides {length(abs(slip), units)} {_way(slip)}{_spread(response, units)}"
     return text + _on_the_way(slip, down, up, LEAST_M, units) + "."
+
+
+def joint_said(response: Response, units: str = "si") -> str:
+    """Say whether the joints of an elastic dam crack, from where, and what is left; nothing of a crack."""
+    if not response.several:
+        return _joint(response.bond, response.crack_width_m, "The joint", units)
+    return " ".join(
+        text
+        for crack in response.cracks
+        if (text := _joint(crack.bond, crack.crack_width_m, f"The joint at {_level(crack.elevation, units)}", units))
+    )
+
+
+def _joint(bond: BondState | None, width: float, joint: str, units: str) -> str:
+    if bond is None:
+        return ""
+    if bond.first_cracking_s is None:
+        return f"{joint} holds over its {length(width, units)}."
+    when = "before the earthquake" if bond.first_cracking_s == 0.0 else f"at {bond.first_cracking_s:.2f} s"
+    if bond.cracked_through_s is not None:
+        through = "already then" if bond.cracked_through_s == 0.0 else f"at {bond.cracked_through_s:.2f} s"
+        return f"{joint} begins to crack {when} and is cracked through {through}."
+    faces = [
+        f"{length(cracked, units)} from the {face} face"
+        for face, cracked in (("upstream", bond.cracked_upstream_m), ("downstream", bond.cracked_downstream_m))
+        if cracked > 0.0
+    ]
+    if not faces and bond.cracked_length_m > 0.0:
+        faces = [f"{length(bond.cracked_length_m, units)} between the faces"]
+    if not faces:
+        return (
+            f"{joint} begins to crack {when}, but holds: {length(bond.softening_length_m, units)} of it has softened."
+        )
+    return f"{joint} begins to crack {when}: {' and '.join(faces)} of {length(width, units)}; the rest holds."
 
 
 def _elastic_slip(response: Response, units: str) -> str:

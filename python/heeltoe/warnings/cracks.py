@@ -50,6 +50,13 @@ OF_CRACKS: dict[str, tuple[Severity, str, str]] = {
         "{field}: {wave_m:.3g m} is more than the crack is wide, {width_m:.4g m}: heel and toe would not stand on like "
         "flanks",
     ),
+    "joint-coarse": (
+        "caution",
+        "flexible.elements_across",
+        "elements of {element_m:.3g m} along the joint are longer than a third of its process zone of {zone_m:.3g m}; "
+        "the tensile strength is lowered from {given_pa:.3g MPa} to {taken_pa:.3g MPa}, which keeps the energy: give "
+        "more elements across",
+    ),
     "further-crack-uncertain": (
         "grave",
         "flexible.evidence",

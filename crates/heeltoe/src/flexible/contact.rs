@@ -18,6 +18,9 @@ use super::faces::{Face, Faces, Meeting};
 use super::kinks::{Corners, Turn};
 use super::place::Place;
 
+/// That of the contacts of a bonded joint.
+const SLACK: f64 = 1e-9;
+
 /// Weights of the nodes of both bodies in the motion of the upper face of a crack against the lower one.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Pair {
@@ -42,6 +45,9 @@ pub(super) struct Contactor {
     pub closed: bool,
     /// Whether it is a corner that the other face turns around.
     corner: bool,
+    /// How far beyond the end of the other face it still is at it, as a share of that face: rounding must not take the
+    /// bond of an end.
+    slack: f64,
     segment: usize,
 }
 
@@ -71,6 +77,11 @@ impl Contacts {
             let corners = lines.get(k).map_or_else(Corners::default, Corners::of);
             contactors.extend(chosen(kind, place.upper.count, place.lower.count));
             contactors.extend(turned_around(kind, &corners));
+            if lines.get(k).is_some_and(|line| line.bond.is_some()) {
+                contactors[first..]
+                    .iter_mut()
+                    .for_each(|contactor: &mut Contactor| contactor.slack = SLACK);
+            }
             cracks.push((*place, first..contactors.len(), corners));
         }
         Contacts {
@@ -194,6 +205,7 @@ fn chosen(kind: u8, upper: usize, lower: usize) -> Vec<Contactor> {
             of_upper,
             closed,
             corner: false,
+            slack: 0.0,
             segment: 0,
         })
     };
@@ -222,6 +234,7 @@ fn turned_around(kind: u8, corners: &Corners) -> Vec<Contactor> {
         of_upper,
         closed: false,
         corner: true,
+        slack: 0.0,
         segment: 0,
     };
     corners.standing_out(of_upper).map(contactor).collect()
@@ -245,10 +258,11 @@ impl Contactor {
         }
         let t = own[self.node];
         let (first, last) = (along[0], along[along.len() - 1]);
+        let slack = self.slack * (last - first);
         let inside = if self.closed {
-            first <= t && t <= last
+            first - slack <= t && t <= last + slack
         } else {
-            first < t && t < last
+            first + slack < t && t < last - slack
         };
         if !inside {
             return None;

@@ -13,6 +13,7 @@ use super::compliance::Compliance;
 use std::ops::Range;
 
 use super::bodies::Sides;
+use super::bond::Bonds;
 use super::contact::{Contacts, Pair};
 use super::coulomb::{Problem, Report, Solver, MANY};
 use super::dam::Dam;
@@ -20,6 +21,7 @@ use super::faces::Faces;
 use super::kinks::Turn;
 use super::law::Laws;
 use super::place::Place;
+use super::scheme::TimeStep;
 use super::status::Status;
 
 /// The contact problem of a step, in terms of both bodies.
@@ -33,6 +35,8 @@ pub(super) struct Crack {
     pub closed: Vec<bool>,
     /// What contacts of cracks with a law have been through.
     pub laws: Option<Laws>,
+    /// The bonds of joints.
+    pub bonds: Option<Bonds>,
     /// Coefficients of friction of each contact that sticks, and that slips.
     friction: Vec<[f64; 2]>,
     /// State of damping that the answers belong to.
@@ -40,8 +44,8 @@ pub(super) struct Crack {
 }
 
 impl Crack {
-    /// `dampers` is the number of dashpots that hold the crack back.
-    pub(super) fn new(dam: &Dam, dampers: usize) -> Self {
+    /// `dampers` is the number of dashpots that hold the crack back; `shaken` says that bonds have their dynamic strength.
+    pub(super) fn new(dam: &Dam, dampers: usize, shaken: bool) -> Self {
         let contacts = Contacts::new(dam.contactors, &Place::all(&dam.cracks), &dam.cracks);
         let m = contacts.len();
         let friction: Vec<[f64; 2]> = contacts
@@ -50,6 +54,7 @@ impl Crack {
             .flat_map(|(range, line)| range.map(|_| line.friction))
             .collect();
         let laws = Laws::new(dam, &contacts);
+        let bonds = Bonds::new(dam, &contacts, shaken);
         Crack {
             problem: Problem {
                 g: vec![0.0; 4 * m * m],
@@ -60,7 +65,7 @@ impl Crack {
                 scale: vec![0.0; 2 * m],
                 added: Vec::new(),
             },
-            solver: if m >= MANY && laws.is_none() {
+            solver: if m >= MANY && laws.is_none() && (bonds.is_none() || shaken) {
                 Solver::with_inverse(m)
             } else {
                 Solver::new(m)
@@ -69,6 +74,7 @@ impl Crack {
             before: vec![0.0; 2 * m],
             closed: vec![true; m],
             laws,
+            bonds,
             contacts,
             damping: None,
             friction,
@@ -116,11 +122,14 @@ impl Crack {
         }
     }
 
-    /// Let contacts with a law bear in a step of this length what they do as it begins.
+    /// Let contacts with a law, and bonds, bear in a step what they do as it begins.
     #[inline(always)]
-    pub(super) fn bear(&mut self, dt: f64) {
+    pub(super) fn bear(&mut self, step: TimeStep) {
         if let Some(laws) = &mut self.laws {
-            laws.set_up(&mut self.problem, &mut self.solver, &self.before, dt);
+            laws.set_up(&mut self.problem, &mut self.solver, &self.before, step.dt);
+        }
+        if let Some(bonds) = &mut self.bonds {
+            bonds.set_up(&mut self.problem, &self.solver, &self.contacts.gaps, step);
         }
     }
 
@@ -159,6 +168,14 @@ impl Crack {
     #[inline(always)]
     pub(super) fn impulses(&self, upper: &mut [f64], lower: &mut [f64]) {
         self.contacts.spread(&self.solver.p, upper, lower);
+    }
+
+    /// Whether the bond of a contact holds it under the force found.
+    pub(super) fn holds(&self, contact: usize) -> bool {
+        let pressed = self.solver.p[self.contacts.len() + contact];
+        self.bonds
+            .as_ref()
+            .is_some_and(|bonds| bonds.holds(contact, pressed))
     }
 
     /// Sums of the impulses of some contacts along and across their crack.

@@ -1,5 +1,6 @@
 //! A crack as data: its nodes, its friction, its shape.
 
+use super::bond::BondLaw;
 use crate::friction::Law;
 
 /// Some nodes of a body that follow each other.
@@ -20,6 +21,8 @@ pub struct Line {
     pub friction: [f64; 2],
     /// A friction law in their place.
     pub law: Option<Law>,
+    /// The bond of a joint that is not cracked; it has no friction law.
+    pub bond: Option<BondLaw>,
     /// Angles of the segments of its upper and of its lower face to the line from heel to toe (rad); none of a straight
     /// crack.
     pub angles: [Vec<f64>; 2],
@@ -34,6 +37,7 @@ impl Line {
             nodes: nodes.map(|count| Span { first: 0, count }),
             friction,
             law: None,
+            bond: None,
             angles: [Vec::new(), Vec::new()],
             give,
         }

@@ -68,6 +68,25 @@ impl Dam {
         if met != counts {
             return Err("every node of a body needs its crack");
         }
+        for line in &self.cracks {
+            let Some(bond) = line.bond else { continue };
+            let friction = line.friction[0].max(line.friction[1]);
+            if line.law.is_some() || self.contactors == 5 {
+                return Err("a bonded joint has constant friction, and its nodes are watched once");
+            }
+            let numbers = [
+                bond.tensile,
+                bond.cohesion,
+                bond.energy[0],
+                bond.energy[1],
+                bond.dynamic,
+            ];
+            if !numbers.iter().all(|number| *number > 0.0 && number.is_finite())
+                || bond.cohesion < friction * bond.tensile
+            {
+                return Err("a bond needs strengths and energies above zero, and a cohesion of friction times its tensile strength");
+            }
+        }
         if self.cracks.len() > 1 && !self.inside.is_empty() {
             return Err("water that follows and anchors know one crack alone");
         }

@@ -166,6 +166,11 @@ columns!(Snapshot<'_>, now => {
     "energy_numerical": now.ledger.numerical,
     "slip_path": now.summary.slip_path,
     "friction_strength": now.force[2],
+    "energy_fracture": now.summary.cracked.energy,
+    "cracked_from_heel": now.summary.cracked.lengths[0],
+    "cracked_from_toe": now.summary.cracked.lengths[1],
+    "cracked_length": now.summary.cracked.lengths[2],
+    "softening_length": now.summary.cracked.lengths[3],
 });
 
 impl Snapshot<'_> {

@@ -32,6 +32,8 @@ pub struct Ledger {
     pub impact: f64,
     /// Lost to contact along it.
     pub friction: f64,
+    /// Taken by the bond of joints: what broke it, and what it holds while it softens.
+    pub fracture: f64,
     /// What contact has added in steps in which its work was positive; it ought to add nothing.
     pub gained: f64,
     /// All that went in or out, without sign.
@@ -42,7 +44,7 @@ impl Ledger {
     /// Loss that only the scheme itself can explain.
     pub(super) fn unexplained(&self) -> f64 {
         let change = self.stored + self.penalty - self.start;
-        self.input - self.damping - self.impact - self.friction - change
+        self.input - self.damping - self.impact - self.friction - self.fracture - change
     }
 
     /// What is not accounted for, over the turnover.

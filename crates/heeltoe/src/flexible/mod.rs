@@ -5,6 +5,7 @@
 
 mod bodies;
 mod body;
+mod bond;
 mod compliance;
 mod contact;
 mod contact_operator;
@@ -42,6 +43,7 @@ mod walk;
 
 pub use bodies::Sides;
 pub use body::{Modes, ReducedBody};
+pub use bond::{BondLaw, Cracked};
 pub use crack_forces::{FaceAnchor, FollowingWater, Inside, Point, RisingWater};
 pub use crack_line::{Line, RockingThresholds, Span};
 pub use dam::{Dam, Shaking, UntilRest, Wanted};

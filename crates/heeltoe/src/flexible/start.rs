@@ -120,7 +120,7 @@ fn find(dam: &Dam, stop: Stop) -> Option<Still> {
         return None;
     }
     let mut sides = dam.bodies.map(|body| Side::new(body, HOLD * lowest));
-    let mut crack = Crack::new(dam, 0);
+    let mut crack = Crack::new(dam, 0, false);
     let places = Place::all(&dam.cracks);
     let bonded = slips(&places, &sides);
     let stretched = dam
@@ -175,8 +175,15 @@ fn step(dam: &Dam, crack: &mut Crack, sides: &mut Sides<Side>) {
     crack.contacts.relative(free, &mut crack.problem.b);
     crack.problem.h.copy_from_slice(&crack.contacts.gaps);
     crack.set_up();
-    crack.bear(ONE.dt);
+    crack.bear(ONE);
     let mut report = Report::default();
+    if let Some(bonds) = &mut crack.bonds {
+        report.go_on(bonds.rest::<Plain>(&mut crack.problem, &mut crack.solver, ONE));
+        bonds.settle();
+        let (upper, lower) = sides.both_mut(|side| &mut side.force);
+        crack.impulses(upper, lower);
+        return;
+    }
     loop {
         report.go_on(crack.solver.solve::<Plain>(&mut crack.problem, &mut Known));
         let (problem, solver) = (&mut crack.problem, &mut crack.solver);
@@ -227,6 +234,7 @@ fn still(places: &[Place], sides: &Sides<Side>, crack: Crack, bonded: &[f64]) ->
         .map(|(k, status)| match status {
             Status::Absent => Status::Absent,
             _ if crack.solver.p[crack.contacts.len() + k] > 0.0 => Status::Stick,
+            _ if crack.holds(k) => Status::Stick,
             _ => Status::Open,
         });
     let status: Vec<Status> = status.collect();
@@ -250,6 +258,7 @@ fn still(places: &[Place], sides: &Sides<Side>, crack: Crack, bonded: &[f64]) ->
         force: both(&|side| side.force.clone()),
         status,
         contact: crack.solver.p,
+        bonds: crack.bonds,
         worked: crack.laws.map_or_else(Vec::new, |laws| laws.contacts),
     }
 }

@@ -138,6 +138,9 @@ impl<'a> Moreau<'a> {
             if let Some(laws) = &mut walk.crack.laws {
                 laws.begin_at(&still.worked, &still.contact);
             }
+            if let (Some(bonds), Some(still_bonds)) = (&mut walk.crack.bonds, &still.bonds) {
+                bonds.begin_at(still_bonds, &still.contact);
+            }
         }
         Moreau {
             walk,
@@ -205,7 +208,7 @@ impl<'a> Moreau<'a> {
             *h = (gap.max(0.0) / dt).max(back * approach);
         }
         crack.set_up();
-        crack.bear(dt);
+        crack.bear(self.step);
     }
 
     /// Let what is in the crack beside contact push the nodes of both faces.
@@ -282,7 +285,11 @@ impl<'a> Moreau<'a> {
                     softness,
                 };
                 let mut report = Report::default();
-                loop {
+                if let Some(bonds) = &mut crack.bonds {
+                    let (problem, solver) = (&mut crack.problem, &mut crack.solver);
+                    report = bonds.solve::<W>(problem, solver, &mut faces, &crack.before, self.step);
+                }
+                while crack.bonds.is_none() {
                     report.go_on(crack.solver.solve::<W>(&mut crack.problem, &mut faces));
                     let (problem, solver) = (&mut crack.problem, &mut crack.solver);
                     let met = crack
@@ -290,9 +297,10 @@ impl<'a> Moreau<'a> {
                         .as_mut()
                         .is_none_or(|laws| laws.met(problem, solver, &crack.before, self.step, &mut report));
                     if met {
-                        break (report, softness);
+                        break;
                     }
                 }
+                (report, softness)
             }
         };
         self.walk.steps.note(report);
@@ -313,6 +321,7 @@ impl<'a> Moreau<'a> {
     #[inline(always)]
     fn book_contact(&mut self, softness: f64) {
         let theta = self.step.theta;
+        self.book_bonds();
         let ledger = &mut self.ledger;
         let crack = &self.walk.crack;
         let m = crack.contacts.len();
@@ -324,6 +333,15 @@ impl<'a> Moreau<'a> {
                 let own = if softness > 0.0 { softness * dot(p, p) } else { 0.0 };
                 (1.0 - theta) * dot(p, &crack.before[part.clone()]) + theta * (dot(p, &u[part]) - own)
             });
+            let bonds = crack.bonds.as_ref();
+            let taken = bonds.map(|bonds| {
+                [of.clone(), m + of.start..m + of.end].map(|part| bonds.taken[part].iter().sum::<f64>())
+            });
+            let work = taken.map_or(work, |taken| [work[0] + taken[0], work[1] + taken[1]]);
+            if let Some(taken) = taken {
+                ledger.fracture += taken[0] + taken[1];
+                ledger.turnover += taken[0].abs() + taken[1].abs();
+            }
             for (lost, work) in watch.summary.lost.iter_mut().zip(work) {
                 *lost -= work;
             }
@@ -333,6 +351,19 @@ impl<'a> Moreau<'a> {
             gained += work[0] + work[1];
         }
         ledger.gained += gained.max(0.0);
+    }
+
+    /// Let the bonds be where the step has brought them.
+    #[inline(always)]
+    fn book_bonds(&mut self) {
+        let (crack, end) = (&mut self.walk.crack, self.walk.steps.steps as f64 * self.step.dt);
+        if let Some(bonds) = &mut crack.bonds {
+            if self.quiet {
+                bonds.taken.fill(0.0);
+            } else {
+                bonds.book(&crack.problem, &crack.solver, &crack.before, self.step, end);
+            }
+        }
     }
 
     /// Work of the impulses of water and anchors on the velocities as they are.

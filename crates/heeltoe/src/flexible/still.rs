@@ -2,6 +2,7 @@
 
 use super::bodies::Sides;
 use super::body::ReducedBody;
+use super::bond::Bonds;
 use super::law::worked::Worked;
 use super::simd::Group;
 use super::status::Status;
@@ -20,6 +21,8 @@ pub struct Still {
     pub(super) status: Vec<Status>,
     /// What contacts of cracks with a law have been through.
     pub(super) worked: Vec<Worked>,
+    /// The bonds of joints.
+    pub(super) bonds: Option<Bonds>,
     /// By how much each crack has slipped since it was bonded, from the crest down.
     pub slip: Vec<f64>,
     /// Number of contacts of each that are open.

@@ -1,5 +1,6 @@
 //! The peaks and sums of a run, crack by crack.
 
+use super::bond::Cracked;
 use super::coulomb::Report;
 use super::ledger::Ledger;
 use super::observe::State;
@@ -38,6 +39,8 @@ pub struct Summary {
     pub slip_path: f64,
     /// Work (J) that broke its bond.
     pub bond_energy: f64,
+    /// What has become of its bond, where it is a joint.
+    pub cracked: Cracked,
     /// Largest rotation of the chord of the upper face against that of the lower one, positive counter-clockwise.
     pub rotation_max: f64,
     /// Least rotation.
@@ -122,6 +125,15 @@ columns!(Summary, s => {
     "crack_impact": s.lost[1],
     "slip_path": s.slip_path,
     "bond_energy": s.bond_energy,
+    "energy_fracture": s.ledger.fracture,
+    "crack_fracture": s.cracked.energy,
+    "first_cracking": s.cracked.first[0],
+    "first_cracking_place": s.cracked.first[1],
+    "cracked_through": s.cracked.through,
+    "cracked_from_heel": s.cracked.lengths[0],
+    "cracked_from_toe": s.cracked.lengths[1],
+    "cracked_length": s.cracked.lengths[2],
+    "softening_length": s.cracked.lengths[3],
 });
 
 impl Summary {

@@ -305,7 +305,7 @@ fn what_has_not_moved_keeps_its_answer() {
         };
         let answers = answers(&mut dice);
         let answer = || faces(&answers);
-        let mut kept = Crack::new(&dam, 0);
+        let mut kept = Crack::new(&dam, 0, true);
         kept.solver.status.fill(Status::Open);
         let mut upper = dam.bodies.upper.position.clone();
         let lower = &dam.bodies.lower.as_ref().unwrap().position;
@@ -326,7 +326,7 @@ fn what_has_not_moved_keeps_its_answer() {
             } = &mut kept;
             blocks.fill(&mut problem.g, contacts, answer(), &[], 0.1, wanted);
             partly += usize::from(kept.contacts.moved.contains(&false));
-            let mut new = Crack::new(&dam, 0);
+            let mut new = Crack::new(&dam, 0, true);
             new.contacts.pairs.clone_from(&kept.contacts.pairs);
             new.fill(answer(), 0.1);
             let m = kept.contacts.len();

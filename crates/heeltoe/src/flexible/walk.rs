@@ -126,7 +126,7 @@ pub(super) struct Walk<'a> {
 impl<'a> Walk<'a> {
     /// `start` is where the nodes of both bodies are.
     pub(super) fn new(dam: &'a Dam, dt: f64, wanted: Wanted<'a>, start: Faces) -> Self {
-        let mut crack = Crack::new(dam, dam.bodies.upper.dampers);
+        let mut crack = Crack::new(dam, dam.bodies.upper.dampers, true);
         crack.solver.lasting = dam.cracks.len() > 1;
         let contactors = &crack.contacts.contactors;
         let cracks = Place::all(&dam.cracks)
@@ -169,6 +169,11 @@ impl<'a> Walk<'a> {
         for watch in &mut self.cracks {
             let [_, normal] = self.crack.sums(watch.contacts.clone());
             watch.book(end, self.dt, position, &self.crack, normal / time);
+        }
+        if let Some(bonds) = &self.crack.bonds {
+            for (watch, cracked) in self.cracks.iter_mut().zip(&bonds.cracked) {
+                watch.summary.cracked = *cracked;
+            }
         }
         if let Some(laws) = &self.crack.laws {
             for (k, watch) in self.cracks.iter_mut().enumerate() {

@@ -118,7 +118,7 @@ fn slips(run: &Run) -> Vec<f64> {
 }
 
 /// Ground accelerations of so many steps: waves along and across.
-fn waves(steps: u32, dt: f64, size: f64) -> Vec<[f64; 2]> {
+pub fn waves(steps: u32, dt: f64, size: f64) -> Vec<[f64; 2]> {
     let wave = |t: f64, a: f64, b: f64| size * GRAVITY * ((a * t).sin() + 0.7 * (b * t + 1.0).sin());
     (0..steps)
         .map(|k| (f64::from(k) + 0.5) * dt)

@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from heeltoe.case.crack.bond import Bond
 from heeltoe.case.crack.law import Law
 from heeltoe.case.crack.roughness import Roughness
 from heeltoe.case.dam import UPLIFT_OPTIONS, Uplift
@@ -41,6 +42,8 @@ class CrackFields(Fields):
     """Coefficient of friction while sliding."""
     law: Law | None = None
     """A friction law, in place of the coefficients."""
+    bond: Bond | None = None
+    """The bond of a joint that is not cracked before the earthquake. Only the flexible model supports it."""
     restitution: Fraction | None = None
     """Newton's coefficient of restitution of a corner that strikes: 0 stays down, 1 loses nothing."""
     uplift: Literal["none", "uniform", "triangular"] | None = None
@@ -68,6 +71,15 @@ class CrackFields(Fields):
         elif stated and self.friction is None and stated["static_friction"] < stated["kinetic_friction"]:
             static, kinetic = stated["static_friction"], stated["kinetic_friction"]
             yield InputError("friction-order", "static_friction", f"{static:g}", kinetic=f"{kinetic:g}")
+
+    @model_validator(mode="after")
+    @gathered
+    def _bond_within_the_line(self) -> Iterator[InputError]:
+        if self.bond is None or self.law is not None:
+            return
+        least = max(self.mu_static, self.mu_kinetic) * self.bond.tensile_strength
+        if self.bond.cohesion < least:
+            yield InputError("bond-apex", "bond.cohesion", f"{self.bond.cohesion:g} Pa", least=f"{least:g} Pa")
 
     @property
     def friction_is_inherited(self) -> bool:
@@ -146,7 +158,8 @@ class FurtherCrack(CrackFields):
     def beside(self, first: Crack) -> Crack:
         """Return it as a crack of its own, with what it takes from the first one."""
         own = {
-            name: getattr(self, name) for name in ("elevation", "inclination", "kinks", "uplift", "uplift_intensity")
+            name: getattr(self, name)
+            for name in ("elevation", "inclination", "kinks", "uplift", "uplift_intensity", "bond")
         }
         if not self.friction_is_inherited:
             own |= {name: getattr(self, name) for name in FRICTION}

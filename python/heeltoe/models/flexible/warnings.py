@@ -10,8 +10,9 @@ from heeltoe.case.warnings import concrete_warnings
 from heeltoe.kernel.dam import DamRun, DamSummary
 from heeltoe.mechanics.block import Block, instability
 from heeltoe.mechanics.loads import water_above_crack
+from heeltoe.models.flexible.body.bond import zone_mesh
 from heeltoe.models.flexible.body.modes import ENOUGH
-from heeltoe.models.flexible.body.reduced import FlexibleDam
+from heeltoe.models.flexible.body.reduced import FlexibleDam, along_crack
 from heeltoe.models.flexible.evidence.evidence import MOVED_BY, Evidence
 from heeltoe.models.flexible.evidence.growth import Growth
 from heeltoe.models.flexible.result.history import CrackHistory
@@ -92,6 +93,7 @@ def warnings_of(
         *_about_the_start(case, dam, safety),
         *_about_the_growth(growth, run.summaries[leads]),
         *_about_the_mesh(dam),
+        *_about_the_joints(case, dam),
         *_about_the_concrete(case, dam),
         *about_the_anchors(anchors_of(case, run)),
         *_about_the_contact(case, run, histories),
@@ -102,6 +104,22 @@ def _about_the_mesh(dam: FlexibleDam) -> Iterator[Notice]:
     missed = max(body.mesh.missed for body in dam.bodies)
     if missed > _MISSED * dam.section.height:
         yield Notice("outline-simplified", missed_m=missed)
+
+
+def _about_the_joints(case: Case, dam: FlexibleDam) -> Iterator[Notice]:
+    for place, alone in enumerate(case.single_crack_cases):
+        bond = alone.crack.bond
+        if bond is None:
+            continue
+        mesh = zone_mesh(bond, alone.concrete.modulus or 0.0, along_crack(dam.bodies[place], dam.sections[place]))
+        if mesh.is_coarse:
+            yield Notice(
+                "joint-coarse",
+                element_m=mesh.element,
+                zone_m=mesh.zone,
+                given_pa=bond.tensile_strength,
+                taken_pa=mesh.strength,
+            )
 
 
 def _about_the_start(case: Case, dam: FlexibleDam, safety: float | None) -> Iterator[Notice]:

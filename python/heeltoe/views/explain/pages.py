@@ -21,6 +21,7 @@ _PAGES = {
     "crack.kinetic_friction": "rigid.md equation 5",
     "crack.restitution": "rigid.md#impact",
     "crack.law": "friction.md",
+    "crack.bond": "joint-that-cracks.md",
     "crack.roughness": "rough-crack.md",
     "crack.elevation": "sections.md",
     "reservoir": "flexible.md equation 1",

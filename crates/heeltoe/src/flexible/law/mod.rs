@@ -15,7 +15,7 @@
 //! other face, and was not there before, has been through what that end has.
 
 mod passes;
-mod spots;
+pub(super) mod spots;
 pub(super) mod worked;
 
 use self::spots::spots;

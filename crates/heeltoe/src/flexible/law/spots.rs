@@ -6,7 +6,7 @@ use super::super::faces::Meeting;
 use super::super::place::Place;
 
 /// What a contact has of its crack.
-pub(super) struct Spot {
+pub(in super::super) struct Spot {
     /// Its share of the length (m), see [`shares`].
     pub length: f64,
     /// The contact, counted in its crack, of the other face's end or corner in whose place it comes; none of a contact that
@@ -15,7 +15,7 @@ pub(super) struct Spot {
 }
 
 /// Find those of all contacts, crack by crack.
-pub(super) fn spots(dam: &Dam, contacts: &Contacts) -> Vec<Vec<Spot>> {
+pub(in super::super) fn spots(dam: &Dam, contacts: &Contacts) -> Vec<Vec<Spot>> {
     let faces = dam.bodies.faces(|body| &body.position);
     let places = Place::all(&dam.cracks);
     let each = places.iter().zip(&dam.cracks).zip(contacts.of_cracks());

@@ -22,7 +22,7 @@ from heeltoe.models.flexible.mesh.kinks import kinked
 # The earthquake plays no part in any dam, nor does what is asked of a run or read by other models.
 _OF_RUNS = ("time_step", "evidence", "theta", "penalty_factor", "newmark_gamma", "newmark_beta")
 _ANY: Any = dict.fromkeys(("title", "project", "motion", "analysis", "limits", "statics", "decoupled"), True)
-_FRICTION = {"friction", "static_friction", "kinetic_friction", "law"}
+_FRICTION = {"friction", "static_friction", "kinetic_friction", "law", "bond"}
 _STRENGTH = {"tensile_strength", "dynamic_tension"}
 #: What a dam that is ready to be shaken does not depend on.
 NOT_OF_DAM: Any = _ANY | {

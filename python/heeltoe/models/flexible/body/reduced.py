@@ -17,6 +17,7 @@ from heeltoe.geometry.axes import along_and_across, places
 from heeltoe.geometry.section import CutSection
 from heeltoe.kernel.dam import CrackedDam, CrackLine
 from heeltoe.mechanics.friction import law_of
+from heeltoe.models.flexible.body.bond import kernel_bond
 from heeltoe.models.flexible.body.bonded import NOT_OF_DAM, BondedDam, bonded_dam, told
 from heeltoe.models.flexible.body.damping import Damping, damping_of
 from heeltoe.models.flexible.body.elastic import Body
@@ -227,7 +228,9 @@ def _lines(case: Case, bonded: BondedDam) -> tuple[CrackLine, ...]:
             angles(above, above.faces[-1], alone),
             [] if below is None else angles(below.mesh, below.mesh.faces[0], alone),
         )
-        found.append(CrackLine(upper, lower, friction, give, None if law is None else law_of(law), turned))
+        along = along_crack(bonded.bodies[place], alone.cut)
+        bond = kernel_bond(alone, along)
+        found.append(CrackLine(upper, lower, friction, give, None if law is None else law_of(law), turned, bond))
     return tuple(found)
 
 
@@ -248,6 +251,12 @@ def side_by_side_in(parts: tuple[ReducedBody, ...]) -> ReducedBody:
         dampers=np.hstack([part.dampers for part in parts]),
         damper_signs=parts[0].damper_signs,
     )
+
+
+def along_crack(above: Body, section: CutSection) -> Floats:
+    """Return where the nodes of the part above a crack are along it (k,) [m]."""
+    along: Floats = places(above.mesh.nodes[above.mesh.faces[-1]], section)[:, 0]
+    return along
 
 
 def apart(of_bodies: Sequence[Floats], modes: tuple[Modes, ...]) -> tuple[Floats, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from heeltoe.base.arrays import Floats
+from heeltoe.models.flexible.body.bond import node_lengths
 from heeltoe.models.flexible.body.inside import CrackAnchor, FollowingWater
 from heeltoe.models.flexible.body.reduced import FlexibleDam, ReducedBody
 
@@ -23,6 +24,7 @@ def longest_step(dam: FlexibleDam, theta: float, step: float) -> tuple[float, st
     for _ in range(20):
         springs = [
             ("uplift.opening", _water_rate(bodies, dam.water, theta, step)),
+            ("crack.bond", max((_bond_rate(dam, place, theta, step) for place in range(len(dam.lines))), default=0.0)),
             ("anchors", max((_anchor_rate(bodies, anchor, theta, step) for anchor in dam.anchors), default=0.0)),
         ]
         field, rate = max(springs, key=lambda spring: spring[1])
@@ -48,6 +50,33 @@ def _water_rate(bodies: tuple[ReducedBody, ...], water: FollowingWater | None, t
         count = root.size
         across = _answer(body, theta, step)[count:, count:]
         rate += float(np.linalg.eigvalsh(root[:, None] * across * root)[-1])
+    return rate
+
+
+def _bond_rate(dam: FlexibleDam, place: int, theta: float, step: float) -> float:
+    """Return the largest eigenvalue of W k with the slopes k by which the nodes of a joint soften [1/s2]."""
+    line = dam.lines[place]
+    if line.bond is None:
+        return 0.0
+    tensile, cohesion, opening, shear, factor = line.bond
+    above = dam.reduced[place]
+    half, (_, count) = above.position.size // 2, line.upper
+    top = half - count
+    lengths = node_lengths(above.position[top:half])
+    rate = 0.0
+    for direction, (strength, energy) in enumerate(((cohesion, shear), (tensile, opening))):
+        root = np.sqrt(lengths * (factor * strength) ** 2 / (2.0 * energy))
+        answer = np.zeros((count, count))
+        bodies = [(above, top)]
+        if line.lower[1] == count:
+            bodies.append((dam.reduced[place + 1], 0))
+        elif line.lower[1]:
+            # Faces of unlike meshes: the lower one answers about as the upper one does.
+            bodies.append((above, top))
+        for body, start in bodies:
+            own = direction * (body.position.size // 2) + start
+            answer += _answer(body, theta, step)[own : own + count, own : own + count]
+        rate = max(rate, float(np.linalg.eigvalsh(root[:, None] * answer * root)[-1]))
     return rate
 
 

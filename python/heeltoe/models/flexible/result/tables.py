@@ -13,7 +13,8 @@ from heeltoe.case.model import Case
 from heeltoe.kernel.dam import DAM_STATES, DamRun
 from heeltoe.kernel.shaking import Shaking
 from heeltoe.mechanics.block import StaticState, build_block, static_state
-from heeltoe.models.flexible.body.reduced import FlexibleDam, apart
+from heeltoe.models.flexible.body.bond import zone_mesh
+from heeltoe.models.flexible.body.reduced import FlexibleDam, along_crack, apart
 from heeltoe.models.flexible.evidence.evidence import Evidence
 from heeltoe.models.flexible.evidence.growth import Growth
 from heeltoe.models.flexible.evidence.refinement import Answer
@@ -25,6 +26,7 @@ from heeltoe.result.contract import slip_by_mode, time_by_mode
 from heeltoe.result.numbers import (
     AnchorForce,
     BeforeShaking,
+    BondState,
     CrackEnergy,
     ElasticCrack,
     ElasticDam,
@@ -121,10 +123,33 @@ def crack_numbers(
         penetration_m=Penetration(watched=raw.penetration, any_in_frames=history.deepest_penetration()),
         evidence=None if evidence is None else evidence.numbers(),
         friction_law=None if worn is None else law_found(worn, run, place),
+        bond=bond_of(case, dam, run, place),
     )
     # Where single runs scatter, what is shown first is the mean of several.
     means: dict[str, Any] = {} if evidence is None else {name: worth.value for name, worth in evidence.worth.items()}
     return replace(numbers, **means)
+
+
+def bond_of(case: Case, dam: FlexibleDam, run: DamRun, place: int) -> BondState | None:
+    """Return what has become of the bond of a joint; `case` has it alone."""
+    bond, raw = case.crack.bond, run.summaries[place]
+    if bond is None:
+        return None
+    mesh = zone_mesh(bond, case.concrete.modulus or 0.0, along_crack(dam.bodies[place], dam.sections[place]))
+    cracks = raw.first_cracking >= 0.0
+    return BondState(
+        first_cracking_s=raw.first_cracking if cracks else None,
+        first_cracking_at_m=raw.first_cracking_place if cracks else None,
+        cracked_through_s=raw.cracked_through if raw.cracked_through >= 0.0 else None,
+        cracked_upstream_m=raw.cracked_from_heel,
+        cracked_downstream_m=raw.cracked_from_toe,
+        cracked_length_m=raw.cracked_length,
+        softening_length_m=raw.softening_length,
+        fracture_energy_j=raw.crack_fracture,
+        process_zone_m=mesh.zone,
+        element_m=mesh.element,
+        tensile_strength_pa=mesh.strength,
+    )
 
 
 def start_of(dam: FlexibleDam, place: int) -> BeforeShaking:
@@ -179,14 +204,22 @@ def energy_of(run: DamRun) -> Energy:
     )
 
 
-def histories_of(shaking: Shaking, run: DamRun, place: int, law: bool = False) -> dict[str, Floats]:
-    """Return the histories of the contract for a crack, frame by frame; with those of its friction `law`."""
+def histories_of(shaking: Shaking, run: DamRun, place: int, law: bool = False, bond: bool = False) -> dict[str, Floats]:
+    """Return the histories of the contract for a crack, frame by frame; with those of its friction `law` and `bond`."""
     column, time = run.all_frames[place], run.frames.time
     result = {"time_s": time, "ground_acceleration_m_s2": np.interp(time, shaking.time, shaking.horizontal)}
     if shaking.up is not None:
         result["vertical_ground_acceleration_m_s2"] = np.interp(time, shaking.time, shaking.up)
     if law:
         result |= {"slip_path_m": column.slip_path, "friction_strength_n": column.friction_strength}
+    if bond:
+        result |= {
+            "cracked_upstream_m": column.cracked_from_heel,
+            "cracked_downstream_m": column.cracked_from_toe,
+            "cracked_length_m": column.cracked_length,
+            "softening_length_m": column.softening_length,
+            "fracture_energy_j": column.energy_fracture,
+        }
     return result | {
         "slip_m": column.slip,
         "slip_velocity_m_s": column.slip_velocity,
@@ -218,7 +251,9 @@ def crack_responses(
             ElasticCrackResponse(
                 elevation=section.heel[1] - section.base_elevation,
                 of_crack=crack_numbers(case, shaken.dam, run, history, evidence),
-                histories=histories_of(shaken.shaking, run, place, law=case.crack.law is not None),
+                histories=histories_of(
+                    shaken.shaking, run, place, law=case.crack.law is not None, bond=case.crack.bond is not None
+                ),
                 mode=modes_of(run, place),
                 event_log={},
                 static=static if place == shaken.dam.asked else static_state(build_block(case)),

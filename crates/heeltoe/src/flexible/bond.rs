@@ -1,0 +1,507 @@
+//! Joints that are bonded: intact, softening, broken.
+//!
+//! Each node with the share `a` of its crack's length has the damage
+//!
+//! ```text
+//! lambda = max over time of sqrt((w / w_f)^2 + (s / s_f)^2),      w_f = 2 G_f / f_t,      s_f = 2 G_II / c
+//! ```
+//!
+//! of its opening `w` and the path `s` of its slip, and bears beside contact the tension `T` and the cohesion `C`
+//!
+//! ```text
+//! T = a (f_t (1 - lambda) - k (w_max - w)) >= 0,      C = a c (1 - lambda),      p_n >= -T,   |p_t| <= C + mu p_n
+//! ```
+//!
+//! intact at `lambda = 0`, broken from `lambda = 1` on; nothing heals. Opening breaks the bond by `G_f` for each square
+//! metre, slip by `G_II` beside friction, which acts throughout. `k` leads back to the origin when the node closes,
+//! `f_t (1 - lambda) / w_max`, but is no stiffer than the step can follow. The bond's part of the shear changes
+//! elastically within `C - mu T`, by as stiff a spring, beside the friction `mu (p_n + T)`: so a node that opens loses
+//! no shear at once, and contact has a solution.
+//!
+//! In a step of dt, contact is solved for what is left of `p` without the bond, whose conditions are those of a crack. `T` and `C` are means of the start and the end of the step, found by passes: so the work of a bond
+//! that breaks is `a G_f`, whatever the step.
+
+use super::contact::Contacts;
+use super::coulomb::{ContactOperator, Known, Problem, Report, Solver};
+use super::dam::Dam;
+use super::law::spots::spots;
+use super::scheme::TimeStep;
+use super::simd::Lanes;
+use super::status::Status;
+
+/// Share of the change of a pass that the spring of a node which closes may hand on to the next.
+const FOLLOWED: f64 = 0.1;
+/// What the bond of the last pass may miss, as a share of the largest impulse.
+const MISSED: f64 = 1e-11;
+/// Passes after which half of each change must do, and after which what is found must do. Its miss is in the residual.
+const HALVED: u32 = 20;
+const MOST: u32 = 60;
+
+/// Less damage is rounding.
+const LEAST: f64 = 1e-9;
+
+/// Strength and energy of a bonded joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BondLaw {
+    /// Tensile strength `f_t` (Pa).
+    pub tensile: f64,
+    /// Cohesion `c` (Pa), at least friction times tensile strength: there the line of the shear strength ends.
+    pub cohesion: f64,
+    /// Energies of opening and of shear (J/m2).
+    pub energy: [f64; 2],
+    /// Factor on both strengths during the earthquake.
+    pub dynamic: f64,
+}
+
+/// The bond of one contact.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bond {
+    contact: usize,
+    /// Length of the crack that is its own, and how much of the crack lies before it (m).
+    length: f64,
+    place: f64,
+    /// Tension and cohesion that it bears intact (N), and way over which either is lost (m).
+    strength: [f64; 2],
+    reach: [f64; 2],
+    damage: f64,
+    /// Way of its slip and its largest gap so far (m).
+    path: f64,
+    widest: f64,
+    /// Shear (N) and gap as the step begins.
+    shear: f64,
+    gap: f64,
+    /// Coefficient of friction while it slips.
+    friction: f64,
+    /// Stiffest springs (N/m) across and along that the step follows.
+    stiffest: [f64; 2],
+    /// After the step, if this is the last pass.
+    next: After,
+    /// Mean tension, shear strength beside friction, and shear of the step (N), and whether the latter acts.
+    mean: [f64; 3],
+    springs: bool,
+    /// Whether a closed node bears its cohesion as a limit, in the search for rest.
+    rigid: bool,
+}
+
+/// What a bond is after a step.
+#[derive(Clone, Copy, Debug, Default)]
+struct After {
+    damage: f64,
+    path: f64,
+    widest: f64,
+    gap: f64,
+    shear: f64,
+}
+
+impl Bond {
+    /// Tension (N) at a gap, and the shear beside friction that goes with it; `widest` is the largest gap so far.
+    fn bears(&self, damage: f64, gap: f64, widest: f64) -> [f64; 2] {
+        let [tension, cohesion] = self.strength;
+        let left = tension * (1.0 - damage);
+        let back = if self.stiffest[0] * widest > left {
+            left / widest
+        } else {
+            self.stiffest[0]
+        };
+        let tension = (left - back * (widest - gap).max(0.0)).max(0.0);
+        [
+            tension,
+            (cohesion * (1.0 - damage) - self.friction * tension).max(0.0),
+        ]
+    }
+
+    /// What it bears as the step begins.
+    pub(super) fn now(&self) -> [f64; 2] {
+        self.bears(self.damage, self.gap, self.widest)
+    }
+
+    /// Follow the motion of a step: `ways` along and across, and the shear of contact and bond.
+    fn follow(&mut self, status: Status, ways: [f64; 2], shear: f64) {
+        let mut next = After {
+            damage: self.damage,
+            path: self.path,
+            widest: self.widest,
+            gap: 0.0,
+            shear,
+        };
+        let before = self.now();
+        match status {
+            Status::Absent => next.damage = 1.0,
+            Status::Open => {
+                next.gap = (self.gap + ways[1]).max(0.0);
+                next.widest = next.widest.max(next.gap);
+            }
+            _ if self.rigid && status.slips() => next.path += ways[0].abs(),
+            _ => {}
+        }
+        let open = status == Status::Open;
+        // One that comes to stick in the step has moved in it.
+        if open || (status.closed() && !self.rigid) {
+            next.shear = self.shear - self.stiffest[1] * ways[0];
+            next.path += (next.shear.abs() - before[1]).max(0.0) / self.stiffest[1];
+        }
+        if next.damage < 1.0 {
+            let worn = (next.widest / self.reach[0]).hypot(next.path / self.reach[1]);
+            next.damage = next.damage.max(worn.min(1.0));
+        }
+        let after = self.bears(next.damage, next.gap, next.widest);
+        next.shear = next.shear.clamp(-after[1], after[1]);
+        self.springs = open || !self.rigid;
+        self.mean = [
+            0.5 * (before[0] + after[0]),
+            0.5 * (before[1] + after[1]),
+            if self.springs {
+                0.5 * (self.shear + next.shear)
+            } else {
+                0.0
+            },
+        ];
+        self.next = next;
+    }
+
+    /// Take over what has been found.
+    fn settle(&mut self) {
+        let After {
+            damage,
+            path,
+            widest,
+            gap,
+            shear,
+        } = self.next;
+        (self.damage, self.path, self.widest) = (damage, path, widest);
+        (self.gap, self.shear) = (gap, shear);
+    }
+}
+
+/// What has become of the bond of one crack.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Cracked {
+    /// Work (J) that the bond has taken.
+    pub energy: f64,
+    /// When the first node began to soften (s), and where: distance from the heel (m); -1 where none has.
+    pub first: [f64; 2],
+    /// When no node was intact or softening any more (s); -1 before.
+    pub through: f64,
+    /// Length broken from the heel and from the toe, all that is broken, and all that softens (m).
+    pub lengths: [f64; 4],
+}
+
+/// All bonds.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Bonds {
+    /// Those of each crack, from heel to toe.
+    cracks: Vec<Vec<Bond>>,
+    pub cracked: Vec<Cracked>,
+    /// Impulses of the bonds on each component.
+    shift: Vec<f64>,
+    /// What they have taken in the step from each component of each contact.
+    pub taken: Vec<f64>,
+    passes: u32,
+}
+
+impl Bonds {
+    /// None where no crack is bonded; `shaken` says whether the dynamic strengths are asked for.
+    pub(super) fn new(dam: &Dam, contacts: &Contacts, shaken: bool) -> Option<Self> {
+        if dam.cracks.iter().all(|line| line.bond.is_none()) {
+            return None;
+        }
+        let mut first = 0;
+        let mut cracks = Vec::new();
+        for (line, spots) in dam.cracks.iter().zip(spots(dam, contacts)) {
+            let mut bonds = Vec::new();
+            if let Some(law) = line.bond {
+                let factor = if shaken { law.dynamic } else { 1.0 };
+                let strengths = [factor * law.tensile, factor * law.cohesion];
+                let mut place = 0.0;
+                for (k, spot) in spots.iter().enumerate().filter(|(_, spot)| spot.double.is_none()) {
+                    let reach = |k: usize| 2.0 * law.energy[k] / strengths[k];
+                    bonds.push(Bond {
+                        contact: first + k,
+                        length: spot.length,
+                        place: place + 0.5 * spot.length,
+                        strength: strengths.map(|strength| spot.length * strength),
+                        reach: [reach(0), reach(1)],
+                        damage: 0.0,
+                        path: 0.0,
+                        widest: 0.0,
+                        shear: 0.0,
+                        gap: 0.0,
+                        friction: line.friction[0].max(line.friction[1]),
+                        stiffest: [0.0; 2],
+                        next: After::default(),
+                        mean: [0.0; 3],
+                        springs: true,
+                        rigid: !shaken,
+                    });
+                    place += spot.length;
+                }
+            }
+            first += spots.len();
+            cracks.push(bonds);
+        }
+        let none = Cracked {
+            first: [-1.0; 2],
+            through: -1.0,
+            ..Cracked::default()
+        };
+        Some(Bonds {
+            cracked: vec![none; cracks.len()],
+            shift: vec![0.0; 2 * contacts.len()],
+            taken: vec![0.0; 2 * contacts.len()],
+            cracks,
+            passes: 0,
+        })
+    }
+
+    /// Begin with what the bonds of a dam at rest have been through.
+    pub(super) fn begin_at(&mut self, still: &Bonds, forces: &[f64]) {
+        for (own, still) in self.iter_mut().zip(still.cracks.iter().flatten()) {
+            (own.damage, own.path, own.widest, own.gap) = (still.damage, still.path, still.widest, still.gap);
+            // What friction alone would not hold.
+            let ([tension, limit], m) = (own.now(), forces.len() / 2);
+            let rubs = own.friction * (forces[m + own.contact] + tension).max(0.0);
+            let shear = forces[own.contact];
+            own.shear = (shear - shear.clamp(-rubs, rubs)).clamp(-limit, limit);
+        }
+        self.look(0.0);
+    }
+
+    fn iter_mut(&mut self) -> impl Iterator<Item = &mut Bond> {
+        self.cracks.iter_mut().flatten()
+    }
+
+    /// Whether a contact that is `pressed` by this force is let go only by more than what its bond bears.
+    pub(super) fn holds(&self, contact: usize, pressed: f64) -> bool {
+        let mut bonds = self.cracks.iter().flatten();
+        bonds.any(|bond| bond.contact == contact && bond.gap == 0.0 && pressed + bond.now()[0] > 0.0)
+    }
+
+    /// Begin a step, whose gaps and states are these.
+    pub(super) fn set_up(&mut self, problem: &mut Problem, solver: &Solver, gaps: &[f64], step: TimeStep) {
+        self.passes = 0;
+        if self.iter_mut().any(|bond| bond.rigid) {
+            problem.added.resize(solver.status.len(), [0.0; 2]);
+        }
+        let m = solver.status.len();
+        let stiffest = 2.0 * FOLLOWED / (step.theta * step.dt * step.dt);
+        for bond in self.iter_mut() {
+            let k = bond.contact;
+            let status = solver.status[k];
+            bond.stiffest = [stiffest * problem.scale[m + k], stiffest * problem.scale[k]];
+            bond.gap = if status == Status::Open {
+                gaps[k].max(0.0)
+            } else {
+                0.0
+            };
+            let still = if status.slips() { Status::Stick } else { status };
+            bond.follow(still, [0.0; 2], bond.shear);
+        }
+        self.draw(problem, step.dt, 1.0);
+    }
+
+    /// Write what the bonds bear into the problem, and return the largest change of an impulse.
+    fn draw(&mut self, problem: &mut Problem, dt: f64, far: f64) -> f64 {
+        let m = problem.h.len();
+        let mut change = 0.0_f64;
+        let Bonds { cracks, shift, .. } = self;
+        for bond in cracks.iter().flatten() {
+            let k = bond.contact;
+            let [tension, cohesion, shear] = bond.mean.map(|force| dt * force);
+            for (value, component) in [(shear, k), (-tension, m + k)] {
+                let more = far * (value - shift[component]);
+                change = change.max(more.abs());
+                shift[component] += more;
+            }
+            if !bond.springs {
+                for added in &mut problem.added[k] {
+                    change = change.max((cohesion - *added).abs());
+                    *added += far * (cohesion - *added);
+                }
+            }
+        }
+        change
+    }
+
+    /// Look at a solution; whether it meets the law of the bonds.
+    fn met(
+        &mut self,
+        problem: &mut Problem,
+        solver: &Solver,
+        before: &[f64],
+        step: TimeStep,
+        report: &mut Report,
+    ) -> bool {
+        self.passes += 1;
+        let m = solver.status.len();
+        let way = |u: f64, before: f64| step.dt * (step.theta * u + (1.0 - step.theta) * before);
+        let largest = solver
+            .p
+            .iter()
+            .chain(&self.shift)
+            .fold(0.0_f64, |a, p| a.max(p.abs()));
+        for bond in self.iter_mut() {
+            let k = bond.contact;
+            let ways = [k, m + k].map(|i| way(solver.u[i], before[i]));
+            bond.follow(solver.status[k], ways, solver.p[k] / step.dt);
+        }
+        let far = if self.passes > HALVED { 0.5 } else { 1.0 };
+        let change = self.draw(problem, step.dt, far);
+        if change <= MISSED * largest || self.passes >= MOST {
+            report.residual = report
+                .residual
+                .max(if largest > 0.0 { change / largest } else { 0.0 });
+            return true;
+        }
+        false
+    }
+
+    /// Solve the contact problem of a step with the bonds.
+    pub(super) fn solve<W: Lanes>(
+        &mut self,
+        problem: &mut Problem,
+        solver: &mut Solver,
+        crack: &mut impl ContactOperator,
+        before: &[f64],
+        step: TimeStep,
+    ) -> Report {
+        let mut report = Report::default();
+        let own = problem.b.clone();
+        loop {
+            let shift = self.shift.clone();
+            crack.velocities::<W>(problem, &shift, &mut solver.u);
+            problem.b.copy_from_slice(&solver.u);
+            let mut shifted = Shifted {
+                crack: &mut *crack,
+                sum: shift.clone(),
+                shift: &shift,
+            };
+            report.go_on(solver.solve::<W>(problem, &mut shifted));
+            let met = self.met(problem, solver, before, step, &mut report);
+            problem.b.copy_from_slice(&own);
+            if met {
+                // What the solution was found with, not what the next pass would have had.
+                self.shift = shift;
+                break;
+            }
+        }
+        solver
+            .p
+            .iter_mut()
+            .zip(&self.shift)
+            .for_each(|(p, own)| *p += own);
+        report
+    }
+
+    /// The same of a search for the state of rest, where `G` is known and steps follow each other until nothing moves.
+    pub(super) fn rest<W: Lanes>(
+        &mut self,
+        problem: &mut Problem,
+        solver: &mut Solver,
+        step: TimeStep,
+    ) -> Report {
+        let mut shifted = problem.b.clone();
+        Known.velocities::<W>(problem, &self.shift, &mut shifted);
+        problem.b = shifted;
+        let report = solver.solve::<W>(problem, &mut Known);
+        let m = solver.status.len();
+        for bond in self.iter_mut() {
+            let k = bond.contact;
+            bond.follow(
+                solver.status[k],
+                [k, m + k].map(|i| step.dt * solver.u[i]),
+                solver.p[k] / step.dt,
+            );
+        }
+        solver
+            .p
+            .iter_mut()
+            .zip(&self.shift)
+            .for_each(|(p, own)| *p += own);
+        report
+    }
+
+    /// Take over where a step of the search for rest has come to.
+    pub(super) fn settle(&mut self) {
+        self.iter_mut().for_each(Bond::settle);
+    }
+
+    /// Book a step that ends at this time.
+    pub(super) fn book(
+        &mut self,
+        problem: &Problem,
+        solver: &Solver,
+        before: &[f64],
+        step: TimeStep,
+        end: f64,
+    ) {
+        let m = solver.status.len();
+        let way = |k: usize| step.theta * solver.u[k] + (1.0 - step.theta) * before[k];
+        self.taken.fill(0.0);
+        for (bonds, cracked) in self.cracks.iter_mut().zip(&mut self.cracked) {
+            for bond in bonds.iter_mut() {
+                let k = bond.contact;
+                // What the tension that it is shifted by adds to friction is the bond's, too.
+                let rubs = problem.mu_slip[k] * self.shift[m + k] * solver.status[k].sign();
+                let bond_share = self.shift[k] + rubs;
+                self.taken[k] = -bond_share * way(k);
+                self.taken[m + k] = -self.shift[m + k] * way(m + k);
+                cracked.energy += self.taken[k] + self.taken[m + k];
+            }
+        }
+        self.settle();
+        self.look(end);
+    }
+
+    /// Look at how far each crack has gone.
+    fn look(&mut self, now: f64) {
+        for (bonds, cracked) in self.cracks.iter().zip(&mut self.cracked) {
+            if bonds.is_empty() {
+                continue;
+            }
+            if cracked.first[0] < 0.0 {
+                if let Some(bond) = bonds.iter().find(|bond| bond.damage > LEAST) {
+                    cracked.first = [now, bond.place];
+                }
+            }
+            let broken = |bond: &&Bond| bond.damage >= 1.0;
+            let sum = |bonds: &mut dyn Iterator<Item = &Bond>| bonds.fold(0.0, |sum, bond| sum + bond.length);
+            cracked.lengths = [
+                sum(&mut bonds.iter().take_while(broken)),
+                sum(&mut bonds.iter().rev().take_while(broken)),
+                sum(&mut bonds.iter().filter(broken)),
+                sum(&mut bonds
+                    .iter()
+                    .filter(|bond| bond.damage > LEAST && bond.damage < 1.0)),
+            ];
+            if cracked.through < 0.0 && bonds.iter().all(|bond| bond.damage >= 1.0) {
+                cracked.through = now;
+            }
+        }
+    }
+}
+
+/// The crack under the impulses of the bonds and those that are looked for.
+struct Shifted<'s, C> {
+    crack: &'s mut C,
+    shift: &'s [f64],
+    sum: Vec<f64>,
+}
+
+impl<C: ContactOperator> ContactOperator for Shifted<'_, C> {
+    fn fill(&mut self, problem: &mut Problem, wanted: impl Fn(usize) -> bool) {
+        self.crack.fill(problem, wanted);
+    }
+
+    fn fill_row(&mut self, problem: &mut Problem, contact: usize, wanted: impl Fn(usize) -> bool) {
+        self.crack.fill_row(problem, contact, wanted);
+    }
+
+    fn velocities<W: Lanes>(&mut self, problem: &Problem, p: &[f64], u: &mut [f64]) {
+        for (sum, (p, own)) in self.sum.iter_mut().zip(p.iter().zip(self.shift)) {
+            *sum = p + own;
+        }
+        let sum = std::mem::take(&mut self.sum);
+        self.crack.velocities::<W>(problem, &sum, u);
+        self.sum = sum;
+    }
+}

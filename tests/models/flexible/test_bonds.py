@@ -1,0 +1,151 @@
+"""Joints that are bonded before the earthquake: case, results, words, and what always holds."""
+
+from __future__ import annotations
+
+import copy
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+
+from heeltoe import InputError, read_case, run
+from heeltoe.models.flexible.body.bond import node_lengths, zone_mesh
+from heeltoe.models.flexible.body.reduced import build_flexible_dam
+from heeltoe.models.flexible.body.step import longest_step
+from heeltoe.result.verdict import verdict
+
+# Strong and tough: a brittle one would ask for elements and steps of its own.
+STRONG = {
+    "tensile_strength": "50 MPa",
+    "cohesion": "60 MPa",
+    "fracture_energy": "10 MN/m",
+    "shear_energy": "10 MN/m",
+}
+BOND = {
+    "tensile_strength": "0.2 MPa",
+    "cohesion": "0.6 MPa",
+    "fracture_energy": "200 N/m",
+    "shear_energy": "1000 N/m",
+}
+PULSES = [["0 s", "0 g"], ["0.1 s", "0.6 g"], ["0.3 s", "-0.9 g"], ["0.5 s", "0.9 g"], ["0.6 s", "0 g"]]
+DAM: dict[str, Any] = {
+    "section": {
+        "height": "30 m",
+        "crest_width": "5 m",
+        "neck_height": "25 m",
+        "neck_width": "6 m",
+        "base_width": "26 m",
+    },
+    "concrete": {"modulus": "25 GPa"},
+    "crack": {"elevation": "6 m", "friction": 1.0, "bond": BOND},
+    "reservoir": {"depth": "26 m"},
+    "motion": {"points": PULSES},
+    "flexible": {"elements_across": 8, "evidence": "none"},
+    "analysis": {"silence": "0 s"},
+}
+
+
+def dam(**bond: Any) -> dict[str, Any]:
+    fields = copy.deepcopy(DAM)
+    fields["crack"]["bond"] = BOND | bond
+    return fields
+
+
+def test_a_joint_cracks_and_says_so():
+    response = run(read_case(dam()), "flexible")
+    bond = response.bond
+    assert response.ok
+    assert bond.first_cracking_s > 0.0
+    assert 0.0 < bond.cracked_length_m <= response.crack_width_m * (1.0 + 1e-12)
+    history = response.histories
+    # Nothing heals.
+    for name in ("cracked_upstream_m", "cracked_downstream_m", "cracked_length_m"):
+        assert np.all(np.diff(history[name]) >= 0.0), name
+    assert history["cracked_length_m"][-1] == bond.cracked_length_m
+    assert response.energy.residual < 1e-9
+    assert "The joint begins to crack at" in verdict(response)
+    broken = response.summary["bond"]["fracture_energy_j"]
+    assert broken >= 0.99 * 200.0 * bond.cracked_length_m
+
+
+def test_a_strength_beyond_reach_is_the_bonded_dam():
+    """A linear dam moves as many times as far as it is shaken more strongly."""
+    fields = dam(**STRONG)
+    twice = copy.deepcopy(fields)
+    twice["motion"]["points"] = [[t, f"{2.0 * float(a.split()[0])} g"] for t, a in PULSES]
+    one, two = (run(read_case(each), "flexible") for each in (fields, twice))
+    assert one.bond.first_cracking_s is None
+    assert verdict(one).startswith("The joint holds over its")
+    assert max(one.opening_upstream_m, one.opening_downstream_m) < 1e-12
+    # Without the state of rest, which is not scaled, and without what an open crack would add.
+    moved = [each.crack_history.modes for each in (one, two)]
+    for single, double in zip(*moved, strict=True):
+        change, twofold = single - single[0], double - double[0]
+        assert np.abs(twofold - 2.0 * change).max() < 1e-6 * np.abs(twofold).max()
+
+
+def test_a_bond_that_no_step_follows_is_refused():
+    brittle = dam(shear_energy="0.000001 N/m")
+    with pytest.raises(InputError) as wrong:
+        run(read_case(brittle), "flexible")
+    assert wrong.value.code == "step-stiff"
+    assert wrong.value.field == "crack.bond"
+
+
+def test_the_cohesion_reaches_the_end_of_the_line():
+    with pytest.raises(InputError, match="cohesion") as wrong:
+        read_case(dam(cohesion="0.1 MPa"))
+    assert wrong.value.code == "bond-apex"
+
+
+def test_long_elements_lower_the_strength_and_a_warning_says_so():
+    response = run(read_case(dam(tensile_strength="3 MPa", cohesion="4 MPa", fracture_energy="100 N/m")), "flexible")
+    notice = next(each for each in response.warnings if each.code == "joint-coarse")
+    bond = response.bond
+    assert bond.process_zone_m == pytest.approx(25e9 * 100.0 / 3e6**2)
+    assert bond.tensile_strength_pa == pytest.approx(math.sqrt(25e9 * 100.0 / (3.0 * bond.element_m)))
+    assert "is lowered from 3 MPa" in str(notice)
+
+
+def test_a_fine_mesh_takes_the_strength_as_it_is():
+    case = read_case(dam())
+    mesh = zone_mesh(case.crack.bond, 25e9, np.linspace(0.0, 20.0, 41))
+    assert mesh.zone == pytest.approx(125.0)
+    assert mesh.element == 1.0
+    assert (mesh.is_coarse, mesh.strength) == (False, 0.2e6)
+
+
+def test_nodes_share_the_joint():
+    assert node_lengths(np.array([0.0, 3.0, 6.0, 12.0, 18.0])) == pytest.approx([1.0, 4.0, 3.0, 8.0, 2.0])
+
+
+def test_a_brittle_joint_asks_for_a_short_step():
+    case = read_case(dam(shear_energy="1 N/m"))
+    tough, brittle = (longest_step(build_flexible_dam(each), 0.5, 2e-4) for each in (read_case(dam()), case))
+    assert tough[0] == 2e-4
+    assert brittle[0] < 2e-4
+    assert brittle[1] == "crack.bond"
+
+
+def test_several_joints_crack_in_an_order():
+    fields = dam()
+    fields["cracks"] = [
+        {"elevation": "18 m", "friction": 1.0, "bond": BOND},
+        {"elevation": "6 m", "bond": STRONG},
+    ]
+    del fields["crack"]
+    response = run(read_case(fields), "flexible")
+    upper, lower = (crack.bond for crack in response.cracks)
+    assert upper.first_cracking_s is not None
+    assert lower.first_cracking_s is None
+    assert "The joint at 6 m holds" in verdict(response)
+
+
+@pytest.mark.parametrize("pattern", ["constant", "full while open", "zero while open"])
+def test_water_enters_what_opens(pattern):
+    fields = dam()
+    fields["uplift"] = {"pattern": "triangular", "during_shaking": pattern}
+    response = run(read_case(fields), "flexible")
+    assert response.ok
+    assert response.energy.residual < 1e-9
