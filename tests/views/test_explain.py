@@ -19,6 +19,12 @@ from shared.dams import FAST, HEIGHT, KOYNA, SLENDER, example
 from shared.every_field import leaves
 from shared.studies import BLOCK, DRAWN, study_file
 
+BOND = {
+    "tensile_strength": "0.5 MPa",
+    "cohesion": "1 MPa",
+    "fracture_energy": "100 N/m",
+    "shear_energy": "500 N/m",
+}
 LAW = {
     "friction": None,
     "law": {"name": "slip weakening", "peak_friction": 0.9, "residual_friction": 0.6, "slip": "20 mm"},
@@ -61,6 +67,7 @@ def results(tmp_path_factory, study):
         "anchored": run(anchored.with_("concrete.modulus=20GPa"), "flexible").to_json(),
         "cracks": run(example("two-cracks", *FAST, "limits.residual_slip=1mm"), "flexible").to_json(),
         "law": run(example("typical-base", *FAST).with_({"crack": LAW}), "both").to_json(),
+        "joint": run(example("typical-base", *FAST).with_({"crack.bond": BOND}), "flexible").to_json(),
         "rough": run(example("rough-crack", *FAST), "rigid").to_json(),
         "aftershocks": run(example("aftershocks", *FAST), "rigid").to_json(),
         "decoupled": run(koyna, "decoupled").to_json(),

@@ -412,7 +412,7 @@ class ElasticCrack(CrackNumbers):
         ElasticFrictionLaw | None,
         Number("What the friction law of a crack has come to; null of coefficients."),
     ]
-    bond: Annotated[BondState | None, Number("What has become of the bond of a joint; null of a crack.")]
+    joint: Annotated[BondState | None, Number("What has become of the bond of a joint; null of a crack.")]
 
 
 class ElasticDam(Block):

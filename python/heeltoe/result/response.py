@@ -140,7 +140,7 @@ class Numbered(ABC):
     events = Of[int]()
     rotation = Of[str]()
     friction_law = Of[FrictionLawState | None]()
-    bond = Of[BondState | None]()
+    joint = Of[BondState | None]()
     roughness = Of[Roughness | None]()
     drainage_by_motion = Of[list[float] | None]()
     overturned_about = Of[str | None]()

@@ -123,7 +123,7 @@ def crack_numbers(
         penetration_m=Penetration(watched=raw.penetration, any_in_frames=history.deepest_penetration()),
         evidence=None if evidence is None else evidence.numbers(),
         friction_law=None if worn is None else law_found(worn, run, place),
-        bond=bond_of(case, dam, run, place),
+        joint=bond_of(case, dam, run, place),
     )
     # Where single runs scatter, what is shown first is the mean of several.
     means: dict[str, Any] = {} if evidence is None else {name: worth.value for name, worth in evidence.worth.items()}
