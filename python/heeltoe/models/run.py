@@ -173,7 +173,7 @@ def check_model(name: str, field: str) -> None:
 
 def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
     """Return the models that are run for a case where `model` is asked for, the better one last, and why it is that."""
-    if case.further_cracks or case.crack.kinks:
+    if case.further_cracks or case.crack.kinks or case.crack.bond is not None:
         return _of_several(case, model)
     if model in BOTH:
         return (BOTH[model], "flexible"), "it is the better one of the two that were asked for"
@@ -189,12 +189,13 @@ def models_of(case: Case, model: str = AUTO) -> tuple[tuple[str, ...], str]:
 
 
 def _of_several(case: Case, model: str) -> tuple[tuple[str, ...], str]:
-    """Return the model that knows several cracks, and kinks; the rigid one knows two cracks where it is asked for."""
+    """Return the model that knows several cracks, kinks and bonds; the rigid one knows two cracks where asked for."""
     if model not in (AUTO, "flexible"):
         check(case, "beside" if model in BOTH else model)
         return (model,), _ASKED_FOR
     what = "several cracks, and its parts can vibrate as they do"
-    why = f"the case has {what if case.further_cracks else 'a crack with kinks, which the flexible model alone knows'}"
+    alone = "a crack with kinks" if case.crack.kinks else "a bonded joint"
+    why = f"the case has {what if case.further_cracks else f'{alone}, which the flexible model alone knows'}"
     return ("flexible",), _ASKED_FOR if model == "flexible" else why
 
 
