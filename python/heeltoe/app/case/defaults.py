@@ -30,6 +30,13 @@ _PATTERNS: dict[str, dict[str, Any]] = {
     "drained": {"uplift.drain_position": 0.1, "uplift.drain_efficiency": 0.667},
 }
 _LAW = "crack.law"
+# Something to begin with, of a joint as any.
+_BOND = {
+    "tensile_strength": "0.5 MPa",
+    "cohesion": "1.5 MPa",
+    "fracture_energy": "100 N/m",
+    "shear_energy": "1000 N/m",
+}
 _OWN_COEFFICIENTS = ("friction", "static_friction", "kinetic_friction")
 _COEFFICIENTS = tuple(f"crack.{name}" for name in _OWN_COEFFICIENTS)
 
@@ -40,6 +47,8 @@ def block(case: Case | None, units: str, path: str, *, there: bool) -> dict[str,
         return _law(case, there=there)
     if not there:
         return {path: None}
+    if path.endswith(".bond"):
+        return {path: dict(_BOND)}
     if path in _PARTS and case is not None:
         return {path: {"depth": length_text(case, units, _PARTS[path])}}
     return {path: dict(_BEGIN.get(path, {}))}
