@@ -21,10 +21,8 @@
 //! In a step of dt, contact is solved for what is left of `p` without the bond, whose conditions are those of a crack. `T` and `C` are means of the start and the end of the step, found by passes: so the work of a bond
 //! that breaks is `a G_f`, whatever the step.
 
-use super::contact::Contacts;
 use super::coulomb::{ContactOperator, Known, Problem, Report, Solver};
-use super::dam::Dam;
-use super::law::spots::spots;
+use super::crack_line::Line;
 use super::scheme::TimeStep;
 use super::simd::Lanes;
 use super::status::Status;
@@ -39,19 +37,6 @@ const MOST: u32 = 60;
 
 /// Less damage is rounding.
 const LEAST: f64 = 1e-9;
-
-/// Strength and energy of a bonded joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct BondLaw {
-    /// Tensile strength `f_t` (Pa).
-    pub tensile: f64,
-    /// Cohesion `c` (Pa), at least friction times tensile strength: there the line of the shear strength ends.
-    pub cohesion: f64,
-    /// Energies of opening and of shear (J/m2).
-    pub energy: [f64; 2],
-    /// Factor on both strengths during the earthquake.
-    pub dynamic: f64,
-}
 
 /// The bond of one contact.
 #[derive(Clone, Copy, Debug)]
@@ -200,26 +185,27 @@ pub(super) struct Bonds {
 }
 
 impl Bonds {
-    /// None where no crack is bonded; `shaken` says whether the dynamic strengths are asked for.
-    pub(super) fn new(dam: &Dam, contacts: &Contacts, shaken: bool) -> Option<Self> {
-        if dam.cracks.iter().all(|line| line.bond.is_none()) {
+    /// None where no crack is bonded. Each crack's contacts have a share of its length (m), and are there from the
+    /// beginning or in place of others; `shaken` says whether the dynamic strengths are asked for.
+    pub(super) fn new(lines: &[Line], shares: &[Vec<(f64, bool)>], shaken: bool) -> Option<Self> {
+        if lines.iter().all(|line| line.bond.is_none()) {
             return None;
         }
         let mut first = 0;
         let mut cracks = Vec::new();
-        for (line, spots) in dam.cracks.iter().zip(spots(dam, contacts)) {
+        for (line, shares) in lines.iter().zip(shares) {
             let mut bonds = Vec::new();
             if let Some(law) = line.bond {
                 let factor = if shaken { law.dynamic } else { 1.0 };
                 let strengths = [factor * law.tensile, factor * law.cohesion];
                 let mut place = 0.0;
-                for (k, spot) in spots.iter().enumerate().filter(|(_, spot)| spot.double.is_none()) {
+                for (k, &(length, _)) in shares.iter().enumerate().filter(|(_, share)| share.1) {
                     let reach = |k: usize| 2.0 * law.energy[k] / strengths[k];
                     bonds.push(Bond {
                         contact: first + k,
-                        length: spot.length,
-                        place: place + 0.5 * spot.length,
-                        strength: strengths.map(|strength| spot.length * strength),
+                        length,
+                        place: place + 0.5 * length,
+                        strength: strengths.map(|strength| length * strength),
                         reach: [reach(0), reach(1)],
                         damage: 0.0,
                         path: 0.0,
@@ -233,10 +219,10 @@ impl Bonds {
                         springs: true,
                         rigid: !shaken,
                     });
-                    place += spot.length;
+                    place += length;
                 }
             }
-            first += spots.len();
+            first += shares.len();
             cracks.push(bonds);
         }
         let none = Cracked {
@@ -246,8 +232,8 @@ impl Bonds {
         };
         Some(Bonds {
             cracked: vec![none; cracks.len()],
-            shift: vec![0.0; 2 * contacts.len()],
-            taken: vec![0.0; 2 * contacts.len()],
+            shift: vec![0.0; 2 * first],
+            taken: vec![0.0; 2 * first],
             cracks,
             passes: 0,
         })

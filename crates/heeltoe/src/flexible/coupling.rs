@@ -19,6 +19,7 @@ use super::coulomb::{Problem, Report, Solver, MANY};
 use super::dam::Dam;
 use super::faces::Faces;
 use super::kinks::Turn;
+use super::law::spots::{spots, Spot};
 use super::law::Laws;
 use super::place::Place;
 use super::scheme::TimeStep;
@@ -54,7 +55,12 @@ impl Crack {
             .flat_map(|(range, line)| range.map(|_| line.friction))
             .collect();
         let laws = Laws::new(dam, &contacts);
-        let bonds = Bonds::new(dam, &contacts, shaken);
+        let own = |spot: &Spot| (spot.length, spot.double.is_none());
+        let shares: Vec<Vec<_>> = spots(dam, &contacts)
+            .iter()
+            .map(|spots| spots.iter().map(own).collect())
+            .collect();
+        let bonds = Bonds::new(&dam.cracks, &shares, shaken);
         Crack {
             problem: Problem {
                 g: vec![0.0; 4 * m * m],

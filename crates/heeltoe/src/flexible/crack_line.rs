@@ -1,6 +1,5 @@
 //! A crack as data: its nodes, its friction, its shape.
 
-use super::bond::BondLaw;
 use crate::friction::Law;
 
 /// Some nodes of a body that follow each other.
@@ -10,6 +9,19 @@ pub struct Span {
     pub first: usize,
     /// How many.
     pub count: usize,
+}
+
+/// Strength and energy of a bonded joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BondLaw {
+    /// Tensile strength `f_t` (Pa).
+    pub tensile: f64,
+    /// Cohesion `c` (Pa), at least friction times tensile strength: there the line of the shear strength ends.
+    pub cohesion: f64,
+    /// Energies of opening and of shear (J/m2).
+    pub energy: [f64; 2],
+    /// Factor on both strengths during the earthquake.
+    pub dynamic: f64,
 }
 
 /// A crack.

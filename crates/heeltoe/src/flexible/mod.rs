@@ -43,9 +43,9 @@ mod walk;
 
 pub use bodies::Sides;
 pub use body::{Modes, ReducedBody};
-pub use bond::{BondLaw, Cracked};
+pub use bond::Cracked;
 pub use crack_forces::{FaceAnchor, FollowingWater, Inside, Point, RisingWater};
-pub use crack_line::{Line, RockingThresholds, Span};
+pub use crack_line::{BondLaw, Line, RockingThresholds, Span};
 pub use dam::{Dam, Shaking, UntilRest, Wanted};
 pub use envelope::{Extreme, Stressed, Stresses};
 pub use frames::Frames;
