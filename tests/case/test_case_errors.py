@@ -18,7 +18,7 @@ REFUSED = [
     (
         dam(crack=CRACK | {"colour": "red"}),
         "crack.colour: no such field; "
-        "the fields here are elevation, inclination, kinks, friction, static_friction, kinetic_friction, law, "
+        "the fields here are elevation, inclination, kinks, friction, static_friction, kinetic_friction, law, bond, "
         "restitution, uplift, uplift_intensity, roughness",
     ),
     (
