@@ -25,7 +25,6 @@ from heeltoe.result.limits import LimitCheck
 from heeltoe.result.numbers import (
     OF_SEVERAL,
     AnchorForce,
-    BondState,
     CrackNumbers,
     FrictionLawState,
     Roughness,
@@ -71,6 +70,7 @@ class Energy(Block):
         float, Number("What is left of the balance of all others, over the turnover; rounding if the run is sound.")
     ]
     damping_j: Annotated[float, Number("Energy lost in the concrete's damping; zero for a block.", _J)] = 0.0
+    fracture_j: Annotated[float, Number("Energy that the bonds of joints have taken; zero without one.", _J)] = 0.0
     numerical_j: Annotated[float, Number("Energy lost by the time stepping itself; zero for a block.", _J)] = 0.0
     gained_j: Annotated[
         float, Number("Sum of what contact added in steps in which its work was positive; it should be nothing.", _J)
@@ -140,7 +140,6 @@ class Numbered(ABC):
     events = Of[int]()
     rotation = Of[str]()
     friction_law = Of[FrictionLawState | None]()
-    joint = Of[BondState | None]()
     roughness = Of[Roughness | None]()
     drainage_by_motion = Of[list[float] | None]()
     overturned_about = Of[str | None]()

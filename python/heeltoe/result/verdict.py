@@ -153,11 +153,18 @@ def _slip(response: Response, units: str) -> str:
 def joint_said(response: Response, units: str = "si") -> str:
     """Say whether the joints of an elastic dam crack, from where, and what is left; nothing of a crack."""
     if not response.several:
-        return _joint(response.joint, response.crack_width_m, "The joint", units)
+        return _joint(getattr(response, "joint", None), response.crack_width_m, "The joint", units)
     return " ".join(
         text
         for crack in response.cracks
-        if (text := _joint(crack.joint, crack.crack_width_m, f"The joint at {_level(crack.elevation, units)}", units))
+        if (
+            text := _joint(
+                getattr(crack, "joint", None),
+                crack.crack_width_m,
+                f"The joint at {_level(crack.elevation, units)}",
+                units,
+            )
+        )
     )
 
 

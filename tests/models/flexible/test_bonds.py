@@ -14,6 +14,7 @@ from heeltoe.models.flexible.body.bond import node_lengths, zone_mesh
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.body.step import longest_step
 from heeltoe.result.verdict import verdict
+from heeltoe.views.figures.energy import energy_figure
 
 # Strong and tough: a brittle one would ask for elements and steps of its own.
 STRONG = {
@@ -67,6 +68,9 @@ def test_a_joint_cracks_and_says_so():
     assert "The joint begins to crack at" in verdict(response)
     broken = response.summary["joint"]["fracture_energy_j"]
     assert broken >= 0.99 * 200.0 * bond.cracked_length_m
+    assert response.energy.fracture_j == pytest.approx(broken, rel=1e-9)
+    entries = [text.get_text() for axes in energy_figure(response).axes for text in axes.get_yticklabels()]
+    assert any("fracture" in entry for entry in entries) == (broken > 1e-3 * abs(response.energy.input_j))
 
 
 def test_a_strength_beyond_reach_is_the_bonded_dam():

@@ -13,6 +13,7 @@ _ENERGY = (
     ("Friction", "friction_j"),
     ("Impacts", "impact_j"),
     ("Damping of the concrete", "damping_j"),
+    ("Fracture of the joint", "fracture_j"),
     ("Lost by the time stepping", "numerical_j"),
     ("Left in the dam", "left_j"),
     ("Made by contact, which should be none", "gained_j"),
@@ -62,7 +63,10 @@ def evidence(subject: Subject) -> Section:
     for run in subject.runs:
         blocks += _spread(subject, run)
     if any(run.response.energy is not None for run in subject.runs):
-        rows = tuple(_energy_row(subject, label, name) for label, name in _ENERGY)
+        ledgers = [run.response.energy for run in subject.runs if run.response.energy is not None]
+        bonded = any(ledger.fracture_j for ledger in ledgers)
+        entries = [(label, name) for label, name in _ENERGY if bonded or name != "fracture_j"]
+        rows = tuple(_energy_row(subject, label, name) for label, name in entries)
         blocks.append(Table(subject.head(), _seen(rows), f"Energy ledger, {subject.per_width}.", subject.align()))
         blocks += subject.figure("energy")[-1:]
     for run in subject.runs:

@@ -31,6 +31,7 @@ _INPUT = _Entry("put in", "#000000", "-", "")
 _FRICTION = _Entry("friction", "#0072B2", "--", "///")
 _DAMPING = _Entry("damping", "#009E73", "-.", "...")
 _IMPACT = _Entry("impacts", "#D55E00", ":", "xxx")
+_FRACTURE = _Entry("fracture", "#E69F00", (0, (1, 1)), "///\\\\\\")  # type: ignore[arg-type]
 _STORED = _Entry("stored since the start", "#CC79A7", (0, (5, 1, 1, 1, 1, 1)), "\\\\\\")  # type: ignore[arg-type]
 _NUMERICAL = _Entry("time stepping", "#999999", "-", "")
 # Of what is put in, an entry below this share is not worth a bar, except the three that everyone asks for.
@@ -102,6 +103,7 @@ def _bars(ledger: Energy) -> list[tuple[_Entry, float]]:
         (_FRICTION, ledger.friction_j),
         (_DAMPING, ledger.damping_j),
         (_IMPACT, ledger.impact_j),
+        (_FRACTURE, ledger.fracture_j),
         (_STORED, ledger.left_j),
         (_NUMERICAL, ledger.numerical_j),
     ]

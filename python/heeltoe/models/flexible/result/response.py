@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from heeltoe.result.numbers import (
     BeforeShaking,
+    BondState,
     ElasticGive,
     EvidenceNumbers,
     Mesh,
@@ -36,6 +37,8 @@ class ElasticCrackResponse(CrackResponse):
     """
 
     frames: CrackHistory
+
+    joint = Of[BondState | None]()
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)
@@ -72,6 +75,7 @@ class FlexibleResponse(Response):
     contact_iterations_per_step = Of[float]()
     contact_residual = Of[float]()
     evidence = Of[EvidenceNumbers | None]()
+    joint = Of[BondState | None]()
 
     @property
     def crack(self) -> CrackHistory:

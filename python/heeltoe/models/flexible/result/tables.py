@@ -199,6 +199,7 @@ def energy_of(run: DamRun) -> Energy:
         left_j=raw.energy_stored + raw.energy_penalty - raw.energy_start,
         residual=raw.energy_residual,
         damping_j=raw.energy_damping,
+        fracture_j=raw.energy_fracture,
         numerical_j=raw.energy_numerical,
         gained_j=raw.energy_gained,
     )
