@@ -146,11 +146,20 @@ def test_a_command_that_is_asked_to_end_leaves_nothing_aside(name, tmp_path):
     number = getattr(signal, name)
     file = study_file(tmp_path, DRAWN.replace("samples = 60", "samples = 2000000"))
     words = [sys.executable, "-m", "heeltoe", "study", str(file), "--out", "out"]
-    running = subprocess.Popen(words, cwd=tmp_path, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-    while not list(tmp_path.glob("out/runs/part-*.parquet")) and running.poll() is None:
-        time.sleep(0.02)
-    running.send_signal(number)
-    _, errors = running.communicate(timeout=60)
+    # Whoever runs the tests may have it ignored, as nohup does, and then a command does not end by it.
+    before = signal.signal(number, signal.SIG_DFL)
+    try:
+        running = subprocess.Popen(words, cwd=tmp_path, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    finally:
+        signal.signal(number, before)
+    with running:
+        while not list(tmp_path.glob("out/runs/part-*.parquet")) and running.poll() is None:
+            time.sleep(0.02)
+        running.send_signal(number)
+        try:
+            _, errors = running.communicate(timeout=60)
+        finally:
+            running.kill()
     assert running.returncode == 128 + number
     assert f"heeltoe: ended by {name}" in errors
     assert "Traceback" not in errors
