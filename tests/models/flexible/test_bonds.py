@@ -91,7 +91,7 @@ def test_a_strength_beyond_reach_is_the_bonded_dam():
 
 
 def test_a_bond_that_no_step_follows_is_refused():
-    brittle = dam(shear_energy="0.000001 N/m")
+    brittle = dam(shear_energy="0.001 N/m")
     with pytest.raises(InputError) as wrong:
         run(read_case(brittle), "flexible")
     assert wrong.value.code == "step-stiff"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import shutil
 from collections.abc import Iterator, Sequence
@@ -120,6 +121,11 @@ def _reached(address: str) -> Any:
     """Return a client of a scheduler."""
     from distributed import Client
 
+    # What becomes of a study is one sentence of ours, not what its client and its tasks log as they end.
+    for name in ("asyncio", *logging.root.manager.loggerDict):
+        # Each of its modules has a level of its own.
+        if name.partition(".")[0] in ("asyncio", "distributed", "tornado"):
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)
     try:
         return Client(address, timeout=10)
     except (OSError, ValueError, TimeoutError) as error:
