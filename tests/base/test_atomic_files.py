@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import signal
 import stat
 import subprocess
 import sys
@@ -12,6 +13,7 @@ from pathlib import Path
 
 import pytest
 
+from heeltoe.base import atomic_files
 from heeltoe.base.atomic_files import (
     LISTED,
     READY,
@@ -235,3 +237,25 @@ def test_no_room_for_what_nobody_shall_see_is_said(monkeypatch):
     with pytest.raises(InputError, match="No space left on device") as refused, temporary():
         pass
     assert refused.value.code == "no-room"
+
+
+@pytest.mark.parametrize("step", ["mkdtemp", "rmtree"])
+def test_a_signal_waits_until_what_is_aside_is_known_or_gone(tmp_path, monkeypatch, step):
+    def end(*_):
+        raise SystemExit
+
+    place = atomic_files if step == "mkdtemp" else atomic_files.shutil
+    real = getattr(place, step)
+
+    def interrupted(*words, **options):
+        signal.raise_signal(signal.SIGTERM)
+        return real(*words, **options)
+
+    before = signal.signal(signal.SIGTERM, end)
+    try:
+        monkeypatch.setattr(place, step, interrupted)
+        with pytest.raises(SystemExit):
+            write_text(tmp_path / "text", "new")
+    finally:
+        signal.signal(signal.SIGTERM, before)
+    assert not [path for path in tmp_path.iterdir() if path.is_dir()]

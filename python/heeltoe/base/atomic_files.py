@@ -14,13 +14,16 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import stat
 import sys
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from fnmatch import fnmatch
 from pathlib import Path, PurePosixPath
 from tempfile import TemporaryDirectory, mkdtemp
+from typing import Any
 
 from heeltoe.errors.error import InputError
 
@@ -32,6 +35,8 @@ LISTED = ".heeltoe-files"
 READY = ".heeltoe-ready"
 """A new result that is complete, on its way to its places."""
 _ASIDE = ".heeltoe-"
+# Signals that interrupt or end a command; some systems have fewer of them.
+_SIGNALS = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
 # Places that name an open file, of a shell for example: what is there is written to, not replaced.
 _OPEN = ("/dev/fd/", "/dev/std", "/proc/")
 
@@ -197,12 +202,9 @@ def _publish(fresh: Path, directory: Path, own: Sequence[str], field: str) -> li
         _check_own(directory, names, listed, field)
         kept = [name for name in listed if not any(fnmatch(PurePosixPath(name).name, pattern) for pattern in own)]
         (fresh / LISTED).write_text("".join(f"{name}\n" for name in sorted({*kept, *names})), encoding="utf-8")
-        fresh.rename(directory / READY)
-        try:
+        with _uninterrupted():
+            fresh.rename(directory / READY)
             _move_in(directory)
-        except KeyboardInterrupt:
-            _move_in(directory)
-            raise
     return [directory / name for name in names]
 
 
@@ -260,12 +262,38 @@ def _target(path: str | Path) -> Path | None:
 def _aside(directory: Path) -> Iterator[Path]:
     """Yield a new directory in this one, which is not there afterwards."""
     with ExitStack() as stack:
-        with _locked(directory):
+        with _locked(directory), _uninterrupted():
             _settle(directory)
             fresh = Path(mkdtemp(prefix=_ASIDE, dir=directory))
-            stack.callback(shutil.rmtree, fresh, ignore_errors=True)
+            stack.callback(_remove, fresh)
             stack.enter_context(_locked(fresh))
         yield fresh
+
+
+def _remove(aside: Path) -> None:
+    with _uninterrupted():
+        shutil.rmtree(aside, ignore_errors=True)
+
+
+@contextmanager
+def _uninterrupted() -> Iterator[None]:
+    """Let a signal that would raise an exception wait: what is short and must not stop halfway is done first."""
+    waiting: list[int] = []
+    before: dict[int, Any] = {}
+    try:
+        # Handlers written in Python run in the main thread alone.
+        if threading.current_thread() is threading.main_thread():
+            for number in _SIGNALS:
+                handler = signal.getsignal(number)
+                if callable(handler):
+                    before[number] = handler
+                    signal.signal(number, lambda number, _: waiting.append(number))
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+        for number in waiting[:1]:
+            signal.raise_signal(number)
 
 
 @contextmanager
