@@ -1,0 +1,160 @@
+"""Few unknowns for a large linear body: the shapes it takes at chosen frequencies, and the error that they leave.
+
+A body ``M x'' + C x' + K x = B u`` with symmetric matrices, M and K positive definite and C positive semidefinite,
+that is seen through ``B^T x`` alone is projected on a few real shapes V:
+
+    V^T M V,    V^T C V,    V^T K V.
+
+They stay symmetric and positive, so what is reduced takes energy as the body does, never gives any (passivity by
+congruence), and as inputs and outputs are the same the error of the answer is of second order in what V lacks. V are
+the main directions of real and imaginary parts of answers at chosen frequencies (proper orthogonal decomposition of a
+rational Krylov space; Antoulas, Approximation of Large-Scale Dynamical Systems, SIAM 2005)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import scipy.linalg
+import scipy.sparse as sparse
+from scipy.sparse.linalg import splu
+
+from heeltoe.base.arrays import Floats
+
+Sparse = Any
+"""A matrix of scipy.sparse, which has no types of its own."""
+Complexes = Any
+"""A complex array."""
+
+# Directions with less than this part of the energy of others are rounding.
+_NOTHING = 1e-13
+
+
+@dataclass(frozen=True, eq=False)
+class LinearBody:
+    """Symmetric matrices of a body of N unknowns: mass, damping and stiffness."""
+
+    mass: Sparse
+    damping: Sparse
+    stiffness: Sparse
+
+    def response(self, rate: complex, forces: Floats) -> Complexes:
+        """Return the amplitudes (N, k) under forces (N, k) that go like exp(rate t), mostly of rate i omega."""
+        operator = self.stiffness + rate * self.damping + rate**2 * self.mass
+        return splu(sparse.csc_matrix(operator)).solve(forces.astype(complex))
+
+
+def main_shapes(body: LinearBody, snapshots: Floats, omega: float, first: Floats | None = None) -> Floats:
+    """Return the main directions of answers of a body, most important first.
+
+    Parameters
+    ----------
+    body
+        Of N unknowns.
+    snapshots
+        Real answers (N, k).
+    omega
+        Circular frequency [1/s] of the norm ``K + omega^2 M`` in which directions are orthonormal.
+    first
+        Shapes (N, j) that are kept whatever the snapshots are; they come first.
+    """
+    norm = sparse.csr_matrix(body.stiffness + omega**2 * body.mass)
+    head = np.empty((snapshots.shape[0], 0))
+    if first is not None:
+        head = _directions(norm, first, 0.0)
+        for _ in range(2):
+            snapshots = snapshots - head @ (head.T @ (norm @ snapshots))
+    tail = _directions(norm, snapshots, _NOTHING)
+    return np.column_stack([head, tail])
+
+
+@dataclass(frozen=True, eq=False)
+class Projected:
+    """A body in shapes (N, m): its matrices of mass, damping and stiffness there, (m, m)."""
+
+    shapes: Floats
+    mass: Floats
+    damping: Floats
+    stiffness: Floats
+
+    @classmethod
+    def of(cls, body: LinearBody, shapes: Floats) -> Projected:
+        """Return a body in shapes."""
+        return cls(shapes, *(congruent(matrix, shapes) for matrix in (body.mass, body.damping, body.stiffness)))
+
+    def first(self, count: int) -> Projected:
+        """Return it in its first shapes alone."""
+        some = slice(0, count)
+        return Projected(
+            self.shapes[:, some], self.mass[some, some], self.damping[some, some], self.stiffness[some, some]
+        )
+
+    def response(self, rate: complex, forces: Complexes) -> Complexes:
+        """Return the amplitudes (m, k) of the shapes under forces on them that go like exp(rate t)."""
+        return np.linalg.solve(self.stiffness + rate * self.damping + rate**2 * self.mass, forces.astype(complex))
+
+    def modes(self) -> tuple[Floats, Floats]:
+        """Return the squared frequencies (m,) without damping and the mass-normalised shapes (N, m)."""
+        squares, mixed = scipy.linalg.eigh(self.stiffness, self.mass)
+        return np.maximum(squares, 0.0), self.shapes @ mixed
+
+
+def enough_shapes(
+    projected: Projected, inputs: Floats, exact: dict[complex, Complexes], enough: float, least: int
+) -> tuple[Projected, float]:
+    """Return a body in as few of its first shapes as leave a small error, and that error.
+
+    The error is that of the answers ``B^T x`` to inputs B, each compared with its own size and that of the input it is
+    seen through: the largest of all pairs of inputs at all rates.
+
+    Parameters
+    ----------
+    projected
+        In as many shapes as there may be.
+    inputs
+        B, (N, k).
+    exact
+        Answers (k, k) of the whole body by rate.
+    enough
+        The error that may remain.
+    least
+        How many shapes stay at least.
+    """
+    driven = projected.shapes.T @ inputs
+
+    def error(count: int) -> float:
+        fewer, pushed = projected.first(count), driven[:count]
+        worst = 0.0
+        for rate, answer in exact.items():
+            off = pushed.T @ fewer.response(rate, pushed) - answer
+            size = np.sqrt(np.abs(np.diag(answer)))
+            worst = max(worst, float(np.max(np.abs(off) / np.outer(size, size))))
+        return worst
+
+    low, high = least, projected.shapes.shape[1]
+    while low < high:
+        count = (low + high) // 2
+        low, high = (low, count) if error(count) <= enough else (count + 1, high)
+    return projected.first(high), error(high)
+
+
+def congruent(matrix: Sparse, shapes: Floats) -> Floats:
+    """Return ``V^T A V`` of a symmetric matrix, symmetric to the last bit."""
+    product = shapes.T @ (matrix @ shapes)
+    result: Floats = (product + product.T) / 2.0
+    return result
+
+
+def real_columns(answers: Complexes) -> Floats:
+    """Return real and imaginary parts side by side, (N, k) to (N, 2 k)."""
+    columns: Floats = np.column_stack([answers.real, answers.imag])
+    return columns
+
+
+def _directions(norm: Sparse, columns: Floats, nothing: float) -> Floats:
+    gram = columns.T @ (norm @ columns)
+    energy, mixed = scipy.linalg.eigh((gram + gram.T) / 2.0)
+    kept = energy > max(nothing, 1e-15) * energy[-1]
+    directions: Floats = columns @ (mixed[:, kept] / np.sqrt(energy[kept]))[:, ::-1]
+    return directions
