@@ -39,6 +39,8 @@ _HOME = {
     "rigid_many": "models.rigid.many",
     "run": "models.run",
     "run_study": "study.run.run",
+    "run_suite": "study.run.suite",
+    "solve": "study.small.solve",
     "statics": "models.statics.model",
     "statics_of_sections": "models.statics.joints",
     "stochastic_motion": "motion.stochastic",
@@ -83,7 +85,9 @@ if TYPE_CHECKING:
     from heeltoe.study.answers.study_results import open_study as open_study
     from heeltoe.study.plan.file import read_study as read_study
     from heeltoe.study.run.run import run_study as run_study
+    from heeltoe.study.run.suite import run_suite as run_suite
     from heeltoe.study.small.overturning import overturning_map as overturning_map
+    from heeltoe.study.small.solve import solve as solve
     from heeltoe.study.small.spread import with_spread as with_spread
     from heeltoe.views.animation.write import animate as animate
     from heeltoe.views.report.write import write_report as write_report

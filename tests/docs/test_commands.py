@@ -27,6 +27,7 @@ QUICK = {
     "periods": COARSE,
     "overturning": ("--count", "4"),
     "study": ("--dry-run",),
+    "solve": (*COARSE, "--set", "motion.duration=1s", "--model", "rigid"),
 }
 RECORD = """PEER NGA STRONG MOTION DATABASE RECORD
 Somewhere, 1/1/2000, Station, 0
@@ -43,6 +44,8 @@ def place(tmp_path_factory) -> Path:
     directory = tmp_path_factory.mktemp("docs")
     (directory / "examples").symlink_to(ROOT / "examples")
     (directory / "my-record.AT2").write_text(RECORD)
+    (directory / "records").mkdir()
+    (directory / "records" / "my-record.AT2").write_text(RECORD)
     assert command("new", "mydam", cwd=directory).returncode == 0
     # What the pages say beside the commands: the flexible model needs a modulus, the decoupled one a crack at a height.
     case = directory / "mydam.toml"
@@ -79,8 +82,11 @@ def test_a_line_can_be_typed(line, place, request):
     if "examples/aftershocks.toml" in arguments:
         # The motions after the first one have durations of their own.
         arguments += [f"--set=aftershocks[{place}].duration=1s" for place in (0, 1)]
-    said = command(name, *arguments, *QUICK.get(name, ()), cwd=place)
-    assert said.returncode == 0, said.stderr
+    # The records of a suite have the length that they have.
+    quick = COARSE if "--motions" in arguments else QUICK.get(name, ())
+    said = command(name, *arguments, *quick, cwd=place)
+    # In so short an earthquake the limit may be met in the whole range.
+    assert said.returncode in ((0, 3) if name == "solve" else (0,)), said.stderr
 
 
 @pytest.mark.parametrize("page", PAGES)

@@ -7,7 +7,18 @@ import re
 
 import pytest
 
-from heeltoe import dam_periods, open_study, overturning_map, read_case, run, run_study, statics, with_spread
+from heeltoe import (
+    dam_periods,
+    open_study,
+    overturning_map,
+    read_case,
+    run,
+    run_study,
+    run_suite,
+    solve,
+    statics,
+    with_spread,
+)
 from heeltoe.case.read import case_schema
 from heeltoe.errors.error import InputError
 from heeltoe.models.statics.joints import statics_of_sections
@@ -17,7 +28,7 @@ from heeltoe.views.explain.meaning import KINDS
 from shared.command import command
 from shared.dams import FAST, HEIGHT, KOYNA, SLENDER, example
 from shared.every_field import leaves
-from shared.studies import BLOCK, DRAWN, study_file
+from shared.studies import BLOCK, DRAWN, earthquakes, study_file
 
 BOND = {
     "tensile_strength": "0.5 MPa",
@@ -78,7 +89,16 @@ def results(tmp_path_factory, study):
         "overturning": overturning_map(read_case(SLENDER), count=12).to_json(),
         "motion": json.loads(said.stdout),
         "study": study.to_json(),
+        "solve": solve(read_case(HEIGHT, FAST), "crack.friction", "residual_slip = 1 mm", model="rigid").to_json(),
+        "portfolio": run_study(_portfolio(tmp_path_factory.mktemp("dams")), tmp_path_factory.mktemp("out")).to_json(),
+        "suite": run_suite(anchored, earthquakes(tmp_path_factory.mktemp("suite")), model="rigid").to_json(),
     }
+
+
+def _portfolio(place):
+    (place / "dams.csv").write_text("name,crack.friction\nA,0.5\nB,0.6\n")
+    limits = '[fragility]\nlimits = { residual_slip = ["1 mm"] }\n'
+    return study_file(place, f'case = "case.toml"\ncases = "dams.csv"\n[motions]\nfolder = "quakes"\n{limits}')
 
 
 def _record(place):

@@ -22,6 +22,7 @@ from heeltoe.units.systems import unit_system
 
 if TYPE_CHECKING:
     from heeltoe.case.model import Case
+    from heeltoe.study.run.run import Progress as StudyProgress
 
 # Typer shows this class of its click by its heirs alone.
 _UsageError: Any = typer.BadParameter.__mro__[1]
@@ -169,3 +170,24 @@ def status() -> Iterator[Callable[[str], None]]:
     with Progress(*columns, console=console(stderr=True), transient=True) as bar:
         task = bar.add_task("reading")
         yield lambda text: bar.update(task, description=text)
+
+
+@contextmanager
+def study_bar() -> Iterator[Callable[[StudyProgress], None]]:
+    """Show how far the study is, on a terminal; elsewhere nothing."""
+    if not sys.stderr.isatty():
+        yield lambda progress: None
+        return
+    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import Progress as Bar
+
+    from heeltoe.views.terminal.study import progress_text
+
+    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
+    with Bar(*columns, console=console(stderr=True), transient=True) as bar:
+        task = bar.add_task("running", total=None)
+
+        def told(progress: StudyProgress) -> None:
+            bar.update(task, description=progress_text(progress), completed=progress.done, total=progress.of)
+
+        yield told

@@ -17,6 +17,7 @@ from heeltoe.cli import explain as explain_command
 from heeltoe.cli import law as law_command
 from heeltoe.cli import motion as motion_command
 from heeltoe.cli import run as run_command
+from heeltoe.cli import solve as solve_command
 from heeltoe.cli import statics as statics_command
 from heeltoe.cli import study as study_command
 from heeltoe.cli.common import BAD_INPUT, BUG, INTERRUPTED, LONGEST_PATH, NO_RESULT, app
@@ -132,6 +133,7 @@ def examples(
 # In the order of the help.
 app.command(cls=run_command.Run)(run_command.run)
 for command in (
+    solve_command.solve,
     dam_commands.periods,
     dam_commands.overturning,
     law_command.law,

@@ -125,12 +125,11 @@ def _json(motions: list[GroundMotion], misfits: list[Misfit]) -> dict[str, Any]:
 
 def _matched(motions: list[GroundMotion], text: str) -> tuple[list[GroundMotion], list[Misfit]]:
     """Match each motion to a spectrum, as far as that goes and the motion lasts."""
-    from heeltoe.motion.matching import match
+    from heeltoe.motion.matching import match_known_band
     from heeltoe.motion.targets import target_of
 
     target = target_of(text, "--match")
-    shortest, longest = max(0.1, target.shortest), min(3.0, target.longest)
-    pairs = [match(motion, target, shortest=shortest, longest=min(longest, motion.duration)) for motion in motions]
+    pairs = [match_known_band(motion, target) for motion in motions]
     return [pair for pair, _ in pairs], [misfit for _, misfit in pairs]
 
 

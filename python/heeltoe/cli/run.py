@@ -27,6 +27,7 @@ from heeltoe.cli.common import (
     status,
     units_of,
 )
+from heeltoe.cli.suite import Suite, refuse, run_suite_command
 from heeltoe.errors.error import InputError
 
 if TYPE_CHECKING:
@@ -114,11 +115,53 @@ def run(
             help="Write a report with figures as PDF and HTML into --out, or into a directory named after the case.",
         ),
     ] = False,
+    motions: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="FOLDER|FILE",
+            help="Run a suite instead: every record of a folder, or records one by one, both signs of each.",
+        ),
+    ] = None,
+    sa: Annotated[
+        str | None,
+        typer.Option(metavar="0.5g[@0.3s]", help="Scale each record of a suite to Sa at a period (default: T1)."),
+    ] = None,
+    match: Annotated[
+        str | None, typer.Option(metavar="en1998:0.3g,B", help="Match each record of a suite to this spectrum.")
+    ] = None,
+    target: Annotated[
+        str | None, typer.Option(metavar="en1998:0.3g,B", help="Draw this spectrum with those of a suite.")
+    ] = None,
+    judge: Annotated[
+        str | None,
+        typer.Option(metavar="largest|mean|median|84%", help="What of a suite is held against the limits."),
+    ] = None,
+    vertical: Annotated[
+        bool, typer.Option("--vertical", help="Use the vertical components in a suite, told by their names.")
+    ] = False,
+    resume: Annotated[bool, typer.Option("--resume", help="Continue a suite that was interrupted, in --out.")] = False,
     details: Details = False,
 ) -> None:
     """Run a case and print what the dam does."""
-    request = _Asked(model, spread, json_, out, units, csv, vtk, vary, report, details)
+    suite = Suite(motions or [], sa, match, target, judge, vertical, resume)
+    request = Asked(model, spread, json_, out, units, csv, vtk, vary, report, details)
     changes = list(set_ or [])
+    if motions:
+        others = {
+            "--motion": motion,
+            "--reverse": reverse,
+            "--duration": duration,
+            "--spread": spread,
+            "--csv": csv,
+            "--vtk": vtk,
+            "--output-step": output_step,
+            "--vary": vary,
+        }
+        refuse(others, "suite-option")
+        changes += [] if evidence is None else [f"flexible.evidence={evidence}"]
+        run_suite_command(case, changes, pga, suite, request)
+        return
+    refuse(suite.options(), "suite-needs")
     options = (
         ("motion.file", motion and json.dumps(as_given(motion))),
         ("motion.pga", pga),
@@ -130,7 +173,7 @@ def run(
 
 
 @dataclass(frozen=True)
-class _Asked:
+class Asked:
     """What is asked for beside the case, as it was typed."""
 
     model: str
@@ -188,7 +231,7 @@ class _Asked:
         return check_runs(self.spread or RUNS, "--spread")
 
 
-def _run(path: str, changes: Given, reverse: bool, output_step: str | None, request: _Asked) -> None:
+def _run(path: str, changes: Given, reverse: bool, output_step: str | None, request: Asked) -> None:
     """Read the case with its changes, run it, write and show what is asked for."""
     from heeltoe.case.read import read_case
     from heeltoe.units.parse import parse
@@ -227,7 +270,7 @@ def _run(path: str, changes: Given, reverse: bool, output_step: str | None, requ
         raise typer.Exit(NO_RESULT)
 
 
-def _table(path: str, changes: Given, request: _Asked, step: float | None, say: Callable[[str], None]) -> SmallStudy:
+def _table(path: str, changes: Given, request: Asked, step: float | None, say: Callable[[str], None]) -> SmallStudy:
     """Run a table of runs."""
     from heeltoe.models.run import cost_of
     from heeltoe.models.run import run as run_model
@@ -246,7 +289,7 @@ def _table(path: str, changes: Given, request: _Asked, step: float | None, say: 
 
 
 def _write(
-    result: Response | SmallStudy, case: Case, request: _Asked, place: Path, say: Callable[[str], None]
+    result: Response | SmallStudy, case: Case, request: Asked, place: Path, say: Callable[[str], None]
 ) -> list[Path]:
     """Write files and report; what asks for a report alone has its figures in it."""
     from heeltoe.study.small.run_table import SmallStudy

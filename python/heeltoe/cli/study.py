@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -23,6 +22,7 @@ from heeltoe.cli.common import (
     command_line,
     finish,
     say_file,
+    study_bar,
     units_of,
 )
 from heeltoe.cli.streams import console
@@ -30,8 +30,6 @@ from heeltoe.errors.sanitize import plain
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
-
-    from heeltoe.study.run.run import Progress
 
 
 def study(
@@ -79,7 +77,7 @@ def study(
         check_packages()
         check_directory(place, "--out", STUDY_REPORT)
     try:
-        with _bar() as progress:
+        with study_bar() as progress:
             results = run_study(
                 read,
                 place,
@@ -109,24 +107,3 @@ def study(
             say_file("wrote", path, words)
     if not results.answered:
         raise typer.Exit(NO_RESULT)
-
-
-@contextmanager
-def _bar() -> Iterator[Callable[[Progress], None]]:
-    """Show how far the study is, on a terminal; elsewhere nothing."""
-    if not sys.stderr.isatty():
-        yield lambda progress: None
-        return
-    from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
-    from rich.progress import Progress as Bar
-
-    from heeltoe.views.terminal.study import progress_text
-
-    columns = (TextColumn("{task.description}", markup=False), BarColumn(), MofNCompleteColumn(), TimeElapsedColumn())
-    with Bar(*columns, console=console(stderr=True), transient=True) as bar:
-        task = bar.add_task("running", total=None)
-
-        def told(progress: Progress) -> None:
-            bar.update(task, description=progress_text(progress), completed=progress.done, total=progress.of)
-
-        yield told

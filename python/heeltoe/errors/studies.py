@@ -69,5 +69,28 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
         "start one with `dask scheduler`, or leave it out",
     ),
     "study-scenario-count": ("{value} is not a valid number of motions", "give 1 to {most}"),
+    # tables of dams
+    "study-no-dams": ("the study has no table of dams", 'give one in its file: cases = "dams.csv"'),
+    "dams-missing": ("there is no file {value}", "give the CSV file of the dams, relative to the study file"),
+    "dams-unreadable": ("{value} cannot be read ({reason})", "give a CSV file in UTF-8"),
+    "dams-empty": ("{value} has no dams", "write a header with fields, and a row for each dam"),
+    "dams-row": ("has {value} cells, the header {count}", "give each dam as many cells as the header has"),
+    "dams-unit": ("holds words, which have no unit ({value})", "leave the unit out of the header"),
+    # fields that are solved for
+    "solve-until": ("{value} is not a limit of the case", "write NAME = VALUE with one of {names}"),
+    "solve-field": ("holds no number that could be solved for", "name a field that does, as crack.friction"),
+    "solve-no-range": ("has no value to search about", "give the range: --between LOW,HIGH"),
+    "solve-order": ("{value} is not a range", "give the lower end first: LOW,HIGH"),
+    "solve-range": ("the case refuses the range {value}", "give another one: --between LOW,HIGH"),
+    # suites of records
+    "suite-one-dam": (
+        "a suite is one dam in several motions",
+        "leave out [vary] and samples, and name the records under [motions]",
+    ),
+    "suite-one-strength": ("{value} strengths make a study, not a suite", "give one value"),
+    "suite-no-period": ("{value} needs concrete.modulus, without which the dam has no period", "give a period"),
+    "suite-option": ("goes with one motion, not with a suite of records", "leave it out, or --motions"),
+    "suite-resume": ("needs the directory of the suite", "add --out DIR"),
+    "suite-needs": ("goes with a suite of records", "add --motions FOLDER"),
     "study-many": ("{value} are too many", "give at most {most}"),
 }

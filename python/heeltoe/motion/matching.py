@@ -159,6 +159,12 @@ def match(
     return replace(best, processing=(*scaled.processing, step)), misfit
 
 
+def match_known_band(motion: GroundMotion, target: Target) -> tuple[GroundMotion, Misfit]:
+    """Match a record as :func:`match`, from 0.1 s to 3 s as far as the target is known there and the record lasts."""
+    shortest, longest = max(0.1, target.shortest), min(3.0, target.longest, motion.duration)
+    return match(motion, target, shortest=shortest, longest=longest)
+
+
 def _log_ratio(motion: GroundMotion, target: Target, period: Floats) -> Floats:
     response = response_spectrum(motion, period, target.damping).pseudo_acceleration
     ratio: Floats = np.log(response / target(period))

@@ -17,6 +17,7 @@ from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.response import Response
 from heeltoe.study.small.overturning import OverturningMap
 from heeltoe.study.small.run_table import SmallStudy
+from heeltoe.study.small.solve import Solved
 from heeltoe.units.parse import STANDARD_GRAVITY
 from heeltoe.units.systems import unit_system
 from heeltoe.views.figures.all import Figures, all_figures
@@ -61,6 +62,14 @@ def _one(name: str, draw: Callable[[], Figure]) -> Figures:
 @_figures.register
 def _(response: Response, units: str) -> Mapping[str, Figure]:
     return all_figures(None, response, units)
+
+
+@_figures.register
+def _(found: Solved, units: str) -> Mapping[str, Figure]:
+    from heeltoe.views.content.solve import field_scale
+    from heeltoe.views.figures.solve import solve_figure
+
+    return _one("solve", lambda: solve_figure(found, field_scale(found, units), units))
 
 
 @_figures.register

@@ -23,7 +23,9 @@ from heeltoe.study.answers.answers import bands, summary
 from heeltoe.study.answers.comparison import compared
 from heeltoe.study.answers.fragility import Curve, counted, curve
 from heeltoe.study.answers.likelihood import Tally
+from heeltoe.study.answers.portfolio import portfolio_of, ranks_table
 from heeltoe.study.answers.sensitivity import sobol_indices, tornado
+from heeltoe.study.answers.suite import suite_of
 from heeltoe.study.run.aggregate import SHAKEN, Walk
 from heeltoe.study.run.store import RUNS, Store, read_told
 from heeltoe.units.parse import DIMENSIONS
@@ -104,8 +106,9 @@ class Opened(Shown):
         InputError
             Where the study is no grid.
         """
-        if self.told["study"]["method"] != "grid":
-            raise InputError("study-no-grid", "to_xarray", self.told["study"]["method"])
+        method = "a table of dams" if self.told["dams"] else self.told["study"]["method"]
+        if method != "grid":
+            raise InputError("study-no-grid", "to_xarray", method)
         try:
             import pandas  # noqa: F401
             import xarray  # noqa: F401
@@ -167,6 +170,36 @@ class Opened(Shown):
             Where it asks for none.
         """
         return [{"model": model, **curve.to_json()} for model, curve in self.curves]
+
+    @cached_property
+    def suite(self) -> dict[str, Any] | None:
+        """What a suite of records says: each record by its worse sign, the numbers over all of them, and the limits;
+        None where the study is none, or has runs to come."""
+        return suite_of(self.walk) if self.complete else None
+
+    @cached_property
+    def portfolio(self) -> list[dict[str, Any]] | None:
+        """The dams of a table in the order of their ranks, model by model; None where the study has none, or has runs
+        to come."""
+        return portfolio_of(self.walk) if self.complete else None
+
+    def portfolio_table(self) -> pa.Table:
+        """Return the ranks of the dams of a table as an Arrow table, a row for each dam and model.
+
+        Raises
+        ------
+        InputError
+            Where the study has no table of dams.
+        """
+        if self.portfolio is None:
+            raise InputError("study-no-dams", "cases")
+        return ranks_table(self.portfolio)
+
+    @property
+    def limits_met(self) -> bool | None:
+        """Whether a suite keeps all limits of the case, by every model; None where nothing says so."""
+        checks = [] if self.suite is None else [check for row in self.suite["models"] for check in row["limits"]]
+        return all(check["met"] for check in checks) if checks else None
 
     @cached_property
     def curves(self) -> list[tuple[str, Curve]]:
@@ -294,6 +327,8 @@ class Opened(Shown):
             "complete": self.complete,
             "outcomes": self.outcomes,
             "summary": self.summary,
+            "suite": self.suite,
+            "portfolio": self.portfolio,
             "fragility": None if self.told["study"]["fragility"] is None else self.fragility,
             "measures_compared": self.compared(),
             "sensitivity": self.sensitivity() if self.told["study"]["method"] == "sensitivity" else None,

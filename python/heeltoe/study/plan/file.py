@@ -114,14 +114,21 @@ class Event(Fields):
     """From the fault to the place; for the same."""
 
 
+#: A period, or that of the first mode of the dam.
+PeriodField = Annotated[
+    Annotated[Literal["T1"], Tag(" ")] | Annotated[Duration, Field(ge=0.01, le=20.0), Tag("")],
+    Discriminator(lambda value: " " if value == "T1" else ""),
+]
+
+
 class Scale(Fields):
     """How strong the motions are."""
 
     measure: Literal["factor", "pga", "pgv", "sa", "arias"] = "pga"
     """What `values` are: factors on the record; or what the scaled motion has: its peak acceleration, its peak
     velocity, its spectral acceleration at `period` with 5 % damping, its Arias intensity."""
-    period: Annotated[Duration, Field(ge=0.01, le=20.0)] | None = None
-    """Of `sa`: the period at which it is."""
+    period: PeriodField | None = None
+    """Of `sa`: the period at which it is; "T1" for the first period of the dam, intact and with its water."""
     values: Values
     """A list, through which every motion goes, or a distribution of which each run draws one."""
 
@@ -133,6 +140,11 @@ class Scale(Fields):
                 raise InputError("missing-field", "period", example='period = "0.3 s"')
             raise InputError("needs-other", "period", other='measure = "sa"')
         return self
+
+    @property
+    def period_s(self) -> float | None:
+        """The period, once that of the dam is known [s]."""
+        return self.period if isinstance(self.period, float) else None
 
 
 class Motions(Fields):
@@ -157,6 +169,9 @@ class Motions(Fields):
     otherwise."""
     scale: Scale | None = None
     """How strong they are; as recorded where it is not given."""
+    match: str | None = Field(default=None, strict=True, min_length=1)
+    """Target spectrum to which each horizontal motion is matched before it is scaled, as `heeltoe motion --match` takes
+    it: `en1998:0.3g,B`, `asce7:0.9g,0.4g,8s`, or a file, relative to the study file."""
     unit: str | None = Field(default=None, strict=True)
     """Unit of the numbers in files that do not state it."""
     time_step: TimeSpan | None = None
@@ -203,6 +218,15 @@ class Fragility(Fields):
     """Probability of the intervals."""
 
 
+class SuiteRule(Fields):
+    """How a suite of records is judged: one dam in several earthquakes."""
+
+    judge: Literal["largest", "mean", "median", "84%"] = "largest"
+    """Which number over the records is held against the limits of the case."""
+    target: str | None = Field(default=None, strict=True, min_length=1)
+    """Target spectrum to draw with those of the records, written as `motions.match`; that one where it is given."""
+
+
 class Study(Shown, Fields):
     """Many runs of one dam: what varies, and how."""
 
@@ -210,6 +234,9 @@ class Study(Shown, Fields):
     """What the results are called; the case's title where it is not given."""
     case: str = Field(strict=True, min_length=1)
     """The base case: a file, relative to the study file."""
+    cases: str | None = Field(default=None, strict=True, min_length=1)
+    """A table of dams, a CSV file relative to the study file: one row a dam, fields by name with their units in the
+    header, `section.height [m]`, and a column `name`. All else of a dam is as in the base case."""
     model: Annotated[tuple[Model, ...], BeforeValidator(_listed), Field(min_length=1)] = ("rigid",)
     """The model, or several side by side on the same dams and motions."""
     method: Method = "grid"
@@ -227,6 +254,8 @@ class Study(Shown, Fields):
     """The earthquakes."""
     fragility: Fragility | None = None
     """Limits and curves."""
+    suite: SuiteRule | None = None
+    """The table of a suite of records, for one dam at one strength of each motion."""
 
     _directory: Path = PrivateAttr(default_factory=Path)
 
@@ -252,6 +281,10 @@ class Study(Shown, Fields):
         if self.method in ("sobol", "sensitivity") and self.samples and self.samples & (self.samples - 1):
             near = 2 ** max(1, self.samples.bit_length() - 1)
             yield InputError("study-power", "samples", self.samples, below=near, above=2 * near)
+        if self.cases is not None and (self.vary or self.method != "grid"):
+            yield InputError("fields-conflict", "cases", other="vary" if self.vary else "method")
+        if self.suite is not None and (self.cases or self.vary or self.drawn or self.motions is None):
+            yield InputError("suite-one-dam", "suite")
         if len(set(self.model)) < len(self.model):
             yield InputError("study-twice", "model", shown(list(self.model)))
         for place, (first, second, _) in enumerate(self.correlation if self.drawn else ()):

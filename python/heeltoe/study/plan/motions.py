@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -22,7 +22,9 @@ from heeltoe.errors.sanitize import harmless
 from heeltoe.models.run import runs_both_signs
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.intensity import intensity
+from heeltoe.motion.matching import match_known_band
 from heeltoe.motion.records.catalog import is_record
+from heeltoe.motion.targets import target_of
 from heeltoe.study.plan.file import Event, Motions
 from heeltoe.study.plan.problems import Problems
 
@@ -108,6 +110,9 @@ def _shakes(motions: Motions, case: Case, directory: Path, number: int, event: E
     with problems:
         vertical = event.vertical and _read(motions, case, directory, event.vertical, "vertical")
     problems.tell()
+    if motions.match is not None:
+        target = target_of(beside_file(motions.match, directory), "motions.match", case.gravity)
+        horizontal = [match_known_band(motion, target)[0] for motion in horizontal]
     references = [_reference(motions, motion, case) for motion in horizontal]
     if motions.pairs:
         references = [float(np.sqrt(np.prod(references)))] * 2
@@ -116,6 +121,12 @@ def _shakes(motions: Motions, case: Case, directory: Path, number: int, event: E
         yield shake
         if both_signs(motions, case):
             yield replace(shake, turned=True)
+
+
+def beside_file(text: str, directory: Path) -> str:
+    """Return the text of a target spectrum; a file that it names is relative to the study file."""
+    place = directory / os.path.expanduser(text)
+    return str(place) if os.path.isfile(place) else text
 
 
 def both_signs(motions: Motions | None, case: Case) -> bool:
@@ -127,7 +138,7 @@ def both_signs(motions: Motions | None, case: Case) -> bool:
 def _reference(motions: Motions, motion: GroundMotion, case: Case) -> float:
     if motions.scale is None or motions.scale.measure == "factor":
         return 1.0
-    value = intensity(motion, motions.scale.measure, motions.scale.period, case.gravity)
+    value = intensity(motion, motions.scale.measure, motions.scale.period_s, case.gravity)
     if value <= 0.0:
         raise InputError("motion-zero", motion.name)
     return value
@@ -162,6 +173,40 @@ def _events(motions: Motions, directory: Path) -> Iterator[Event]:
             raise InputError("study-components", "motions", shown(common), names=", ".join(files))
         used = vertical[0] if vertical and motions.vertical else None
         yield Event(name=common, horizontal=tuple(horizontal), vertical=used)
+
+
+def suite_events(names: Sequence[str], *, vertical: bool) -> list[Event]:
+    """Return each horizontal record of files, names and folders as an event by itself.
+
+    A vertical component, told by its name, goes with each horizontal one of its name where `vertical` is asked for, and
+    is left out otherwise.
+
+    Raises
+    ------
+    InputError
+        Where a folder has no records, or two records have one name.
+    """
+    files = [file for name in names for file in (_folder(name, Path()) if os.path.isdir(name) else [name])]
+    upward = {
+        _parts(file)[0]: file
+        for file in files
+        if _VERTICAL.fullmatch(_parts(file)[1]) and any(_goes_with(file, other) for other in files)
+    }
+    horizontal = [file for file in files if file not in upward.values()]
+    stems = [Path(file).stem if os.path.isfile(file) else file for file in horizontal]
+    twice = [stem for stem in stems if stems.count(stem) > 1]
+    if twice:
+        raise InputError("study-twice", "motions", shown(twice[0]))
+    return [
+        Event(name=stem, horizontal=(file,), vertical=upward.get(_parts(file)[0]) if vertical else None)
+        for stem, file in zip(stems, horizontal, strict=True)
+    ]
+
+
+def _goes_with(upward: str, other: str) -> bool:
+    """Whether another record is a horizontal component beside a vertical one."""
+    common, last = _parts(other)
+    return common == _parts(upward)[0] and not _VERTICAL.fullmatch(last)
 
 
 def _parts(name: str) -> tuple[str, str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
@@ -23,12 +24,15 @@ from heeltoe.models.run import earthquake
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.intensity import MEASURES, intensity, spectral_acceleration
 from heeltoe.motion.measures import measures
+from heeltoe.motion.spectrum import response_spectrum
+from heeltoe.motion.targets import Target, target_of
 from heeltoe.study.plan.axes import Axis, axis_of, beside, check_drawn, law_of
 from heeltoe.study.plan.crack_columns import check_cracks
 from heeltoe.study.plan.file import Distribution, Scale, Study
-from heeltoe.study.plan.motions import Shake, both_signs, shakes_of
+from heeltoe.study.plan.motions import Shake, beside_file, both_signs, shakes_of
 from heeltoe.study.plan.problems import Problems
 from heeltoe.study.plan.samples import MOST_SOBOL, Columns, Samples
+from heeltoe.study.plan.table import read_table
 from heeltoe.units.parse import parse, parse_acceleration
 from heeltoe.warnings.notice import Notice
 
@@ -41,6 +45,10 @@ MOST = 10**11
 _SCALES = {"factor": "number", "pga": "acceleration", "pgv": "velocity", "sa": "acceleration", "arias": "velocity"}
 # What people call things, on which no run depends.
 _WORDS = {"title", "units", "project"}
+# Of the dams of a table, so many are looked at for what they warn of.
+_WARNED = 2000
+#: At which the spectra of a suite are drawn [s].
+SUITE_PERIODS: Floats = np.geomspace(0.05, 4.0, 90)
 # Of the draws, how many are looked at for values that a field cannot have.
 _LOOKED_AT = 1 << 20
 
@@ -155,6 +163,8 @@ class Plan:
         How strong they are.
     pilot
         How fine flexible runs are; as the case has it where it is not known yet.
+    dams
+        Names of the dams of a table; None where they come otherwise.
     """
 
     study: Study
@@ -164,6 +174,7 @@ class Plan:
     events: tuple[str, ...]
     scale: Axis | None
     pilot: Pilot | None = None
+    dams: tuple[str, ...] | None = None
 
     @property
     def every(self) -> bool:
@@ -182,7 +193,8 @@ class Plan:
         more = (not self.every) + self.scale_drawn
         base = {axis.path: _base(self.case, axis) for axis in self.axes} if self.study.method == "one at a time" else {}
         study = self.study
-        return Samples(self.axes, study.method, study.samples, study.seed, base, study.correlation, more)
+        method = study.method if self.dams is None else "table"
+        return Samples(self.axes, method, study.samples, study.seed, base, study.correlation, more)
 
     @property
     def sizes(self) -> tuple[int, int, int, int]:
@@ -227,14 +239,35 @@ class Plan:
 
     def warnings(self) -> list[str]:
         """Return what the case warns of, as it is and with the least and the largest of each field, and the motions."""
+        if self.dams is not None:
+            return list(dict.fromkeys(map(str, [*self._warnings_of_dams(), *self._warnings_of_motions()])))
         cases = [self.case]
         for axis in self.axes:
             ends = axis.numbers if axis.law is None else np.array(axis.law.support())
             for value in () if ends is None else (ends.min(), ends.max()):
                 with suppress(InputError):
                     cases += [self.case.with_(axis.changes(float(value)))] if np.isfinite(value) else []
-        notices = [notice for case in cases for notice in case_warnings(case)]
-        notices += [notice for shake in self.shakes for notice in shake.horizontal.warnings]
+        notices = [notice for case in cases for notice in case_warnings(case)] + self._warnings_of_motions()
+        return list(dict.fromkeys(map(str, notices)))
+
+    def _warnings_of_dams(self) -> Iterator[str]:
+        """Walk what the dams of a table warn of, each kind by the first dam that does."""
+        known = set[str]()
+        for dam, name in enumerate(self.dams or ()):
+            values, _ = self.samples.at(np.array([dam]))
+            changes = {
+                key: value for axis in self.axes for key, value in axis.changes(_scalar(values[axis.path][0])).items()
+            }
+            for notice in case_warnings(self.case.with_(changes)):
+                if notice.code not in known:
+                    known.add(notice.code)
+                    yield f"{name}: {notice}"
+            if dam >= _WARNED:
+                return
+
+    def _warnings_of_motions(self) -> list[Notice]:
+        """Return what motions and models warn of."""
+        notices = [notice for shake in self.shakes for notice in shake.horizontal.warnings]
         motions, own = self.study.motions, self.case.motion
         if motions is not None and own is not None and own.vertical is not None and not motions.vertical:
             notices.append(Notice("study-vertical-left-out"))
@@ -243,7 +276,7 @@ class Plan:
         if self.pilot is not None and self.pilot.evidence is not None:
             single_runs = any(self.pilot_of(motion) is None for motion in range(len(self.shakes)))
             notices += _worth(self.pilot.evidence, single_runs=single_runs)
-        return list(dict.fromkeys(map(str, notices)))
+        return notices
 
     def pilot_of(self, motion: int) -> Pilot | None:
         """Return the pilot where it has made the run of a motion: of one dam at one strength."""
@@ -253,7 +286,7 @@ class Plan:
         """Return the motions with their measures as recorded, SI; spectral accelerations at the periods that the study
         names, as ``"sa(0.3)"``."""
         study = self.study
-        named = [study.motions.scale.period if study.motions and study.motions.scale else None]
+        named = [study.motions.scale.period_s if study.motions and study.motions.scale else None]
         named.append(study.fragility.period if study.fragility else None)
         periods = sorted({period for period in named if period is not None})
         measured: dict[str, dict[str, float]] = {}
@@ -267,6 +300,30 @@ class Plan:
             row = {"name": shake.name, "event": self.events[shake.event], "reversed": shake.turned}
             rows.append({**row, "measures": measured[motion.name], "traits": self._traits(shake)})
         return rows
+
+    def spectra(self) -> dict[str, Any] | None:
+        """Return the spectra of a suite with its target, SI: those of the motions as recorded, by name; None of any
+        other study."""
+        if self.study.suite is None:
+            return None
+        target = _target(self.study, self.case)
+        motions = {shake.name: shake.horizontal for shake in self.shakes}
+        damping = 0.05 if target is None else target.damping
+        periods = SUITE_PERIODS
+        drawn = None
+        if target is not None:
+            known = periods[(periods >= target.shortest) & (periods <= target.longest)]
+            accelerations = target(known).tolist()
+            drawn = {"name": target.name, "period_s": known.tolist(), "pseudo_acceleration_m_s2": accelerations}
+        return {
+            "damping": damping,
+            "period_s": periods.tolist(),
+            "motions": {
+                name: response_spectrum(motion, periods, damping).pseudo_acceleration.tolist()
+                for name, motion in motions.items()
+            },
+            "target": drawn,
+        }
 
     def _traits(self, shake: Shake) -> dict[str, float | None]:
         """Return what is known of a motion beside its strength."""
@@ -292,7 +349,7 @@ class Plan:
     @cached_property
     def inputs(self) -> dict[str, str]:
         """Hashes of all that the results hang on, by what each is called."""
-        study = self.study.model_dump(mode="json", exclude={"title", "fragility", "case", "motions"})
+        study = self.study.model_dump(mode="json", exclude={"title", "fragility", "suite", "case", "motions"})
         unheard = _WORDS | ({"motion"} if self.study.motions else set())
         case = self.case.model_dump(mode="json", exclude=unheard)
         hashes = {f"the study's {name}": _hash(value) for name, value in study.items()}
@@ -301,6 +358,9 @@ class Plan:
             hashes["the study's motions"] = _hash(
                 self.study.motions.model_dump(mode="json", exclude={"folder", "files", "events"})
             )
+        if self.dams is not None:
+            columns = [[axis.path, list(map(str, axis.values))] for axis in self.axes]
+            hashes["the table of dams"] = _hash([list(self.dams), columns])
         for shake in self.shakes:
             way = ", turned round" if shake.turned else ""
             hashes[f"the motion {shake.name}{way}"] = _hash(_told(shake))
@@ -312,19 +372,32 @@ class Plan:
         return _hash([self.inputs, [shake.name for shake in self.shakes]])
 
 
-def plan_of(study: Study) -> Plan:
+def plan_of(study: Study, case: Case | None = None) -> Plan:
     """Read what a study names and check that all of it can run.
+
+    Parameters
+    ----------
+    study
+        The study.
+    case
+        The base case; read from the file that the study names where it is not given.
 
     Raises
     ------
     InputError
         Naming the first thing that cannot be, with the others.
     """
-    case = read_case(study.directory / study.case)
+    case = read_case(study.directory / study.case) if case is None else case
     check_cracks(case, study.model)
+    study = _with_first_period(study, case)
     if study.title == "" and case.title:
         study = study.model_copy(update={"title": case.title})
     axes, problems = list[Axis](), Problems()
+    dams = None if study.cases is None else read_table(study.directory / os.path.expanduser(study.cases))
+    if dams is not None:
+        with problems:
+            dams.check(case)
+        axes += dams.axes
     for path, entry in study.vary.items():
         with problems:
             axes.append(axis_of(path, entry, case, drawn=study.drawn, beside=beside(path, study.vary)))
@@ -334,7 +407,12 @@ def plan_of(study: Study) -> Plan:
     with problems:
         scale = _scale(study.motions.scale, case, drawn=study.drawn) if study.motions else None
     problems.tell()
-    plan = Plan(study, case, tuple(axes), shakes, events, scale)
+    names = None if dams is None else dams.names
+    plan = Plan(study, case, tuple(axes), shakes, events, scale, dams=names)
+    if study.suite is not None:
+        if plan.sizes[2] > 1:
+            raise InputError("suite-one-strength", "motions.scale.values", plan.sizes[2])
+        _target(study, case)
     if plan.count > MOST:
         raise InputError("study-many", "study", f"{plan.count:.3g}", most=f"{MOST:.0e}")
     if study.method == "sobol" and plan.samples.count > MOST_SOBOL:
@@ -348,6 +426,33 @@ def plan_of(study: Study) -> Plan:
     elif study.method == "one at a time":
         _ = plan.samples
     return plan
+
+
+def _with_first_period(study: Study, case: Case) -> Study:
+    """Return the study with the first period of the dam in the place of "T1"."""
+    motions = study.motions
+    if motions is None or motions.scale is None or motions.scale.period != "T1":
+        return study
+    if case.concrete.modulus is None:
+        raise InputError("suite-no-period", "motions.scale.period", "T1")
+    from heeltoe.models.flexible.body.periods import dam_periods
+
+    # Six digits say what the spectrum is read at, in words and in files.
+    first = float(f"{dam_periods(case, 1).intact[0]:.6g}")
+    scale = motions.scale.model_copy(update={"period": first})
+    return study.model_copy(update={"motions": motions.model_copy(update={"scale": scale})})
+
+
+def _target(study: Study, case: Case) -> Target | None:
+    """Return the target spectrum of a suite."""
+    motions = study.motions
+    for field, text in (
+        ("suite.target", study.suite and study.suite.target),
+        ("motions.match", motions and motions.match),
+    ):
+        if text:
+            return target_of(beside_file(text, study.directory), field, case.gravity)
+    return None
 
 
 def _motions(study: Study, case: Case) -> tuple[tuple[Shake, ...], tuple[str, ...]]:
@@ -404,6 +509,10 @@ def _base(case: Case, axis: Axis) -> Any:
     if value is None:
         raise InputError("study-base", f"vary.{axis.path}")
     return float(value) if axis.quantity is not None else value
+
+
+def _scalar(value: Any) -> Any:
+    return float(value) if isinstance(value, np.floating) else value
 
 
 def _hash(content: Any) -> str:

@@ -30,7 +30,7 @@ class Samples:
     axes
         What varies.
     method, count, seed
-        Of the study; `count` where it draws.
+        Of the study, or ``"table"`` where each axis has a value for every dam; `count` where it draws.
     base
         The value of each axis in the base case, for `one at a time`; None where the case has none.
     correlation
@@ -57,6 +57,8 @@ class Samples:
     @property
     def count(self) -> int:
         """How many dams."""
+        if self._method == "table":
+            return len(self._axes[0].values)
         if self._method == "grid":
             return int(np.prod([len(axis.values) for axis in self._axes], dtype=object))
         if self._method == "one at a time":
@@ -70,6 +72,8 @@ class Samples:
 
     def at(self, number: NDArray[np.int64]) -> tuple[Columns, Floats]:
         """Return the values of some dams by path, and the shares that are drawn beside, shape (n, more)."""
+        if self._method == "table":
+            return {axis.path: axis.at(number) for axis in self._axes}, np.zeros((number.size, 0))
         if self._method == "grid":
             return self._grid(number), np.zeros((number.size, 0))
         if self._method == "one at a time":

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 
+from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.mechanics.block import build_block
 from heeltoe.models.flexible.evidence.refinement import Answer
@@ -150,6 +151,7 @@ def run_study(
     source: Study | str | PathLike[str],
     out: str | PathLike[str],
     *,
+    case: Case | None = None,
     resume: bool = False,
     scheduler: str | None = None,
     progress: Callable[[Progress], None] | None = None,
@@ -163,6 +165,8 @@ def run_study(
         A study file, or what :func:`heeltoe.read_study` returns.
     out
         Directory of the results; see :mod:`heeltoe.study.run.store`.
+    case
+        The base case, in the place of that which the study file names.
     resume
         Go on with a study that was begun there.
     scheduler
@@ -184,7 +188,7 @@ def run_study(
         Where the study cannot run, or its results cannot be written.
     """
     study = source if isinstance(source, Study) else read_study(source)
-    plan = plan_of(study)
+    plan = plan_of(study, case)
     directory = Path(out)
     if not _alone(plan, scheduler):
         check_workers(scheduler)

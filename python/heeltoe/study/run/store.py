@@ -24,7 +24,7 @@ from heeltoe.warnings.notice import Notice
 
 STUDY, RUNS = "study.json", "runs"
 #: Of the layout of a directory; another one cannot be read.
-_VERSION = 4
+_VERSION = 5
 
 
 @dataclass(frozen=True)
@@ -150,6 +150,8 @@ def keep(store: Store, plan: Plan) -> None:
         "warnings": plan.warnings(),
         "events": list(plan.events),
         "motions": plan.told_motions(),
+        "dams": None if plan.dams is None else list(plan.dams),
+        "spectra": plan.spectra(),
         "pilot": None if plan.pilot is None else plan.pilot.to_json(),
         "study": plan.study.model_dump(mode="json"),
         "case": plan.case.model_dump(mode="json", exclude_unset=True),

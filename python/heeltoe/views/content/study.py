@@ -20,7 +20,16 @@ from heeltoe.units.write import NOTHING, digits
 from heeltoe.views.content.drawings import drawing
 from heeltoe.views.content.input import case_rows
 from heeltoe.views.content.one_unit import one_unit_each
-from heeltoe.views.content.study_answers import answer, fragility, hangs_on, measures_compared, results
+from heeltoe.views.content.study_answers import (
+    answer,
+    fragility,
+    hangs_on,
+    measures_compared,
+    portfolio,
+    portfolio_section,
+    results,
+)
+from heeltoe.views.content.suite import suite, suite_answer
 from heeltoe.views.content.tree import (
     Block,
     Code,
@@ -51,6 +60,12 @@ _CAPTIONS = {
     "modes": "Which mode of motion makes most of the slip, in shares of the runs that slide; above the bars how many.",
     "sobol": "Sobol’s indices of the residual slip with their intervals.",
     "tornado": "What each field by itself makes of the mean residual slip; the line is the case as it is.",
+}
+_CAPTIONS |= {
+    "suite": "Residual slip of each record, by its worse sign (bar) and the other (mark), with the numbers over all.",
+    "ranks": "The worst dams of the table: residual slip over the motions, from the median to the 84 % (bar) and the "
+    "largest (mark), and the share of the motions in which the first limit is exceeded.",
+    "suite-spectra": "Response spectra of the records as they shake the dam, with their mean and the target.",
 }
 _SOURCES = {"fragility": ("fragility", "likelihood", "jackknife"), "measures": ("measures",), "sensitivity": ("sobol",)}
 
@@ -132,13 +147,16 @@ def study_subject(
 def study_answer(found: Opened, units: str) -> tuple[Block, ...]:
     """Return what the study says in sentences, and which runs are missing or have no result."""
     subject = StudySubject(found, Path(), Numbers(found.to_json(), units), {}, "")
-    return without_gaps(_missing(found), *answer(subject), _lost(found))
+    said = suite_answer(subject) or answer(subject)
+    return without_gaps(_missing(found), *said, *portfolio(subject), _lost(found))
 
 
 def study_sections(found: Opened, units: str) -> tuple[Block, ...]:
     """Return the results of a study in tables."""
     subject = StudySubject(found, Path(), Numbers(found.to_json(), units), {}, "")
     sections = (
+        suite(subject),
+        portfolio_section(subject),
         results(subject),
         fragility(subject),
         measures_compared(subject),
@@ -153,6 +171,8 @@ def study_document(subject: StudySubject) -> Document:
     found = subject.found
     sections = (
         _question(subject),
+        suite(subject),
+        portfolio_section(subject),
         _varied(subject),
         _motions(subject),
         results(subject),
@@ -166,9 +186,10 @@ def study_document(subject: StudySubject) -> Document:
     )
     *others, last = found.walk.models
     models = f"{', '.join(others)} and {last}" if others else last
+    what = "suite" if found.suite else "study"
     return Document(
         title=plain(found.title),
-        subtitle=f"A study of {found.store.count:,} runs, by the {models} model{'s' * bool(others)}",
+        subtitle=f"A {what} of {found.store.count:,} runs, by the {models} model{'s' * bool(others)}",
         footer=f"heeltoe {found.told['build']['heeltoe']} · study {found.told['fingerprint'][:12]}",
         blocks=one_unit_each(without_gaps(*sections), subject.numbers),
     )
@@ -187,8 +208,8 @@ def _question(subject: StudySubject) -> Section:
     blocks: list[Block | None] = [
         _missing(found),
         paragraph(Strong("Question. "), asked),
-        *answer(subject),
-        _base_case(subject),
+        *(suite_answer(subject) or answer(subject)),
+        None if found.suite else _base_case(subject),
         _lost(found),
     ]
     if found.told["warnings"]:
@@ -245,7 +266,10 @@ def _varied(subject: StudySubject) -> Section:
     how = f"By the method “{study['method']}”"
     how += f", {study['samples']:,} samples, seed {study['seed']}." if drawn else "."
     blocks.append(paragraph(how))
-    if study["vary"]:
+    if study["cases"]:
+        many = f"{len(subject.found.told['dams']):,} dams of the table "
+        blocks.append(paragraph(many, Code(study["cases"]), "; all else is as in the base case."))
+    elif study["vary"]:
         varied = tuple((Code(path), values_said(given, subject.units, path)) for path, given in study["vary"].items())
         blocks.append(Table(("field", "values"), varied, "What varies; all else is as in the base case.", "ll", (4, 8)))
     else:

@@ -171,6 +171,44 @@ def fragility(subject: StudySubject) -> Section | None:
     return Section("Fragility", (paragraph(text), table, *subject.figure("fragility")))
 
 
+#: Dams of a portfolio that its table and its figure show.
+SHOWN_DAMS = 25
+
+
+def portfolio(subject: StudySubject) -> list[Block]:
+    """Return the dams of a table by their ranks, a table for each model."""
+    blocks: list[Block] = []
+    for row in subject.found.portfolio or ():
+        worst, count = row["dams"][:SHOWN_DAMS], len(row["dams"])
+        limits = [limit_of(limit["limit"], limit["value"], subject.units) for limit in row["limits"]]
+        cells = [
+            [Amount(dam["residual_slip_m"][name], zero="0") for name in ("median", "84%", "largest")] for dam in worst
+        ]
+        rows: list[tuple[Inline, ...]] = [
+            (str(dam["rank"]), dam["name"], *map(_percent, dam["exceeds"]), *texts)
+            for dam, texts in zip(worst, in_one_unit(cells, subject.units), strict=True)
+        ]
+        head = ("rank", "dam", *(f"P({limit})" for limit in limits), "half stay below", "84 %", "largest")
+        by = f"by the share of the motions that exceed the {limits[0]}" if limits else "by the mean residual slip"
+        some = f"the {len(worst)} worst of {count:,} dams" if count > len(worst) else f"{count:,} dams"
+        caption = (
+            f"Ranks {by}, {row['model']} model: {some}; residual slips over the motions, by the worse sign of each."
+        )
+        blocks.append(Table(head, tuple(rows), caption, "rl" + "r" * (len(head) - 2)))
+    return blocks
+
+
+def portfolio_section(subject: StudySubject) -> Section | None:
+    """Return the section on the dams of a table, where the study has one."""
+    if subject.found.portfolio is None:
+        return None
+    text = (
+        "Each motion counts by its worse sign at each of its strengths. A run without a result counts as infinitely "
+        "far; a dash stands for a number that is not finite. The file portfolio.csv has all dams."
+    )
+    return Section("The portfolio", (paragraph(text), *portfolio(subject), *subject.figure("ranks")))
+
+
 def measures_compared(subject: StudySubject) -> Section | None:
     """Return the section that compares measures of the strength of motions, where there are several motions."""
     if len({each["name"] for each in subject.found.told["motions"]}) < 2:

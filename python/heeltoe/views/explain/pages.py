@@ -75,7 +75,11 @@ _PAGES = {
     "study correlation": "studies.md#the-study-file",
     "study motions": "studies.md#the-study-file",
     "study fragility": "studies.md#fragility",
+    "study suite": "suites.md",
+    "study cases": "studies.md#a-table-of-dams",
     # keys of the JSON
+    "suite": "suites.md",
+    "portfolio": "studies.md#a-table-of-dams",
     "critical_acceleration_g": "rigid.md#equations-of-motion",
     "energy": "rigid.md equation 7",
     "damping_ratios": "flexible.md#damping",

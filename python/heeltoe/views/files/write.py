@@ -18,10 +18,13 @@ from heeltoe.result.write import json_text, write_table
 from heeltoe.study.answers.study_results import Opened
 from heeltoe.study.small.overturning import OverturningMap
 from heeltoe.study.small.run_table import SmallStudy
+from heeltoe.study.small.solve import Solved
+from heeltoe.views.content.solve import field_scale
 from heeltoe.views.figures.all import NAMES, all_figures
 from heeltoe.views.figures.law import law_figure
 from heeltoe.views.figures.overturning import overturning_figure
 from heeltoe.views.figures.runs import small_figures
+from heeltoe.views.figures.solve import solve_figure
 from heeltoe.views.figures.studies.all import study_figures
 from heeltoe.views.figures.write import save_all
 from heeltoe.views.files.vtk import OWN as VTK_FILES
@@ -31,9 +34,13 @@ from heeltoe.views.files.vtk import write_frames
 VTK = "vtk"
 #: Files of a map of overturning.
 OVERTURNING = ("overturning.csv", "overturning.png", "overturning.svg")
+#: Files of a field that was solved for.
+SOLVED = ("solve.json", "solve.csv", "solve.png", "solve.svg")
 #: Files of a friction law.
 LAW = ("law.png", "law.svg")
 _TABLES = ("histories", "events", "crack", "table")
+#: The dams of a table by their ranks.
+PORTFOLIO = "portfolio.csv"
 STUDY_REPORT = _REPORT = ("report.pdf", "report.html")
 
 
@@ -136,6 +143,18 @@ def write_overturning(found: OverturningMap, directory: Path) -> list[Path]:
     return write_whole(write, directory, ())
 
 
+def write_solved(found: Solved, directory: Path, units: str = "si") -> list[Path]:
+    """Write a field that was solved for as ``solve.json``, ``.csv``, ``.png`` and ``.svg``, all or none, and return
+    their paths."""
+
+    def write(fresh: Path) -> None:
+        (fresh / "solve.json").write_text(json_text(found.to_json()) + "\n", encoding="utf-8")
+        write_table(found.to_table(), fresh / "solve.csv")
+        save_all({"solve": solve_figure(found, field_scale(found, units), units)}, fresh)
+
+    return write_whole(write, directory, SOLVED)
+
+
 def write_law(found: Mapping[str, LawCurve], directory: Path) -> list[Path]:
     """Write the curves of friction laws by their names as PNG and SVG, all or none, and return their paths."""
 
@@ -154,7 +173,8 @@ def write_study(
     report: Callable[[Path, Mapping[str, Figure]], None] | None = None,
 ) -> list[Path]:
     """Write the figures of a study into ``figures/`` of its directory, and its report beside them, those of an earlier
-    time gone, and return their paths; its runs stay as they are.
+    time gone, and return their paths; its runs stay as they are. The ranks of a table of dams go into
+    ``portfolio.csv``.
 
     Parameters
     ----------
@@ -169,16 +189,18 @@ def write_study(
     """
 
     def write(fresh: Path) -> None:
-        drawn = study_figures(found, units)
+        drawn = study_figures(found, units) if figures or report is not None else {}
+        if found.portfolio is not None:
+            write_table(found.portfolio_table(), fresh / PORTFOLIO)
         if figures:
             (fresh / "figures").mkdir()
             save_all(drawn, fresh / "figures")
         if report is not None:
             report(fresh, drawn)
 
-    if not figures and report is None:
+    if not figures and report is None and found.portfolio is None:
         return []
-    own = (*(("*.png", "*.svg") if figures else ()), *(STUDY_REPORT if report is not None else ()))
+    own = (PORTFOLIO, *(("*.png", "*.svg") if figures else ()), *(STUDY_REPORT if report is not None else ()))
     return write_whole(write, directory, own)
 
 

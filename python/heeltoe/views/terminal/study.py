@@ -50,7 +50,7 @@ def progress_text(progress: Progress) -> str:
 
 def print_study(found: Opened, console: Console, units: str = "si", *, details: bool = False) -> None:
     """Print the answers of a study in sentences; in detail its tables, too. Lengths are in ``"si"`` or ``"us"``."""
-    print_title(found.title, "study", console)
+    print_title(found.title, "study" if found.suite is None else "suite", console)
     told = found.told["study"]
     by = f"{told['method']}, {counted(len(told['vary']), 'field')}, {counted(len(found.told['events']), 'event')}"
     console.print(escape(f"{found.store.count:,} runs; {by}"), style="dim", soft_wrap=True, highlight=False)

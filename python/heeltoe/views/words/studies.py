@@ -12,13 +12,29 @@ from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import length, lengths
 from heeltoe.views.words.fields import shown_each
 
-KINDS = {"residual_slip": "residual slip", "peak_slip": "peak slip", "opening": "opening", "rotation": "rotation"}
+KINDS = {
+    "residual_slip": "residual slip",
+    "peak_slip": "peak slip",
+    "opening": "opening",
+    "opening_upstream": "upstream opening",
+    "opening_downstream": "downstream opening",
+    "rotation": "rotation",
+}
 #: As headings.
 TRAITS = {
     "mean_period_s": "period",
     "significant_duration_s": "duration",
     "magnitude": "magnitude",
     "distance_m": "distance",
+}
+
+#: Numbers over the records of a suite, as headings, and as a limit is judged by them.
+STATISTICS = {"mean": "mean", "median": "median", "84%": "84 % stay below", "largest": "largest"}
+JUDGED = {
+    "mean": "the mean of the records",
+    "median": "the median of the records",
+    "84%": "what 84 % of the records stay below",
+    "largest": "the largest of the records",
 }
 
 #: Where dams have several.

@@ -1,0 +1,115 @@
+"""A portfolio: the dams of a table, ranked by how probably they exceed a limit, then by how far they slip."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+
+from heeltoe.base.arrays import Floats
+from heeltoe.study.answers.fragility import LIMITED, limit_number
+from heeltoe.study.answers.suite import below
+from heeltoe.study.run.aggregate import Walk
+
+_SHARES = {"median": 0.50, "84%": 0.84}
+
+
+def portfolio_of(walk: Walk) -> list[dict[str, Any]] | None:
+    """Return the ranks of the dams of a table, model by model; None of a study without one.
+
+    Each motion counts by its worse sign at each of its strengths. A run without a result counts as infinitely far, as
+    one of a dam that fails does.
+
+    Returns
+    -------
+    list
+        Of each model its ``dams``, the worst first: ``name``, ``rank`` from one, ``exceeds`` with the share of the
+        motions in which each limit is exceeded, by ``limit value``, and mean, median, 84 % and largest of the residual
+        slip [m], None where they are not finite.
+    """
+    names = walk.told.get("dams")
+    if names is None:
+        return None
+    limits = _limits(walk)
+    slips = _by_motion(walk, walk.cube("residual_slip_m"))
+    demands = {
+        limit: np.max([_by_motion(walk, walk.cube(column)) for column in _columns(walk, limit)], axis=0)
+        for limit in {limit for limit, _ in limits}
+    }
+    return [
+        {
+            "model": model,
+            "limits": [{"limit": limit, "value": value} for limit, value in limits],
+            "dams": _ranked(
+                names,
+                slips[..., place],
+                [np.mean(demands[limit][..., place] > value, axis=1) for limit, value in limits],
+            ),
+        }
+        for place, model in enumerate(walk.models)
+    ]
+
+
+def _limits(walk: Walk) -> list[tuple[str, float]]:
+    """Return the limits by which dams are ranked: those of the curves, then those of the case."""
+    settings = walk.told["study"]["fragility"]
+    asked = settings["limits"] if settings else {}
+    limits = [(limit, limit_number(value)) for limit, values in asked.items() for value in values]
+    limits += [(limit, limit_number(value)) for limit, value in walk.limits.items()]
+    return list(dict.fromkeys(limits))
+
+
+def _columns(walk: Walk, limit: str) -> list[str]:
+    return [column for name in LIMITED[limit] for column in (name, *walk.of_cracks(name))]
+
+
+def _by_motion(walk: Walk, cube: Floats) -> Floats:
+    """Return numbers of runs by dam, by motion at each strength and by model, each motion by its worse sign; infinite
+    where a run has none."""
+    size = np.nan_to_num(np.abs(cube), nan=np.inf)
+    if size.shape[1] > 1:
+        motions = [motion["name"] for motion in walk.told["motions"]]
+        places = [[k for k, name in enumerate(motions) if name == motion] for motion in dict.fromkeys(motions)]
+        size = np.stack([size[:, place].max(axis=1) for place in places], axis=1)
+    return size.reshape(size.shape[0], -1, size.shape[-1])
+
+
+def _ranked(names: list[str], slips: Floats, exceeds: list[Floats]) -> list[dict[str, Any]]:
+    """Return the dams of a model in the order of their ranks; `slips` is (dams, motions) [m]."""
+    ordered = np.sort(slips, axis=1)
+    with np.errstate(invalid="ignore"):
+        numbers = {
+            "mean": ordered.mean(axis=1),
+            **{name: below(ordered, share) for name, share in _SHARES.items()},
+            "largest": ordered[:, -1],
+        }
+    # The last key is the first by which lexsort sorts: the first limit, then the others, then the slip.
+    order = np.lexsort([-numbers["84%"], -numbers["mean"], *(-share for share in reversed(exceeds))])
+    return [
+        {
+            "rank": rank + 1,
+            "name": names[dam],
+            "dam": dam,
+            "exceeds": [float(share[dam]) for share in exceeds],
+            "residual_slip_m": {name: _known(float(column[dam])) for name, column in numbers.items()},
+        }
+        for rank, dam in enumerate(order.tolist())
+    ]
+
+
+def _known(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def ranks_table(portfolio: list[dict[str, Any]]) -> pa.Table:
+    """Return a portfolio as a table: rank, dam, model, the shares by ``P(limit > value)`` in SI, and the slips [m]."""
+    rows = []
+    for row in portfolio:
+        limits = [f"P({limit['limit']} > {limit['value']:g})" for limit in row["limits"]]
+        for dam in row["dams"]:
+            slips = {f"residual_slip_{name}_m": value for name, value in dam["residual_slip_m"].items()}
+            shares = dict(zip(limits, dam["exceeds"], strict=True))
+            rows.append({"rank": dam["rank"], "name": dam["name"], "model": row["model"], **shares, **slips})
+    return pa.Table.from_pylist(rows)

@@ -1,0 +1,193 @@
+"""A suite of records: what one dam does in each earthquake, both ways round, and which number over them is judged.
+
+The number of a record is that of its worse sign. Codes judge a suite by a number over its records: EN 1998-1:2004,
+4.3.3.4.3(3), by the mean of seven or more and by the largest of fewer; ASCE/SEI 7-16, 16.4, by the mean of eleven.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from heeltoe.base.arrays import Floats
+from heeltoe.models.runner import TRUSTED, severity
+from heeltoe.study.answers.fragility import LIMITED, limit_number
+from heeltoe.study.run.aggregate import Walk
+from heeltoe.units.parse import STANDARD_GRAVITY
+
+#: What is told of each record, and of all of them: the name in the JSON, and the limits that are held against it.
+DEMANDS = {
+    "residual_slip_m": "residual_slip",
+    "peak_slip_m": "peak_slip",
+    "opening_upstream_m": "opening_upstream",
+    "opening_downstream_m": "opening_downstream",
+}
+#: The mean of fewer records than this is no basis of EN 1998-1.
+ENOUGH_FOR_MEAN = 7
+_SHARES = {"median": 0.50, "84%": 0.84}
+_SIGNS = ("recorded", "reversed")
+
+
+@dataclass(frozen=True)
+class _Way:
+    """What a record does to the dam one way round: how the run ended, and the demands [m], infinite where the dam
+    fails, not a number where nobody knows."""
+
+    outcome: str
+    factor: float
+    demands: Mapping[str, float]
+
+    @property
+    def badness(self) -> tuple[int, float]:
+        slip = self.demands["residual_slip_m"]
+        return severity(self.outcome), math.inf if math.isnan(slip) else slip
+
+
+def suite_of(walk: Walk) -> dict[str, Any] | None:
+    """Return the answer of a suite, model by model; None of a study that is none.
+
+    Parameters
+    ----------
+    walk
+        Through the runs of the study, all of which are there.
+
+    Returns
+    -------
+    dict
+        ``judge``, the number over the records that is held against the limits; ``models`` with the ``records``, the
+        ``statistics`` over them, the record that governs and the ``limits``, all SI and without signs.
+    """
+    rule = walk.told["study"].get("suite")
+    if rule is None:
+        return None
+    judge = str(rule["judge"])
+    return {"judge": judge, "models": [_of_model(walk, name, judge) for name in walk.models]}
+
+
+def _of_model(walk: Walk, model: str, judge: str) -> dict[str, Any]:
+    ways = _ways(walk, model)
+    records: list[dict[str, Any]] = []
+    for motion in walk.told["motions"]:
+        name = motion["name"]
+        if motion["reversed"] and any(record["motion"] == name for record in records):
+            continue
+        signs = {sign: ways[name, sign] for sign in _SIGNS if (name, sign) in ways}
+        if signs:
+            records.append(_record(motion, signs))
+    values = {key: np.array([_counted(record, key) for record in records]) for key in DEMANDS}
+    statistics = {key: _statistics(column) for key, column in values.items()}
+    worst = max(records, key=lambda record: (severity(record["outcome"]), _counted(record, "residual_slip_m")))
+    for record in records:
+        record["governs"] = record is worst
+    return {
+        "model": model,
+        "records": records,
+        "statistics": statistics,
+        "governing": {"motion": worst["motion"], "sign": worst["sign"]},
+        "limits": [
+            _limit(name, limit_number(allowed), statistics[key][judge])
+            for key, name in DEMANDS.items()
+            if (allowed := walk.limits.get(name)) is not None
+        ],
+    }
+
+
+def _ways(walk: Walk, model: str) -> dict[tuple[str, str], _Way]:
+    """Return what each motion does either way round, by its name and its sign."""
+    names = sorted({name for limit in DEMANDS.values() for name in LIMITED[limit]})
+    cracks = [column for name in names for column in walk.of_cracks(name)]
+    ways = {}
+    for runs in walk("model", "motion", "reversed", "factor", "outcome", *names, *cracks):
+        outcomes, code = runs.words("outcome")
+        demands = {
+            key: runs.largest(*(column for name in LIMITED[limit] for column in (name, *walk.of_cracks(name))))
+            for key, limit in DEMANDS.items()
+        }
+        motions, place = runs.words("motion")
+        turned, factors = runs.table["reversed"].to_pylist(), runs.numbers("factor").tolist()
+        for row in np.flatnonzero(runs.model == walk.models.index(model)).tolist():
+            ways[motions[place[row]], _SIGNS[turned[row]]] = _Way(
+                outcomes[code[row]], factors[row], {key: float(column[row]) for key, column in demands.items()}
+            )
+    return ways
+
+
+def _record(motion: Mapping[str, Any], signs: Mapping[str, _Way]) -> dict[str, Any]:
+    """Return what a record does, by its worse sign."""
+    sign = max(signs, key=lambda name: signs[name].badness)
+    way = signs[sign]
+    other = next((signs[name] for name in signs if name != sign), None)
+    return {
+        "motion": motion["name"],
+        "event": motion["event"],
+        "factor": way.factor,
+        "pga_g": motion["measures"]["pga"] * way.factor / STANDARD_GRAVITY,
+        "sign": sign,
+        "outcome": way.outcome,
+        **{key: _known(value) for key, value in way.demands.items()},
+        "other_sign_residual_slip_m": None if other is None else _known(other.demands["residual_slip_m"]),
+    }
+
+
+def _known(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def _counted(record: Mapping[str, Any], key: str) -> float:
+    """Return a demand of a record [m]; what has no result to trust counts as infinitely much."""
+    value = record[key]
+    return math.inf if value is None or record["outcome"] not in TRUSTED else float(value)
+
+
+def _statistics(values: Floats) -> dict[str, float | None]:
+    """Return mean, median, 84 % and largest of a demand over the records; None where it is not finite.
+
+    The share of 84 % lies between records by a straight line, so that of few records it is near the largest."""
+    numbers = {
+        "mean": float(values.mean()),
+        **{name: float(below(np.sort(values), share)) for name, share in _SHARES.items()},
+    }
+    return {name: _known(number) for name, number in {**numbers, "largest": float(values.max())}.items()}
+
+
+def below(ordered: Floats, share: float) -> Floats:
+    """Return what a share of numbers in ascending order (..., n) stays below, (...,): straight between neighbours,
+    infinite where one of the two is."""
+    place = share * (ordered.shape[-1] - 1)
+    low, part = int(place), place - int(place)
+    first = ordered[..., low]
+    if part == 0.0:
+        return np.asarray(first)
+    second = ordered[..., low + 1]
+    finite = np.isfinite(first) & np.isfinite(second)
+    return np.where(finite, first + part * (np.where(finite, second, 0.0) - np.where(finite, first, 0.0)), np.inf)
+
+
+def _limit(name: str, allowed: float, value: float | None) -> dict[str, Any]:
+    return {
+        "name": name,
+        "value_m": value,
+        "allowed_m": allowed,
+        "utilisation": None if value is None or not allowed else value / allowed,
+        "met": value is not None and value <= allowed,
+    }
+
+
+def suite_spectra(walk: Walk, records: Sequence[Mapping[str, Any]]) -> dict[str, Any] | None:
+    """Return the response spectra of the records as they shake the dam [m/s2], (records, periods), with their mean, and
+    the target; None where the study keeps none."""
+    told = walk.told.get("spectra")
+    if told is None:
+        return None
+    scaled = np.array([np.multiply(record["factor"], told["motions"][record["motion"]]) for record in records])
+    return {
+        "damping": told["damping"],
+        "period_s": np.array(told["period_s"]),
+        "records": scaled,
+        "mean": scaled.mean(axis=0),
+        "target": told["target"],
+    }

@@ -1,0 +1,135 @@
+"""A table of dams: one row a dam, fields by name with their units in the header, as CSV."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from heeltoe.case.model import Case
+from heeltoe.case.paths import quantity_of
+from heeltoe.errors.error import InputError, shown
+from heeltoe.errors.sanitize import harmless
+from heeltoe.study.plan.axes import Axis
+from heeltoe.study.plan.problems import Problems
+from heeltoe.units.parse import parse
+
+#: More dams than these are drawn, not listed.
+MOST = 200_000
+#: The column of the names.
+NAME = "name"
+_HEAD = re.compile(r"([^\[\]]+(?:\[\d+\][^\[\]]*)*?)\s*(?:\[([^\[\]]*)\])?\s*")
+
+
+@dataclass(frozen=True, eq=False)
+class DamTable:
+    """Dams of a table.
+
+    Attributes
+    ----------
+    names
+        Of the dams; their numbers where the table has no column ``name``.
+    axes
+        The fields, each with a value for every dam.
+    """
+
+    names: tuple[str, ...]
+    axes: tuple[Axis, ...]
+
+    def check(self, case: Case) -> None:
+        """Refuse dams that are no cases.
+
+        Raises
+        ------
+        InputError
+            Naming the row and the field of the first, with the others.
+        """
+        problems = Problems()
+        for row, name in enumerate(self.names):
+            changes = {key: value for axis in self.axes for key, value in axis.changes(_at(axis, row)).items()}
+            with problems:
+                try:
+                    case.with_(changes)
+                except InputError as error:
+                    for problem in (error, *error.others):
+                        problem.field = f"cases: row {row + 1} ({harmless(name)}): {problem.field}"
+                    raise
+        problems.tell()
+
+
+def _at(axis: Axis, row: int) -> Any:
+    return axis.values[row] if axis.numbers is None else float(axis.numbers[row])
+
+
+def read_table(path: Path) -> DamTable:
+    """Read a table of dams.
+
+    Raises
+    ------
+    InputError
+        Where there is no such file, a column is no field, or a cell no value of it.
+    """
+    lines = list(csv.reader(_text(path).splitlines()))
+    rows = [[cell.strip() for cell in line] for line in lines if any(cell.strip() for cell in line)]
+    if len(rows) < 2:
+        raise InputError("dams-empty", "cases", shown(path.name))
+    head, *dams = rows
+    if len(dams) > MOST:
+        raise InputError("study-many", "cases", f"{len(dams):,}", most=f"{MOST:,}")
+    problems, axes, names = Problems(), list[Axis](), tuple(str(number + 1) for number in range(len(dams)))
+    for number, dam in enumerate(dams):
+        if len(dam) != len(head):
+            with problems:
+                raise InputError("dams-row", f"cases: row {number + 1}", len(dam), count=len(head))
+    problems.tell()
+    if len(set(head)) < len(head):
+        raise InputError("study-twice", "cases", shown(head))
+    for place, title in enumerate(head):
+        cells = [dam[place] for dam in dams]
+        if title.lower() in (NAME, "dam"):
+            names = tuple(harmless(cell) for cell in cells)
+            continue
+        with problems:
+            axes.append(_axis(title, cells))
+    problems.tell()
+    if not axes:
+        raise InputError("dams-empty", "cases", shown(path.name))
+    return DamTable(names, tuple(axes))
+
+
+def _text(path: Path) -> str:
+    try:
+        if not path.is_file():
+            raise InputError("dams-missing", "cases", shown(str(path)))
+        return path.read_text(encoding="utf-8-sig")
+    except (OSError, ValueError) as error:
+        raise InputError("dams-unreadable", "cases", shown(str(path)), reason=type(error).__name__) from None
+
+
+def _axis(title: str, cells: Sequence[str]) -> Axis:
+    """Return a column of the table."""
+    match = _HEAD.fullmatch(title)
+    path, unit = (match[1].strip(), (match[2] or "").strip()) if match else (title, "")
+    if re.split(r"[.\[]", path, maxsplit=1)[0] in ("motion", "aftershocks"):
+        raise InputError("study-motion-varies", f"cases: {path}")
+    quantity = quantity_of(path)
+    if quantity is None:
+        if unit:
+            raise InputError("dams-unit", f"cases: {path}", unit)
+        return Axis(path, None, tuple(cells), None)
+    one, problems = parse(f"1 {unit}".strip(), quantity, f"cases: {path}"), Problems()
+    numbers = np.zeros(len(cells))
+    for row, cell in enumerate(cells):
+        with problems:
+            try:
+                numbers[row] = float(cell) * one
+            except ValueError:
+                # A cell may have a unit of its own.
+                numbers[row] = parse(cell, quantity, f"cases: row {row + 1}: {path}")
+    problems.tell()
+    return Axis(path, quantity, tuple(cells), numbers)

@@ -1,0 +1,395 @@
+"""The value of a field at which a limit is just met: the question of a run turned round.
+
+The range of the field is scanned at some values, both signs of the motion at each. Between neighbours of which one
+meets the limit and the other does not, the crossing is closed in: by a straight line between the logarithms of their
+results (Illinois's rule, Dowell and Jarratt 1971), by halves where there is no result. How far the result may be off by
+its evidence is carried over to the field by the slope of the curve there.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+
+from heeltoe.base.display import Shown
+from heeltoe.case.model import Case
+from heeltoe.case.paths import bounds_of, quantity_of, value_of
+from heeltoe.case.read import read_case
+from heeltoe.errors.error import InputError, shown
+from heeltoe.models.run import AUTO, check_model, models_of, run
+from heeltoe.models.runner import TRUSTED
+from heeltoe.result.limits import LABELS
+from heeltoe.result.response import Response
+from heeltoe.result.write import build_info
+from heeltoe.study.plan.axes import Axis
+from heeltoe.units.parse import DIMENSIONS, parse, parse_acceleration
+
+Progress = Callable[[str], None]
+
+#: Values at which a range is looked at, and the widest bracket of a crossing as a part of the range.
+SCANNED, _CLOSE = 9, 2e-4
+#: More runs than these close in no crossing: it is a jump.
+_MOST = 24
+# A result that falls and rises again by more than this part of the largest does not go one way.
+_SAME_WAY = 0.01
+# The result of the last run, with its evidence, is this near to the limit, or the search is moved once.
+_NEAR = 0.002
+_LEAST_M = 1e-6
+
+
+@dataclass(frozen=True)
+class Point:
+    """What a value of the field does.
+
+    Attributes
+    ----------
+    value
+        Of the field, SI.
+    result_m
+        What the limit limits [m], by the worse sign; None where the dam fails, or the run has no result.
+    uncertainty_m
+        How far it may be off by its evidence [m]; zero where it has none.
+    met
+        Whether the limit is met.
+    sign
+        The sign of the motion that governs; empty where the case says which way round it is.
+    outcome
+        How the run ends.
+    """
+
+    value: float
+    result_m: float | None
+    uncertainty_m: float
+    met: bool
+    sign: str
+    outcome: str
+
+    def to_json(self) -> dict[str, Any]:
+        """Return it by name."""
+        return dict(vars(self))
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """A value at which the limit is just met.
+
+    Attributes
+    ----------
+    value
+        The end of the bracket at which the limit is met, SI.
+    give_or_take
+        How far it may be off, SI: the width of the bracket, and what the evidence of the result makes of it by the
+        slope of the curve; None where the result jumps, so that there is no slope.
+    met_at, missed_at
+        The ends of the bracket.
+    last
+        The run at `value`, with the evidence that the case asks for.
+    """
+
+    value: float
+    give_or_take: float | None
+    met_at: float
+    missed_at: float
+    last: Point
+
+    def to_json(self) -> dict[str, Any]:
+        """Return it by name."""
+        return {**vars(self), "last": self.last.to_json()}
+
+
+@dataclass(frozen=True, eq=False)
+class Solved(Shown):
+    """The values of a field at which a limit is just met.
+
+    Attributes
+    ----------
+    title, model
+        Of the case, and the model that answers.
+    field, quantity
+        What is solved for, and what it holds, a key of :data:`heeltoe.units.parse.DIMENSIONS`.
+    limit, allowed_m
+        The field of ``limits``, and what it allows [m].
+    points
+        The scan and the runs that closed in the crossings, in the order of their values.
+    crossings
+        In the order of their values; none where the limit is met, or not met, in the whole range.
+    one_way
+        Whether the result goes one way with the field, as far as the scan shows.
+    refused
+        Values of the scan that the case refuses.
+    """
+
+    title: str
+    model: str
+    field: str
+    quantity: str
+    limit: str
+    allowed_m: float
+    points: tuple[Point, ...]
+    crossings: tuple[Crossing, ...]
+    one_way: bool
+    refused: tuple[float, ...]
+
+    @property
+    def unit(self) -> str:
+        """SI unit of the field; empty of a number."""
+        return DIMENSIONS[self.quantity].unit
+
+    def to_json(self) -> dict[str, Any]:
+        """Return plain numbers, strings and lists."""
+        return {
+            "title": self.title,
+            "model": self.model,
+            "field": self.field,
+            "unit": self.unit,
+            "limit": self.limit,
+            "allowed_m": self.allowed_m,
+            "crossings": [crossing.to_json() for crossing in self.crossings],
+            "one_way": self.one_way,
+            "points": [point.to_json() for point in self.points],
+            "refused": list(self.refused),
+            "build": build_info(),
+        }
+
+    def to_table(self) -> pa.Table:
+        """Return the runs as an Arrow table, in the order of their values."""
+        return pa.Table.from_pylist([point.to_json() for point in self.points])
+
+
+def solve(
+    source: Case | str | os.PathLike[str] | Mapping[str, Any],
+    field: str,
+    until: str,
+    *,
+    model: str = AUTO,
+    between: tuple[object, object] | None = None,
+    progress: Progress = lambda text: None,
+) -> Solved:
+    """Return the value of a field at which a limit is just met.
+
+    Parameters
+    ----------
+    source
+        The dam and its motion: a case, or what :func:`heeltoe.read_case` takes.
+    field
+        Path of a field that holds a number: ``"crack.friction"``, ``"reservoir.depth"``, ``"motion.pga"``.
+    until
+        A limit of the case and what it allows: ``"residual_slip = 150 mm"``.
+    model
+        As :func:`heeltoe.run` takes it.
+    between
+        The ends of the range that is searched; where they are not given those of the field, or half to twice its value.
+    progress
+        Told what goes on.
+
+    Raises
+    ------
+    InputError
+        Where the field holds no number, the limit or the range cannot be understood, or the case cannot run.
+    """
+    case = source if isinstance(source, Case) else read_case(source)
+    check_model(model, "model")
+    limit, allowed = _limit_of(until)
+    # The better model answers, without the block beside it.
+    model = models_of(case, model)[0][-1]
+    search = _Search(case.with_(f"limits={{{limit} = {_quoted(allowed)}}}"), field, limit, model, progress)
+    low, high = search.range(between)
+    scan = [point for value in np.linspace(low, high, SCANNED).tolist() if (point := search.at(value)) is not None]
+    if len(scan) < 2:
+        raise InputError("solve-range", field, f"{low:g} to {high:g} {search.unit}".strip())
+    crossings = [
+        search.crossing(first, second, (high - low) * _CLOSE)
+        for first, second in pairwise(scan)
+        if first.met != second.met
+    ]
+    points = sorted(search.points.values(), key=lambda point: point.value)
+    return Solved(
+        case.title,
+        model,
+        field,
+        search.axis.quantity or "number",
+        limit,
+        allowed,
+        tuple(points),
+        tuple(crossings),
+        _goes_one_way(scan),
+        tuple(search.refused),
+    )
+
+
+def _quoted(length_m: float) -> str:
+    return f'"{length_m!r} m"'
+
+
+def _limit_of(until: str) -> tuple[str, float]:
+    """Return which limit a text names, and what it allows [m]."""
+    name, equals, value = (part.strip() for part in until.partition("="))
+    name = name.removeprefix("limits.").rstrip("<").strip()
+    if not equals or name not in LABELS:
+        raise InputError("solve-until", "--until", shown(until), names=", ".join(LABELS))
+    allowed = parse(value, "length", "--until")
+    if allowed <= 0.0:
+        raise InputError("out-of-range", "--until", value, bound="above 0")
+    return name, allowed
+
+
+def _goes_one_way(points: Sequence[Point]) -> bool:
+    """Whether results only fall, or only rise, with the field; a dam that fails counts as infinitely far."""
+    results = [math.inf if point.result_m is None else point.result_m for point in points]
+    finite = [result for result in results if math.isfinite(result)]
+    least = max(_SAME_WAY * max(finite, default=0.0), _LEAST_M)
+    steps = [0.0 if first == second else second - first for first, second in pairwise(results)]
+    return not (any(step > least for step in steps) and any(step < -least for step in steps))
+
+
+class _Search:
+    """Runs a case at values of a field, each once."""
+
+    def __init__(self, case: Case, field: str, limit: str, model: str, progress: Progress) -> None:
+        self.case, self.field, self.limit, self.model, self.progress = case, field, limit, model, progress
+        quantity = quantity_of(field)
+        if quantity is None:
+            try:
+                case.with_({field: 1.0})
+            except InputError as error:
+                # A field that is not there is named with what is near.
+                if error.code == "unknown-field":
+                    raise
+            raise InputError("solve-field", field)
+        self.axis = Axis(field, quantity, (), None)
+        self.unit = DIMENSIONS[quantity].unit
+        self.points: dict[float, Point] = {}
+        self.refused: list[float] = []
+        # By how much the results with evidence differ from those without [m].
+        self.shift = 0.0
+
+    def range(self, between: tuple[object, object] | None) -> tuple[float, float]:
+        """Return the ends of the range, SI."""
+        if between is not None:
+            low, high = (self._number(end) for end in between)
+            if not low < high:
+                raise InputError("solve-order", "--between", shown(list(map(str, between))))
+            return low, high
+        bounds = dict(bounds_of(self.field)) if "[" not in self.field else {}
+        lowest, highest = bounds.get("ge", bounds.get("gt")), bounds.get("le", bounds.get("lt"))
+        if lowest == 0.0 and highest == 1.0:
+            return 0.0, 1.0
+        value = value_of(self.case, self.field)
+        base = None if value is None else value.si(self.case.gravity) if hasattr(value, "si") else float(value)
+        if not base or base < 0.0:
+            raise InputError("solve-no-range", self.field)
+        return base / 2.0, 2.0 * base
+
+    def _number(self, value: object) -> float:
+        if self.axis.quantity == "acceleration":
+            return parse_acceleration(value, "--between").si(self.case.gravity)
+        return parse(value, self.axis.quantity or "number", "--between")
+
+    def at(self, value: float, *, evidence: bool = False) -> Point | None:
+        """Return what a value does; None where the case refuses it."""
+        if value in self.points and not evidence:
+            return self.points[value]
+        written = f"{value:.6g} {self.unit}".strip()
+        self.progress(f"{self.field} = {written}{', with its evidence' * evidence}, run {len(self.points) + 1}")
+        try:
+            case = self.case.with_(self.axis.changes(float(value)))
+        except InputError:
+            self.refused.append(value)
+            return None
+        response = run(case if evidence else case.without_evidence(), self.model)
+        point = _point(value, response, self.limit, 0.0 if evidence else self.shift)
+        self.points[value] = point
+        return point
+
+    def crossing(self, first: Point, second: Point, close: float) -> Crossing:
+        """Close in a crossing between two values; `close` is the widest bracket, SI."""
+        met, missed = self._closed(first, second, close)
+        last = self.at(met.value, evidence=True)
+        assert last is not None
+        if last.result_m is not None and met.result_m is not None:
+            allowed = self.case.limits and getattr(self.case.limits, self.limit)
+            off = last.result_m - met.result_m
+            if allowed and abs(off) > _NEAR * allowed:
+                # Without evidence the results are off by this much here: the search is moved by it.
+                self.shift = off
+                self.points = {value: self._shifted(point, off) for value, point in self.points.items()}
+                ends = [self.points[end.value] for end in (first, second)]
+                if ends[0].met != ends[1].met:
+                    met, missed = self._closed(ends[0], ends[1], close)
+                    last = self.at(met.value, evidence=True)
+                    assert last is not None
+        low, high = first.value, second.value
+        about = [point for point in self.points.values() if low <= point.value <= high]
+        return Crossing(met.value, _give(met, missed, last, about), met.value, missed.value, last)
+
+    def _shifted(self, point: Point, off: float) -> Point:
+        if point.result_m is None or point.uncertainty_m:
+            return point
+        allowed = getattr(self.case.limits, self.limit)
+        result = max(point.result_m + off, 0.0)
+        return Point(point.value, result, 0.0, result <= allowed, point.sign, point.outcome)
+
+    def _closed(self, first: Point, second: Point, close: float) -> tuple[Point, Point]:
+        """Return the ends of a narrow bracket: where the limit is met, and where not."""
+        ends, kept = [first, second], -1
+        heights = [self._height(first), self._height(second)]
+        for _ in range(_MOST):
+            if abs(ends[1].value - ends[0].value) <= close:
+                break
+            point = self.at(_between(ends, heights, close))
+            if point is None:
+                break
+            moved = 0 if point.met == ends[0].met else 1
+            ends[moved], heights[moved] = point, self._height(point)
+            # Illinois: an end that stays twice counts half, so that both ends move.
+            if kept == 1 - moved and math.isfinite(heights[kept]):
+                heights[kept] /= 2.0
+            kept = 1 - moved
+        met, missed = sorted(ends, key=lambda point: not point.met)
+        return met, missed
+
+    def _height(self, point: Point) -> float:
+        """Return the logarithm of a result over the limit; infinite where there is none."""
+        if point.result_m is None:
+            return math.inf
+        return math.log(max(point.result_m, _LEAST_M) / getattr(self.case.limits, self.limit))
+
+
+def _between(ends: Sequence[Point], heights: Sequence[float], close: float) -> float:
+    """Return where to look next in a bracket: never so near to an end that it is not narrow afterwards."""
+    low, high = ends[0].value, ends[1].value
+    if not all(map(math.isfinite, heights)) or heights[0] == heights[1]:
+        return (low + high) / 2.0
+    share = heights[0] / (heights[0] - heights[1])
+    edge = min(0.5, 0.9 * close / (high - low))
+    return low + min(max(share, edge), 1.0 - edge) * (high - low)
+
+
+def _give(met: Point, missed: Point, last: Point, points: Sequence[Point]) -> float | None:
+    """Return how far a crossing may be off: the bracket, and the evidence by the slope over the runs about it; None
+    where the result jumps from below the limit to a dam that fails."""
+    known = [point for point in points if point.result_m is not None]
+    if missed.result_m is None or len(known) < 2:
+        return None
+    ends = min(known, key=lambda point: point.value), max(known, key=lambda point: point.value)
+    rise = abs((ends[1].result_m or 0.0) - (ends[0].result_m or 0.0))
+    if rise <= _LEAST_M:
+        return None
+    return abs(missed.value - met.value) + last.uncertainty_m * (ends[1].value - ends[0].value) / rise
+
+
+def _point(value: float, response: Response, limit: str, shift: float) -> Point:
+    """Return what a response says of a value."""
+    check = next((check for check in response.limits if check.name == limit), None)
+    sign = next((way.sign for way in response.signs if way.governs), "")
+    if check is None or check.failed or response.outcome not in TRUSTED:
+        return Point(value, None, 0.0, False, sign, response.outcome)
+    result = max(check.value_m + shift, 0.0)
+    return Point(value, result, check.uncertainty_m, result <= check.allowed_m, sign, response.outcome)

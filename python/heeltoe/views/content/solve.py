@@ -1,0 +1,82 @@
+"""What a field must be for a limit to be just met: the answer in a sentence, and the runs behind it."""
+
+from __future__ import annotations
+
+from heeltoe.result.limits import LABELS
+from heeltoe.study.small.solve import Crossing, Solved
+from heeltoe.units.parse import STANDARD_GRAVITY
+from heeltoe.units.systems import Scale, unit_system
+from heeltoe.units.write import NOTHING, digits, length, number
+from heeltoe.views.content.tree import Block, Code, Notes, Table, paragraph
+from heeltoe.views.words.numbers import Amount, in_one_unit
+
+
+def field_scale(found: Solved, units: str) -> Scale:
+    """Return the unit in which people read the field: accelerations in g everywhere."""
+    if found.quantity == "acceleration":
+        return Scale(1.0 / STANDARD_GRAVITY, "g")
+    if found.quantity == "length":
+        return unit_system(units).scale("length", max((abs(point.value) for point in found.points), default=1.0))
+    return Scale(1.0, found.unit)
+
+
+def solve_answer(found: Solved, units: str) -> tuple[Block, ...]:
+    """Return what the field must be, in sentences."""
+    scale, limit = field_scale(found, units), f"{LABELS[found.limit]} of {length(found.allowed_m, units)}"
+    blocks: list[Block] = []
+    if not found.crossings:
+        met = all(point.met for point in found.points)
+        ends = f"{_value(found.points[0].value, scale)} to {_value(found.points[-1].value, scale)}"
+        word = "met" if met else "not met"
+        text = f"The {limit} is {word} in the whole range, {ends}: search another one with --between."
+        blocks.append(Notes("failure", "No answer in the range", ((text,),)))
+    for crossing in found.crossings:
+        text = f"The {limit} is just met at "
+        blocks.append(paragraph(text, Code(found.field), f" = {_crossing(crossing, scale, units)}"))
+    if not found.one_way:
+        text = (
+            f"The {LABELS[found.limit]} does not go one way with {found.field}: a value beyond a crossing may be worse "
+            "again, and a crossing between two values of the scan may be missed. Look at the curve (--out)."
+        )
+        blocks.append(Notes("warning", "Not one way", ((text,),)))
+    if found.refused:
+        values = ", ".join(_value(value, scale) for value in found.refused[:4])
+        blocks.append(paragraph(f"The case refuses {len(found.refused)} values of the range: {values}."))
+    return tuple(blocks)
+
+
+def solve_table(found: Solved, units: str) -> Table:
+    """Return the runs, in the order of their values."""
+    scale = field_scale(found, units)
+    results = in_one_unit([[Amount(point.result_m, zero="0")] for point in found.points], units)
+    rows = tuple(
+        (
+            _value(point.value, scale),
+            result if point.result_m is not None else NOTHING,
+            "yes" if point.met else "NO",
+            point.sign or NOTHING,
+            point.outcome,
+        )
+        for point, (result,) in zip(found.points, results, strict=True)
+    )
+    caption = f"The runs of the {found.model} model, each by its worse sign."
+    return Table((found.field, LABELS[found.limit], "met", "sign", "outcome"), rows, caption, "rrlll")
+
+
+def _value(value: float, scale: Scale) -> str:
+    return f"{digits(scale(value), 5)} {scale.unit}".strip()
+
+
+def _crossing(crossing: Crossing, scale: Scale, units: str) -> str:
+    """Say where the limit is just met, how far that may be off, on which side it is met, and what the run there has."""
+    give = crossing.give_or_take
+    text = _value(crossing.value, scale)
+    text += (
+        ", where the result jumps" if give is None else f", give or take {number(scale(give), 2)} {scale.unit}".rstrip()
+    )
+    side = "below" if crossing.met_at < crossing.missed_at else "above"
+    last = crossing.last
+    sign = f" with the motion {last.sign}" if last.sign else ""
+    has = "" if last.result_m is None else f"; the run there{sign} has {length(last.result_m, units)}"
+    uncertain = f", uncertain by {length(last.uncertainty_m, units)}" if last.uncertainty_m else ""
+    return f"{text}. It is met {side}{has}{uncertain}."

@@ -1,0 +1,128 @@
+"""A suite of records: what the dam does in each earthquake, the numbers over them, and the limits."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from heeltoe.result.limits import LABELS
+from heeltoe.units.write import digits, length
+from heeltoe.views.content.tree import Block, Code, Inline, Notes, Section, Strong, Table, paragraph
+from heeltoe.views.words.numbers import Amount, in_one_unit
+from heeltoe.views.words.studies import JUDGED, STATISTICS
+
+if TYPE_CHECKING:
+    from heeltoe.views.content.study import StudySubject
+
+_DEMANDS = {
+    "residual_slip_m": "residual slip",
+    "peak_slip_m": "largest slip",
+    "opening_upstream_m": "opening upstream",
+    "opening_downstream_m": "opening downstream",
+}
+
+
+def suite_answer(subject: StudySubject) -> list[Block]:
+    """Return what a suite says: a sentence and the limits for each model, then its records."""
+    suite = subject.found.suite
+    if suite is None:
+        return []
+    blocks: list[Block] = []
+    for row in suite["models"]:
+        sentences = [_governing(row, subject.units), _numbers(row, subject.units)]
+        blocks.append(paragraph(Strong(f"Answer, {row['model']} model. "), " ".join(sentences)))
+        missed = [_limit(check, suite["judge"], subject.units) for check in row["limits"] if not check["met"]]
+        kept = [_limit(check, suite["judge"], subject.units) for check in row["limits"] if check["met"]]
+        if missed:
+            blocks.append(Notes("failure", "Limits not met", tuple((text,) for text in missed)))
+        if kept:
+            blocks.append(paragraph(Strong("Limits met. "), " ".join(kept)))
+        blocks.append(_records(row, subject.units))
+    return blocks
+
+
+def suite(subject: StudySubject) -> Section | None:
+    """Return the section with records, numbers over them and figures, of a suite."""
+    answer = subject.found.suite
+    if answer is None:
+        return None
+    blocks: list[Block] = []
+    for row in answer["models"]:
+        blocks.append(_statistics(row, subject.units))
+    blocks.append(
+        paragraph(
+            "The number of a record is that of its worse sign. A record without a result counts as infinitely far. "
+            f"The limits of the case are judged by {JUDGED[answer['judge']]}. EN 1998-1:2004, 4.3.3.4.3(3), takes the "
+            "mean of seven or more records and the largest of fewer; ASCE/SEI 7-16, 16.4, the mean of eleven."
+        )
+    )
+    return Section("The suite of records", (*blocks, *subject.figure("suite", "suite-spectra")))
+
+
+def _governing(row: Mapping[str, Any], units: str) -> str:
+    """Say which record governs, and what it does."""
+    worst = next(record for record in row["records"] if record["governs"])
+    count = len(row["records"])
+    signs = (
+        ", each by its worse sign," if any(r["other_sign_residual_slip_m"] is not None for r in row["records"]) else ""
+    )
+    end = f"where the run ends “{worst['outcome']}”"
+    if worst["residual_slip_m"] is not None:
+        end = f"with a residual slip of {length(worst['residual_slip_m'], units)}"
+    return f"Of {count} record{'s' * (count != 1)}{signs} {worst['motion']}, {worst['sign']}, governs, {end}."
+
+
+def _numbers(row: Mapping[str, Any], units: str) -> str:
+    """Say the numbers over the records."""
+    numbers = row["statistics"]["residual_slip_m"]
+    if numbers["mean"] is None:
+        return "Not every record has a result, so that there is no mean."
+    (texts,) = in_one_unit([[Amount(numbers[name], zero="0") for name in ("mean", "median", "84%")]], units)
+    return f"The mean is {texts[0]}, the median {texts[1]}; 84 % stay below {texts[2]}."
+
+
+def _limit(check: Mapping[str, Any], judge: str, units: str) -> str:
+    """Say how a number over the records stands to a limit."""
+    label, allowed = LABELS[check["name"]], length(check["allowed_m"], units)
+    if check["value_m"] is None:
+        return f"The {label}: {JUDGED[judge]} is not finite, {allowed} is allowed."
+    used = "" if check["utilisation"] is None else f" ({100.0 * check['utilisation']:.0f} %)"
+    return f"The {label}: {JUDGED[judge]} is {length(check['value_m'], units)} of {allowed} allowed{used}."
+
+
+def _records(row: Mapping[str, Any], units: str) -> Table:
+    """Return the table of the records, the worst first."""
+    ranked = sorted(
+        row["records"], key=lambda r: (r["governs"], r["residual_slip_m"] is None, r["residual_slip_m"] or 0.0)
+    )
+    cells = [
+        (
+            Amount(record["residual_slip_m"], zero="0"),
+            Amount(record["other_sign_residual_slip_m"], zero="0"),
+        )
+        for record in reversed(ranked)
+    ]
+    rows: list[tuple[Inline, ...]] = []
+    for record, (slip, other) in zip(reversed(ranked), in_one_unit(cells, units), strict=True):
+        ended = "" if record["outcome"] == "ok" else f" ({record['outcome']})"
+        rows.append(
+            (
+                Code(record["motion"]),
+                digits(record["pga_g"], 3),
+                record["sign"] + ended,
+                slip,
+                other,
+            )
+        )
+    head = ("record", "PGA [g]", "worse sign", "slip", "other sign")
+    caption = f"The records, {row['model']} model, the worst first: residual slips, either way."
+    return Table(head, tuple(rows), caption, "lrlrr")
+
+
+def _statistics(row: Mapping[str, Any], units: str) -> Table:
+    """Return the table of the numbers over the records."""
+    numbers = row["statistics"]
+    texts = in_one_unit([[Amount(numbers[key][name], zero="0") for name in STATISTICS] for key in _DEMANDS], units)
+    rows = tuple((label, *cells) for label, cells in zip(_DEMANDS.values(), texts, strict=True))
+    caption = f"Over {len(row['records'])} records, {row['model']} model, each by its worse sign."
+    return Table(("", *STATISTICS.values()), rows, caption, "lrrrr")

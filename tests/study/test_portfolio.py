@@ -1,0 +1,167 @@
+"""A table of dams: read with its units, each row the single run of its dam, ranked by probability and slip."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+import heeltoe
+from heeltoe.errors.error import InputError
+from heeltoe.study.plan.plan import plan_of
+from heeltoe.study.run.batches import NUMBERS, run_part
+from shared.command import command
+from shared.studies import study_file
+
+STUDY = """
+case = "case.toml"
+cases = "dams.csv"
+{model}
+[motions]
+folder = "quakes"
+both_signs = true
+scale = {{ measure = "pga", values = ["0.7 g", "1.2 g"] }}
+[fragility]
+limits = {{ residual_slip = ["20 mm"] }}
+"""
+DAM = """
+title = "Dams"
+[section]
+height = "40 m"
+base_width = "32 m"
+crest_width = "5 m"
+neck_height = "36 m"
+neck_width = "5 m"
+[concrete]
+modulus = "20 GPa"
+[crack]
+friction = 1.0
+[reservoir]
+depth = "36 m"
+[flexible]
+elements_across = 3
+evidence = "none"
+[motion]
+points = [["0 s", "0 g"], ["0.2 s", "0.4 g"], ["0.4 s", "0 g"]]
+"""
+TABLE = """name, section.height [m], section.base_width [ft], reservoir.depth [m], crack.friction, uplift.pattern
+Upper, 40, 105, 36, 0.9, none
+Lower, 50, 140, 45, 0.8, triangular
+Side,  42, 32 m, 30, 1.2, none
+"""
+
+
+def study(tmp_path, table=TABLE, model=""):
+    (tmp_path / "dams.csv").write_text(table, encoding="utf-8")
+    return study_file(tmp_path, STUDY.format(model=model), case=DAM)
+
+
+@pytest.mark.parametrize("model", ["rigid", "flexible"])
+def test_a_row_is_the_single_run_of_its_dam(tmp_path, model):
+    plan = plan_of(heeltoe.read_study(study(tmp_path, model=f'model = "{model}"')))
+    assert plan.count == 3 * 10 * 2
+    assert plan.dams == ("Upper", "Lower", "Side")
+    row = run_part(plan, 20, 21).to_pylist()[0]
+    assert row["section.base_width"] == pytest.approx(140 * 0.3048, rel=1e-15)
+    changes = {
+        "section.height": "50 m",
+        "section.base_width": f"{row['section.base_width']!r} m",
+        "reservoir.depth": "45 m",
+        "crack.friction": 0.8,
+        "uplift.pattern": "triangular",
+    }
+    motion = {"file": str(tmp_path / "quakes/quake-a-000.txt"), "pga": "0.7 g", "sign": "recorded"}
+    fields = plan.case.with_(changes).model_dump(mode="json", exclude_unset=True) | {"motion": motion}
+    alone = heeltoe.run(heeltoe.read_case(fields), model)
+    names = [name for name in NUMBERS if name.endswith("_m") and not name.startswith("slip_")]
+    assert {name: row[name] for name in names} == {name: getattr(alone, name) for name in names}
+    assert row["residual_slip_m"] != 0.0
+
+
+def test_dams_are_ranked_by_probability_and_slip(tmp_path):
+    found = heeltoe.run_study(study(tmp_path), tmp_path / "out")
+    (answer,) = found.portfolio
+    table = found.to_pandas()
+    slips = table.assign(slip=table.residual_slip_m.abs(), strength=table.run % 2)
+    worse = slips.groupby(["sample", "motion", "strength"], observed=True).slip.max()
+    for dam in answer["dams"]:
+        own = np.sort(worse[dam["dam"]].to_numpy())
+        assert own.size == 10
+        assert dam["exceeds"] == [pytest.approx(np.mean(own > 0.02))]
+        assert dam["residual_slip_m"]["mean"] == pytest.approx(own.mean())
+        assert dam["residual_slip_m"]["84%"] == pytest.approx(np.quantile(own, 0.84))
+        assert dam["residual_slip_m"]["largest"] == own[-1]
+    keys = [(dam["exceeds"][0], dam["residual_slip_m"]["mean"]) for dam in answer["dams"]]
+    assert keys == sorted(keys, reverse=True)
+    assert keys[0] > keys[-1]
+    assert [dam["rank"] for dam in answer["dams"]] == [1, 2, 3]
+    assert found.portfolio_table().num_rows == 3
+    assert not any("above the crest" in text for text in found.told["warnings"])
+
+
+def test_a_dam_that_fails_comes_first_and_warnings_name_their_dam(tmp_path):
+    table = "name, crack.friction, reservoir.depth [m]\nGood, 1.2, 36\nBad, 0.2, 41\n"
+    found = heeltoe.run_study(study(tmp_path, table), tmp_path / "out")
+    first, second = found.portfolio[0]["dams"]
+    assert (first["name"], first["exceeds"], first["residual_slip_m"]["mean"]) == ("Bad", [1.0], None)
+    assert second["residual_slip_m"]["mean"] is not None
+    assert json.loads(json.dumps(found.to_json(), allow_nan=False))
+    assert any(text.startswith("Bad: reservoir.depth") for text in found.told["warnings"])
+    with pytest.raises(InputError) as error:
+        found.to_xarray()
+    assert error.value.code == "study-no-grid"
+
+
+def test_the_command_prints_the_ranks_and_writes_them(tmp_path):
+    study(tmp_path)
+    said = command("study", "study.toml", "--out", "out", "--report", cwd=tmp_path)
+    assert said.returncode == 0, said.stderr
+    assert said.stdout.index("Lower") < said.stdout.index("Side")
+    for name in ("portfolio.csv", "report.pdf", "figures/ranks.png"):
+        assert (tmp_path / "out" / name).is_file()
+    assert "The portfolio" in (tmp_path / "out/report.html").read_text()
+
+
+def test_a_study_without_a_table_has_no_ranks(tmp_path):
+    found = heeltoe.run_study(study_file(tmp_path, 'case = "case.toml"\n', case=DAM), tmp_path / "out")
+    assert found.portfolio is None
+    with pytest.raises(InputError) as error:
+        found.portfolio_table()
+    assert error.value.code == "study-no-dams"
+
+
+@pytest.mark.parametrize(
+    ("table", "code", "text"),
+    [
+        ("name, crack.frictoin\nA, 1\n", "unknown-field", "crack.frictoin"),
+        ("name, crack.friction\nA, 1\nB, -1\n", "out-of-range", "row 2 (B): crack.friction"),
+        ("name, section.height [m]\nA, tall\n", "wrong-quantity", "row 1: section.height"),
+        ("name, section.height [kg]\nA, 1\n", "wrong-quantity", "section.height"),
+        ("name, uplift.pattern [m]\nA, none\n", "dams-unit", "uplift.pattern"),
+        ("name, crack.friction\nA, 1, 2\n", "dams-row", "row 1"),
+        ("name, crack.friction\n", "dams-empty", "cases"),
+        ("name\nA\n", "dams-empty", "cases"),
+        ("name, motion.pga [g]\nA, 1\n", "study-motion-varies", "motion.pga"),
+        ("crack.friction, crack.friction\n1, 1\n", "study-twice", "cases"),
+    ],
+)
+def test_what_is_wrong_with_a_table_is_said(tmp_path, table, code, text):
+    with pytest.raises(InputError) as error:
+        plan_of(heeltoe.read_study(study(tmp_path, table)))
+    assert error.value.code == code
+    assert text in str(error.value)
+
+
+def test_a_table_must_be_there_and_readable(tmp_path):
+    file = study(tmp_path)
+    (tmp_path / "dams.csv").write_bytes(b"\xff\xfe\x00")
+    for code in ("dams-unreadable", "dams-missing"):
+        with pytest.raises(InputError) as error:
+            plan_of(heeltoe.read_study(file))
+        assert error.value.code == code
+        (tmp_path / "dams.csv").unlink(missing_ok=True)
+    conflict = 'case = "case.toml"\ncases = "dams.csv"\n[vary]\n"crack.friction" = [1.0, 1.1]\n'
+    with pytest.raises(InputError) as error:
+        heeltoe.read_study(study_file(tmp_path, conflict, case=DAM))
+    assert error.value.code == "fields-conflict"

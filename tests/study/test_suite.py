@@ -1,0 +1,194 @@
+"""A suite of records: its rows are the single runs, its numbers those over the records, its limits judged by them."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+import heeltoe
+from heeltoe.case.toml_writer import case_text
+from heeltoe.errors.error import InputError
+from heeltoe.motion.targets import target_of
+from heeltoe.study.answers.suite import below, suite_spectra
+from shared.command import command
+from shared.dams import example
+from shared.studies import earthquakes
+
+ALLOWED = ("limits.residual_slip=5 mm", "limits.opening_upstream=1 m")
+
+
+@pytest.fixture(scope="module")
+def records(tmp_path_factory):
+    return earthquakes(tmp_path_factory.mktemp("suite") / "quakes")
+
+
+@pytest.fixture(scope="module")
+def dam():
+    return example("typical-base", "flexible.elements_across=4", "flexible.evidence=none", *ALLOWED)
+
+
+@pytest.mark.parametrize("model", ["rigid", "flexible"])
+def test_the_records_are_the_single_runs_to_the_last_bit(dam, records, model):
+    (answer,) = heeltoe.run_suite(dam, records, model=model, pga="0.7 g").suite["models"]
+    assert len(answer["records"]) == 5  # vertical components shake no dam by themselves
+    for record in answer["records"][:3]:
+        motion = {"file": str(records / f"{record['motion']}.txt"), "pga": "0.7 g"}
+        fields = dam.model_dump(mode="json", exclude_unset=True) | {"motion": motion}
+        alone = heeltoe.run(heeltoe.read_case(fields), model)
+        by_sign = {sign.sign: abs(sign.residual_slip_m) for sign in alone.signs}
+        assert record["residual_slip_m"] == by_sign[record["sign"]] == max(by_sign.values())
+        assert record["other_sign_residual_slip_m"] == min(by_sign.values())
+        assert record["pga_g"] == pytest.approx(0.7, rel=1e-12)
+        assert record["peak_slip_m"] == max(abs(alone.peak_slip_downstream_m), abs(alone.peak_slip_upstream_m))
+
+
+@pytest.mark.parametrize(("judge", "place"), [("largest", -1), ("mean", None), ("median", 2)])
+def test_the_limits_are_judged_by_what_is_asked_for(dam, records, judge, place):
+    found = heeltoe.run_suite(dam, records, model="rigid", pga="0.7 g", judge=judge)
+    (answer,) = found.suite["models"]
+    slips = sorted(record["residual_slip_m"] for record in answer["records"])
+    value = np.mean(slips) if place is None else slips[place]
+    slip, opening = answer["limits"]
+    assert slip["value_m"] == pytest.approx(value, rel=1e-12)
+    assert slip["met"] == (value <= 0.005)
+    assert slip["utilisation"] == pytest.approx(value / 0.005)
+    assert opening["met"]
+    assert found.limits_met == slip["met"]
+    assert max(answer["records"], key=lambda record: record["residual_slip_m"])["governs"]
+
+
+def test_a_share_lies_between_two_records():
+    values = np.array([0.0, 1.0, 2.0, 3.0, 4.5])
+    assert below(values, 0.84) == pytest.approx(np.quantile(values, 0.84))
+    assert below(values, 0.5) == 2.0
+    assert below(np.array([[0.0, np.inf], [1.0, 2.0]]), 0.84).tolist() == [np.inf, pytest.approx(1.84)]
+
+
+def test_a_dam_that_fails_in_a_record_has_no_mean_and_meets_no_limit(records):
+    dam = example("typical-base", "crack.friction=0.3", *ALLOWED)
+    (answer,) = heeltoe.run_suite(dam, records, model="rigid", judge="mean").suite["models"]
+    assert {record["outcome"] for record in answer["records"]} == {"unstable"}
+    assert answer["statistics"]["residual_slip_m"]["mean"] is None
+    assert [limit["met"] for limit in answer["limits"]] == [False, False]
+    assert json.loads(json.dumps(answer, allow_nan=False))
+
+
+def test_records_scaled_at_the_first_period_agree_there(dam, records):
+    found = heeltoe.run_suite(dam, records, model="rigid", sa="0.5 g", target="en1998:0.3g,B")
+    period = found.told["study"]["motions"]["scale"]["period"]
+    first = heeltoe.dam_periods(dam, 1).intact[0]
+    assert float(period.split()[0]) == pytest.approx(first, rel=1e-5)
+    spectra = suite_spectra(found.walk, found.suite["models"][0]["records"])
+    for row in spectra["records"]:
+        at = np.exp(np.interp(np.log(first), np.log(spectra["period_s"]), np.log(row)))
+        assert at == pytest.approx(0.5 * 9.81, rel=0.15)  # between the periods that are drawn
+    target = target_of("en1998:0.3g,B", "target")
+    drawn = spectra["target"]
+    assert np.allclose(drawn["pseudo_acceleration_m_s2"], target(np.array(drawn["period_s"])))
+
+
+def test_matched_records_follow_their_target(dam, records):
+    found = heeltoe.run_suite(dam, records / "quake-a-000.txt", model="rigid", match="en1998:0.3g,B")
+    spectra = suite_spectra(found.walk, found.suite["models"][0]["records"])
+    target = target_of("en1998:0.3g,B", "target")
+    judged = (spectra["period_s"] > 0.12) & (spectra["period_s"] < 2.5)
+    ratio = spectra["records"][0][judged] / target(spectra["period_s"][judged])
+    assert np.sqrt(np.mean(np.log(ratio) ** 2)) < 0.1
+
+
+def test_vertical_components_shake_the_dam_where_they_are_asked_for(dam, records):
+    plain = heeltoe.run_suite(dam, records / "quake-a-000.txt", model="rigid").suite
+    both = heeltoe.run_suite(
+        dam, [records / "quake-a-000.txt", records / "quake-a-up.txt"], model="rigid", vertical=True
+    )
+    (record,), (upward,) = (answer["models"][0]["records"] for answer in (plain, both.suite))
+    assert record["motion"] == upward["motion"]
+    assert record["residual_slip_m"] != upward["residual_slip_m"]
+
+
+def test_a_suite_goes_on_where_it_stopped(dam, records, tmp_path):
+    first = heeltoe.run_suite(dam, records, model="rigid", out=tmp_path / "out")
+    again = heeltoe.run_suite(dam, records, model="rigid", out=tmp_path / "out", resume=True, judge="mean")
+    assert again.suite["models"][0]["records"] == first.suite["models"][0]["records"]
+    with pytest.raises(InputError, match="another study") as error:
+        heeltoe.run_suite(dam, records, model="rigid", out=tmp_path / "out", resume=True, pga="1 g")
+    assert error.value.code == "study-other"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code"),
+    [
+        ({"pga": "1 g", "sa": "1 g"}, "fields-conflict"),
+        ({"period": "0.3 s"}, "needs-other"),
+        ({"judge": "sum"}, "not-a-choice"),
+        ({"match": "en1998:0.3g,Q"}, "target-ground"),
+    ],
+)
+def test_what_is_wrong_with_a_suite_is_said(dam, records, arguments, code):
+    with pytest.raises(InputError) as error:
+        heeltoe.run_suite(dam, records, model="rigid", **arguments)
+    assert error.value.code == code
+
+
+def test_a_suite_needs_records_and_a_period(dam, records, tmp_path):
+    with pytest.raises(InputError) as error:
+        heeltoe.run_suite(dam, [])
+    assert error.value.code == "study-motions"
+    with pytest.raises(InputError) as error:
+        heeltoe.run_suite(dam, tmp_path)
+    assert error.value.code == "study-folder-empty"
+    with pytest.raises(InputError) as error:
+        heeltoe.run_suite(dam, [records / "quake-a-000.txt"] * 2)
+    assert error.value.code == "study-twice"
+    stiff = dam.model_dump(mode="json", exclude_unset=True)
+    stiff["concrete"].pop("modulus")
+    with pytest.raises(InputError) as error:
+        heeltoe.run_suite(stiff, records, model="rigid", sa="1 g")
+    assert error.value.code == "suite-no-period"
+
+
+@pytest.mark.parametrize(
+    ("study", "code"),
+    [
+        ('[vary]\n"crack.friction" = [0.5, 0.6]\n[motions]\nfolder = "quakes"\n', "suite-one-dam"),
+        ('[motions]\nfolder = "quakes"\nscale = { values = ["0.1 g", "0.2 g"] }\n', "suite-one-strength"),
+    ],
+)
+def test_a_study_file_with_a_suite_is_one_dam_at_one_strength(tmp_path, study, code):
+    from shared.studies import study_file
+
+    text = f'case = "case.toml"\n{study}[suite]\n'
+    with pytest.raises(InputError) as error:
+        heeltoe.run_study(study_file(tmp_path, text), tmp_path / "out")
+    assert error.value.code == code
+
+
+def test_the_command_prints_the_records_and_writes_page_and_figures(dam, records, tmp_path):
+    (tmp_path / "dam.toml").write_text(case_text(dam.model_dump(mode="json", exclude_unset=True)))
+    more = ("--model", "rigid", "--pga", "0.7g", "--judge", "mean", "--out", "out", "--report", "--json", "result.json")
+    said = command("run", "dam.toml", "--motions", str(records), *more, cwd=tmp_path)
+    assert said.returncode == 0, said.stderr
+    result = json.loads((tmp_path / "result.json").read_text())
+    assert result["suite"]["judge"] == "mean"
+    assert "quake-a-000" in said.stdout
+    for name in ("report.pdf", "report.html", "figures/suite.png", "figures/suite-spectra.svg"):
+        assert (tmp_path / "out" / name).is_file()
+    assert "The suite of records" in (tmp_path / "out/report.html").read_text()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        (("--judge", "mean"), "--judge: goes with a suite"),
+        (("--motions", "quakes", "--reverse"), "--reverse: goes with one motion"),
+        (("--motions", "quakes", "--resume"), "--resume: needs the directory"),
+    ],
+)
+def test_options_that_do_not_go_together_are_refused(dam, records, tmp_path, arguments, text):
+    (tmp_path / "dam.toml").write_text(case_text(dam.model_dump(mode="json", exclude_unset=True)))
+    (tmp_path / "quakes").symlink_to(records)
+    said = command("run", "dam.toml", *arguments, cwd=tmp_path)
+    assert said.returncode == 2
+    assert text in " ".join(said.stderr.split())
