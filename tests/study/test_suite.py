@@ -111,6 +111,7 @@ def test_vertical_components_shake_the_dam_where_they_are_asked_for(dam, records
 def test_a_suite_goes_on_where_it_stopped(dam, records, tmp_path):
     first = heeltoe.run_suite(dam, records, model="rigid", out=tmp_path / "out")
     again = heeltoe.run_suite(dam, records, model="rigid", out=tmp_path / "out", resume=True, judge="mean")
+    assert (first.suite["judge"], again.suite["judge"]) == ("largest", "mean")
     assert again.suite["models"][0]["records"] == first.suite["models"][0]["records"]
     with pytest.raises(InputError, match="another study") as error:
         heeltoe.run_suite(dam, records, model="rigid", out=tmp_path / "out", resume=True, pga="1 g")

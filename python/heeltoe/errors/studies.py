@@ -69,6 +69,18 @@ OF_STUDIES: dict[str, tuple[str, str]] = {
         "start one with `dask scheduler`, or leave it out",
     ),
     "study-scenario-count": ("{value} is not a valid number of motions", "give 1 to {most}"),
+    # hazard curves
+    "hazard-order": (
+        "{value} are not ascending strengths above zero",
+        "give at least two pairs of a strength and its annual rate, the weakest first",
+    ),
+    "hazard-rates": (
+        "{value} are not falling rates above zero",
+        "give for each strength how often a year it is exceeded",
+    ),
+    "hazard-unreadable": ("{value} cannot be read ({reason})", "give a CSV file, relative to the study file"),
+    "hazard-header": ("has no header with a unit", "write it above the columns: pga [g], annual rate"),
+    "hazard-row": ("{value} is not a strength with an annual rate", "give two numbers"),
     # tables of dams
     "study-no-dams": ("the study has no table of dams", 'give one in its file: cases = "dams.csv"'),
     "dams-missing": ("there is no file {value}", "give the CSV file of the dams, relative to the study file"),

@@ -22,6 +22,7 @@ from heeltoe.models.runner import TRUSTED
 from heeltoe.study.answers.answers import bands, summary
 from heeltoe.study.answers.comparison import compared
 from heeltoe.study.answers.fragility import Curve, counted, curve
+from heeltoe.study.answers.hazard import annual
 from heeltoe.study.answers.likelihood import Tally
 from heeltoe.study.answers.portfolio import portfolio_of, ranks_table
 from heeltoe.study.answers.sensitivity import sobol_indices, tornado
@@ -178,6 +179,13 @@ class Opened(Shown):
         return suite_of(self.walk) if self.complete else None
 
     @cached_property
+    def hazard(self) -> list[dict[str, Any]] | None:
+        """How often a year each limit of the fragility curves is exceeded, model by model; None where the study has no
+        hazard curve."""
+        hazard = self.told["hazard"]
+        return None if hazard is None else [{"model": model, **annual(curve, hazard)} for model, curve in self.curves]
+
+    @cached_property
     def portfolio(self) -> list[dict[str, Any]] | None:
         """The dams of a table in the order of their ranks, model by model; None where the study has none, or has runs
         to come."""
@@ -330,6 +338,7 @@ class Opened(Shown):
             "suite": self.suite,
             "portfolio": self.portfolio,
             "fragility": None if self.told["study"]["fragility"] is None else self.fragility,
+            "hazard": self.hazard,
             "measures_compared": self.compared(),
             "sensitivity": self.sensitivity() if self.told["study"]["method"] == "sensitivity" else None,
             "one_at_a_time": self.tornado() if self.told["study"]["method"] == "one at a time" else None,

@@ -218,6 +218,28 @@ class Fragility(Fields):
     """Probability of the intervals."""
 
 
+class Hazard(Fields):
+    """The hazard at the site: how often a year the ground shakes more strongly than so much, by the measure of the
+    fragility curves."""
+
+    curve: (
+        Annotated[tuple[tuple[Value, Annotated[DimensionlessNumber, Field(gt=0.0)]], ...], Field(min_length=2)] | None
+    ) = None
+    """Pairs of a strength, ascending, and the annual rate at which it is exceeded: `[["0.1 g", 0.01], ...]`."""
+    file: str | None = Field(default=None, strict=True, min_length=1)
+    """A CSV file of the same, relative to the study file, with the unit of the strength in its header: `pga [g], rate`.
+    """
+
+    @model_validator(mode="after")
+    @collected
+    def _one_source(self) -> Self:
+        if self.curve is None and self.file is None:
+            raise InputError("missing-field", "curve", example='curve = [["0.1 g", 0.01], ["0.5 g", 0.0004]]')
+        if self.curve is not None and self.file is not None:
+            raise InputError("fields-conflict", "curve", other="file")
+        return self
+
+
 class SuiteRule(Fields):
     """How a suite of records is judged: one dam in several earthquakes."""
 
@@ -254,6 +276,8 @@ class Study(Shown, Fields):
     """The earthquakes."""
     fragility: Fragility | None = None
     """Limits and curves."""
+    hazard: Hazard | None = None
+    """The hazard at the site, for annual probabilities of the limits of `fragility`."""
     suite: SuiteRule | None = None
     """The table of a suite of records, for one dam at one strength of each motion."""
 
@@ -281,6 +305,8 @@ class Study(Shown, Fields):
         if self.method in ("sobol", "sensitivity") and self.samples and self.samples & (self.samples - 1):
             near = 2 ** max(1, self.samples.bit_length() - 1)
             yield InputError("study-power", "samples", self.samples, below=near, above=2 * near)
+        if self.hazard is not None and self.fragility is None:
+            yield InputError("needs-other", "hazard", other="[fragility] with limits")
         if self.cases is not None and (self.vary or self.method != "grid"):
             yield InputError("fields-conflict", "cases", other="vary" if self.vary else "method")
         if self.suite is not None and (self.cases or self.vary or self.drawn or self.motions is None):

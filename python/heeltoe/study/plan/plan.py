@@ -29,6 +29,7 @@ from heeltoe.motion.targets import Target, target_of
 from heeltoe.study.plan.axes import Axis, axis_of, beside, check_drawn, law_of
 from heeltoe.study.plan.crack_columns import check_cracks
 from heeltoe.study.plan.file import Distribution, Scale, Study
+from heeltoe.study.plan.hazard import HazardCurve, read_hazard
 from heeltoe.study.plan.motions import Shake, beside_file, both_signs, shakes_of
 from heeltoe.study.plan.problems import Problems
 from heeltoe.study.plan.samples import MOST_SOBOL, Columns, Samples
@@ -165,6 +166,8 @@ class Plan:
         How fine flexible runs are; as the case has it where it is not known yet.
     dams
         Names of the dams of a table; None where they come otherwise.
+    hazard
+        At the site; None where the study has none.
     """
 
     study: Study
@@ -175,6 +178,7 @@ class Plan:
     scale: Axis | None
     pilot: Pilot | None = None
     dams: tuple[str, ...] | None = None
+    hazard: HazardCurve | None = None
 
     @property
     def every(self) -> bool:
@@ -349,7 +353,7 @@ class Plan:
     @cached_property
     def inputs(self) -> dict[str, str]:
         """Hashes of all that the results hang on, by what each is called."""
-        study = self.study.model_dump(mode="json", exclude={"title", "fragility", "suite", "case", "motions"})
+        study = self.study.model_dump(mode="json", exclude={"title", "fragility", "hazard", "suite", "case", "motions"})
         unheard = _WORDS | ({"motion"} if self.study.motions else set())
         case = self.case.model_dump(mode="json", exclude=unheard)
         hashes = {f"the study's {name}": _hash(value) for name, value in study.items()}
@@ -407,8 +411,11 @@ def plan_of(study: Study, case: Case | None = None) -> Plan:
     with problems:
         scale = _scale(study.motions.scale, case, drawn=study.drawn) if study.motions else None
     problems.tell()
+    hazard = None
+    if study.hazard is not None and study.fragility is not None:
+        hazard = read_hazard(study.hazard, study.fragility.measure, case.gravity, study.directory)
     names = None if dams is None else dams.names
-    plan = Plan(study, case, tuple(axes), shakes, events, scale, dams=names)
+    plan = Plan(study, case, tuple(axes), shakes, events, scale, dams=names, hazard=hazard)
     if study.suite is not None:
         if plan.sizes[2] > 1:
             raise InputError("suite-one-strength", "motions.scale.values", plan.sizes[2])

@@ -27,7 +27,7 @@ from heeltoe.study.plan.file import Study, read_study
 from heeltoe.study.plan.plan import Pilot, Plan, plan_of
 from heeltoe.study.run.batches import SECONDS, run_part
 from heeltoe.study.run.schedule import check_workers, run_here, run_on_workers
-from heeltoe.study.run.store import Store, begin, keep, keep_seconds, pilot_of
+from heeltoe.study.run.store import Store, begin, keep, keep_questions, keep_seconds, pilot_of
 
 #: Seconds that a part should take a worker: long beside what it costs to hand one out, short beside a patient wait.
 _SECONDS = 2.0
@@ -210,6 +210,7 @@ def _begun(plan: Plan, directory: Path, resume: bool, before: Callable[[Outlook]
 
     if (directory / STUDY).exists():
         store = begin(plan, directory, 1, resume=resume)
+        keep_questions(directory, plan)
         return store, replace(plan, pilot=pilot_of(directory))
     if "flexible" in plan.study.model:
         plan = replace(plan, pilot=pilot_run(plan))

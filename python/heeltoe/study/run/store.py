@@ -151,6 +151,7 @@ def keep(store: Store, plan: Plan) -> None:
         "events": list(plan.events),
         "motions": plan.told_motions(),
         "dams": None if plan.dams is None else list(plan.dams),
+        "hazard": None if plan.hazard is None else plan.hazard.to_json(),
         "spectra": plan.spectra(),
         "pilot": None if plan.pilot is None else plan.pilot.to_json(),
         "study": plan.study.model_dump(mode="json"),
@@ -158,6 +159,19 @@ def keep(store: Store, plan: Plan) -> None:
         "build": build_info(),
     }
     write_text(store.directory / STUDY, json_text(record), "--out")
+
+
+def keep_questions(directory: Path, plan: Plan) -> None:
+    """Put what is asked of the runs, on which they do not hang, in the place of what was asked before."""
+    record = read_told(directory)
+    record |= {
+        "title": plan.study.title,
+        "study": plan.study.model_dump(mode="json"),
+        "motions": plan.told_motions(),
+        "hazard": None if plan.hazard is None else plan.hazard.to_json(),
+        "spectra": plan.spectra(),
+    }
+    write_text(directory / STUDY, json_text(record), "--out")
 
 
 def keep_seconds(directory: Path, seconds: Mapping[str, float]) -> None:

@@ -24,6 +24,7 @@ from heeltoe.views.content.study_answers import (
     answer,
     fragility,
     hangs_on,
+    hazard_section,
     measures_compared,
     portfolio,
     portfolio_section,
@@ -63,6 +64,7 @@ _CAPTIONS = {
 }
 _CAPTIONS |= {
     "suite": "Residual slip of each record, by its worse sign (bar) and the other (mark), with the numbers over all.",
+    "hazard": "The hazard curve (left), and how much of each annual rate motions of each strength make (right).",
     "ranks": "The worst dams of the table: residual slip over the motions, from the median to the 84 % (bar) and the "
     "largest (mark), and the share of the motions in which the first limit is exceeded.",
     "suite-spectra": "Response spectra of the records as they shake the dam, with their mean and the target.",
@@ -159,6 +161,7 @@ def study_sections(found: Opened, units: str) -> tuple[Block, ...]:
         portfolio_section(subject),
         results(subject),
         fragility(subject),
+        hazard_section(subject),
         measures_compared(subject),
         hangs_on(subject),
         _fine(subject),
@@ -177,6 +180,7 @@ def study_document(subject: StudySubject) -> Document:
         _motions(subject),
         results(subject),
         fragility(subject),
+        hazard_section(subject),
         measures_compared(subject),
         hangs_on(subject),
         _fine(subject),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from heeltoe.result.contract import HEADLINES
 from heeltoe.result.limits import LABELS
 from heeltoe.study.answers.answers import MODES
-from heeltoe.units.write import NOTHING, length, scaled
+from heeltoe.units.write import NOTHING, digits, length, scaled
 from heeltoe.views.content.tree import Block, Code, Inline, Section, Strong, Table, paragraph
 from heeltoe.views.words.numbers import Amount, in_one_unit
 from heeltoe.views.words.studies import ABOUT_CRACKS, TRAITS, ends_of, left_out, limit_of, limits_of, strength_scale
@@ -35,7 +35,9 @@ def answer(subject: StudySubject) -> list[Block]:
             of = " of the crack that leads" if subject.found.walk.cracks > 1 else ""
             said += f"; the residual slip{of}, positive downstream, has the median {amounts[0]}, 84 % stay below "
             said += f"{amounts[1]}, and the farthest run ends at {amounts[2]}"
-        said = f"{said}. " + " ".join((*_not_kept(subject, each), *_exceeded(subject, each["model"])))
+        said = f"{said}. " + " ".join(
+            (*_not_kept(subject, each), *_exceeded(subject, each["model"]), *_each_year(subject, each["model"]))
+        )
         found.append(paragraph(Strong(f"Answer, {each['model']} model. "), said.strip()))
     return found
 
@@ -169,6 +171,69 @@ def fragility(subject: StudySubject) -> Section | None:
         text += f" {unknown:,} runs without a result are behind no curve."
     table = Table(head, tuple(rows), "Fragility.", "llllrr", (3.0, 3.0, 2.6, 1.3, 1.0, 2.0))
     return Section("Fragility", (paragraph(text), table, *subject.figure("fragility")))
+
+
+def hazard_section(subject: StudySubject) -> Section | None:
+    """Return the section on how often a year each limit is exceeded, where the study has a hazard curve."""
+    annual = subject.found.hazard
+    if annual is None:
+        return None
+    limits = limits_of([(row["limit"], row["value"]) for row in annual], subject.units)
+    rows: list[tuple[Inline, ...]] = []
+    for row in annual:
+        what = limits[row["limit"], row["value"]]
+        label = f"{what}, {row['model']}" if len(subject.found.walk.models) > 1 else what
+        if row["annual_rate"] is None:
+            rows.append((label, row["why"], "", "", ""))
+            continue
+        scale = strength_scale(row["measure"], subject.units)
+        most = max(row["contribution"], key=lambda part: part["share"])
+        around = f"{scaled(most['from'], scale)} to {scaled(most['to'], scale)}"
+        interval = row["annual_rate_interval"]
+        within = NOTHING if interval is None else f"{interval[0]:.1e} to {interval[1]:.1e}"
+        years = _years(row)
+        rows.append((label, f"{row['annual_probability']:.2e}", within, years, around))
+    study = subject.study["fragility"]
+    text = (
+        "The annual rate is the fragility curve over the hazard curve, which is straight on double logarithmic axes. "
+        f"The interval is that of the fragility curve with {study['confidence']:.0%}, to first order; the hazard is "
+        "taken as known."
+    )
+    far = max((row["extrapolated"] or 0.0 for row in annual), default=0.0)
+    if far > FAR:
+        text += f" Up to {_percent(far)} of a rate come from beyond the ends of the hazard curve: extend it."
+    head = ("exceeded", "probability a year", "rate within", "return period", f"most at a {_named(study)} of")
+    table = Table(head, tuple(rows), "How often a year the limits are exceeded.", "lrrrr")
+    return Section("Annual probability", (paragraph(text), table, *subject.figure("hazard")))
+
+
+#: More of a rate than this from beyond the ends of a hazard curve is said.
+FAR = 0.1
+
+
+def _years(row: dict[str, Any]) -> str:
+    years = row["return_period_years"]
+    return NOTHING if years is None or years >= _ENDLESS else f"{digits(years, 2)} years"
+
+
+#: Nobody counts in more years.
+_ENDLESS = 1e8
+
+
+def _each_year(subject: StudySubject, model: str) -> list[str]:
+    """Say how often a year each limit is exceeded."""
+    said = []
+    for row in subject.found.hazard or ():
+        if row["model"] != model or row["annual_rate"] is None:
+            continue
+        what = f"{_A[row['limit']]} {limit_of(row['limit'], row['value'], subject.units, ' of')}"
+        interval = row["annual_rate_interval"]
+        within = "" if interval is None else f" ({interval[0]:.1e} to {interval[1]:.1e})"
+        years = "" if _years(row) == NOTHING else f", once in {_years(row)}"
+        said.append(
+            f"With the hazard of the site {what} is exceeded with {row['annual_rate']:.1e} a year{within}{years}."
+        )
+    return said
 
 
 #: Dams of a portfolio that its table and its figure show.

@@ -76,9 +76,11 @@ _PAGES = {
     "study motions": "studies.md#the-study-file",
     "study fragility": "studies.md#fragility",
     "study suite": "suites.md",
+    "study hazard": "studies.md equation 1",
     "study cases": "studies.md#a-table-of-dams",
     # keys of the JSON
     "suite": "suites.md",
+    "hazard": "studies.md equation 1",
     "portfolio": "studies.md#a-table-of-dams",
     "critical_acceleration_g": "rigid.md#equations-of-motion",
     "energy": "rigid.md equation 7",

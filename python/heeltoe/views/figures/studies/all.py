@@ -6,6 +6,7 @@ from matplotlib.figure import Figure
 
 from heeltoe.study.answers.study_results import Opened
 from heeltoe.views.figures.studies.curves import bands_figure, fragility_figure
+from heeltoe.views.figures.studies.hazard import hazard_figure
 from heeltoe.views.figures.studies.parts import modes_figure, slips_figure
 from heeltoe.views.figures.studies.ranks import ranks_figure
 from heeltoe.views.figures.studies.sensitivity import sobol_figure, tornado_figure
@@ -20,6 +21,7 @@ def study_figures(found: Opened, units: str = "si") -> dict[str, Figure]:
         "ranks": ranks_figure(found, units) if found.portfolio else None,
         "bands": None if found.suite else bands_figure(found, units),
         "fragility": fragility_figure(found, units) if asked else None,
+        "hazard": hazard_figure(found, units) if found.hazard else None,
         "slips": None if found.suite else slips_figure(found, units),
         "modes": None if found.suite else modes_figure(found, units),
         "sobol": sobol_figure(found) if method == "sensitivity" else None,

@@ -1,0 +1,129 @@
+"""How often a year a limit is exceeded: a fragility curve over a hazard curve.
+
+The annual rate is the integral of the fragility P over the hazard H [1/year],
+
+    rate = int P(x) |dH(x)|,
+
+P = Phi(ln(x / median) / dispersion), H straight on double logarithmic axes. Of each stretch H = a x^-k it is known in
+closed form (with u = ln x, by parts); of a power law altogether it is H(median) exp(k^2 dispersion^2 / 2) (Cornell et
+al. 2002, J. Struct. Eng. 128, 526-533).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from scipy.special import ndtr
+
+from heeltoe.base.arrays import Floats
+from heeltoe.study.answers.fragility import Curve
+
+#: Groups of strengths, of which each says how much of the rate it makes.
+_GROUPS = 24
+#: By how much median and dispersion are moved for the slope of the rate.
+_MOVED = 1e-4
+
+
+def annual(curve: Curve, hazard: Mapping[str, Any]) -> dict[str, Any]:
+    """Return how often a year a limit is exceeded.
+
+    Parameters
+    ----------
+    curve
+        The fragility curve of the limit.
+    hazard
+        ``strength``, SI, and ``annual_rate`` of the hazard curve.
+
+    Returns
+    -------
+    dict
+        ``annual_rate`` [1/year] with its interval, from the uncertainty of the curve to first order and not of the
+        hazard; ``annual_probability``; ``return_period_years``; ``extrapolated``, the share of the rate from beyond
+        the ends of the hazard curve; ``contribution``, the share from each group of strengths; ``at``, the probability
+        of the limit at each strength of the hazard curve. None of them where there is no fragility curve.
+    """
+    strength, rate = np.array(hazard["strength"]), np.array(hazard["annual_rate"])
+    told: dict[str, Any] = {"limit": curve.limit, "value": curve.value, "measure": curve.measure, "why": curve.why}
+    if curve.median is None or curve.dispersion is None:
+        names = ("annual_rate", "annual_rate_interval", "annual_probability", "return_period_years", "extrapolated")
+        return {**told, **dict.fromkeys(names), "contribution": [], "at": []}
+    total = _total(curve, strength, rate)
+    edges = np.geomspace(strength[0], strength[-1], _GROUPS + 1)
+    parts = np.diff(_up_to(curve, strength, rate, np.array([0.0, *edges, np.inf])))
+    interval = _interval(curve, strength, rate, total)
+    probabilities = curve.probability(strength).tolist()
+    return {
+        **told,
+        "annual_rate": total,
+        "annual_rate_interval": interval,
+        "annual_probability": -math.expm1(-total),
+        "return_period_years": 1.0 / total if total > 0.0 else None,
+        "extrapolated": float(parts[0] + parts[-1]) / total if total > 0.0 else 0.0,
+        "contribution": [
+            {"from": low, "to": high, "share": float(part) / total if total > 0.0 else 0.0}
+            for low, high, part in zip(edges[:-1].tolist(), edges[1:].tolist(), parts[1:-1], strict=True)
+        ],
+        "at": [
+            {"strength": at, "annual_rate": exceeded, "probability": probability}
+            for at, exceeded, probability in zip(strength.tolist(), rate.tolist(), probabilities, strict=True)
+        ],
+    }
+
+
+def _total(curve: Curve, strength: Floats, rate: Floats) -> float:
+    return float(_up_to(curve, strength, rate, np.array([0.0, np.inf]))[-1])
+
+
+def _up_to(curve: Curve, strength: Floats, rate: Floats, edges: Floats) -> Floats:
+    """Return the rate that motions up to some strengths make [1/year], (n,); the edges ascend from zero."""
+    logarithm, hazard = np.log(strength), np.log(rate)
+    slopes = -np.diff(hazard) / np.diff(logarithm)
+    # The first and the last stretch go on beyond the ends.
+    ends = np.concatenate([[-np.inf], logarithm[1:-1], [np.inf]])
+    with np.errstate(divide="ignore"):
+        at = np.log(edges)
+    made = np.zeros(edges.size)
+    for k, start, stop, log_x, log_h in zip(slopes, ends[:-1], ends[1:], logarithm[:-1], hazard[:-1], strict=True):
+        inside = np.clip(at, start, stop)
+        made += _stretch(curve, inside, float(k), float(log_h + k * log_x)) - _stretch(
+            curve, np.array([start]), float(k), float(log_h + k * log_x)
+        )
+    return made
+
+
+def _stretch(curve: Curve, at: Floats, slope: float, level: float) -> Floats:
+    """Return the integral of the fragility over ``H = exp(level - slope u)``, up to logarithms of the strength."""
+    assert curve.median is not None
+    assert curve.dispersion is not None
+    middle, spread = math.log(curve.median), curve.dispersion
+    below = np.isneginf(at)
+    place = np.where(below, 0.0, at)
+    # Far above, the hazard is nothing and the fragility one.
+    falling = np.where(np.isposinf(at), 0.0, np.exp(level - slope * np.where(np.isfinite(at), at, 0.0)))
+    moved = np.exp(level - slope * middle + (slope * spread) ** 2 / 2.0) * ndtr(
+        (place - middle) / spread + slope * spread
+    )
+    return np.where(below, 0.0, moved - ndtr((place - middle) / spread) * falling)
+
+
+def _interval(curve: Curve, strength: Floats, rate: Floats, total: float) -> list[float] | None:
+    """Return what the rate lies within, by the covariance of the fragility curve to first order; None without one."""
+    from scipy import stats
+
+    if curve.covariance is None or total <= 0.0:
+        return None
+    assert curve.median is not None
+    assert curve.dispersion is not None
+    moved = [
+        replace(curve, median=curve.median * math.exp(_MOVED)),
+        replace(curve, dispersion=curve.dispersion * math.exp(_MOVED)),
+    ]
+    slopes = np.array([math.log(_total(other, strength, rate) / total) / _MOVED for other in moved])
+    middle, both, spread = curve.covariance
+    variance = float(slopes @ np.array([[middle, both], [both, spread]]) @ slopes)
+    reach = float(stats.t.ppf(0.5 + curve.confidence / 2.0, curve.events - 1)) * math.sqrt(max(variance, 0.0))
+    return [total * math.exp(-reach), total * math.exp(reach)]

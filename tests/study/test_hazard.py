@@ -1,0 +1,151 @@
+"""How often a year a limit is exceeded: against closed forms, against a plain integral, and in a study."""
+
+from __future__ import annotations
+
+import json
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from scipy.stats import norm
+
+import heeltoe
+from heeltoe.errors.error import InputError
+from heeltoe.study.answers.fragility import Curve
+from heeltoe.study.answers.hazard import annual
+from shared.command import command
+from shared.studies import BLOCK, study_file
+
+STUDY = """
+case = "case.toml"
+[vary]
+"crack.friction" = {{ distribution = "lognormal", median = 0.5, dispersion = 0.2, count = 5 }}
+[motions]
+folder = "quakes"
+scale = {{ measure = "pga", values = ["0.4 g", "0.7 g", "1.1 g", "1.7 g"] }}
+[fragility]
+limits = {{ residual_slip = ["20 mm", "100 mm"] }}
+[hazard]
+{hazard}
+"""
+INLINE = 'curve = [["0.1 g", 0.02], ["0.5 g", 0.002], ["1 g", 0.0003], ["2 g", 0.00004]]'
+
+
+def curve(median, dispersion, covariance=None, events=10):
+    return Curve(
+        *("residual_slip", 0.1, "pga", 0.9, median, dispersion, None, None, None, None),
+        runs=100,
+        exceeding=50,
+        events=events,
+        unknown=0,
+        covariance=covariance,
+    )
+
+
+def power_law(k0, k, strengths):
+    return {"strength": list(strengths), "annual_rate": [k0 * x**-k for x in strengths]}
+
+
+@pytest.mark.parametrize(("k0", "k", "median", "dispersion"), [(1e-4, 2.0, 3.0, 0.4), (2e-3, 3.3, 0.7, 0.25)])
+@pytest.mark.parametrize("strengths", [(0.5, 5.0), (1.0, 2.0, 2.5, 9.0)])
+def test_a_power_law_has_its_closed_form(k0, k, median, dispersion, strengths):
+    told = annual(curve(median, dispersion), power_law(k0, k, strengths))
+    rate = k0 * median**-k * math.exp(k**2 * dispersion**2 / 2.0)
+    assert told["annual_rate"] == pytest.approx(rate, rel=1e-12)
+    assert told["annual_probability"] == pytest.approx(1.0 - math.exp(-rate), rel=1e-9)
+    assert told["return_period_years"] == pytest.approx(1.0 / rate)
+    shares = sum(part["share"] for part in told["contribution"])
+    assert shares + told["extrapolated"] == pytest.approx(1.0, rel=1e-12)
+    ends = [math.log(strengths[0]), math.log(strengths[-1])]
+    made = quad(lambda u: norm.cdf((u - math.log(median)) / dispersion) * k * k0 * math.exp(-k * u), *ends)[0]
+    assert shares == pytest.approx(made / rate, rel=1e-7)
+
+
+def test_a_hazard_of_several_slopes_is_its_plain_integral():
+    strength, rate = np.array([0.3, 0.8, 2.0, 6.0]), np.array([0.1, 0.02, 0.001, 0.00002])
+    fragility = curve(1.4, 0.5)
+    told = annual(fragility, {"strength": strength.tolist(), "annual_rate": rate.tolist()})
+    slopes = -np.diff(np.log(rate)) / np.diff(np.log(strength))
+    total = 0.0
+    bounds = [math.log(1e-4), *np.log(strength[1:-1]), math.log(1e4)]
+    for k, low, high, x, h in zip(slopes, bounds[:-1], bounds[1:], strength, rate, strict=False):
+        total += quad(
+            lambda u, k=k, x=x, h=h: norm.cdf((u - math.log(1.4)) / 0.5) * k * h * (math.exp(u) / x) ** -k, low, high
+        )[0]
+    assert told["annual_rate"] == pytest.approx(total, rel=1e-7)
+    assert [row["probability"] for row in told["at"]] == pytest.approx(fragility.probability(strength).tolist())
+
+
+def test_the_interval_of_a_power_law_is_that_of_its_exponent():
+    k, dispersion, deviation = 2.5, 0.3, 0.1
+    told = annual(curve(2.0, dispersion, (deviation**2, 0.0, 0.0)), power_law(1e-3, k, (0.5, 8.0)))
+    from scipy.stats import t
+
+    reach = t.ppf(0.95, 9) * k * deviation
+    low, high = told["annual_rate_interval"]
+    assert math.log(high / low) / 2.0 == pytest.approx(reach, rel=1e-6)
+    # An uncertain dispersion counts by k^2 dispersion^2.
+    told = annual(curve(2.0, dispersion, (0.0, 0.0, deviation**2)), power_law(1e-3, k, (0.5, 8.0)))
+    low, high = told["annual_rate_interval"]
+    assert math.log(high / low) / 2.0 == pytest.approx(t.ppf(0.95, 9) * (k * dispersion) ** 2 * deviation, rel=1e-3)
+
+
+def test_a_study_with_a_hazard_says_how_often_a_year(tmp_path):
+    file = study_file(tmp_path, STUDY.format(hazard=INLINE), case=BLOCK)
+    found = heeltoe.run_study(file, tmp_path / "out")
+    assert [row["value"] for row in found.hazard] == [0.02, 0.1]
+    weak, strong = found.hazard
+    assert weak["annual_rate"] > strong["annual_rate"] > 0.0
+    by_hand = annual(found.curves[0][1], found.told["hazard"])
+    assert weak["annual_rate"] == by_hand["annual_rate"]
+    assert found.told["hazard"]["strength"][1] == pytest.approx(0.5 * found.told["hazard"]["strength"][2])
+    assert json.loads(json.dumps(found.to_json(), allow_nan=False))
+    # Another hazard is another question to the same runs.
+    (tmp_path / "hazard.csv").write_text("pga [g], annual rate\n0.1, 0.04\n0.5, 0.004\n1, 0.0006\n2, 0.00008\n")
+    file.write_text(STUDY.format(hazard='file = "hazard.csv"'))
+    again = heeltoe.run_study(file, tmp_path / "out", resume=True)
+    assert again.hazard[0]["annual_rate"] == pytest.approx(2.0 * weak["annual_rate"], rel=1e-9)
+
+
+def test_the_command_says_it_and_draws_it(tmp_path):
+    study_file(tmp_path, STUDY.format(hazard=INLINE), case=BLOCK)
+    said = command("study", "study.toml", "--out", "out", "--report", cwd=tmp_path)
+    assert said.returncode == 0, said.stderr
+    assert "With the hazard of the site a residual slip of 20.0 mm is exceeded with" in " ".join(said.stdout.split())
+    assert (tmp_path / "out/figures/hazard.png").is_file()
+    assert "Annual probability" in (tmp_path / "out/report.html").read_text()
+
+
+def test_a_limit_without_a_curve_has_no_rate(tmp_path):
+    text = STUDY.format(hazard=INLINE).replace('"100 mm"', '"100 m"')
+    found = heeltoe.run_study(study_file(tmp_path, text, case=BLOCK), tmp_path / "out")
+    assert found.hazard[1]["annual_rate"] is None
+    assert found.hazard[1]["why"] == "no run exceeds it"
+
+
+@pytest.mark.parametrize(
+    ("hazard", "code"),
+    [
+        ("", "missing-field"),
+        (f'{INLINE}\nfile = "hazard.csv"', "fields-conflict"),
+        ('curve = [["0.2 g", 0.01], ["0.1 g", 0.001]]', "hazard-order"),
+        ('curve = [["0.1 g", 0.001], ["0.2 g", 0.01]]', "hazard-rates"),
+        ('file = "nowhere.csv"', "hazard-unreadable"),
+        ('file = "bare.csv"', "hazard-header"),
+        ('file = "words.csv"', "hazard-row"),
+    ],
+)
+def test_what_is_wrong_with_a_hazard_is_said(tmp_path, hazard, code):
+    (tmp_path / "bare.csv").write_text("0.1, 0.01\n0.2, 0.001\n")
+    (tmp_path / "words.csv").write_text("pga [g], rate\n0.1, often\n0.2, 0.001\n")
+    with pytest.raises(InputError) as error:
+        heeltoe.run_study(study_file(tmp_path, STUDY.format(hazard=hazard), case=BLOCK), tmp_path / "out")
+    assert error.value.code == code
+
+
+def test_a_hazard_needs_limits(tmp_path):
+    text = f'case = "case.toml"\n[hazard]\n{INLINE}\n'
+    with pytest.raises(InputError) as error:
+        heeltoe.run_study(study_file(tmp_path, text, case=BLOCK), tmp_path / "out")
+    assert error.value.code == "needs-other"
