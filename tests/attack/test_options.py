@@ -25,7 +25,7 @@ USUAL: dict[str, list[str | Path]] = {
     "periods": [BASE, *(part for change in COARSE for part in ("--set", change))],
     "overturning": [SLENDER, "--count=2"],
     "animate": [BLOCK, "--to=page.html"],
-    "motion": ["record.txt", "--no-figure"],
+    "motion": ["record.txt"],
     "study": ["study.json", "--dry-run"],
     "validate": [],
     "new": [],
@@ -33,6 +33,7 @@ USUAL: dict[str, list[str | Path]] = {
     "app": ["--no-browser", "--public"],
     "explain": ["crack.friction"],
     "law": ["barton-bandis"],
+    "solve": [BLOCK, "crack.friction", "--until=residual_slip = 1 mm", "--between=0.4,0.6"],
 }
 RECORD = "# units: time [s], acceleration [g]\n" + "".join(f"{0.01 * k:.2f} {(-1) ** k * 0.2}\n" for k in range(50))
 # A run of one dam.

@@ -85,7 +85,7 @@ WHAT: dict[str, Callable[[Path], object]] = {
 READERS: dict[str, list[str | Path]] = {
     "case": ["run", "what"],
     "record": ["run", BLOCK, "--motion", "what"],
-    "motion": ["motion", "what", "--no-figure"],
+    "motion": ["motion", "what"],
     "mesh": ["periods", BASE, "--set", "flexible.mesh_above=what.inp", *(w for c in COARSE for w in ("--set", c))],
     "gmsh": ["periods", BASE, "--set", "flexible.mesh_above=what.msh", *(w for c in COARSE for w in ("--set", c))],
 }

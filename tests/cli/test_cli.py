@@ -16,7 +16,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from shared.command import command, options, process
-from shared.dams import BASE, BLOCK, EXAMPLES, HEIGHT
+from shared.dams import BASE, BLOCK, EXAMPLES, HEIGHT, ROOT
 from shared.dams import FAST as SHORT
 
 COARSE = ("--set", "flexible.elements_across=2")
@@ -411,3 +411,19 @@ def test_a_block_loads_no_statistics_no_meshes_and_no_figures():
     )
     ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120, check=True)
     assert ended.stderr.splitlines()[-1] == "[]"
+
+
+def test_the_help_cuts_no_sentence():
+    said = command("--help", columns=80)
+    assert "..." not in said.stdout.partition("Commands:")[2]
+    assert max(map(len, said.stdout.splitlines())) <= 80
+
+
+def test_examples_are_listed_with_a_line_each(tmp_path):
+    said = command("examples", "--list", cwd=tmp_path)
+    lines = said.stdout.splitlines()
+    assert lines[::2] == [
+        path.relative_to(ROOT / "examples").as_posix() for path in sorted((ROOT / "examples").rglob("*.toml"))
+    ]
+    assert all(len(line.strip()) > 10 for line in lines[1::2])
+    assert not list(tmp_path.iterdir())

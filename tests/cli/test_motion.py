@@ -7,8 +7,10 @@ import json
 import numpy as np
 import pytest
 
-from heeltoe import InputError, read_record
+from heeltoe import GroundMotion, InputError, read_record
+from heeltoe.motion.matching import match_known_band
 from heeltoe.motion.targets import target_of
+from heeltoe.views.figures.motion import Matched, motion_figure
 from shared.command import command
 from shared.record_samples import GAL, knet
 from shared.records_of_the_world import esm
@@ -25,7 +27,7 @@ def records(tmp_path, monkeypatch):
 
 
 def test_three_components_in_one_go(records):
-    run = command("motion", "a.asc", "b.asc", "c.asc", "--json", "-", "--units", "us", cwd=records)
+    run = command("motion", "a.asc", "b.asc", "c.asc", "--json", "-", "--units", "us", "--out", "drawn", cwd=records)
     assert run.returncode == 0, run.stderr
     said = json.loads(run.stdout)["motions"]
     assert [each["component"] for each in said] == ["HNE", "HNN", "HNZ"]
@@ -33,12 +35,33 @@ def test_three_components_in_one_go(records):
     assert len(said[0]["spectrum"]["period_s"]) == len(said[0]["spectrum"]["pseudo_acceleration_m_s2"]) > 50
     assert said[0]["format"] == "ESM ASC"
     assert "in/s" in run.stderr or "ft/s" in run.stderr
-    assert sorted(each.name for each in records.glob("*.png")) == [f"{name}.motion.png" for name in "abc"]
+    drawn = sorted(each.name for each in (records / "drawn").iterdir())
+    assert drawn == [f"{name}.{ending}" for name in "abc" for ending in ("motion.png", "txt")]
+    assert read_record(records / "drawn" / "a.txt").pga / G == pytest.approx(said[0]["pga_g"], rel=1e-6)
+
+
+def test_nothing_is_drawn_that_is_not_asked_for(records):
+    before = sorted(records.iterdir())
+    assert command("motion", "a.asc", cwd=records).returncode == 0
+    assert sorted(records.iterdir()) == before
+
+
+def test_a_match_is_drawn_with_its_target_and_the_record_before():
+    time = 0.01 * np.arange(1500)
+    motion = GroundMotion("noise", time, np.random.default_rng(1).standard_normal(time.size) * np.exp(-time / 5.0))
+    target = target_of("en1998:0.3g,B", "--match")
+    matched, misfit = match_known_band(motion, target)
+    figure = motion_figure(matched, G, matched=Matched(target, motion.scaled(misfit.scale)))
+    spectrum = figure.axes[-1]
+    lines = {line.get_label(): line for line in spectrum.lines}
+    period = lines["target"].get_xdata()
+    assert np.allclose(lines["target"].get_ydata(), target(period) / G)
+    assert {"scaled record", "matched"} <= set(lines)
 
 
 @pytest.mark.parametrize(("units", "pgd", "speed"), [("si", "m", "m/s"), ("us", "in", "ft/s")])
 def test_components_stand_side_by_side_in_one_unit(units, pgd, speed, records):
-    run = command("motion", "a.asc", "b.asc", "c.asc", "--units", units, "--no-figure", "--details", cwd=records)
+    run = command("motion", "a.asc", "b.asc", "c.asc", "--units", units, "--details", cwd=records)
     lines = {line[:22].strip(): line[22:] for line in run.stdout.splitlines()}
     assert lines["component"].split() == ["HNE", "HNN", "HNZ"]
     for label, unit in (("PGV", speed), ("PGD", pgd), ("Arias intensity", speed)):
@@ -47,21 +70,19 @@ def test_components_stand_side_by_side_in_one_unit(units, pgd, speed, records):
         share = 0.49 if label == "Arias intensity" else 0.7
         assert float(numbers[1]) == pytest.approx(share * float(numbers[0]), rel=2e-3)
     # Four are printed one below the other.
-    run = command("motion", *["a.asc"] * 4, "--no-figure", "--details", cwd=records)
+    run = command("motion", *["a.asc"] * 4, "--details", cwd=records)
     assert run.stdout.count("significant duration") == 4
 
 
 def test_components_of_two_earthquakes_are_told(records):
     (records / "d.asc").write_text(esm(EVENT_NAME="ELSEWHERE", EVENT_DATE_YYYYMMDD="19990101"))
-    run = command("motion", "a.asc", "d.asc", "--no-figure", cwd=records)
+    run = command("motion", "a.asc", "d.asc", cwd=records)
     assert "not of the earthquake of the horizontal motion" in " ".join(run.stdout.split())
 
 
 def test_a_match_is_written_as_a_record(records):
     (records / "s.txt").write_text("# period [s], Sa [g]\n0.1, 0.5\n0.5, 0.5\n3, 0.08\n")
-    run = command(
-        "motion", "a.asc", "--match", "s.txt", "--out", "m.txt", "--no-figure", "--json", "m.json", cwd=records
-    )
+    run = command("motion", "a.asc", "--match", "s.txt", "--out", "m.txt", "--json", "m.json", cwd=records)
     assert run.returncode == 0, run.stderr
     assert "off the target by" in run.stdout
     said = json.loads((records / "m.json").read_text())["motions"][0]
@@ -102,4 +123,4 @@ def test_one_file_for_several_motions_is_refused(records, option):
 
 def test_a_record_of_counts_is_still_read(records):
     (records / "k.NS").write_text(knet())
-    assert command("motion", "k.NS", "--no-figure", cwd=records).returncode == 0
+    assert command("motion", "k.NS", cwd=records).returncode == 0

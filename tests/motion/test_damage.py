@@ -185,7 +185,7 @@ def test_the_first_of_two_channels_is_not_taken_for_the_record():
 
 def test_a_look_at_a_record_says_what_an_analysis_would_refuse(tmp_path):
     file = record(tmp_path / "up.txt", damaged(9.99))
-    said = " ".join(command("motion", file, "--no-figure", cwd=tmp_path).stdout.split())
+    said = " ".join(command("motion", file, cwd=tmp_path).stdout.split())
     assert "jumps to 9.99 g at 1.5 s and back" in said
     assert "shakes the dam" not in said
 

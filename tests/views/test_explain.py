@@ -71,7 +71,7 @@ def results(tmp_path_factory, study):
     koyna = read_case(KOYNA, [*FAST, "concrete.tensile_strength=1MPa"])
     full = koyna.with_("flexible.evidence=full", "motion.duration=1s", "decoupled.rotation=true")
     block = run(read_case(HEIGHT, FAST), "rigid")
-    said = command("motion", "record.txt", "--no-figure", "--json", "-", cwd=_record(tmp_path_factory.mktemp("record")))
+    said = command("motion", "record.txt", "--json", "-", cwd=_record(tmp_path_factory.mktemp("record")))
     return {
         "rigid": run(anchored, "rigid").to_json(),
         "flexible": run(full, "both").to_json(),

@@ -74,6 +74,11 @@ def _known(ended: BaseException) -> list[str]:
     return [*getattr(ended, "__notes__", ()), *(_known(cause) if cause else ())]
 
 
+def first_sentence(text: str) -> str:
+    """Return the first paragraph of a docstring on one line."""
+    return " ".join(text.strip().partition("\n\n")[0].split())
+
+
 def _version(shown: bool) -> None:
     if shown:
         from heeltoe.result.write import build_info
@@ -119,10 +124,15 @@ def examples(
     directory: Annotated[
         Path, typer.Argument(metavar="DIR", show_default=False, help="New directory to write into (default: examples).")
     ] = Path("examples"),
+    list_: Annotated[bool, typer.Option("--list", help="List them with a line each, and write nothing.")] = False,
 ) -> None:
     """Write example cases and studies to start from."""
-    from heeltoe.case.examples import copy_examples
+    from heeltoe.case.examples import copy_examples, list_examples
 
+    if list_:
+        for name, line in list_examples():
+            print(f"{name}\n    {line}")
+        return
     if os.path.lexists(directory):
         raise InputError("file-exists", str(directory))
     check_directory(directory, "DIR")
@@ -131,7 +141,7 @@ def examples(
 
 
 # In the order of the help.
-app.command(cls=run_command.Run)(run_command.run)
+app.command(cls=run_command.Run, short_help=first_sentence(run_command.run.__doc__ or ""))(run_command.run)
 for command in (
     solve_command.solve,
     dam_commands.periods,
@@ -147,4 +157,5 @@ for command in (
     new,
     examples,
 ):
-    app.command()(command)
+    # The whole first sentence: what is cut off says nothing.
+    app.command(short_help=first_sentence(command.__doc__ or ""))(command)

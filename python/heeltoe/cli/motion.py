@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
     from heeltoe.motion.ground_motion import GroundMotion
     from heeltoe.motion.matching import Misfit
+    from heeltoe.views.figures.motion import Matched
 
 
 def motion(
@@ -38,17 +39,22 @@ def motion(
         str | None,
         typer.Option(metavar="en1998:0.3g,B | asce7:0.9g,0.4g,8s | FILE", help="Match the motion to this spectrum."),
     ] = None,
-    out: Annotated[Path | None, typer.Option(metavar="FILE.txt", help="Write the motion in two columns, in g.")] = None,
-    figure: Annotated[
-        Path | None, typer.Option(metavar="FILE.png", help="File of the figure (default: NAME.motion.png).")
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR|FILE.txt",
+            help="Write figure and columns, in g, of each motion here; of one motion the columns into a file.",
+        ),
     ] = None,
-    no_figure: Annotated[bool, typer.Option("--no-figure", help="Draw no figure.")] = False,
+    figure: Annotated[Path | None, typer.Option(metavar="FILE.png", help="Draw one motion into this file.")] = None,
     json_: JsonPath = None,
     units: UnitsName = "si",
     details: Details = False,
     list_: Annotated[bool, typer.Option("--list", help="List the records available by name.")] = False,
 ) -> None:
-    """Print and draw a record, or the components of one: peaks, intensity measures, origin, warnings.
+    """Print what is in a record, or its components: peaks, intensity measures, origin, warnings.
+
+    With --out or --figure it draws them, too.
 
     Formats: PEER AT2, COSMOS and CSMIP V2, USGS SMC, K-NET, ESM and ITACA ASC, AFAD, GeoNet V1A and V2A, USC V2,
     CSMNC, UNAM, BHRC and RENADIC V1, columns with or without a header, miniSEED and SAC (with
@@ -67,9 +73,10 @@ def motion(
     check_json(json_)
     motions = [motion for file in files for motion in _motions(file, unit, time_step, channel)]
     misfits: list[Misfit] = []
+    matches: list[Matched] | None = None
     if match is not None:
-        motions, misfits = _matched(motions, match)
-    written = _written(motions, out, None if no_figure else figure, not no_figure, len(files) > 1, units)
+        motions, misfits, matches = _matched(motions, match)
+    written = _written(motions, matches, out, figure, units)
     data = {} if json_ is None else _json(motions, misfits)
     finish(data, json_, written, lambda shown: _show(motions, misfits, shown, units, len(files) > 1, details))
 
@@ -123,39 +130,52 @@ def _json(motions: list[GroundMotion], misfits: list[Misfit]) -> dict[str, Any]:
     return {"motions": rows}
 
 
-def _matched(motions: list[GroundMotion], text: str) -> tuple[list[GroundMotion], list[Misfit]]:
+def _matched(motions: list[GroundMotion], text: str) -> tuple[list[GroundMotion], list[Misfit], list[Matched]]:
     """Match each motion to a spectrum, as far as that goes and the motion lasts."""
     from heeltoe.motion.matching import match_known_band
     from heeltoe.motion.targets import target_of
+    from heeltoe.views.figures.motion import Matched
 
     target = target_of(text, "--match")
     pairs = [match_known_band(motion, target) for motion in motions]
-    return [pair for pair, _ in pairs], [misfit for _, misfit in pairs]
+    records = [motion.scaled(misfit.scale) for motion, (_, misfit) in zip(motions, pairs, strict=True)]
+    return [pair for pair, _ in pairs], [misfit for _, misfit in pairs], [Matched(target, record) for record in records]
 
 
 def _written(
-    motions: list[GroundMotion], out: Path | None, figure: Path | None, drawn: bool, components: bool, units: str
+    motions: list[GroundMotion], matches: list[Matched] | None, out: Path | None, figure: Path | None, units: str
 ) -> list[Path]:
-    """Write the figures, one for each component, and the motion itself where that is wanted."""
-    from heeltoe.base.atomic_files import write_text
+    """Write figures and columns where that is wanted: of each motion into a directory, of one into a file."""
+    from heeltoe.base.atomic_files import check_directory, write_text
     from heeltoe.views.figures.motion import write_motion_figure
 
-    for option, option_value in (("--figure", figure), ("--out", out)):
+    into = out if out is not None and (out.is_dir() or not out.suffix) else None
+    for option, option_value in (("--figure", figure), ("--out", None if into else out)):
         if option_value is not None and len(motions) > 1:
             raise InputError("motion-one", option, f"{len(motions)} motions")
     if figure is not None and figure.suffix.lower() not in (".png", ".svg", ".pdf"):
         raise InputError("figure-format", "--figure", figure)
+    if into is not None:
+        check_directory(into, "--out")
+        into.mkdir(parents=True, exist_ok=True)
     written = []
-    if drawn and (components or len(motions) == 1):
-        for motion in motions:
-            place = figure or Path(f"{_file_name(motion.name)}.motion.png")
-            written.append(write_motion_figure(motion, STANDARD_GRAVITY, place, units))
-    if out is not None:
-        rows = zip(motions[0].time, motions[0].acceleration / STANDARD_GRAVITY, strict=True)
-        header = f"# processing: {'; '.join(motions[0].processing)}\n" if motions[0].processing else ""
-        text = f"{header}# time [s], acceleration [g]\n" + "".join(f"{t:.6f} {a:.9e}\n" for t, a in rows)
-        written.append(write_text(out, text, "--out"))
+    for number, motion in enumerate(motions):
+        name = _file_name(motion.name)
+        place = figure or (into and into / f"{name}.motion.png")
+        if place is not None:
+            matched = matches[number] if matches else None
+            written.append(write_motion_figure(motion, STANDARD_GRAVITY, place, units, matched))
+        columns = into / f"{name}.txt" if into else out
+        if columns is not None:
+            written.append(write_text(columns, _columns(motion), "--out"))
     return written
+
+
+def _columns(motion: GroundMotion) -> str:
+    """Return a motion in two columns below what was done to it."""
+    rows = zip(motion.time, motion.acceleration / STANDARD_GRAVITY, strict=True)
+    header = f"# processing: {'; '.join(motion.processing)}\n" if motion.processing else ""
+    return f"{header}# time [s], acceleration [g]\n" + "".join(f"{t:.6f} {a:.9e}\n" for t, a in rows)
 
 
 def _motions(file: str, unit: str | None, time_step: str | None, channel: str | None) -> list[GroundMotion]:

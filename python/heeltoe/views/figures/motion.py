@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -13,16 +14,37 @@ from heeltoe.base.atomic_files import written
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.motion.measures import fourier_amplitudes, velocity_displacement
 from heeltoe.motion.spectrum import response_spectrum
+from heeltoe.motion.targets import Target
 from heeltoe.units.systems import Units, unit_system
 from heeltoe.units.write import number
 from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled
 from heeltoe.views.figures.write import save
 
+_BEFORE = "#AAAAAA"
 
-def write_motion_figure(motion: GroundMotion, gravity: float, path: Path, units: str = "si") -> Path:
+
+@dataclass(frozen=True, eq=False)
+class Matched:
+    """What a motion was matched to, and from.
+
+    Attributes
+    ----------
+    target
+        The spectrum.
+    record
+        The motion before, scaled as a whole to the target.
+    """
+
+    target: Target
+    record: GroundMotion
+
+
+def write_motion_figure(
+    motion: GroundMotion, gravity: float, path: Path, units: str = "si", matched: Matched | None = None
+) -> Path:
     """Write the figure of a motion to `path` (its ending says the format) and return the path."""
     with written(path, "--figure") as fresh:
-        save(motion_figure(motion, gravity, units), fresh)
+        save(motion_figure(motion, gravity, units, matched), fresh)
     return path
 
 
@@ -57,8 +79,9 @@ def draw_history(panels: Sequence[Axes], motion: GroundMotion, gravity: float, u
 
 
 @styled
-def motion_figure(motion: GroundMotion, gravity: float, units: str = "si") -> Figure:
-    """Draw acceleration, velocity and displacement over time, Fourier amplitudes and the 5 % response spectrum."""
+def motion_figure(motion: GroundMotion, gravity: float, units: str = "si", matched: Matched | None = None) -> Figure:
+    """Draw acceleration, velocity and displacement over time, Fourier amplitudes and the response spectrum, of 5 %
+    damping; of a motion that was matched with its target, at the damping of that, and the record before."""
     system = unit_system(units)
     velocity_scale = system.scale("velocity")
     figure = Figure(figsize=(WIDTH, 8.0), layout="constrained")
@@ -67,6 +90,10 @@ def motion_figure(motion: GroundMotion, gravity: float, units: str = "si") -> Fi
     heading(figure, motion.name, about or "no origin stated")
     top = figure.add_subplot(grid[0, :])
     panels = [top, *(figure.add_subplot(grid[row, :], sharex=top) for row in (1, 2))]
+    if matched is not None:
+        record = matched.record
+        top.plot(record.time, record.acceleration / gravity, color=_BEFORE, linewidth=0.7, label="scaled record")
+        top.legend(loc="upper right", fontsize=7)
     draw_history(panels, motion, gravity, system)
     frequency, amplitude = fourier_amplitudes(motion)
     fourier = figure.add_subplot(grid[3, 0])
@@ -78,9 +105,16 @@ def motion_figure(motion: GroundMotion, gravity: float, units: str = "si") -> Fi
         largest = velocity_scale(amplitude[shown].max())
         fourier.set_ylim(largest * 1e-4, largest * 2.0)
 
-    spectrum = response_spectrum(motion)
+    damping = 0.05 if matched is None else matched.target.damping
+    spectrum = response_spectrum(motion, damping=damping)
     response = figure.add_subplot(grid[3, 1])
-    response.semilogx(spectrum.period, spectrum.pseudo_acceleration / gravity, color=COLOURS["rotation"])
+    if matched is not None:
+        _draw_target(response, matched, gravity)
+    response.semilogx(
+        spectrum.period, spectrum.pseudo_acceleration / gravity, color=COLOURS["rotation"], label="matched"
+    )
+    if matched is not None:
+        response.legend(loc="upper right", fontsize=7)
     response.axhline(motion.pga / gravity, color=COLOURS["limit"], linestyle="--", linewidth=0.9)
     response.annotate(
         f"PGA {number(motion.pga / gravity)} g",
@@ -91,9 +125,22 @@ def motion_figure(motion: GroundMotion, gravity: float, units: str = "si") -> Fi
         fontsize=7,
     )
     response.set_xlabel("period [s]")
-    response.set_ylabel("pseudo-acceleration [g], 5 %")
+    response.set_ylabel(f"pseudo-acceleration [g], {100.0 * damping:.3g} %")
     response.set_ylim(bottom=0.0)
     response.set_xlim(spectrum.period[0], spectrum.period[-1])
     for axes in (fourier, response):
         axes.xaxis.set_major_formatter(lambda value, _: np.format_float_positional(value, trim="-"))
     return figure
+
+
+def _draw_target(axes: Axes, matched: Matched, gravity: float) -> None:
+    """Draw the target of a match, and the spectrum of the record before."""
+    before = response_spectrum(matched.record, damping=matched.target.damping)
+    axes.semilogx(
+        before.period, before.pseudo_acceleration / gravity, color=_BEFORE, linewidth=1.0, label="scaled record"
+    )
+    known = (before.period >= matched.target.shortest) & (before.period <= matched.target.longest)
+    period = before.period[known]
+    axes.semilogx(
+        period, matched.target(period) / gravity, color=COLOURS["toe"], linestyle="--", linewidth=1.8, label="target"
+    )
