@@ -30,6 +30,8 @@ pub struct ReducedBody<'py> {
     position: Numbers<'py>,
     dampers: PyReadonlyArray2<'py, f64>,
     damper_signs: Numbers<'py>,
+    wet: PyReadonlyArray2<'py, f64>,
+    boundary: PyReadonlyArray2<'py, f64>,
 }
 
 impl ReducedBody<'_> {
@@ -47,8 +49,32 @@ impl ReducedBody<'_> {
             position: self.position.as_slice()?,
             dampers: self.dampers.as_slice()?,
             damper_signs: self.damper_signs.as_slice()?,
+            wet: self.wet.as_slice()?,
+            boundary: self.boundary.as_slice()?,
         };
         heeltoe::flexible::ReducedBody::new(&modes).map_err(wrong)
+    }
+}
+
+/// Water with sound as Python gives it.
+#[derive(FromPyObject)]
+pub struct Reservoir<'py> {
+    omega_squared: Numbers<'py>,
+    damping_floor: PyReadonlyArray2<'py, f64>,
+    damping_far: PyReadonlyArray2<'py, f64>,
+    ground: PyReadonlyArray2<'py, f64>,
+}
+
+impl Reservoir<'_> {
+    fn reservoir(&self) -> PyResult<heeltoe::flexible::Reservoir> {
+        let shares = rows::<2>(self.ground.as_slice()?, "the ground's motion of the water")?;
+        let ground = [0, 1].map(|k| shares.iter().map(|share| share[k]).collect::<Vec<f64>>());
+        heeltoe::flexible::Reservoir::new(
+            self.omega_squared.as_slice()?,
+            [self.damping_floor.as_slice()?, self.damping_far.as_slice()?],
+            [&ground[0], &ground[1]],
+        )
+        .map_err(wrong)
     }
 }
 
@@ -211,6 +237,12 @@ impl CrackedDam {
         {
             return Err(wrong("the penalty method knows constant friction and no bond"));
         }
+        let radiates = self.dam.bodies.lower.as_ref().is_some_and(|body| body.radiates());
+        if self.dam.reservoir.is_some() || radiates || self.dam.bodies.upper.radiates() {
+            return Err(wrong(
+                "the penalty method knows neither water with sound nor rock with waves",
+            ));
+        }
         if self.dam.bodies.upper.dampers() > 0 {
             return Err(wrong("the penalty method has no dashpots between the modes"));
         }
@@ -240,7 +272,7 @@ impl CrackedDam {
 #[pymethods]
 impl CrackedDam {
     #[new]
-    #[pyo3(signature = (upper, lower, cracks, contactors, water=None, anchors=Vec::new(), *, asked=0))]
+    #[pyo3(signature = (upper, lower, cracks, contactors, water=None, anchors=Vec::new(), reservoir=None, *, asked=0))]
     #[allow(clippy::too_many_arguments)]
     fn new(
         py: Python<'_>,
@@ -250,6 +282,7 @@ impl CrackedDam {
         contactors: u8,
         water: Option<FollowingWater>,
         anchors: Vec<CrackAnchor>,
+        reservoir: Option<Reservoir<'_>>,
         asked: usize,
     ) -> PyResult<Self> {
         if asked >= cracks.len() {
@@ -266,6 +299,7 @@ impl CrackedDam {
                 water: water.map(|water| water.water()).transpose()?,
                 anchors: anchors.iter().map(CrackAnchor::anchor).collect(),
             },
+            reservoir: reservoir.map(|water| water.reservoir()).transpose()?,
             still: None,
         };
         dam.check().map_err(wrong)?;

@@ -169,14 +169,14 @@ numbers!(DamSummary of elastic::Summary {
     impacts largest_impact_velocity peak_normal_force energy_start energy_stored energy_penalty energy_input
     energy_damping energy_numerical energy_impact energy_friction energy_gained energy_turnover energy_residual steps
     iterations most_iterations sweeps contact_residual final_state crack_friction crack_impact slip_path bond_energy
-    energy_fracture crack_fracture first_cracking first_cracking_place cracked_through cracked_from_heel
+    energy_fracture energy_boundary energy_floor energy_far_end crack_fracture first_cracking first_cracking_place cracked_through cracked_from_heel
     cracked_from_toe cracked_length softening_length
 });
 
 columns!(DamFrames of Frames {
     time slip slip_velocity rotation opening_heel opening_toe normal_force friction_force touching state energy_stored
     energy_input energy_damping energy_impact energy_friction energy_numerical slip_path friction_strength
-    energy_fracture cracked_from_heel cracked_from_toe cracked_length softening_length
+    energy_fracture energy_boundary energy_floor energy_far_end cracked_from_heel cracked_from_toe cracked_length softening_length
 });
 
 columns!(StressExtremes of elastic::Extreme { tension tension_time xx zz xz compression compression_time });
@@ -414,6 +414,7 @@ pub struct DamRun {
     force: Table,
     status: Py<PyArray2<u8>>,
     modes: (Table, Table),
+    water: Table,
     extremes: Py<PyTuple>,
     worked: Py<WornContacts>,
 }
@@ -457,6 +458,7 @@ impl DamRun {
                 shaped(py, frames.modes_upper, count)?.unbind(),
                 shaped(py, frames.modes_lower, count)?.unbind(),
             ),
+            water: shaped(py, frames.water, count)?.unbind(),
             extremes: PyTuple::new(py, extremes)?.unbind(),
             worked: Py::new(
                 py,

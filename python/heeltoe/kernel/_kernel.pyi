@@ -398,6 +398,22 @@ class ReducedBody(Protocol):
     def dampers(self) -> Floats: ...
     @property
     def damper_signs(self) -> Floats: ...
+    @property
+    def wet(self) -> Floats: ...
+    @property
+    def boundary(self) -> Floats: ...
+
+class Reservoir(Protocol):
+    """Water with sound; see :class:`heeltoe.models.flexible.surroundings.water.ReducedWater`."""
+
+    @property
+    def omega_squared(self) -> Floats: ...
+    @property
+    def damping_floor(self) -> Floats: ...
+    @property
+    def damping_far(self) -> Floats: ...
+    @property
+    def ground(self) -> Floats: ...
 
 class FollowingWater(Protocol):
     """Water in the crack; see :class:`heeltoe.models.flexible.body.inside.FollowingWater`."""
@@ -508,6 +524,9 @@ class DamSummary:
     slip_path: Final[float]
     bond_energy: Final[float]
     energy_fracture: Final[float]
+    energy_boundary: Final[float]
+    energy_floor: Final[float]
+    energy_far_end: Final[float]
     crack_fracture: Final[float]
     first_cracking: Final[float]
     first_cracking_place: Final[float]
@@ -543,6 +562,9 @@ class DamFrames:
     slip_path: Final[Floats]
     friction_strength: Final[Floats]
     energy_fracture: Final[Floats]
+    energy_boundary: Final[Floats]
+    energy_floor: Final[Floats]
+    energy_far_end: Final[Floats]
     cracked_from_heel: Final[Floats]
     cracked_from_toe: Final[Floats]
     cracked_length: Final[Floats]
@@ -610,6 +632,8 @@ class DamRun:
         (f, c) of each watched node, counting ``CONTACT_STATUSES``.
     modes
         (f, m) amplitudes of the modes of the upper and of the lower part.
+    water
+        (f, w) velocities of the modes of the water with sound; its pressure comes of them.
     extremes
         Of the stresses of each part. Empty where none are wanted.
     worked
@@ -628,6 +652,7 @@ class DamRun:
     force: Final[Floats]
     status: Final[NDArray[np.uint8]]
     modes: Final[tuple[Floats, Floats]]
+    water: Final[Floats]
     extremes: Final[tuple[StressExtremes, ...]]
     worked: Final[WornContacts]
 
@@ -674,6 +699,8 @@ class CrackedDam:
         Where its pressure follows the opening.
     anchors
         Those with stiffness. Neither goes with the penalty method, nor do they or that go with several cracks.
+    reservoir
+        Water with sound, tied to the parts by their rows `wet`; the penalty method knows none.
     asked
         Which crack is told of first.
     """
@@ -686,6 +713,7 @@ class CrackedDam:
         contactors: int,
         water: FollowingWater | None = None,
         anchors: Sequence[CrackAnchor] = (),
+        reservoir: Reservoir | None = None,
         *,
         asked: int = 0,
     ) -> None: ...

@@ -197,6 +197,8 @@ def test_a_lower_part_that_cannot_move_is_a_plane(contactors):
         position=face,
         dampers=np.zeros((3, 1)),
         damper_signs=np.ones(3),
+        wet=np.empty((0, 1)),
+        boundary=np.empty((0, 0)),
     )
     found = CrackedDam(one.reduced[0], still, only_crack(one.reduced[0], still, (FRICTION, FRICTION)), contactors).run(
         a, dt, 0.52, stride=1

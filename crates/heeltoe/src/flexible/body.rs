@@ -21,6 +21,11 @@ pub struct ReducedBody {
     pub(super) nodes: usize,
     /// Number of dashpots, see [`super::dampers`].
     pub(super) dampers: usize,
+    /// Number of rows of the water on its wet faces, see [`super::reservoir`].
+    pub(super) wet: usize,
+    /// What its boundary takes, a symmetric matrix over all modes and those that fill up the last group, row by row; none
+    /// of a body without such a boundary.
+    pub(super) boundary: Option<Vec<Group>>,
     /// 1 for a dashpot that takes energy, -1 for one that gives back what others take too much.
     pub(super) damper_signs: Vec<f64>,
     /// Squared circular frequency.
@@ -60,6 +65,10 @@ pub struct Modes<'a> {
     pub dampers: &'a [f64],
     /// A sign for each.
     pub damper_signs: &'a [f64],
+    /// Rows of the water on the wet faces, `modes of the water x modes`, row by row; empty without water.
+    pub wet: &'a [f64],
+    /// Damping of the boundary, `modes x modes`, symmetric, row by row (1/s); empty where it takes nothing.
+    pub boundary: &'a [f64],
 }
 
 impl Modes<'_> {
@@ -73,7 +82,9 @@ impl Modes<'_> {
             .into_iter()
             .chain(self.damping)
             .chain(self.participation);
-        let whole = self.dampers.len() == count * self.damper_signs.len();
+        let whole = self.dampers.len() == count * self.damper_signs.len()
+            && self.wet.len().is_multiple_of(count)
+            && [0, count * count].contains(&self.boundary.len());
         if each.into_iter().any(|v| v.len() != count) || self.shapes.len() != count * columns || !whole {
             return Err("the arrays of a body must agree in the number of modes and of crack nodes");
         }
@@ -91,15 +102,19 @@ impl ReducedBody {
         let columns = modes.position.len();
         let count = modes.omega_squared.len();
         let groups = group_count(count);
-        let dampers = modes.dampers.len() / count;
-        let width = columns + dampers;
+        let (dampers, wet) = (modes.dampers.len() / count, modes.wet.len() / count);
+        let width = columns + dampers + wet;
         let mut shapes = vec![[0.0; LANES]; groups * width];
         for (mode, row) in modes.shapes.chunks_exact(columns).enumerate() {
             for (c, value) in row.iter().enumerate() {
                 shapes[place(width, mode / LANES, c)][mode % LANES] = *value;
             }
         }
-        for (c, row) in modes.dampers.chunks_exact(count).enumerate() {
+        let links = modes
+            .dampers
+            .chunks_exact(count)
+            .chain(modes.wet.chunks_exact(count));
+        for (c, row) in links.enumerate() {
             for (mode, value) in row.iter().enumerate() {
                 shapes[place(width, mode / LANES, columns + c)][mode % LANES] = *value;
             }
@@ -108,6 +123,15 @@ impl ReducedBody {
             modes: count,
             nodes: columns / 2,
             dampers,
+            wet,
+            boundary: (!modes.boundary.is_empty()).then(|| {
+                let mut matrix = vec![[0.0; LANES]; groups * LANES * groups];
+                let rows = modes.boundary.chunks_exact(count);
+                for (full, row) in matrix.chunks_exact_mut(groups).zip(rows) {
+                    full.as_flattened_mut()[..count].copy_from_slice(row);
+                }
+                matrix
+            }),
             damper_signs: modes.damper_signs.to_vec(),
             omega_squared: grouped(modes.omega_squared),
             damping: modes.damping.map(grouped),
@@ -129,6 +153,21 @@ impl ReducedBody {
         self.dampers
     }
 
+    /// Number of rows of the water.
+    pub fn wet(&self) -> usize {
+        self.wet
+    }
+
+    /// Whether its boundary takes energy.
+    pub fn radiates(&self) -> bool {
+        self.boundary.is_some()
+    }
+
+    /// Number of rows by which something ties its modes: dashpots first, then water.
+    pub(super) fn links(&self) -> usize {
+        self.dampers + self.wet
+    }
+
     /// Number of groups of modes.
     pub(super) fn groups(&self) -> usize {
         self.omega_squared.len()
@@ -139,9 +178,9 @@ impl ReducedBody {
         2 * self.nodes
     }
 
-    /// Number of components of motion on the crack and of dashpots.
+    /// Number of components of motion on the crack and of rows that tie the modes.
     pub(super) fn width(&self) -> usize {
-        self.columns() + self.dampers
+        self.columns() + self.links()
     }
 
     /// Groups that hold a number for each of them.
@@ -165,6 +204,43 @@ impl ReducedBody {
             for (row, a) in matrix.chunks_exact_mut(stride).zip(&shapes) {
                 for (value, b) in row.as_flattened_mut().iter_mut().zip(&shapes) {
                     *value += (0..LANES).map(|l| a[l] * weight[l] * b[l]).sum::<f64>();
+                }
+            }
+        }
+        matrix
+    }
+
+    /// `shapes D` with a symmetric matrix over all modes, row by row, in the order of the shapes.
+    pub(super) fn shapes_times(&self, d: &[Group]) -> Vec<Group> {
+        let (width, groups) = (self.width(), self.groups());
+        let mut product = vec![[0.0; LANES]; self.shapes.len()];
+        for c in 0..width {
+            let mut sum = vec![[0.0; LANES]; groups];
+            for group in 0..groups {
+                for (l, share) in self.shapes[place(width, group, c)].iter().enumerate() {
+                    let row = &d[(LANES * group + l) * groups..][..groups];
+                    for (sum, row) in sum.as_flattened_mut().iter_mut().zip(row.as_flattened()) {
+                        *sum += share * row;
+                    }
+                }
+            }
+            for (group, sum) in sum.iter().enumerate() {
+                product[place(width, group, c)] = *sum;
+            }
+        }
+        product
+    }
+
+    /// `shapes turned^T`, as [`ReducedBody::compliance`], of what [`ReducedBody::shapes_times`] returns.
+    pub(super) fn compliance_to(&self, turned: &[Group]) -> Vec<Group> {
+        let (width, stride) = (self.width(), self.stride());
+        let mut matrix = vec![[0.0; LANES]; width * stride];
+        for group in 0..self.groups() {
+            for (r, row) in matrix.chunks_exact_mut(stride).enumerate() {
+                let a = &self.shapes[place(width, group, r)];
+                for (c, value) in row.as_flattened_mut().iter_mut().take(width).enumerate() {
+                    let b = &turned[place(width, group, c)];
+                    *value += (0..LANES).map(|l| a[l] * b[l]).sum::<f64>();
                 }
             }
         }

@@ -13,7 +13,7 @@ pub(super) struct FacesOperator<'s, 'a> {
     pub(super) contacts: &'s Contacts,
     pub(super) blocks: &'s mut Blocks,
     pub(super) bodies: &'s mut Sides<ModalStepper<'a>>,
-    pub(super) dampers: &'s mut Dampers,
+    pub(super) dampers: &'s mut Dampers<'a>,
     pub(super) damping: usize,
     pub(super) softness: f64,
 }

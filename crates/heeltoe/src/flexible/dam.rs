@@ -5,6 +5,7 @@ use super::body::ReducedBody;
 use super::crack_forces::{FaceAnchor, Inside, RisingWater};
 use super::crack_line::Line;
 use super::envelope::Stressed;
+use super::reservoir::Reservoir;
 use super::still::Still;
 use crate::stop::Stop;
 
@@ -20,6 +21,8 @@ pub struct Dam {
     pub contactors: u8,
     /// What acts in the only crack beside contact.
     pub inside: Inside,
+    /// Water with sound before it.
+    pub reservoir: Option<Reservoir>,
     /// The state before the earthquake, see [`super::rest`]; none where friction does not hold the dam, which then starts
     /// from the state with its crack bonded.
     pub still: Option<Still>,
@@ -45,8 +48,12 @@ impl Dam {
     /// Says what is not.
     pub fn check(&self) -> Result<(), &'static str> {
         let (above, below) = (&self.bodies.upper, &self.bodies.lower);
-        if below.as_ref().is_some_and(|body| body.dampers != above.dampers) {
-            return Err("both bodies need a row for each dashpot");
+        let rows = |body: &ReducedBody| (body.dampers, body.wet);
+        if below.as_ref().is_some_and(|body| rows(body) != rows(above)) {
+            return Err("both bodies need a row for each dashpot and each mode of the water");
+        }
+        if above.wet != self.reservoir.as_ref().map_or(0, Reservoir::modes) {
+            return Err("the water needs a row for each of its modes");
         }
         let lower = below.as_ref().map_or(0, ReducedBody::nodes);
         let counts = [self.bodies.upper.nodes(), lower];

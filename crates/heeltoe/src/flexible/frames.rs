@@ -30,6 +30,8 @@ pub struct Frames {
     pub modes_upper: Vec<f64>,
     /// Amplitudes of all modes of the lower body, on request.
     pub modes_lower: Vec<f64>,
+    /// Velocities of the water's modes, with them.
+    pub water: Vec<f64>,
 }
 
 impl Frames {
@@ -167,6 +169,9 @@ columns!(Snapshot<'_>, now => {
     "slip_path": now.summary.slip_path,
     "friction_strength": now.force[2],
     "energy_fracture": now.summary.cracked.energy,
+    "energy_boundary": now.ledger.boundary,
+    "energy_floor": now.ledger.floor,
+    "energy_far_end": now.ledger.far_end,
     "cracked_from_heel": now.summary.cracked.lengths[0],
     "cracked_from_toe": now.summary.cracked.lengths[1],
     "cracked_length": now.summary.cracked.lengths[2],

@@ -193,7 +193,7 @@ impl<'a> Newmark<'a> {
     fn keep(&mut self) {
         let position = self.bodies.faces(|body| &body.position);
         let modes = self.bodies.map(|body| &body.q[..]);
-        self.walk.keep(position, &modes, &self.ledger);
+        self.walk.keep(position, &modes, &[], &self.ledger);
     }
 
     /// Hand over what there is to tell; a run that contact has driven has blown up.

@@ -7,7 +7,7 @@
 //!           input                   damping      numerical                                     contact
 //! ```
 //!
-//! in every step. What is left over in the end is the residual: rounding, or a mistake.
+//! in every step, with what leaves through the boundary of the rock and, of the water, through floor and far end. What is left over in the end is the residual: rounding, or a mistake.
 
 use super::simd::{Group, LANES};
 
@@ -16,7 +16,7 @@ use super::simd::{Group, LANES};
 pub struct Ledger {
     /// Strain and kinetic energy at the start.
     pub start: f64,
-    /// Strain and kinetic energy now, with that of the anchors.
+    /// Strain and kinetic energy now, with that of the anchors and of the water with sound.
     pub stored: f64,
     /// Energy held by the anchors, now.
     pub springs: f64,
@@ -34,6 +34,12 @@ pub struct Ledger {
     pub friction: f64,
     /// Taken by the bond of joints: what broke it, and what it holds while it softens.
     pub fracture: f64,
+    /// Left through the boundary of the rock, or lost in it.
+    pub boundary: f64,
+    /// Left through the floor of the reservoir.
+    pub floor: f64,
+    /// Left through its far end.
+    pub far_end: f64,
     /// What contact has added in steps in which its work was positive; it ought to add nothing.
     pub gained: f64,
     /// All that went in or out, without sign.
@@ -44,7 +50,8 @@ impl Ledger {
     /// Loss that only the scheme itself can explain.
     pub(super) fn unexplained(&self) -> f64 {
         let change = self.stored + self.penalty - self.start;
-        self.input - self.damping - self.impact - self.friction - self.fracture - change
+        let dam = self.input - self.damping - self.impact - self.friction - self.fracture - change;
+        dam - (self.boundary + self.floor + self.far_end)
     }
 
     /// What is not accounted for, over the turnover.
@@ -65,6 +72,7 @@ pub(super) struct Sums {
     pub turnover: Group,
     pub damping: Group,
     pub numerical: Group,
+    pub boundary: Group,
 }
 
 impl Sums {
@@ -75,6 +83,7 @@ impl Sums {
             ledger.turnover += self.turnover[l];
             ledger.damping += self.damping[l];
             ledger.numerical += self.numerical[l];
+            ledger.boundary += self.boundary[l];
         }
     }
 }

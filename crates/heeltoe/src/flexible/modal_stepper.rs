@@ -5,6 +5,13 @@
 //! v' = v_f + d shapes^T p,      q' = q + dt v*,      d = 1 / (1 + theta dt c + theta^2 dt^2 omega^2)
 //! ```
 //!
+//! Where a boundary takes energy, `c` and `d` are matrices. Then `D` of a step is known and `c` is not needed: with `g` the
+//! momentum that a step begins with and the impulses in it
+//!
+//! ```text
+//! v* = D g,      g = v + theta (dt (f - omega^2 q) - gamma dV + shapes^T p),      v' = (v* - late v) / theta
+//! ```
+//!
 //! The last half of one step and the first half of the next go over the mode shapes together, as reading them is what a
 //! step costs.
 
@@ -22,11 +29,27 @@ pub(super) struct Operator {
     d: [Vec<Group>; 2],
     /// Compliance of crack and dashpots to impulses on them, row by row.
     w: [Vec<Group>; 2],
+    /// Where a boundary takes energy: `D`, row by row, and `shapes D` in the order of the shapes.
+    dense: Option<[Dense; 2]>,
+}
+
+/// `D` of a body whose boundary takes energy.
+struct Dense {
+    d: Vec<Group>,
+    shapes: Vec<Group>,
 }
 
 impl Operator {
     fn new(body: &ReducedBody, step: TimeStep) -> Self {
         let TimeStep { dt, theta } = step;
+        if let Some(boundary) = &body.boundary {
+            let dense = [0, 1].map(|state| Dense::new(body, boundary, state, step));
+            return Operator {
+                d: [Vec::new(), Vec::new()],
+                w: [0, 1].map(|state: usize| body.compliance_to(&dense[state].shapes)),
+                dense: Some(dense),
+            };
+        }
         let d = [0, 1].map(|state| {
             let pairs = body.damping[state].iter().zip(&body.omega_squared);
             pairs
@@ -36,8 +59,53 @@ impl Operator {
                 .collect::<Vec<Group>>()
         });
         let w = [0, 1].map(|state: usize| body.compliance(&d[state]));
-        Operator { d, w }
+        Operator { d, w, dense: None }
     }
+}
+
+impl Dense {
+    fn new(body: &ReducedBody, boundary: &[Group], state: usize, step: TimeStep) -> Self {
+        let (groups, weight) = (body.groups(), step.dt * step.theta);
+        let size = LANES * groups;
+        let mut a: Vec<f64> = boundary.as_flattened().iter().map(|c| weight * c).collect();
+        let (c, w) = (
+            body.damping[state].as_flattened(),
+            body.omega_squared.as_flattened(),
+        );
+        for k in 0..size {
+            a[k * (size + 1)] += 1.0 + weight * c[k] + weight * weight * w[k];
+        }
+        let inverse = inverse(a, size);
+        let d: Vec<Group> = inverse.as_chunks::<LANES>().0.to_vec();
+        let shapes = body.shapes_times(&d);
+        Dense { d, shapes }
+    }
+}
+
+/// The inverse of a symmetric positive matrix, row by row.
+fn inverse(mut a: Vec<f64>, size: usize) -> Vec<f64> {
+    // Gauss and Jordan in place: column k becomes that of the inverse. No pivots are needed.
+    for k in 0..size {
+        let pivot = 1.0 / a[k * size + k];
+        let mut own: Vec<f64> = a[k * size..][..size].iter().map(|x| pivot * x).collect();
+        own[k] = pivot;
+        for (r, row) in a.chunks_exact_mut(size).enumerate() {
+            if r == k {
+                continue;
+            }
+            let factor = std::mem::replace(&mut row[k], 0.0);
+            row.iter_mut().zip(&own).for_each(|(x, y)| *x -= factor * y);
+        }
+        a[k * size..][..size].copy_from_slice(&own);
+    }
+    // Rounding has left it not quite symmetric.
+    for r in 0..size {
+        for c in 0..r {
+            let mean = 0.5 * (a[r * size + c] + a[c * size + r]);
+            (a[r * size + c], a[c * size + r]) = (mean, mean);
+        }
+    }
+    a
 }
 
 /// The state of a body, and room for a step.
@@ -56,7 +124,11 @@ pub(super) struct ModalStepper<'a> {
     /// How crack and dashpots answer when these forces are taken away for a step, for both states of damping.
     released: [Vec<Group>; 2],
     pub v: Vec<Group>,
+    /// What the step would end with without contact; with a boundary that takes energy, the momentum it begins with.
     v_free: Vec<Group>,
+    /// With such a boundary: `v*`, and the velocities of crack and links before the step.
+    mean: Vec<Group>,
+    before: Vec<Group>,
     /// Of the crack nodes: position, velocity, impulse.
     pub position: Vec<f64>,
     pub velocity: Vec<f64>,
@@ -129,13 +201,15 @@ impl<'a> ModalStepper<'a> {
             }),
             v: vec![[0.0; LANES]; body.groups()],
             v_free: vec![[0.0; LANES]; body.groups()],
+            mean: vec![[0.0; LANES]; if body.boundary.is_some() { body.groups() } else { 0 }],
+            before: room.clone(),
             position: still.map_or_else(|| body.position.clone(), |still| still.position[face].clone()),
             velocity: zeros.clone(),
             impulse: zeros.clone(),
             free: room.clone(),
             answer: room,
             push: zeros,
-            pull: vec![0.0; body.dampers],
+            pull: vec![0.0; body.links()],
             pushes: vec![0.0; body.width()],
             lanes: vec![[0.0; LANES]; LANES * body.stride()],
             sums: Sums::default(),
@@ -149,6 +223,9 @@ impl<'a> ModalStepper<'a> {
         self.pushes[..columns].copy_from_slice(&self.impulse);
         self.pushes[columns..].copy_from_slice(&self.pull);
         let touched = self.pushes.iter().any(|p| *p != 0.0);
+        if self.operator.dense.is_some() {
+            return self.advance_dense::<W>(now.map(|now| (now, touched)), next, step);
+        }
         self.lanes.fill([0.0; LANES]);
         let (body, mut sums) = (self.body, self.sums);
         for (bundle, shapes) in body.shapes.chunks_exact(BUNDLE * width).enumerate() {
@@ -177,6 +254,88 @@ impl<'a> ModalStepper<'a> {
         self.sums = sums;
         for (free, lanes) in self.free.iter_mut().zip(self.lanes.as_chunks::<LANES>().0) {
             *free = W::sums(lanes);
+        }
+    }
+
+    /// The same where a boundary takes energy; `now` with whether there are any impulses.
+    #[inline(always)]
+    fn advance_dense<W: Lanes>(&mut self, now: Option<(Drive, bool)>, next: Drive, step: TimeStep) {
+        let TimeStep { dt, theta } = step;
+        let (width, late, body) = (self.body.width(), 1.0 - theta, self.body);
+        let Some(dense) = &self.operator.dense else {
+            return;
+        };
+        if let Some((now, touched)) = now {
+            if touched {
+                let bundles = body.shapes.chunks_exact(BUNDLE * width);
+                for (shapes, g) in bundles.zip(self.v_free.chunks_exact_mut(BUNDLE)) {
+                    let mut push = [[0.0; LANES]; BUNDLE];
+                    combine::<W>(shapes, &self.pushes, &mut push);
+                    for (g, push) in g.as_flattened_mut().iter_mut().zip(push.as_flattened()) {
+                        *g += theta * push;
+                    }
+                }
+            }
+            self.mean.fill([0.0; LANES]);
+            combine::<W>(&dense[now.damping].d, self.v_free.as_flattened(), &mut self.mean);
+            let sums = &mut self.sums;
+            for group in 0..body.groups() {
+                let (w, load, c) = (
+                    body.omega_squared[group],
+                    self.balanced[group],
+                    body.damping[now.damping][group],
+                );
+                let gamma = [body.participation[0][group], body.participation[1][group]];
+                let (mean, g) = (self.mean[group], self.v_free[group]);
+                let (q, v) = (&mut self.q[group], &mut self.v[group]);
+                for l in 0..LANES {
+                    let way = dt * mean[l];
+                    let v_new = (mean[l] - late * v[l]) / theta;
+                    let work =
+                        (load[l] * dt - gamma[0][l] * now.ground[0] - gamma[1][l] * now.ground[1]) * mean[l];
+                    let damped = c[l] * mean[l] * way;
+                    let elastic = mean[l] + theta * theta * dt * w[l] * way;
+                    let dv = v_new - v[l];
+                    sums.input[l] += work;
+                    sums.turnover[l] += work.abs();
+                    sums.damping[l] += damped;
+                    sums.boundary[l] += mean[l] * (g[l] - elastic) / theta - damped;
+                    sums.numerical[l] += (theta - 0.5) * (dv * dv + w[l] * way * way);
+                    q[l] += way;
+                    v[l] = v_new;
+                }
+            }
+        }
+        for group in 0..body.groups() {
+            let (w, load) = (body.omega_squared[group], self.left[group]);
+            let gamma = [body.participation[0][group], body.participation[1][group]];
+            let (q, v) = (self.q[group], self.v[group]);
+            let g = &mut self.v_free[group];
+            for l in 0..LANES {
+                let drive = (load[l] - w[l] * q[l]) * dt
+                    - gamma[0][l] * next.ground[0]
+                    - gamma[1][l] * next.ground[1];
+                g[l] = fma::<W>(theta, drive, v[l]);
+            }
+        }
+        self.lanes.fill([0.0; LANES]);
+        let bundles = dense[next.damping].shapes.chunks_exact(BUNDLE * width);
+        for (shapes, g) in bundles.zip(self.v_free.as_chunks::<BUNDLE>().0) {
+            let g = g.each_ref().map(W::load);
+            for (sum, shapes) in self.lanes.iter_mut().zip(shapes.as_chunks::<BUNDLE>().0) {
+                let mut new = W::load(sum);
+                for k in 0..BUNDLE {
+                    new = g[k].fma(W::load(&shapes[k]), new);
+                }
+                new.store(sum);
+            }
+        }
+        let lanes = self.lanes.as_chunks::<LANES>().0;
+        for ((free, before), lanes) in self.free.iter_mut().zip(&self.before).zip(lanes) {
+            let mean = W::sums(lanes);
+            for l in 0..LANES {
+                free[l] = (mean[l] - late * before[l]) / theta;
+            }
         }
     }
 
@@ -338,6 +497,9 @@ impl<'a> ModalStepper<'a> {
     #[inline(always)]
     pub(super) fn move_crack<W: Lanes>(&mut self, step: TimeStep) {
         let TimeStep { dt, theta } = step;
+        if self.operator.dense.is_some() {
+            self.before.copy_from_slice(&self.answer);
+        }
         let new = self.answer.as_flattened();
         for ((x, u), new) in self.position.iter_mut().zip(&mut self.velocity).zip(new) {
             *x += dt * fma::<W>(theta, *new, (1.0 - theta) * *u);

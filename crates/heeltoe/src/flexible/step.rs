@@ -107,7 +107,7 @@ struct Moreau<'a> {
     walk: Walk<'a>,
     bodies: Sides<ModalStepper<'a>>,
     acting: Option<CrackForces<'a>>,
-    dampers: Dampers,
+    dampers: Dampers<'a>,
     still: Option<&'a Still>,
     /// Whether nothing moves the dam in this step.
     quiet: bool,
@@ -145,7 +145,7 @@ impl<'a> Moreau<'a> {
         Moreau {
             walk,
             acting: CrackForces::new(&dam.inside, shaking.rising, faces),
-            dampers: Dampers::new(&bodies, step),
+            dampers: Dampers::new(&bodies, dam.reservoir.as_ref(), step),
             still,
             quiet: false,
             ledger: Ledger {
@@ -188,7 +188,9 @@ impl<'a> Moreau<'a> {
         crack.meet(position, damping, || bodies.map(|body| body.answers(damping)));
         self.act();
         // A dam that stands under loads that do not change goes on standing, to the last bit.
-        self.quiet = self.still.is_some() && self.bodies.iter().all(ModalStepper::rests);
+        self.quiet = self.still.is_some()
+            && self.bodies.iter().all(ModalStepper::rests)
+            && self.dampers.rests(self.drive.ground);
         if self.quiet {
             return;
         }
@@ -245,7 +247,7 @@ impl<'a> Moreau<'a> {
             }
         }
         if !self.dampers.is_empty() {
-            self.dampers.begin::<W>(&mut self.bodies, damping);
+            self.dampers.begin::<W>(&mut self.bodies, self.drive);
         }
     }
 
@@ -308,7 +310,7 @@ impl<'a> Moreau<'a> {
         let before = self.acted();
         if !self.quiet {
             if !self.dampers.is_empty() {
-                self.dampers.finish(&mut self.bodies);
+                self.dampers.finish(&mut self.bodies, self.drive);
             }
             for body in self.bodies.iter_mut() {
                 body.move_crack::<W>(self.step);
@@ -404,7 +406,9 @@ impl<'a> Moreau<'a> {
     fn keep(&mut self, ledger: &Ledger) {
         let position = self.bodies.faces(|body| &body.position);
         let total = self.bodies.map(ModalStepper::amplitudes);
-        self.walk.keep(position, &total.map(|modes| &modes[..]), ledger);
+        let water = self.dampers.water();
+        self.walk
+            .keep(position, &total.map(|modes| &modes[..]), water, ledger);
     }
 
     /// The ledger with the sums of both bodies and the energy they hold; the sums go on, so that frames change nothing.
@@ -413,9 +417,8 @@ impl<'a> Moreau<'a> {
         for body in self.bodies.iter() {
             body.sums.book(&mut ledger);
         }
-        ledger.damping += self.dampers.taken;
-        ledger.turnover += self.dampers.taken;
         ledger.stored = energy(&self.bodies) + ledger.springs;
+        self.dampers.book(&mut ledger);
         ledger
     }
 }

@@ -268,6 +268,8 @@ fn body(dice: &mut Dice) -> ReducedBody {
         position: &position,
         dampers: &[],
         damper_signs: &[],
+        wet: &[],
+        boundary: &[],
     })
     .unwrap()
 }
@@ -301,6 +303,7 @@ fn what_has_not_moved_keeps_its_answer() {
             cracks: vec![Line::only([5, 5], [0.6; 2], RockingThresholds::default())],
             contactors,
             inside: Inside::default(),
+            reservoir: None,
             still: None,
         };
         let answers = answers(&mut dice);

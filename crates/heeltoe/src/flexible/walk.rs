@@ -126,7 +126,7 @@ pub(super) struct Walk<'a> {
 impl<'a> Walk<'a> {
     /// `start` is where the nodes of both bodies are.
     pub(super) fn new(dam: &'a Dam, dt: f64, wanted: Wanted<'a>, start: Faces) -> Self {
-        let mut crack = Crack::new(dam, dam.bodies.upper.dampers, true);
+        let mut crack = Crack::new(dam, dam.bodies.upper.links(), true);
         crack.solver.lasting = dam.cracks.len() > 1;
         let contactors = &crack.contacts.contactors;
         let cracks = Place::all(&dam.cracks)
@@ -197,7 +197,7 @@ impl<'a> Walk<'a> {
     }
 
     /// Keep a frame.
-    pub(super) fn keep(&mut self, position: Faces, modes: &Sides<&[Group]>, ledger: &Ledger) {
+    pub(super) fn keep(&mut self, position: Faces, modes: &Sides<&[Group]>, water: &[f64], ledger: &Ledger) {
         let (since, status) = (&self.since, &self.crack.solver.status);
         let cracks = self.cracks.iter().enumerate().map(|(k, watch)| Snapshot {
             status: &status[watch.contacts.clone()],
@@ -209,6 +209,7 @@ impl<'a> Walk<'a> {
         self.frames.keep(cracks, position, since, status);
         if self.wanted.modes {
             self.frames.keep_modes(&self.dam.bodies, modes);
+            self.frames.water.extend_from_slice(water);
         }
         self.since.clear();
     }

@@ -76,6 +76,8 @@ pub fn pair_of_nodes(pair: &Pair) -> Dam {
         position: &[pair.pulled, 10.0 + pair.pulled, pair.gap, pair.gap],
         dampers: &[],
         damper_signs: &[],
+        wet: &[],
+        boundary: &[],
     };
     let line = Line::only([2, 0], [pair.friction; 2], RockingThresholds::default());
     let dam = Dam {
@@ -89,6 +91,7 @@ pub fn pair_of_nodes(pair: &Pair) -> Dam {
         }],
         contactors: 1,
         inside: Inside::default(),
+        reservoir: None,
         still: None,
     };
     dam.check().unwrap();

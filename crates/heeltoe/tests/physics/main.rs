@@ -8,3 +8,4 @@ mod numbers;
 mod rigid;
 mod rocking;
 mod stack;
+mod surroundings;

@@ -78,3 +78,16 @@ pub fn near(value: f64, expected: f64, allowed: f64) {
     let apart = (value - expected).abs();
     assert!(apart <= allowed, "{value}, not {expected}: {apart:e} apart");
 }
+
+/// Numbers from -1 to 1 that are the same each time.
+pub struct Dice(pub u64);
+
+impl Dice {
+    pub fn roll(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6364136223846793005)
+            .wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+}

@@ -127,6 +127,8 @@ def _two_bars() -> ReducedBody:
         damping_free=nothing,
         dampers=np.empty((0, nothing.size)),
         damper_signs=np.empty(0),
+        wet=np.empty((0, nothing.size)),
+        boundary=np.empty((0, 0)),
         load=both(-_GRAVITY * uniform),
         participation_horizontal=nothing,
         participation_vertical=nothing,

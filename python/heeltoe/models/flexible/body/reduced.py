@@ -44,6 +44,11 @@ class ReducedBody:
         (d, m) rows of the dashpots that couple the modes; as many on the other body.
     damper_signs
         (d,) 1 for those that take energy, -1 for those that give back what others take too much.
+    wet
+        (w, m) rows of the modes of the water with sound, see
+        :class:`heeltoe.models.flexible.surroundings.water.ReducedWater`; as many on the other body.
+    boundary
+        (m, m) damping of the boundary of the rock [1/s]; (0, 0) where there is none.
     """
 
     omega_squared: Floats
@@ -57,6 +62,8 @@ class ReducedBody:
     position: Floats
     dampers: Floats
     damper_signs: Floats
+    wet: Floats
+    boundary: Floats
 
 
 @dataclass(frozen=True)
@@ -250,7 +257,17 @@ def side_by_side_in(parts: tuple[ReducedBody, ...]) -> ReducedBody:
         position=np.concatenate([part.position.reshape(2, -1) for part in parts], axis=1).reshape(-1),
         dampers=np.hstack([part.dampers for part in parts]),
         damper_signs=parts[0].damper_signs,
+        wet=np.hstack([part.wet for part in parts]),
+        boundary=block_diag(*(_square(part) for part in parts))
+        if any(part.boundary.size for part in parts)
+        else parts[0].boundary,
     )
+
+
+def _square(part: ReducedBody) -> Floats:
+    """Return the damping of its boundary over all of its modes."""
+    count = part.omega_squared.size
+    return part.boundary if part.boundary.size else np.zeros((count, count))
 
 
 def along_crack(above: Body, section: CutSection) -> Floats:
@@ -307,4 +324,6 @@ def _reduced(
         position=(np.concatenate(at) + np.concatenate(moved)).T.reshape(-1),
         dampers=np.ascontiguousarray(damping.dashpots[place]),
         damper_signs=damping.signs,
+        wet=np.empty((0, modes.omega_squared.size)),
+        boundary=np.empty((0, 0)),
     )

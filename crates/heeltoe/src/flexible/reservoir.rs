@@ -1,0 +1,181 @@
+//! Water with sound: a reservoir in modes of its velocity potential, tied to the wet faces of both bodies.
+//!
+//! With `x` the amplitudes, `L` the rows of the wet faces over the modes of a body and `v_g` the ground's velocity
+//!
+//! ```text
+//! x'' + C x' + Omega^2 x = sum L v + G v_g,      force on a body  -L^T x'
+//! ```
+//!
+//! The tie is gyroscopic and takes no energy; what `C` takes has left through the far end of the reservoir and its floor.
+//! With `x* = theta x'_new + (1 - theta) x'` and the rates `e = sum L v` of the faces a step is
+//!
+//! ```text
+//! A x* = r + theta dt e*,      A = 1 + theta dt C + theta^2 dt^2 Omega^2,      r = x' - theta dt (Omega^2 x - G v_g*)
+//! ```
+//!
+//! and the impulses `z = -dt x*` on the rows obey, with `e_f` and `W` the rates and the answers without them,
+//!
+//! ```text
+//! z = -N (e_f + (1 - theta) / theta e + r / (theta^2 dt)),      N = (W + A / (theta^2 dt^2))^-1
+//! ```
+//!
+//! which is a dashpot (see [`super::dampers`]) with a memory.
+
+use super::ledger::Ledger;
+use super::scheme::TimeStep;
+
+/// A reservoir in its modes; `m` of them.
+pub struct Reservoir {
+    /// Squared circular frequencies (1/s2).
+    omega_squared: Vec<f64>,
+    /// What leaves through the floor, and through the far end: `m x m`, symmetric, row by row (1/s).
+    leaving: [Vec<f64>; 2],
+    /// Share in the horizontal and in the vertical motion of the ground, `2 x m`.
+    ground: [Vec<f64>; 2],
+}
+
+impl Reservoir {
+    /// # Errors
+    /// Arrays that do not agree in the number of modes, or none.
+    pub fn new(
+        omega_squared: &[f64],
+        leaving: [&[f64]; 2],
+        ground: [&[f64]; 2],
+    ) -> Result<Self, &'static str> {
+        let modes = omega_squared.len();
+        let squares = leaving.iter().all(|matrix| matrix.len() == modes * modes);
+        if modes == 0 || !squares || ground.iter().any(|share| share.len() != modes) {
+            return Err("the arrays of a reservoir must agree in the number of its modes");
+        }
+        Ok(Reservoir {
+            omega_squared: omega_squared.to_vec(),
+            leaving: leaving.map(<[f64]>::to_vec),
+            ground: ground.map(<[f64]>::to_vec),
+        })
+    }
+
+    /// Number of its modes.
+    pub fn modes(&self) -> usize {
+        self.omega_squared.len()
+    }
+}
+
+/// A reservoir under way.
+pub(super) struct Water<'a> {
+    of: &'a Reservoir,
+    step: TimeStep,
+    /// Amplitudes and their velocities.
+    amplitude: Vec<f64>,
+    pub velocity: Vec<f64>,
+    /// Velocity of the ground.
+    ground: [f64; 2],
+    /// What the ground does to the modes in this step.
+    drive: Vec<f64>,
+    mean: Vec<f64>,
+    /// Energies: put in by the ground, left through the floor and the far end, taken by the scheme, all that went in.
+    input: f64,
+    left: [f64; 2],
+    numerical: f64,
+    turnover: f64,
+}
+
+impl<'a> Water<'a> {
+    pub(super) fn new(of: &'a Reservoir, step: TimeStep) -> Self {
+        let zeros = vec![0.0; of.modes()];
+        Water {
+            of,
+            step,
+            amplitude: zeros.clone(),
+            velocity: zeros.clone(),
+            ground: [0.0; 2],
+            drive: zeros.clone(),
+            mean: zeros,
+            input: 0.0,
+            left: [0.0; 2],
+            numerical: 0.0,
+            turnover: 0.0,
+        }
+    }
+
+    /// `A / (theta dt)`, row by row.
+    pub(super) fn impedance(&self) -> Vec<f64> {
+        let TimeStep { dt, theta } = self.step;
+        let (modes, weight) = (self.of.modes(), theta * dt);
+        let [floor, far] = &self.of.leaving;
+        let mut a: Vec<f64> = floor.iter().zip(far).map(|(a, b)| a + b).collect();
+        for (k, square) in self.of.omega_squared.iter().enumerate() {
+            a[k * (modes + 1)] += 1.0 / weight + weight * square;
+        }
+        a
+    }
+
+    /// Whether it rests, and the ground with it in a step that changes its velocity so.
+    #[inline(always)]
+    pub(super) fn rests(&self, change: [f64; 2]) -> bool {
+        let zero = |numbers: &[f64]| numbers.iter().all(|x| *x == 0.0);
+        zero(&self.ground) && zero(&change) && zero(&self.velocity) && zero(&self.amplitude)
+    }
+
+    /// Add to the rates of the rows what it does of itself in a step in which the ground's velocity changes so.
+    #[inline(always)]
+    pub(super) fn begin(&mut self, change: [f64; 2], rates: &mut [f64]) {
+        let TimeStep { dt, theta } = self.step;
+        let [x, z] = [0, 1].map(|k| self.ground[k] + theta * change[k]);
+        let weight = 1.0 / (theta * theta * dt);
+        for (k, rate) in rates.iter_mut().enumerate() {
+            let drive = self.of.ground[0][k] * x + self.of.ground[1][k] * z;
+            let spring = self.of.omega_squared[k] * self.amplitude[k];
+            self.drive[k] = drive;
+            *rate += weight * (self.velocity[k] - theta * dt * (spring - drive));
+        }
+    }
+
+    /// Go on to the end of the step under these impulses on the rows.
+    #[inline(always)]
+    pub(super) fn finish(&mut self, change: [f64; 2], impulses: &[f64]) {
+        let TimeStep { dt, theta } = self.step;
+        for (k, impulse) in impulses.iter().enumerate() {
+            let mean = -impulse / dt;
+            let new = (mean - (1.0 - theta) * self.velocity[k]) / theta;
+            let (way, more) = (dt * mean, new - self.velocity[k]);
+            let work = self.drive[k] * way;
+            self.input += work;
+            self.turnover += work.abs();
+            self.numerical += (theta - 0.5) * (more * more + self.of.omega_squared[k] * way * way);
+            self.mean[k] = mean;
+            self.amplitude[k] += way;
+            self.velocity[k] = new;
+        }
+        for (left, matrix) in self.left.iter_mut().zip(&self.of.leaving) {
+            let power = self.mean.iter().zip(matrix.chunks_exact(self.mean.len()));
+            *left += dt
+                * power
+                    .map(|(x, row)| x * super::simd::dot(row, &self.mean))
+                    .sum::<f64>();
+        }
+        for (ground, change) in self.ground.iter_mut().zip(change) {
+            *ground += change;
+        }
+    }
+
+    /// Energy it holds.
+    fn stored(&self) -> f64 {
+        let modes = self
+            .velocity
+            .iter()
+            .zip(&self.amplitude)
+            .zip(&self.of.omega_squared);
+        modes.map(|((v, x), square)| 0.5 * (v * v + square * x * x)).sum()
+    }
+
+    /// Add its energies to a ledger.
+    pub(super) fn book(&self, ledger: &mut Ledger) {
+        let [floor, far] = self.left;
+        ledger.input += self.input;
+        ledger.floor += floor;
+        ledger.far_end += far;
+        ledger.numerical += self.numerical;
+        ledger.stored += self.stored();
+        ledger.turnover += self.turnover + floor + far;
+    }
+}
