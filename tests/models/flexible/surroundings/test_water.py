@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-import scipy.linalg
 from scipy.sparse.linalg import splu
 
 from heeltoe.models.flexible.surroundings.water import floor_admittance, floor_reflection, full_water, reduced_water
@@ -28,18 +27,30 @@ def answer(water, omega, velocities):
     return water.pressure @ moved, -(water.coupling.T @ moved)[::2].sum()
 
 
-def stepped(water, ground, times, step=1e-4):
-    """Return x' at times under a ground that accelerates by 1 m/s2 from t = 0 on, by the trapezoidal rule."""
-    size = water.omega_squared.size
-    matrix = np.block([[np.zeros((size, size)), np.eye(size)], [-np.diag(water.omega_squared), -water.damping]])
-    left, right = np.eye(2 * size) - step / 2.0 * matrix, np.eye(2 * size) + step / 2.0 * matrix
-    advance = scipy.linalg.solve(left, np.column_stack([right, np.concatenate([np.zeros(size), ground])]))
-    state, rows, wanted = np.zeros(2 * size), [], set(np.round(np.asarray(times) / step).astype(int))
-    for count in range(1, max(wanted) + 1):
-        state = advance[:, :-1] @ state + advance[:, -1] * step * (count - 0.5) * step
-        if count in wanted:
-            rows.append(state[size:])
-    return np.array(rows)
+def stepped(full, ground, times, step=5e-4):
+    """Return base pressure and total force at times under a ground that accelerates by 1 m/s2 from t = 0 on, by the
+    trapezoidal rule.
+
+    With all shapes of the finite elements: a step has all frequencies, which a reduction leaves out on purpose."""
+    body = full.body
+    solve = splu((body.mass + step / 2.0 * body.damping + step**2 / 4.0 * body.stiffness).tocsc()).solve
+    moved = velocity = np.zeros(body.mass.shape[0])
+    rows = []
+    for count in range(1, round(times[-1] / step) + 1):
+        push = body.mass @ velocity - step / 2.0 * (body.damping @ velocity)
+        push -= step * (body.stiffness @ (moved + step / 4.0 * velocity))
+        following = solve(push + step * ground * (count - 0.5) * step)
+        moved, velocity = moved + step / 2.0 * (velocity + following), following
+        if np.abs(times - count * step).min() < step / 4.0:
+            rows.append([(full.pressure @ velocity)[0], -(full.coupling.T @ velocity)[::2].sum()])
+    return np.array(rows).T
+
+
+def all_shapes(reflection, face=FACE, highest=30.0):
+    return full_water(
+        [face], DEPTH, wave_speed=SPEED, reflection=reflection, density=DENSITY, highest=highest, floor=None,
+        upstream=True, near=0.5,
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize("ratio", [0.01, 0.5, 0.75, 0.9, 1.1, 1.25, 1.5, 2.0, 2.5])
@@ -77,24 +88,9 @@ def test_face_that_bends(water):
 
 
 def test_step_of_acceleration():
-    """With all shapes of the finite elements; a step has all frequencies, which a reduction leaves out on purpose."""
     times = np.array([0.02, 0.04, 0.06, 0.1, 0.2, 0.3, 0.5, 0.75, 1.0])
-    full = full_water(
-        [FACE], DEPTH, wave_speed=SPEED, reflection=1.0, density=DENSITY, highest=30.0, floor=None, upstream=True,
-        near=0.5,
-    )  # fmt: skip
-    body, step = full.body, 2.5e-4
-    solve = splu((body.mass + step / 2.0 * body.damping + step**2 / 4.0 * body.stiffness).tocsc()).solve
-    moved = velocity = np.zeros(body.mass.shape[0])
-    rows = []
-    for count in range(1, round(times[-1] / step) + 1):
-        push = body.mass @ velocity - step / 2.0 * (body.damping @ velocity)
-        push -= step * (body.stiffness @ (moved + step / 4.0 * velocity))
-        following = solve(push - step * full.ground[:, 0] * (count - 0.5) * step)
-        moved, velocity = moved + step / 2.0 * (velocity + following), following
-        if np.abs(times - count * step).min() < step / 4.0:
-            rows.append([(full.pressure @ velocity)[0], -(full.coupling.T @ velocity)[::2].sum()])
-    pressures, forces = np.array(rows).T
+    full = all_shapes(1.0)
+    pressures, forces = stepped(full, -full.ground[:, 0], times)
     pressure, force = step_pressure(times, DEPTH, SPEED)
     assert forces == pytest.approx(force, rel=0.01)
     assert pressures == pytest.approx(pressure, rel=0.01)
@@ -104,11 +100,22 @@ def test_step_of_acceleration():
 
 @pytest.mark.parametrize("reflection", [1.0, 0.9, 0.5, 0.0])
 def test_step_of_vertical_acceleration(reflection):
-    reduced = reduced_water(FACE, DEPTH, wave_speed=SPEED, reflection=reflection, density=DENSITY, highest=30.0)
     times = np.array([0.03, 0.06, 0.09, 0.12, 0.17, 0.2, 0.25, 0.31, 0.4, 0.5])
-    moved = stepped(reduced, reduced.ground[:, 1], times)
+    full = all_shapes(reflection, highest=60.0)
+    pressures, _ = stepped(full, full.ground[:, 1], times)
     exact = vertical_pressure(times, DEPTH, SPEED, reflection)
-    assert moved @ reduced.pressure[0] == pytest.approx(exact, abs=0.02 * exact.max())
+    assert pressures == pytest.approx(exact, abs=0.01 * exact.max())
+
+
+@pytest.mark.parametrize("frequency", [1.0, 3.0, 5.0, 9.0, 13.0])
+def test_vertical_motion_at_a_frequency(water, frequency):
+    """A wave up and down, over a floor that rises by ``exp(i omega t)``."""
+    reflection, reduced = water
+    omega = 2.0 * np.pi * frequency
+    pressure, _ = answer(reduced, omega, reduced.ground[:, 1] / (1j * omega))
+    back = np.exp(-2j * omega * DEPTH / SPEED)
+    exact = DENSITY * SPEED * (1.0 + reflection) / 2.0 / (1j * omega) * (1.0 - back) / (1.0 + reflection * back)
+    assert pressure[0] == pytest.approx(exact, abs=0.01 * abs(exact) + 0.01 * DENSITY * DEPTH)
 
 
 def test_what_the_water_takes_is_what_it_loses(water):
@@ -167,10 +174,7 @@ def test_water_downstream_is_the_mirror_of_water_upstream():
 def test_ground_is_the_face_and_the_floor_together():
     """A ground that moves downstream moves each node of the face; one that rises lifts floor and face."""
     sloped = np.column_stack([0.3 * HEIGHTS, HEIGHTS])
-    full = full_water(
-        [sloped], DEPTH, wave_speed=SPEED, reflection=0.7, density=DENSITY, highest=15.0, floor=None, upstream=True,
-        near=0.5,
-    )  # fmt: skip
+    full = all_shapes(0.7, sloped)
     ones = np.tile([1.0, 0.0], len(sloped))
     assert full.coupling @ ones == pytest.approx(full.ground[:, 0])
     lifted = full.coupling @ np.tile([0.0, 1.0], len(sloped))

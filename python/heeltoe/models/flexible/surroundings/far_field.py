@@ -44,6 +44,8 @@ class Channel:
         Shape (n k, n k), of the potential, without the density: what floor and layer take stands apart.
     lift
         (n k,) flow into the water of a floor that rises with unit velocity.
+    distance
+        (n k,) of the unknowns from the start [m].
     """
 
     depth_shapes: Floats
@@ -52,6 +54,7 @@ class Channel:
     damping_floor: Sparse
     damping_far: Sparse
     lift: Floats
+    distance: Floats
 
 
 def channel(heights: Floats, wave_speed: float, admittance: float, highest: float) -> Channel:
@@ -88,6 +91,7 @@ def channel(heights: Floats, wave_speed: float, admittance: float, highest: floa
         admittance * sparse.kron(product, floor),
         sparse.kron(absorbed, inertia),
         np.kron(total, shapes[0]),
+        np.repeat(nodes, shapes.shape[1]),
     )
 
 

@@ -42,31 +42,36 @@ class LinearBody:
     def response(self, rate: complex, forces: Floats) -> Complexes:
         """Return the amplitudes (N, k) under forces (N, k) that go like exp(rate t), mostly of rate i omega."""
         operator = self.stiffness + rate * self.damping + rate**2 * self.mass
-        return splu(sparse.csc_matrix(operator)).solve(forces.astype(complex))
+        options = {"SymmetricMode": True}
+        factors = splu(sparse.csc_matrix(operator), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options=options)
+        return factors.solve(forces.astype(complex))
 
 
-def main_shapes(body: LinearBody, snapshots: Floats, omega: float, first: Floats | None = None) -> Floats:
+def main_shapes(norm: Sparse, snapshots: Floats, first: Floats | None = None) -> Floats:
     """Return the main directions of answers of a body, most important first.
 
     Parameters
     ----------
-    body
-        Of N unknowns.
+    norm
+        Positive definite (N, N), in which the directions are orthonormal; from :func:`norm_of`.
     snapshots
         Real answers (N, k).
-    omega
-        Circular frequency [1/s] of the norm ``K + omega^2 M`` in which directions are orthonormal.
     first
         Shapes (N, j) that are kept whatever the snapshots are; they come first.
     """
-    norm = sparse.csr_matrix(body.stiffness + omega**2 * body.mass)
     head = np.empty((snapshots.shape[0], 0))
     if first is not None:
         head = _directions(norm, first, 0.0)
         for _ in range(2):
             snapshots = snapshots - head @ (head.T @ (norm @ snapshots))
-    tail = _directions(norm, snapshots, _NOTHING)
-    return np.column_stack([head, tail])
+    return np.column_stack([head, _directions(norm, snapshots, _NOTHING)]) if snapshots.size else head
+
+
+def norm_of(body: LinearBody, omega: float, weight: Floats) -> Sparse:
+    """Return the norm ``w (K + omega^2 M) w`` in which answers are compared; weights w (N,) fall with the distance from
+    where the answer is seen."""
+    scale = sparse.diags(weight)
+    return sparse.csr_matrix(scale @ (body.stiffness + omega**2 * body.mass) @ scale)
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,6 +144,11 @@ def enough_shapes(
     return projected.first(high), error(high)
 
 
+def size_of(answer: Complexes, norm: Sparse) -> float:
+    """Return the size of answers (N, k), all together, in a norm."""
+    return float(np.sqrt(np.sum(answer.conj() * (norm @ answer)).real))
+
+
 def congruent(matrix: Sparse, shapes: Floats) -> Floats:
     """Return ``V^T A V`` of a symmetric matrix, symmetric to the last bit."""
     product = shapes.T @ (matrix @ shapes)
@@ -154,7 +164,7 @@ def real_columns(answers: Complexes) -> Floats:
 
 def _directions(norm: Sparse, columns: Floats, nothing: float) -> Floats:
     gram = columns.T @ (norm @ columns)
-    energy, mixed = scipy.linalg.eigh((gram + gram.T) / 2.0)
-    kept = energy > max(nothing, 1e-15) * energy[-1]
-    directions: Floats = columns @ (mixed[:, kept] / np.sqrt(energy[kept]))[:, ::-1]
+    sizes, mixed = scipy.linalg.eigh((gram + gram.T) / 2.0)
+    kept = sizes > max(nothing, 1e-15) * sizes[-1]
+    directions: Floats = columns @ (mixed[:, kept] / np.sqrt(sizes[kept]))[:, ::-1]
     return directions

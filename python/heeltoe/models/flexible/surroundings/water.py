@@ -34,7 +34,9 @@ from heeltoe.models.flexible.surroundings.reduction import (
     congruent,
     enough_shapes,
     main_shapes,
+    norm_of,
     real_columns,
+    size_of,
 )
 
 # The near field goes on beyond the foot of the face by so many depths.
@@ -45,10 +47,12 @@ _PER_WAVE, _ROWS = 4.0, 10
 _PATTERNS = 9
 # Rate [first frequency of the water] at which the motions grow whose answers are kept; how many of these at most.
 _GROWTH, _MOST = 0.01, 240
+# What is far counts less in the choice of shapes: weights fall with this power of the distance.
+_FADING = 1.0
 # Rates of growth [highest circular frequency] of sudden motions, which tell what the water does before waves are back.
 _SUDDEN = (0.5 + 0j, 1.0 + 0j, 2.0 + 0j)
 #: The relative error of the answers to smooth motions that a reduction may leave.
-ENOUGH = 0.01
+ENOUGH = 0.005
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,6 +116,8 @@ class FullWater:
         (N, k) flows through the face of smooth motions, each of about unit velocity.
     first
         First circular frequency of the water in the channel [1/s].
+    distance
+        (N,) of the unknowns from where the far field begins, zero in the near field [depths].
     """
 
     mass: Sparse
@@ -123,6 +129,7 @@ class FullWater:
     pressure: Sparse
     patterns: Floats
     first: float
+    distance: Floats
 
     @property
     def body(self) -> LinearBody:
@@ -298,6 +305,7 @@ def _assembled(
     side: float,
 ) -> FullWater:
     wave_speed, density, admittance = constants
+    depth = float(near.heights[-1] - near.heights[0])
     tie, beyond = _tie(near, far)
 
     def joined(matrix: Sparse, other: Sparse | None) -> Sparse:
@@ -326,7 +334,8 @@ def _assembled(
         ground * [side, 1.0],
         -density * (interpolated @ tie),
         density * (tie.T @ _patterns(near, surface)),
-        np.pi * wave_speed / (2.0 * (near.heights[-1] - near.heights[0])),
+        np.pi * wave_speed / (2.0 * depth),
+        np.concatenate([np.zeros(tie.shape[1] - far.lift.size), far.distance / depth]),
     )
 
 
@@ -432,9 +441,10 @@ def _reduced(full: FullWater, highest: float, enough: float) -> ReducedWater:
     sampled = [_GROWTH * full.first + 1j * omega for omega in _frequencies(full.first, limit)]
     sampled += [factor * limit for factor in _SUDDEN]
     answers = [body.response(rate, inputs) for rate in sampled]
-    snapshots = np.column_stack([real_columns(answer / _energy(body, answer, full.first)) for answer in answers])
-    projected = Projected.of(body, main_shapes(body, snapshots, full.first)[:, :_MOST])
-    between = [(low + high) / 2.0 for low, high in pairwise(sampled[: -len(_SUDDEN) : 4])]
+    norm = norm_of(body, full.first, (1.0 + full.distance) ** -_FADING)
+    snapshots = np.column_stack([real_columns(answer / size_of(answer, norm)) for answer in answers])
+    projected = Projected.of(body, main_shapes(norm, snapshots)[:, :_MOST])
+    between = [(low + high) / 2.0 for low, high in pairwise(sampled[: -len(_SUDDEN) : 2])]
     between += [factor * limit * 1.2 for factor in _SUDDEN]
     exact = {rate: inputs.T @ body.response(rate, inputs) for rate in between}
     kept, error = enough_shapes(projected, inputs, exact, enough, inputs.shape[1])
@@ -451,12 +461,6 @@ def _reduced(full: FullWater, highest: float, enough: float) -> ReducedWater:
         highest,
         error,
     )
-
-
-def _energy(body: LinearBody, answer: Complexes, omega: float) -> float:
-    """Return the size of answers in the norm of :func:`main_shapes`."""
-    square = np.sum(answer.conj() * ((body.stiffness + omega**2 * body.mass) @ answer))
-    return float(np.sqrt(square.real))
 
 
 def _frequencies(first: float, limit: float) -> list[float]:

@@ -1,0 +1,376 @@
+"""The rock below the dam, with waves: a half-plane that nobody shakes, in few unknowns.
+
+Displacements are relative to the free field, the motion that the level surface of the rock would have without dam and
+water. For waves from straight below that is the record, the same at all places, so the rock has mass, stiffness and
+losses but no earthquake load: it is moved by the dam alone (Fenves and Chopra 1984, EAGD-84). Plane strain,
+
+    M u'' + C u' + K u = T^T f,    C = 2 xi / omega_r K + integral sigma(r) B^T D B,
+
+on biquadratic elements. Around a block below the base lie rings that are all alike but for their size, out to many
+widths of the base, where springs and dashpots hold the last one (normal ``rho c_p v + G u / r``, along it ``rho c_s v +
+G u / (2 r)``). Waves leave because the rings damp more and more, sigma rising with the distance r: every wave meets the
+same layer in wavelengths, and has gone where the elements grow too large for it. In shapes normalised by the mass,
+
+    x'' + C x' + Omega^2 x = S^T f,    u_base = S x,
+
+symmetric and passive. The shapes are static ones for a force on every node of the base and those of smooth tractions up
+to the highest frequency."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import scipy.sparse as sparse
+from scipy.sparse.linalg import splu
+
+from heeltoe.base.arrays import Floats, Integers
+from heeltoe.models.flexible.surroundings.reduction import (
+    Complexes,
+    LinearBody,
+    Projected,
+    Sparse,
+    congruent,
+    enough_shapes,
+    main_shapes,
+    norm_of,
+    real_columns,
+    size_of,
+)
+
+#: Distance of the last ring in half widths of the base.
+EXTENT = 100.0
+# Elements across the base at least, and over the shortest shear wave.
+_ACROSS, _PER_WAVE = 8, 5.0
+# sigma = _GRADIENT r / c_s, from a gentle start of so many half widths of the base on.
+_GRADIENT, _START = 0.05, 4.0
+# Patterns of tractions along the base, polynomials of rising degree, whose answers are kept.
+_PATTERNS = 4
+# What is far counts less in the choice of shapes: weights fall with this power of the distance.
+_FADING = 1.0
+# Sampled frequencies and the lowest of them over the highest, the growth of the motions there over their frequency, and
+# shapes at most beside the static ones.
+_SAMPLED, _LOWEST, _GROWTH, _MOST = 16, 0.03, 0.03, 120
+# Mass of rock that has none, as a part of its own: far too little for any wave.
+_MASSLESS = 1e-6
+#: The relative error of the answers to smooth tractions that a reduction may leave.
+ENOUGH = 0.01
+
+
+@dataclass(frozen=True)
+class RockMaterial:
+    """Rock, linear elastic in plane strain.
+
+    Attributes
+    ----------
+    modulus
+        Young's modulus [Pa].
+    poisson
+        Poisson's ratio.
+    density
+        [kg/m3].
+    damping
+        Ratio of the material's own damping at `damping_frequency` [Hz], in proportion to the stiffness.
+    radiation
+        Whether waves leave: without it springs alone hold the last ring, and nothing but the material damps.
+    massless
+        Whether it has no mass, and so no waves.
+    """
+
+    modulus: float
+    poisson: float
+    density: float
+    damping: float = 0.0
+    damping_frequency: float = 5.0
+    radiation: bool = True
+    massless: bool = False
+
+    @property
+    def shear(self) -> float:
+        """Shear modulus [Pa]."""
+        return self.modulus / (2.0 * (1.0 + self.poisson))
+
+    @property
+    def shear_speed(self) -> float:
+        """Speed of shear waves [m/s]."""
+        return float(np.sqrt(self.shear / self.density))
+
+    @property
+    def pressure_speed(self) -> float:
+        """Speed of pressure waves [m/s]."""
+        return self.shear_speed * float(np.sqrt(2.0 * (1.0 - self.poisson) / (1.0 - 2.0 * self.poisson)))
+
+
+@dataclass(frozen=True, eq=False)
+class FullRock:
+    """Rock in all its finite elements; N unknowns, of which those of the base come first, x and z of its nodes in turn.
+
+    Attributes
+    ----------
+    mass, stiffness
+        (N, N) [kg per m], [N/m per m].
+    damping_material, damping_radiation
+        What the material takes and what leaves as waves, (N, N) [N s/m per m].
+    base
+        (2 n,) unknowns of the nodes of the base: 0 to 2 n - 1.
+    points
+        (N / 2, 2) where the unknowns are, x and z in turn [m].
+    """
+
+    mass: Sparse
+    stiffness: Sparse
+    damping_material: Sparse
+    damping_radiation: Sparse
+    base: Integers
+    points: Floats
+
+    @property
+    def body(self) -> LinearBody:
+        """Mass, damping, stiffness."""
+        return LinearBody(self.mass, self.damping_material + self.damping_radiation, self.stiffness)
+
+
+@dataclass(frozen=True, eq=False)
+class ReducedRock:
+    """Rock in m shapes x normalised by the mass: ``x'' + C x' + Omega^2 x = S^T f``, ``u_base = S x``.
+
+    Attributes
+    ----------
+    omega_squared
+        (m,) squared circular frequencies [1/s2].
+    damping
+        (m, m) symmetric, positive semidefinite [1/s]: ``damping_material + damping_radiation``.
+    damping_material, damping_radiation
+        What the material takes and what leaves as waves: the power is ``x'^T C x'`` of each [W per m].
+    shapes
+        (2 n, m) rows S: x and z in turn of the n nodes of the base.
+    highest
+        Frequency [Hz] up to which it answers well.
+    error
+        Largest relative error of the answers to smooth tractions up to there that the reduction has left.
+    """
+
+    omega_squared: Floats
+    damping: Floats
+    damping_material: Floats
+    damping_radiation: Floats
+    shapes: Floats
+    highest: float
+    error: float
+
+    def compliance(self, omega: float, forces: Complexes) -> Complexes:
+        """Return the displacements of the base under forces (2 n, k) on it, both like exp(i omega t)."""
+        operator = np.diag(self.omega_squared - omega**2 + 0j) + 1j * omega * self.damping
+        return self.shapes @ np.linalg.solve(operator, self.shapes.T @ forces + 0j)
+
+
+def reduced_rock(
+    base: Floats, material: RockMaterial, *, highest: float = 15.0, extent: float = EXTENT, enough: float = ENOUGH
+) -> ReducedRock:
+    """Return the rock below a base in few unknowns.
+
+    Parameters
+    ----------
+    base
+        Nodes (x, z) of the base from heel to toe, with those in the middle of the quadratic edges, (n, 2) [m].
+    material
+        What the rock is.
+    highest
+        Frequency [Hz] up to which the answer is to be good.
+    extent
+        Distance of the last ring in half widths of the base.
+    enough
+        Relative error that the reduction may leave.
+    """
+    return _reduced(full_rock(base, material, highest=highest, extent=extent), base, material, highest, enough)
+
+
+def full_rock(base: Floats, material: RockMaterial, *, highest: float = 15.0, extent: float = EXTENT) -> FullRock:
+    """Return the rock below a base in all its finite elements; parameters as in :func:`reduced_rock`."""
+    import skfem
+    from skfem.helpers import dot
+
+    wave = material.shear_speed / highest
+    refined = _refined(base[:, 0], int(np.ceil(_PER_WAVE * np.ptp(base[:, 0]) / wave)))
+    middle, half = (base[0, 0] + base[-1, 0]) / 2.0, (base[-1, 0] - base[0, 0]) / 2.0
+    points, elements = _rings(refined - middle, half, extent)
+    mesh = skfem.MeshQuad(points.T.copy(), elements.T.copy())
+    basis = skfem.Basis(mesh, skfem.ElementVector(skfem.ElementQuad2()), intorder=4)
+    shear = material.shear
+    lame = 2.0 * shear * material.poisson / (1.0 - 2.0 * material.poisson)
+
+    def elastic(u: Any, v: Any, weight: Any) -> Any:
+        (xx, xz), (zx, zz) = u.grad
+        (vxx, vxz), (vzx, vzz) = v.grad
+        volume = lame * (xx + zz) * (vxx + vzz)
+        return weight * (volume + 2.0 * shear * (xx * vxx + zz * vzz) + shear * (xz + zx) * (vxz + vzx))
+
+    def energy_density(u: Any, v: Any, _: Any) -> Any:
+        return elastic(u, v, 1.0)
+
+    def absorbed(u: Any, v: Any, w: Any) -> Any:
+        x, z = w.x
+        distance = np.maximum(np.hypot(x, z) - half, 0.0)
+        rise = _GRADIENT / material.shear_speed * distance**2 / (distance + _START * half)
+        return elastic(u, v, rise)
+
+    def inertia(u: Any, v: Any, _: Any) -> Any:
+        return material.density * dot(u, v)
+
+    far = skfem.FacetBasis(
+        mesh,
+        skfem.ElementVector(skfem.ElementQuad2()),
+        facets=_last_ring(mesh, extent * half),
+        intorder=4,
+    )
+
+    def across(u: Any, v: Any, w: Any) -> tuple[Any, Any]:
+        normal, along = dot(u, w.n) * dot(v, w.n), dot(u, v)
+        return normal, along - normal
+
+    def springs(u: Any, v: Any, w: Any) -> Any:
+        normal, along = across(u, v, w)
+        return shear / np.hypot(*w.x) * (normal + along / 2.0)
+
+    def dashpots(u: Any, v: Any, w: Any) -> Any:
+        normal, along = across(u, v, w)
+        return material.density * (material.pressure_speed * normal + material.shear_speed * along)
+
+    tie, places = _tie(basis, base, middle, half)
+
+    def tied(matrix: Any) -> Sparse:
+        return sparse.csc_matrix(tie.T @ matrix @ tie)
+
+    none = sparse.csc_matrix((tie.shape[1], tie.shape[1]))
+    stiffness = tied(skfem.BilinearForm(energy_density).assemble(basis))
+    mass = tied(skfem.BilinearForm(inertia).assemble(basis))
+    # The springs stand for rock, too.
+    stiffness = stiffness + tied(skfem.BilinearForm(springs).assemble(far))
+    own = material.damping / (np.pi * material.damping_frequency) * stiffness
+    leaving = none
+    if material.radiation and not material.massless:
+        leaving = tied(skfem.BilinearForm(absorbed).assemble(basis) + skfem.BilinearForm(dashpots).assemble(far))
+    return FullRock(
+        (_MASSLESS if material.massless else 1.0) * mass,
+        stiffness,
+        own,
+        leaving,
+        np.arange(2 * len(base)),
+        places,
+    )
+
+
+def _refined(x: Floats, count: int) -> Floats:
+    """Return corners of elements along the base, each edge cut into as many as it needs for so many in all."""
+    corners = x[::2]
+    pieces = int(np.ceil(max(count, _ACROSS) / (corners.size - 1)))
+    parts = [np.linspace(low, high, pieces + 1)[1:] for low, high in pairwise(corners)]
+    return np.concatenate([corners[:1], *parts])
+
+
+def _rings(across: Floats, half: float, extent: float) -> tuple[Floats, Integers]:
+    """Return corners and elements of a block below the base and of rings around it, about the middle of the base."""
+    columns, rows = across.size, max(4, (across.size - 1) // 2)
+    depths = -half * np.arange(rows + 1) / rows
+    block = np.stack(np.meshgrid(across, depths, indexing="ij"), axis=-1).reshape(-1, 2)
+
+    def number(column: Any, row: Any) -> Any:
+        return column * (rows + 1) + row
+
+    elements = [
+        (number(i, j + 1), number(i + 1, j + 1), number(i + 1, j), number(i, j))
+        for i in range(columns - 1)
+        for j in range(rows)
+    ]
+    # From the surface upstream down, along below and up again.
+    path = np.concatenate(
+        [
+            number(0, np.arange(rows)),
+            number(np.arange(columns - 1), rows),
+            number(columns - 1, np.arange(rows, -1, -1)),
+        ]
+    )
+    count = int(np.ceil(np.log(extent) / np.log1p(1.0 / rows)))
+    factors = extent ** (np.arange(1, count + 1) / count)
+    points = [block, *(factor * block[path] for factor in factors)]
+    inner = path
+    for ring in range(count):
+        outer = len(block) + ring * path.size + np.arange(path.size)
+        elements += [(outer[i], outer[i + 1], inner[i + 1], inner[i]) for i in range(path.size - 1)]
+        inner = outer
+    return np.vstack(points), np.array(elements, dtype=np.int64)
+
+
+def _last_ring(mesh: Any, distance: float) -> Integers:
+    """Return the facets of the last ring."""
+    facets: Integers = mesh.facets_satisfying(
+        lambda x: np.maximum(np.abs(x[0]), -x[1]) > distance * (1.0 - 1e-6), boundaries_only=True
+    )
+    return facets
+
+
+def _tie(basis: Any, base: Floats, middle: float, half: float) -> tuple[Sparse, Floats]:
+    """Return all displacements by the unknowns, which follow the nodes of the base where the dam stands."""
+    places = basis.doflocs
+    under = (np.abs(places[1]) < 1e-9 * half) & (np.abs(places[0]) < half * (1.0 + 1e-9))
+    axis = np.empty(places.shape[1], dtype=np.int64)
+    for number in (0, 1):
+        for dofs in (basis.nodal_dofs, basis.facet_dofs, basis.interior_dofs):
+            axis[dofs[number]] = number
+    led, free = np.flatnonzero(under), np.flatnonzero(~under)
+    nodes = base[:, 0] - middle
+    edge = 2 * np.clip(np.searchsorted(nodes[2:-1:2], places[0, led]), 0, (nodes.size - 3) // 2)
+    low, high = nodes[edge], nodes[edge + 2]
+    s = (2.0 * places[0, led] - low - high) / (high - low)
+    shares = np.stack([s * (s - 1.0) / 2.0, 1.0 - s**2, s * (s + 1.0) / 2.0], axis=-1)
+    first = 2 * len(base)
+    rows = np.concatenate([np.repeat(led, 3), free])
+    columns = np.concatenate(
+        [(2 * (edge[:, None] + np.arange(3)) + axis[led][:, None]).reshape(-1), first + np.arange(free.size)]
+    )
+    values = np.concatenate([shares.reshape(-1), np.ones(free.size)])
+    shape = (places.shape[1], first + free.size)
+    return sparse.csr_matrix((values, (rows, columns)), shape), places[:, free].T
+
+
+def _reduced(full: FullRock, base: Floats, material: RockMaterial, highest: float, enough: float) -> ReducedRock:
+    body, limit = full.body, 2.0 * np.pi * highest
+    unit = np.zeros((full.mass.shape[0], full.base.size))
+    unit[full.base, np.arange(full.base.size)] = 1.0
+    static = splu(sparse.csc_matrix(full.stiffness)).solve(unit)
+    smooth = unit @ smooth_tractions(base)
+    # The norm of the shapes weighs mass and stiffness where a wave is as long as the base is wide.
+    half = np.ptp(base[:, 0]) / 2.0
+    distance = np.hypot(*(full.points.T)) / half
+    weight = np.concatenate([np.ones(full.base.size), (1.0 + distance) ** -_FADING])
+    norm = norm_of(body, np.pi / 2.0 * material.shear_speed / half, weight)
+    rates = [complex(_GROWTH, 1.0) * limit * ratio for ratio in np.geomspace(_LOWEST, 1.05, _SAMPLED)]
+    answers = [] if material.massless else [body.response(rate, smooth) for rate in rates]
+    columns = [real_columns(answer / size_of(answer, norm)) for answer in answers]
+    snapshots = np.column_stack(columns) if columns else static[:, :0]
+    projected = Projected.of(body, main_shapes(norm, snapshots, static)[:, : static.shape[1] + _MOST])
+    between = [] if material.massless else [(low + high) / 2.0 for low, high in pairwise(rates[::-2])]
+    exact = {rate: smooth.T @ body.response(rate, smooth) for rate in between}
+    kept, error = enough_shapes(projected, smooth, exact, enough, static.shape[1])
+    squares, shapes = kept.modes()
+    own, leaving = (congruent(part, shapes) for part in (full.damping_material, full.damping_radiation))
+    return ReducedRock(squares, own + leaving, own, leaving, shapes[full.base], highest, error)
+
+
+def smooth_tractions(base: Floats) -> Floats:
+    """Return forces on the nodes of the base of tractions that are polynomials along it, in x and in z, (2 n, 2 k)."""
+    x = base[:, 0]
+    points, weights = np.polynomial.legendre.leggauss(4)
+    shapes = np.stack([points * (points - 1.0) / 2.0, 1.0 - points**2, points * (points + 1.0) / 2.0])
+    forces = np.zeros((len(x), 2, _PATTERNS, 2))
+    for edge in range(0, len(x) - 2, 2):
+        low, high = x[edge], x[edge + 2]
+        at = (low + high) / 2.0 + (high - low) / 2.0 * points
+        legendre = np.polynomial.legendre.legvander(2.0 * (at - x[0]) / (x[-1] - x[0]) - 1.0, _PATTERNS - 1)
+        share = np.einsum("ip,pk,p->ik", shapes, legendre, weights / 2.0) * (high - low) / (x[-1] - x[0])
+        for axis in (0, 1):
+            forces[edge : edge + 3, axis, :, axis] += share
+    scaled: Floats = (forces / (1.0 + np.arange(_PATTERNS))[:, None]).reshape(2 * len(x), 2 * _PATTERNS)
+    return scaled

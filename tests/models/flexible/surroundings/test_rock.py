@@ -1,0 +1,124 @@
+"""Rock with waves against the half-plane in closed form, and its limits."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.sparse.linalg import splu
+
+from heeltoe.models.flexible.surroundings.rock import RockMaterial, full_rock, reduced_rock, smooth_tractions
+from shared.exact_rock import strip_compliance
+
+HALF = 40.0
+X = np.linspace(-HALF, HALF, 17)
+BASE = np.column_stack([X, 0.0 * X])
+ROCK = RockMaterial(20e9, 0.33, 2650.0)
+
+
+@pytest.fixture(scope="module")
+def full():
+    return full_rock(BASE, ROCK, highest=40.0)
+
+
+@pytest.fixture(scope="module")
+def coarse():
+    return full_rock(BASE, ROCK)
+
+
+@pytest.fixture(scope="module")
+def reduced():
+    return reduced_rock(BASE, ROCK)
+
+
+@pytest.mark.parametrize("ratio", [0.1, 0.25, 0.5, 1.0, 1.5, 3.0, 6.0])
+def test_strip_on_the_half_plane(full, ratio):
+    """All elements, and the losses of the reference, which are the same at all frequencies."""
+    omega = ratio * ROCK.shear_speed / HALF
+    forces = np.zeros((full.mass.shape[0], 2), dtype=complex)
+    tractions = smooth_tractions(BASE)[:, :2]
+    forces[full.base] = tractions
+    operator = full.stiffness * (1.0 + 0.04j) + 1j * omega * full.damping_radiation - omega**2 * full.mass
+    moved = splu(operator.tocsc()).solve(forces)[full.base]
+    vertical, horizontal = strip_compliance(ratio, ROCK.poisson, 0.02)
+    assert abs(tractions[:, 0] @ moved[:, 0] * ROCK.shear - horizontal) < 0.03 * abs(horizontal)
+    assert abs(tractions[:, 1] @ moved[:, 1] * ROCK.shear - vertical) < 0.03 * abs(vertical)
+
+
+def test_table_of_the_half_plane():
+    """The closed form beside figures that another program of this project has given."""
+    vertical, horizontal = strip_compliance(1.0, 0.33, 0.02)
+    assert vertical == pytest.approx(0.10221 - 0.26326j, abs=2e-4)
+    assert horizontal == pytest.approx(0.23285 - 0.30403j, abs=2e-4)
+
+
+@pytest.mark.parametrize("frequency", [1.0, 2.0, 4.0, 7.0, 11.0, 15.0])
+def test_few_unknowns_answer_as_all_do(coarse, reduced, frequency):
+    full = coarse
+    omega = 2.0 * np.pi * frequency
+    tractions = smooth_tractions(BASE)[:, :4]
+    forces = np.zeros((full.mass.shape[0], 4))
+    forces[full.base] = tractions
+    exact = tractions.T @ full.body.response(1j * omega, forces)[full.base]
+    off = tractions.T @ reduced.compliance(omega, tractions) - exact
+    size = np.sqrt(np.abs(np.diag(exact)))
+    assert np.abs(off / np.outer(size, size)).max() < 0.03
+
+
+def test_each_node_keeps_its_static_flexibility(coarse, reduced):
+    full = coarse
+    unit = np.zeros((full.mass.shape[0], full.base.size))
+    unit[full.base] = np.eye(full.base.size)
+    exact = splu(full.stiffness.tocsc()).solve(unit)[full.base]
+    assert reduced.compliance(0.0, np.eye(full.base.size)).real == pytest.approx(
+        exact, rel=1e-6, abs=1e-8 * exact.max()
+    )
+
+
+def test_rock_takes_and_never_gives(reduced):
+    assert reduced.damping == pytest.approx(reduced.damping_material + reduced.damping_radiation)
+    assert np.linalg.eigvalsh(reduced.damping)[0] > -1e-9 * np.abs(reduced.damping).max()
+    for frequency in (0.3, 1.0, 3.0, 8.0, 20.0, 60.0):
+        omega = 2.0 * np.pi * frequency
+        mobility = 1j * omega * reduced.compliance(omega, np.eye(2 * len(BASE)))
+        assert np.linalg.eigvalsh((mobility + mobility.conj().T) / 2.0)[0] > -1e-9 * np.abs(mobility).max()
+
+
+def test_larger_box_answers_the_same(full):
+    larger = full_rock(BASE, ROCK, highest=40.0, extent=150.0)
+    tractions = smooth_tractions(BASE)[:, :2]
+    for frequency in (1.0, 3.0, 10.0):
+        answers = []
+        for rock in (full, larger):
+            forces = np.zeros((rock.mass.shape[0], 2))
+            forces[rock.base] = tractions
+            moved = rock.body.response(2j * np.pi * frequency, forces)[rock.base]
+            answers.append(np.array([tractions[:, axis] @ moved[:, axis] for axis in (0, 1)]))
+        assert np.abs(answers[0] - answers[1]).max() < 0.02 * np.abs(answers[1]).max()
+
+
+def test_stiff_rock_stands_still(reduced):
+    stiff = reduced_rock(BASE, RockMaterial(20e12, 0.33, 2650.0))
+    omega = 2.0 * np.pi * 3.0
+    force = smooth_tractions(BASE)[:, :2]
+    assert np.abs(stiff.compliance(omega, force)).max() < 4e-3 * np.abs(reduced.compliance(omega, force)).max()
+
+
+def test_rock_without_mass_has_no_waves():
+    material = RockMaterial(20e9, 0.33, 2650.0, radiation=False, massless=True)
+    rock = reduced_rock(BASE, material, extent=8.0)
+    assert not rock.damping.any()
+    static = rock.compliance(0.0, np.eye(2 * len(BASE)))
+    moving = rock.compliance(2.0 * np.pi * 15.0, np.eye(2 * len(BASE)))
+    assert moving == pytest.approx(static, rel=1e-3, abs=1e-4 * np.abs(static).max())
+
+
+def test_materials_own_damping_is_the_ratio_at_its_frequency():
+    material = RockMaterial(20e9, 0.33, 2650.0, damping=0.03, damping_frequency=4.0, radiation=False, massless=True)
+    rock = reduced_rock(BASE, material, extent=8.0)
+    answer = smooth_tractions(BASE)[:, 0] @ rock.compliance(2.0 * np.pi * 4.0, smooth_tractions(BASE)[:, 0])
+    assert -answer.imag / answer.real == pytest.approx(2.0 * 0.03, rel=0.02)
+
+
+def test_speeds_of_waves():
+    assert ROCK.shear_speed == pytest.approx(np.sqrt(20e9 / 2.66 / 2650.0))
+    assert ROCK.pressure_speed / ROCK.shear_speed == pytest.approx(np.sqrt(2.0 * 0.67 / 0.34))
