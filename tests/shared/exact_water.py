@@ -6,11 +6,11 @@ import numpy as np
 from scipy.special import j0
 
 
-def channel_pressure(heights, omega, depth, wave_speed, reflection, velocity, density=1000.0, count=60):
-    """Return the pressure at heights of the wall under its velocity ``velocity(z) exp(i omega t)`` into the channel.
+def channel_modes(omega, depth, wave_speed, reflection, count=60):
+    """Return wavenumbers mu over the depth and decay along the channel of its modes ``sin(mu (H - y))``.
 
-    Modes over the depth ``sin(mu (H - y))`` with ``-mu cos(mu H) = i omega q sin(mu H)`` (Fenves and Chopra 1984), each
-    found from that over a rigid floor as the floor takes more and more.
+    ``-mu cos(mu H) = i omega q sin(mu H)`` (Fenves and Chopra 1984), each from that over a rigid floor as the floor
+    takes more and more.
     """
     q = (1.0 - reflection) / (wave_speed * (1.0 + reflection))
     mu = (np.arange(count) + 0.5) * np.pi / depth + 0j
@@ -20,13 +20,18 @@ def channel_pressure(heights, omega, depth, wave_speed, reflection, velocity, de
             value = mu * np.cos(mu * depth) + taken * np.sin(mu * depth)
             slope = np.cos(mu * depth) * (1.0 + taken * depth) - mu * depth * np.sin(mu * depth)
             mu = mu - value / slope
-    y, weights = np.polynomial.legendre.leggauss(400)
-    y, weights = depth * (y + 1.0) / 2.0, weights * depth / 2.0
-    modes = np.sin(np.outer(depth - y, mu))
     decay = np.sqrt(mu**2 - (omega / wave_speed) ** 2 + 0j)
     decay = np.where(decay.real < 0.0, -decay, decay)
     # Waves that travel go away from the wall: exp(i (omega t - k x)).
-    decay = np.where((np.abs(decay.real) < 1e-9 * np.abs(decay)) & (decay.imag < 0.0), -decay, decay)
+    return mu, np.where((np.abs(decay.real) < 1e-9 * np.abs(decay)) & (decay.imag < 0.0), -decay, decay)
+
+
+def channel_pressure(heights, omega, depth, wave_speed, reflection, velocity, density=1000.0):
+    """Return the pressure at heights of the wall under its velocity ``velocity(z) exp(i omega t)`` into the channel."""
+    mu, decay = channel_modes(omega, depth, wave_speed, reflection)
+    y, weights = np.polynomial.legendre.leggauss(400)
+    y, weights = depth * (y + 1.0) / 2.0, weights * depth / 2.0
+    modes = np.sin(np.outer(depth - y, mu))
     shares = (modes.T @ (weights * velocity(y))) / (weights @ modes**2)
     return 1j * omega * density * np.sin(np.outer(depth - np.asarray(heights), mu)) @ (shares / decay)
 

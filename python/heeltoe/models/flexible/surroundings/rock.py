@@ -44,6 +44,8 @@ from heeltoe.models.flexible.surroundings.reduction import (
 EXTENT = 100.0
 # Elements across the base at least, and over the shortest shear wave.
 _ACROSS, _PER_WAVE = 8, 5.0
+# How often the elements next to heel and toe, where the stresses are steep, are halved.
+_HALVINGS = 3
 # sigma = _GRADIENT r / c_s, from a gentle start of so many half widths of the base on.
 _GRADIENT, _START = 0.05, 4.0
 # Patterns of tractions along the base, polynomials of rising degree, whose answers are kept.
@@ -267,13 +269,18 @@ def _refined(x: Floats, count: int) -> Floats:
     corners = x[::2]
     pieces = int(np.ceil(max(count, _ACROSS) / (corners.size - 1)))
     parts = [np.linspace(low, high, pieces + 1)[1:] for low, high in pairwise(corners)]
-    return np.concatenate([corners[:1], *parts])
+    even = np.concatenate([corners[:1], *parts])
+    near = 0.5 ** np.arange(_HALVINGS, 0, -1)
+    first, last = even[0] + near * (even[1] - even[0]), even[-1] - near[::-1] * (even[-1] - even[-2])
+    return np.concatenate([even[:1], first, even[1:-1], last, even[-1:]])
 
 
 def _rings(across: Floats, half: float, extent: float) -> tuple[Floats, Integers]:
     """Return corners and elements of a block below the base and of rings around it, about the middle of the base."""
-    columns, rows = across.size, max(4, (across.size - 1) // 2)
-    depths = -half * np.arange(rows + 1) / rows
+    near = 0.5 ** np.arange(_HALVINGS, 0, -1)
+    columns, even = across.size, max(4, (across.size - 1 - 2 * _HALVINGS) // 2)
+    depths = -half / even * np.concatenate([[0.0], near, np.arange(1, even + 1)])
+    rows = depths.size - 1
     block = np.stack(np.meshgrid(across, depths, indexing="ij"), axis=-1).reshape(-1, 2)
 
     def number(column: Any, row: Any) -> Any:
@@ -292,11 +299,11 @@ def _rings(across: Floats, half: float, extent: float) -> tuple[Floats, Integers
             number(columns - 1, np.arange(rows, -1, -1)),
         ]
     )
-    count = int(np.ceil(np.log(extent) / np.log1p(1.0 / rows)))
-    factors = extent ** (np.arange(1, count + 1) / count)
+    count = int(np.ceil(np.log(extent) / np.log1p(1.0 / even)))
+    factors = extent ** (np.concatenate([near, np.arange(1, count + 1)]) / count)
     points = [block, *(factor * block[path] for factor in factors)]
     inner = path
-    for ring in range(count):
+    for ring in range(factors.size):
         outer = len(block) + ring * path.size + np.arange(path.size)
         elements += [(outer[i], outer[i + 1], inner[i + 1], inner[i]) for i in range(path.size - 1)]
         inner = outer

@@ -1,0 +1,103 @@
+"""Crest of the intact dam between water and rock: an independent program in the frequency domain, and Pine Flat."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from heeltoe.models.flexible.surroundings.response import (
+    COMBINATIONS,
+    IntactDam,
+    base_nodes,
+    crest_response,
+    crest_responses,
+)
+from heeltoe.models.flexible.surroundings.rock import RockMaterial, reduced_rock
+from heeltoe.models.flexible.surroundings.water import reduced_water
+from shared.elastic import built
+from shared.exact_dam import crest_amplification
+
+TYPICAL = [(0.0, 0.0), (80.0, 0.0), (12.0, 90.0), (10.0, 100.0), (0.0, 100.0)]
+DEPTH, SPEED, REFLECTION, RATIO = 92.0, 1440.0, 0.8, 0.05
+# So little that it does not matter that the closed form has it at all frequencies.
+ROCK = RockMaterial(20e9, 0.33, 2650.0, damping=0.003, damping_frequency=2.5)
+# Section of Pine Flat dam, from the axis upstream, as published by Samii and Lotfi (2007).
+PINE_FLAT = [
+    (0.0, 0.0), (95.71, 0.0), (24.38, 91.44), (15.64, 106.68), (14.86, 112.41), (14.86, 121.92), (5.11, 121.92),
+    (5.11, 102.17),
+]  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def typical():
+    _, _, dam = built(TYPICAL)
+    return dam, IntactDam.of(dam)
+
+
+@pytest.fixture(scope="module")
+def around(typical):
+    _, intact = typical
+    water = reduced_water(list(intact.faces), DEPTH, wave_speed=SPEED, reflection=REFLECTION)
+    return water, reduced_rock(intact.base, ROCK)
+
+
+@pytest.mark.parametrize("name", COMBINATIONS)
+def test_independent_program_in_the_frequency_domain(typical, around, name):
+    """Full matrices of the dam, exact channel, rock by its wavenumber integral: within 2 % up to 15 Hz."""
+    dam, intact = typical
+    full, soft = COMBINATIONS[name]
+    frequencies = np.array([0.5, 1.0, 2.0, 2.5, 3.0, 4.0, 5.0, 7.0, 9.0, 10.0, 11.0, 12.0, 13.0, 15.0])
+    water, rock = around
+    ours = intact.crest_motion(frequencies, RATIO, water if full else None, rock if soft else None)
+    exact = [
+        crest_amplification(
+            dam.upper,
+            base_nodes(dam.upper),
+            frequency,
+            RATIO,
+            (DEPTH, SPEED, REFLECTION) if full else None,
+            (ROCK.shear, ROCK.poisson, ROCK.density, ROCK.damping) if soft else None,
+        )
+        for frequency in frequencies
+    ]
+    assert np.abs(ours) == pytest.approx(np.abs(exact), rel=0.02)
+    assert np.abs(ours - exact).max() < 0.03 * np.abs(exact).max()
+
+
+def test_pine_flat_with_its_reservoir():
+    """2.53 Hz (Samii and Lotfi 2007), 2.60 Hz (Gorai and Maity 2020), both with a reservoir cut off."""
+    _, _, dam = built(PINE_FLAT, concrete={"density": "2480 kg/m^3", "modulus": "22.75 GPa", "poisson": 0.2})
+    intact = IntactDam.of(dam)
+    water = reduced_water(list(intact.faces), 116.19, wave_speed=1440.0, reflection=0.9)
+    frequencies = np.linspace(0.0, 6.0, 61)
+    empty = crest_response(intact, frequencies, 0.01, water=None, rock=None)
+    full = crest_response(intact, frequencies, 0.01, water=water, rock=None)
+    assert empty.resonance == pytest.approx(3.15, rel=0.02)
+    assert empty.damping == pytest.approx(0.01, rel=0.02)
+    assert 2.45 < full.resonance < 2.62
+    assert 0.01 < full.damping < 0.03
+
+
+def test_water_and_rock_make_the_dam_slower_and_damp_it(typical, around):
+    _, intact = typical
+    found = crest_responses(intact, np.linspace(0.0, 8.0, 41), 0.05, *around)
+    assert list(found) == list(COMBINATIONS)
+    assert all(response.amplification[0] == 1.0 for response in found.values())
+    rigid, full, rock, both = found.values()
+    assert both.resonance < min(full.resonance, rock.resonance) < rigid.resonance
+    assert rigid.damping == pytest.approx(0.05, rel=0.05)
+    assert rock.damping > 0.08
+
+
+def test_rigid_rock_is_no_rock(typical, around):
+    _, intact = typical
+    stiff = reduced_rock(intact.base, RockMaterial(20e12, 0.33, 2650.0))
+    frequencies = np.linspace(0.5, 10.0, 8)
+    without = intact.crest_motion(frequencies, RATIO, around[0], None)
+    assert intact.crest_motion(frequencies, RATIO, around[0], stiff) == pytest.approx(without, rel=0.01)
+
+
+def test_no_peak_no_damping(typical):
+    _, intact = typical
+    below = crest_response(intact, np.linspace(0.0, 1.0, 5), RATIO, water=None, rock=None)
+    assert (below.resonance, below.peak, below.damping) == (None, None, None)
