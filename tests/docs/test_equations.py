@@ -12,7 +12,17 @@ from shared.pages import PAGES, equation_rows, equations, functions, proofs
 NUMBERED = [page for page in PAGES if equations(page)]
 THEORY = {
     f"docs/{name}.md"
-    for name in ("rigid", "flexible", "decoupled", "statics", "friction", "kinks", "rough-crack", "several-cracks")
+    for name in (
+        "rigid",
+        "flexible",
+        "decoupled",
+        "statics",
+        "friction",
+        "kinks",
+        "rough-crack",
+        "several-cracks",
+        "water-and-rock",
+    )
 }
 
 
