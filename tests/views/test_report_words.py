@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import pytest
 
+from heeltoe.case.combinations import unsupported_features
 from heeltoe.case.project import Project
 from heeltoe.units.write import digits
 from heeltoe.views.content.one_unit import one_unit_each
 from heeltoe.views.content.tree import Document, Table, glued
 from heeltoe.views.report.html import html
 from heeltoe.views.report.typst_pdf import source
+from heeltoe.views.report.write import build_report
 from heeltoe.views.words.fields import shown
 from heeltoe.views.words.numbers import Numbers, kind
+from shared.dams import example
 
 
 def test_numbers_stay_with_their_units():
@@ -81,7 +84,7 @@ def test_a_quantity_has_one_unit_in_a_table():
 def test_the_title_block_stands_in_both_files():
     project = Project.model_validate({"client": "Owner & Sons", "revision": 2})
     about = tuple(project.rows())
-    assert len(about) == 6
+    assert len(about) == 7
     document = Document("Dam", "", "", (), about)
     page = html(document)
     for text in (page, source(document)):
@@ -89,3 +92,17 @@ def test_the_title_block_stands_in_both_files():
         assert "Checked by" in text
     assert "Owner &amp; Sons" in page
     assert tuple(Project().rows()) == ()
+
+
+def test_the_report_says_what_its_models_leave_out(typical_both):
+    case = example("typical-base", "project.name=Review", "project.revision=3")
+    report = build_report(case, typical_both, figures={})
+    text = html(report)
+    assert "Limitations of this analysis" in text
+    assert "the dam does not vibrate" in text
+    assert "linear elastic" in text
+    # Read from the table of what goes with what.
+    for model in ("rigid", "flexible"):
+        for feature in unsupported_features(model):
+            assert feature in text
+    assert report.footer.startswith("Review · revision 3 · heeltoe")

@@ -366,6 +366,11 @@ def warned(case: Case, feature: str, user: str) -> bool:
     return any(True for rule in rules for _ in _broken(case, rule))
 
 
+def unsupported_features(user: str) -> tuple[str, ...]:
+    """Return the features that a model supports in no case, in the words of messages."""
+    return tuple(dict.fromkeys(rule.feature for rule in _rules_for(user) if rule.users and not rule.other))
+
+
 def rules_of(path: str) -> tuple[Rule, ...]:
     """Return the rules about a field, or about the block that it is in; its path has no places in lists."""
     named = {feature.name for feature in FEATURES.values() if _is_of(feature, path)}

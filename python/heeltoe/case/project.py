@@ -32,6 +32,8 @@ class Project(Fields):
     """Who made the report."""
     checker: Words = ""
     """Who checked it; left empty, the title block has a line to sign on."""
+    approver: Words = ""
+    """Who approved it; left empty, the title block has a line to sign on."""
     date: Words = ""
     """Of the report."""
     revision: Words = ""
@@ -47,8 +49,9 @@ class Project(Fields):
 _LABELS = {
     "Project": "name",
     "Client": "client",
-    "Made by": "author",
+    "Prepared by": "author",
     "Checked by": "checker",
+    "Approved by": "approver",
     "Date": "date",
     "Revision": "revision",
 }

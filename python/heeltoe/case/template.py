@@ -32,6 +32,7 @@ prestress = "2 MN/m" }}]
 # client = "Owner of the dam"
 # author = "A. B."
 # checker = "C. D."
+# approver = "E. F."
 # date = "2026-01-31"
 # revision = "0"
 

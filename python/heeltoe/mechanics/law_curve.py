@@ -142,6 +142,11 @@ def _curve(crack: Crack, stress: float, title: str) -> LawCurve:
         path, speed = (at, 0.0) if over == "slip path" else (0.0, at)
         friction = shear_stress(kernel, stress, path, speed)[1] / stress
     at_rest = float(shear_stress(kernel, stress)[0]) / stress
+    if crack.roughness is not None:
+        # Up the asperities, before they wear: the tangent of the sum of both angles.
+        slope = crack.roughness.slope
+        friction, at_rest = (friction + slope) / (1.0 - slope * friction), crack.apparent_friction
+        title = f"{title}; up its asperities, before they wear"
     sources = () if law is None else references_of_law(law)
     return LawCurve(name, title, over, at, friction, at_rest, stress, sources)
 

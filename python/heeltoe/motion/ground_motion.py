@@ -216,8 +216,22 @@ class GroundMotion(Shown):
 
     def _of(self, part: Part) -> GroundMotion:
         """Return one of the motions of a sequence by itself."""
+        here = self.part_slice(part)
+        return GroundMotion(part.name, self.time[here], self.acceleration[here])
+
+    def part_slice(self, part: Part) -> slice:
+        """Return which moments are those of one of the motions of a sequence."""
         first, last = np.searchsorted(self.time, part.begins), np.searchsorted(self.time, part.ends, side="right")
-        return GroundMotion(part.name, self.time[first:last], self.acceleration[first:last])
+        return slice(int(first), int(last))
+
+    @property
+    def all_processing(self) -> str:
+        """What was done to the motion in words; of a sequence to each of its motions, one after the other."""
+        done = "; ".join(self.processing)
+        of_parts = ["; ".join(part.processing) for part in self.parts]
+        if any(of_parts):
+            done = "; then ".join([*([done] if done else []), *(text or "none" for text in of_parts)])
+        return done
 
     def scaled(self, factor: float, note: str = "") -> GroundMotion:
         """Return the motion times `factor`."""

@@ -14,8 +14,15 @@ _PADDED = 1 << 20
 
 
 def velocity_displacement(motion: GroundMotion) -> tuple[Floats, Floats]:
-    """Return velocity [m/s] and displacement [m] from rest at the moments of the motion, exactly."""
-    return integrals(motion.time, motion.acceleration)
+    """Return velocity [m/s] and displacement [m] from rest at the moments of the motion, exactly; of a sequence those
+    of each of its motions from rest, and nothing in the pauses: the ground does not drift on there."""
+    if not motion.parts:
+        return integrals(motion.time, motion.acceleration)
+    velocity, displacement = np.zeros(motion.time.size), np.zeros(motion.time.size)
+    for part in motion.parts:
+        here = motion.part_slice(part)
+        velocity[here], displacement[here] = integrals(motion.time[here], motion.acceleration[here])
+    return velocity, displacement
 
 
 def husid(motion: GroundMotion) -> Floats:

@@ -42,8 +42,13 @@ _FLEXIBLE = (
 )
 
 _STANDS = {
-    True: "The residual slip has converged: step, mesh and 1 % of the shaking move it by less than is allowed.",
-    False: "The residual slip has NOT converged: step, mesh and 1 % of the shaking move it by more than is allowed.",
+    True: "The residual slip has converged: {} by less than is allowed.",
+    False: "The residual slip has NOT converged: {} by more than is allowed.",
+}
+# By what was tried.
+_MOVERS = {
+    "full": "step, mesh and 1 % of the shaking move it",
+    "step": "the step moves it, mesh and shaking were not tried,",
 }
 _MEAN = {
     True: " Single runs scatter: the slip to trust is the mean of those with the shaking varied; histories and figures "
@@ -166,6 +171,11 @@ def _convergence(subject: Subject, run: Run) -> list[Block]:
             paragraph("Whether time step and mesh are fine enough was not asked (", Code("flexible.evidence"), ").")
         )
     else:
-        blocks.append(paragraph(_STANDS[found["converged"]] + _MEAN[found["value_is"] == "mean"]))
+        blocks.append(
+            paragraph(
+                _STANDS[found["converged"]].format(_MOVERS["step" if found["asked"] == "step" else "full"])
+                + _MEAN[found["value_is"] == "mean"]
+            )
+        )
     tables.append(Table(("", "value"), tuple(shown), "Mesh, modes and damping of the flexible model.", "lr"))
     return [*blocks, *tables]

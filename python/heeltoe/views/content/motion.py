@@ -47,9 +47,7 @@ def ground_motion(subject: Subject) -> Section:
         words = [getattr(motion, name) for motion, _ in motions.values()]
         if any(words):
             rows.append((label, *(plain(word or NOTHING) for word in words)))
-    rows.append(
-        ("Processing", *(plain("; ".join(motion.processing) or "none", _LONGEST) for motion, _ in motions.values()))
-    )
+    rows.append(("Processing", *(plain(motion.all_processing or "none", _LONGEST) for motion, _ in motions.values())))
     for label, name in _NUMBERS:
         cells = [n(f"{prefix}{key}.{name}") for _, key in motions.values()]
         if any(cell != NOTHING for cell in cells):

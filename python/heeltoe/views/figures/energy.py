@@ -88,8 +88,11 @@ def _rigid_curves(response: Response) -> list[tuple[_Entry, Floats]]:
 
 def friction_loss(response: Response) -> Floats:
     """Return the work lost in friction up to each moment of the histories [J/m], force times slip from one moment to
-    the next; the force is that of the ends of the interval at which the block slides."""
+    the next; the force is that of the ends of the interval at which the block slides. On a rough crack part of that
+    work lifts the block: what is lost is the plastic work of its flanks."""
     h = response.histories
+    if "plastic_work_j_m2" in h:
+        return np.asarray(h["plastic_work_j_m2"] * response.crack_width_m, dtype=np.float64)
     slides = np.array([kind_of(mode) in ("slide", "slide-rock") for mode in response.mode])
     force = np.where(slides, np.abs(h["friction_force_n"]), 0.0)
     ends = slides[1:].astype(float) + slides[:-1]

@@ -19,6 +19,8 @@ from heeltoe.views.figures.style import COLOURS, MODE_COLOURS, WIDTH
 
 # The states of an elastic dam's crack as kinds of motion.
 _KINDS = {"sliding": "slide", "rocking": "rock", "slide-rocking": "slide-rock", "drifting": "drift"}
+# From which part of the time on the spread of what remains is drawn.
+_LAST = 0.97
 # Up to which rotation a block that overturns at once is shown [rad].
 _TILTED = 0.05
 
@@ -51,7 +53,11 @@ def draw_slip(axes: Axes, response: Response, units: Units) -> None:
     axes.plot(h["time_s"], scale(h["slip_m"]), color=COLOURS["slip"], linewidth=1.4)
     axes.set_ylabel(f"slip [{scale.unit}]\n(+ downstream)")
     if spread is not None:
-        axes.axhspan(scale(ends[0]), scale(ends[1]), color=COLOURS["slip"], alpha=0.15, linewidth=0)
+        # It is of the slip that remains, at the end of the run alone.
+        end = float(h["time_s"][-1])
+        axes.fill_between(
+            [end * _LAST, end], scale(ends[0]), scale(ends[1]), color=COLOURS["slip"], alpha=0.3, linewidth=0
+        )
     for edge in within:
         axes.axhline(scale(edge), color=COLOURS["slip"], linewidth=0.6, linestyle=":")
     if largest(h["slip_m"], ends, within) == 0.0:
@@ -78,14 +84,19 @@ def converged_slip(response: Response) -> tuple[float, float] | None:
 
 
 def draw_rotation(axes: Axes, response: Response, units: Units) -> None:
-    """Draw the rotation; that of a block which overturns leaves the axis."""
+    """Draw the rotation; that of a block which overturns goes on by powers of ten beyond its rocking before."""
     h = response.histories
     cut = shown_rotation(response)
-    scale = units.scale("rotation", largest(h["rotation_rad"]) if cut is None else cut)
+    scale = units.scale("rotation", largest(h["rotation_rad"]))
     axes.plot(h["time_s"], scale(h["rotation_rad"]), color=COLOURS["rotation"], linewidth=1.0)
     axes.set_ylabel(f"rotation [{scale.unit}]\n(+ about heel)")
     if cut is not None:
-        axes.set_ylim(-scale(cut), scale(cut))
+        axes.set_yscale("symlog", linthresh=float(scale(cut)), linscale=2.0)
+        ends = [float(scale(h["rotation_rad"].min())), float(scale(h["rotation_rad"].max()))]
+        axes.set_ylim(1.15 * min(ends[0], -float(scale(cut)) / 2.0), 1.15 * max(ends[1], float(scale(cut)) / 2.0))
+        axes.set_yticks([value for value in (-1.5, -0.5, -0.1, 0.0, 0.1, 0.5, 1.5) if ends[0] <= value <= ends[1]])
+        axes.yaxis.set_major_formatter("{x:g}")
+        axes.minorticks_off()
         note_overturned(axes, response)
 
 

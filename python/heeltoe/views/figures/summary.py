@@ -9,7 +9,7 @@ from heeltoe.case.model import Case
 from heeltoe.result.response import Response
 from heeltoe.units.systems import Units, unit_system
 from heeltoe.views.figures.canvas import Canvas
-from heeltoe.views.figures.panels import beside, largest, slip_in_the_end
+from heeltoe.views.figures.panels import beside, draw_rotation, largest, slip_in_the_end
 from heeltoe.views.figures.section import corners, draw_bodies, draw_crack, draw_dimensions, draw_further
 from heeltoe.views.figures.shaking import draw_horizontal
 from heeltoe.views.figures.style import COLOURS, WIDTH, styled
@@ -17,13 +17,14 @@ from heeltoe.views.figures.time_axis import time_axis
 
 _HEIGHT = 3.0
 # Shares of the width: the section, and from where on the histories are.
-_SECTION, _HISTORIES = 0.41, 0.53
-_LOOKS = (("slip", "-"), ("rotation", "--"))
+_SECTION, _HISTORIES = 0.41, 0.55
+_LOOKS = (("slip", "-"), ("rotation", "--"), ("toe", "-."), ("heel", ":"))
 
 
 @styled
 def summary_figure(case: Case, shown: tuple[Response, ...], units: str = "si") -> Figure:
-    """Draw the section without its forces, and beside it the acceleration of the ground and the slip.
+    """Draw the section without its forces, and beside it the acceleration of the ground and the slip; of a
+    block that overturns its rotation.
 
     Parameters
     ----------
@@ -45,9 +46,14 @@ def summary_figure(case: Case, shown: tuple[Response, ...], units: str = "si") -
         ground.set_title("")
         ground.set_ylabel("ground [g]")
         ground.tick_params(labelbottom=False)
-        _draw_slips(slip, shown, system)
+        if shown[0].outcome == "overturned":
+            draw_rotation(slip, shown[0], system)
+            time_axis(slip, shown[0])
+            slip.set_xlabel("time [s]")
+        else:
+            _draw_slips(slip, shown, system)
         for axes in (ground, slip):
-            axes.yaxis.set_label_coords(-0.13, 0.5)
+            axes.yaxis.set_label_coords(-0.165, 0.5)
     return figure
 
 
@@ -63,17 +69,30 @@ def _draw_section(axes: Axes, case: Case, units: Units) -> None:
 
 
 def _draw_slips(axes: Axes, shown: tuple[Response, ...], units: Units) -> None:
-    """Draw the slip of each run, and say what remains of the first."""
-    scale = units.scale("displacement", largest(*(each.histories["slip_m"] for each in shown)))
-    for response, (colour, dash) in zip(shown, _LOOKS, strict=False):
+    """Draw the slip of each run, of several cracks those at each, and say what remains of the first."""
+    curves = _of_cracks(shown[0], units) or [(f"{each.model} model", each) for each in shown]
+    scale = units.scale("displacement", largest(*(each.histories["slip_m"] for _, each in curves)))
+    for (label, response), (colour, dash) in zip(curves, _LOOKS, strict=False):
         time, slip = response.histories["time_s"], scale(response.histories["slip_m"])
-        axes.plot(time, slip, color=COLOURS[colour], linestyle=dash, linewidth=1.2, label=f"{response.model} model")
-    if not any(each.histories["slip_m"].any() for each in shown):
+        axes.plot(time, slip, color=COLOURS[colour], linestyle=dash, linewidth=1.2, label=label)
+    if not any(each.histories["slip_m"].any() for _, each in curves):
         axes.set_ylim(-1.0, 1.0)
     axes.set_ylabel(f"slip [{scale.unit}]\n(+ downstream)")
     time_axis(axes, *shown)
     axes.set_xlabel("time [s]")
     text = slip_in_the_end(shown[0], scale).replace(" (dotted)", "")
     beside(axes, text, colour=COLOURS["slip"])
-    if len(shown) > 1:
+    if len(curves) > 1:
         axes.legend(loc="best", fontsize=7, handlelength=2.2)
+
+
+def _of_cracks(response: Response, units: Units) -> list[tuple[str, Response]]:
+    """Return what happens at each of several cracks, the one that leads first, with where it is; none of one crack."""
+    if not response.several:
+        return []
+    length = units.scale("length")
+    places = sorted(range(len(response.cracks)), key=lambda place: place != response.governing_crack)
+    return [
+        (f"crack at {length(response.cracks[place].elevation):.4g} {length.unit}", response.at_crack(place))
+        for place in places
+    ]

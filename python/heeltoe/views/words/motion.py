@@ -63,7 +63,7 @@ def about_motions(
         ("significant duration", [text and f"{text} (5-95 %)" for text in measured("significant_duration_s", ".4g s")]),
         ("mean period", measured("mean_period_s", ".4g s")),
         ("at the end, from rest", [", ".join(each) for each in ends]),
-        ("processing", ["; ".join(each.processing) for each in motions]),
+        ("processing", [each.all_processing for each in motions]),
         ("motions", ["; then ".join(part_lines(each, gravity)) for each in motions]),
         ("source", [each.source for each in motions]),
     )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from matplotlib.figure import Figure
 
 from heeltoe.models.statics.checks import Check
@@ -12,6 +14,9 @@ from heeltoe.views.figures.style import COLOURS, WIDTH, heading, styled
 # A check that is met so many times over ends the axis.
 _MOST = 3.0
 _ROW, _AROUND = 0.24, 1.6
+# Of what there is none, there may be endlessly much.
+_ENDLESS = 1e6
+_CLIPPED: dict[str, Any] = {"ha": "right", "va": "center", "fontsize": 7, "color": "#FFFFFF"}
 
 
 @styled
@@ -24,8 +29,11 @@ def statics_figure(found: Statics) -> Figure:
     said = "all checks are met" if not missed else f"{missed} of {len(found.checks)} checks are not met"
     heading(figure, found.title or "Untitled case", f"{found.criteria}: {said}")
     names = []
-    for row, check in enumerate(found.checks):
-        reached = min(_share(check), _MOST)
+    # An equilibrium that is met has no margin to show.
+    drawn = [check for check in found.checks if check.value is not None or not check.met] or list(found.checks)
+    for row, check in enumerate(drawn):
+        share = _share(check)
+        reached = min(share, _MOST)
         axes.barh(
             row,
             reached,
@@ -35,6 +43,9 @@ def statics_figure(found: Statics) -> Figure:
             hatch="" if check.met else "///",
             linewidth=1.0,
         )
+        if share > _MOST:
+            text = "beyond" if share >= _ENDLESS else f"{share:.3g}"
+            axes.annotate(f"{text} →", (_MOST, row), (-3, 0), "data", "offset points", **_CLIPPED)
         names.append(f"{check.load_case}: {check.name}{_numbers(check)}")
     axes.axvline(1.0, color="#000000", linewidth=1.0, linestyle="--")
     axes.set_yticks(range(len(names)), names, fontsize=8)
@@ -51,7 +62,7 @@ def _share(check: Check) -> float:
     if check.value is None or check.required is None:
         return 1.0 if check.met else 0.0
     over, under = (check.value, check.required) if check.at_least else (check.required, check.value)
-    return _MOST if under <= 0.0 else max(over / under, 0.0)
+    return _ENDLESS if under <= 0.0 else max(over / under, 0.0)
 
 
 def _numbers(check: Check) -> str:

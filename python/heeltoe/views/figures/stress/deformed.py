@@ -7,6 +7,7 @@ import math
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
+from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import Triangulation, TriContourSet
@@ -16,7 +17,6 @@ from heeltoe.models.flexible.body.elastic import principal
 from heeltoe.models.flexible.mesh.checks import boundary_edges
 from heeltoe.models.flexible.result.history import CrackHistory
 from heeltoe.models.flexible.result.response import FlexibleResponse
-from heeltoe.result.response import Response
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.units.write import scaled
 from heeltoe.views.figures.dam import dam_axes, extent
@@ -33,20 +33,24 @@ _SLIDES = 1e-4
 # Stresses at the ends of the crack are singular; the colours end at what nearly all nodes are below.
 _SHOWN = 99.0
 _LEVELS = 8
+# Of a colour map, and from which ratio on the largest value is far above nearly all others.
+_COLOURS, _FAR = 256, 1.5
 
 
 @styled
 def deformed_figure(response: FlexibleResponse, time: float | None = None, units: str = "si") -> Figure:
     """Draw the deformed dam with its principal stresses, on the left those in tension, on the right in compression.
 
-    Short lines show their directions. Colours end where 99 of 100 nodes are; the largest value of all is stated.
+    Short lines show their directions. Colours go up to the largest value of all; where that is far above what 99 of 100
+    nodes have, each is twice or two and a half times the one before.
 
     Parameters
     ----------
     response
         Of the flexible model.
     time
-        Moment [s]; that of the fastest slip where not given, or of the largest tension where the dam does not slide.
+        Moment [s]; that of the largest tension of the run where not given, or where that was not read, of the fastest
+        slip.
     units
         ``"si"`` or ``"us"``.
     """
@@ -86,8 +90,10 @@ def deformed_figure(response: FlexibleResponse, time: float | None = None, units
     return figure
 
 
-def _chosen(response: Response, history: CrackHistory) -> tuple[int, str]:
+def _chosen(response: FlexibleResponse, history: CrackHistory) -> tuple[int, str]:
     h = response.histories
+    if response.tension is not None:
+        return history.frame_at(response.tension["time_s"]), ", the largest tension of the run"
     if float(np.ptp(h["slip_m"])) > _SLIDES:
         return int(np.argmax(np.abs(h["slip_velocity_m_s"]))), ", the fastest slip"
     frames = np.unique(np.linspace(0, len(history.time) - 1, _LOOKED_AT).astype(int))
@@ -105,15 +111,27 @@ def _stress_map(
     axes: Axes, history: CrackHistory, places: list[Floats], values: tuple[Floats, ...], most: float, colours: str
 ) -> TriContourSet:
     """Fill contours of the positive part; what is not positive stays white."""
-    # Round numbers up to the last one below the largest that is shown.
-    ticks = MaxNLocator(_LEVELS, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, most)
-    levels = np.asarray(ticks)[np.asarray(ticks) <= most * (1.0 + 1e-9)]
+    levels = _levels(most, max(float(each.max()) for each in values))
     for body, place, each in zip(history.dam.bodies, places, values, strict=True):
         triangles = np.vstack([body.mesh.elements[:, corners] for corners in _TRIANGLES])
         net = Triangulation(place[:, 0], place[:, 1], triangles)
-        image = axes.tricontourf(net, np.maximum(each, -1e-12), levels=levels, cmap=colours, extend="max")
+        image = axes.tricontourf(
+            net, np.maximum(each, -1e-12), levels=levels, cmap=colours, norm=BoundaryNorm(levels, _COLOURS)
+        )
         axes.tricontour(net, each, levels=[0.0], colors="#555555", linewidths=0.7, linestyles="--")
     return image
+
+
+def _levels(most: float, largest: float) -> Floats:
+    """Return round levels from zero to above the largest value: evenly, or where that is far above `most`, what nearly
+    all nodes stay below, each twice or two and a half times the one before."""
+    largest = max(largest, most)
+    if largest <= _FAR * most:
+        return np.asarray(MaxNLocator(_LEVELS, steps=[1, 2, 2.5, 5, 10]).tick_values(0.0, largest), dtype=np.float64)
+    power = 10.0 ** np.arange(math.floor(math.log10(most)) - 1, math.ceil(math.log10(largest)) + 1)
+    series = (power[:, None] * np.array([1.0, 2.0, 5.0])).ravel()
+    last = int(np.argmax(series >= largest * (1.0 - 1e-12)))
+    return np.concatenate([[0.0], series[max(0, last - _LEVELS) : last + 1]])
 
 
 def _crosses(

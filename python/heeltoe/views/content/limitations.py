@@ -1,0 +1,37 @@
+"""What an analysis leaves out, in words: what each model is, and what the table of what goes with what says of it."""
+
+from __future__ import annotations
+
+from heeltoe.case.combinations import unsupported_features
+from heeltoe.views.content.subject import Subject
+from heeltoe.views.content.tree import Block, Section, Strong, glued, paragraph
+
+_ALL = (
+    "The dam is a plane section of unit width: nothing passes between monoliths, and no abutment helps. The cracks are "
+    "where the case puts them, and are cracked before the earthquake unless a bond is given; concrete elsewhere does "
+    "not crack. The record is the motion of the ground at the base; what the site makes of it is in the record or "
+    "nowhere."
+)
+_OF_MODEL = {
+    "rigid": "The part above the crack is rigid: the dam does not vibrate, and what the part below does to the ground "
+    "motion is left out. Elastic dams slide farther than their blocks.",
+    "decoupled": "The part above the crack is rigid, and the motion of the part below is that without the crack: what "
+    "the sliding part gives back is left out.",
+    "flexible": "The parts are linear elastic, with small displacements and rotations; damping in the concrete is an "
+    "assumption on which the slip may depend.",
+}
+_JUDGE = (
+    "Judge for the dam at hand whether what is left out matters; the warnings on page one say where the program has "
+    "reason to think that it does."
+)
+
+
+def limitations(subject: Subject) -> Section:
+    """Return the section on what the analysis leaves out."""
+    blocks: list[Block] = [paragraph(Strong("All models. "), glued(_ALL))]
+    for run in reversed(subject.runs):
+        model = run.response.model
+        absent = unsupported_features(model)
+        cannot = f" It cannot represent: {', '.join(absent)}." if absent else ""
+        blocks.append(paragraph(Strong(f"{model.capitalize()} model. "), glued(f"{_OF_MODEL[model]}{cannot}")))
+    return Section("Limitations of this analysis", (*blocks, paragraph(_JUDGE)))
