@@ -44,8 +44,8 @@ from heeltoe.models.flexible.surroundings.reduction import (
 EXTENT = 100.0
 # Elements across the base at least, and over the shortest shear wave.
 _ACROSS, _PER_WAVE = 8, 5.0
-# How often the elements next to heel and toe, where the stresses are steep, are halved.
-_HALVINGS = 3
+# Next to heel and toe, where the stresses are steep, elements are halved down to such a part of the base.
+_FINEST = 64
 # sigma = _GRADIENT r / c_s, from a gentle start of so many half widths of the base on.
 _GRADIENT, _START = 0.05, 4.0
 # Patterns of tractions along the base, polynomials of rising degree, whose answers are kept.
@@ -195,9 +195,9 @@ def full_rock(base: Floats, material: RockMaterial, *, highest: float = 15.0, ex
     from skfem.helpers import dot
 
     wave = material.shear_speed / highest
-    refined = _refined(base[:, 0], int(np.ceil(_PER_WAVE * np.ptp(base[:, 0]) / wave)))
+    refined, count = _refined(base[:, 0], int(np.ceil(_PER_WAVE * np.ptp(base[:, 0]) / wave)))
     middle, half = (base[0, 0] + base[-1, 0]) / 2.0, (base[-1, 0] - base[0, 0]) / 2.0
-    points, elements = _rings(refined - middle, half, extent)
+    points, elements = _rings(refined - middle, count, half, extent)
     mesh = skfem.MeshQuad(points.T.copy(), elements.T.copy())
     basis = skfem.Basis(mesh, skfem.ElementVector(skfem.ElementQuad2()), intorder=4)
     shear = material.shear
@@ -264,21 +264,29 @@ def full_rock(base: Floats, material: RockMaterial, *, highest: float = 15.0, ex
     )
 
 
-def _refined(x: Floats, count: int) -> Floats:
-    """Return corners of elements along the base, each edge cut into as many as it needs for so many in all."""
+def _refined(x: Floats, count: int) -> tuple[Floats, int]:
+    """Return corners of elements along the base, each edge cut into as many as it needs for so many in all, and how
+    many these are before the outer ones are halved."""
     corners = x[::2]
     pieces = int(np.ceil(max(count, _ACROSS) / (corners.size - 1)))
     parts = [np.linspace(low, high, pieces + 1)[1:] for low, high in pairwise(corners)]
     even = np.concatenate([corners[:1], *parts])
-    near = 0.5 ** np.arange(_HALVINGS, 0, -1)
+    near = _halved(even.size - 1)
     first, last = even[0] + near * (even[1] - even[0]), even[-1] - near[::-1] * (even[-1] - even[-2])
-    return np.concatenate([even[:1], first, even[1:-1], last, even[-1:]])
+    return np.concatenate([even[:1], first, even[1:-1], last, even[-1:]]), even.size - 1
 
 
-def _rings(across: Floats, half: float, extent: float) -> tuple[Floats, Integers]:
-    """Return corners and elements of a block below the base and of rings around it, about the middle of the base."""
-    near = 0.5 ** np.arange(_HALVINGS, 0, -1)
-    columns, even = across.size, max(4, (across.size - 1 - 2 * _HALVINGS) // 2)
+def _halved(count: int) -> Floats:
+    """Return where the first of so many elements along the base is cut, as parts of it."""
+    parts: Floats = 0.5 ** np.arange(max(0, round(np.log2(_FINEST / count))), 0, -1)
+    return parts
+
+
+def _rings(across: Floats, count: int, half: float, extent: float) -> tuple[Floats, Integers]:
+    """Return corners and elements of a block below the base and of rings around it, about the middle of the base,
+    which had so many elements before the outer ones were halved."""
+    columns, near = across.size, _halved(count)
+    even = max(4, count // 2)
     depths = -half / even * np.concatenate([[0.0], near, np.arange(1, even + 1)])
     rows = depths.size - 1
     block = np.stack(np.meshgrid(across, depths, indexing="ij"), axis=-1).reshape(-1, 2)
@@ -299,8 +307,8 @@ def _rings(across: Floats, half: float, extent: float) -> tuple[Floats, Integers
             number(columns - 1, np.arange(rows, -1, -1)),
         ]
     )
-    count = int(np.ceil(np.log(extent) / np.log1p(1.0 / even)))
-    factors = extent ** (np.concatenate([near, np.arange(1, count + 1)]) / count)
+    rings = int(np.ceil(np.log(extent) / np.log1p(1.0 / even)))
+    factors = extent ** (np.concatenate([near, np.arange(1, rings + 1)]) / rings)
     points = [block, *(factor * block[path] for factor in factors)]
     inner = path
     for ring in range(factors.size):
