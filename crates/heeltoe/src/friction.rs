@@ -151,6 +151,27 @@ impl Law {
         }
     }
 
+    /// Whether no further slip, no speed and no normal stress changes what it bears.
+    pub(crate) fn settled(&self, worn: Worn) -> bool {
+        let LawNumbers {
+            peak,
+            residual,
+            scale,
+            cohesion,
+            loss,
+            ..
+        } = self.numbers;
+        let bonded = worn.bonded && cohesion > 0.0 && (worn.path < loss || worn.path == 0.0);
+        !bonded
+            && match self.shape {
+                Shape::Constant => true,
+                Shape::Linear => worn.path >= scale || peak == residual,
+                Shape::Exponential => worn.path >= FADED * scale || peak == residual,
+                Shape::Speed => peak == residual,
+                Shape::Barton | Shape::Lift => false,
+            }
+    }
+
     /// Cohesion of the whole bond (Pa).
     pub(crate) fn cohesion(&self) -> f64 {
         self.numbers.cohesion

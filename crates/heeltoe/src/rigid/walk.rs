@@ -108,6 +108,11 @@ impl<'a> Walk<'a> {
         }
     }
 
+    /// Go on with another block in the same place.
+    pub(super) fn with(self, block: &'a Block) -> Self {
+        Walk { block, ..self }
+    }
+
     /// Hand over what there is to tell.
     pub(super) fn end(self, kinetic_energy: f64, anchors: Vec<[f64; 2]>) -> Run {
         let summary = Summary {

@@ -50,6 +50,9 @@ impl Exact<'_> {
         if S && !(H && T) {
             let rub = [felt.value[SLIP], felt.slope[SLIP]];
             s.ledger.rub(work(rub, speed[SLIP], motion[SLIP], step));
+            if let Some(wear) = &mut self.wear {
+                wear.end.path += (s.position[SLIP] - before[SLIP]).abs();
+            }
         }
         for gap in [HEEL, TOE] {
             // The root that ended the piece is exact to rounding; so is the gap.
@@ -115,6 +118,14 @@ impl Exact<'_> {
             let (w, v) = (&self.walk.summary.position, &self.walk.summary.velocity);
             let t = (time - since).clamp(0.0, course.piece.left);
             let moment = course.moment(self.walk.mode, w, v, t);
+            if let Some(wear) = &mut self.wear {
+                let slipped = match self.walk.mode.slip() {
+                    Some(_) => (moment.position[SLIP] - w[SLIP]).abs(),
+                    None => 0.0,
+                };
+                wear.kept
+                    .push([wear.end.path + slipped, f64::from(wear.end.bonded)]);
+            }
             self.walk.keep(moment);
         }
     }

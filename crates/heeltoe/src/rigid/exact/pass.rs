@@ -73,6 +73,9 @@ impl Exact<'_> {
             k += 1;
         }
         // It goes one way alone.
+        if let Some(wear) = &mut self.wear {
+            wear.end.path += (position - s.position[SLIP]).abs();
+        }
         s.slip_range = [s.slip_range[0].min(position), s.slip_range[1].max(position)];
         (s.position[SLIP], s.velocity[SLIP]) = (position, velocity);
         (s.ledger, s.slip_by_mode[kind], s.time_by_mode[kind]) = (ledger, gathered, time);

@@ -7,7 +7,7 @@ use super::super::choice::{accelerations, select, Moving};
 use super::super::course::Course;
 use super::super::mode::Mode;
 use super::super::reaction::{Felt, Reactions};
-use super::super::result::{Outcome, Run};
+use super::super::result::{Outcome, Run, Wear};
 use super::super::shaking::{Piece, Shaking};
 use super::super::walk::{Ended, Exactly, Options, Single, Walk, Wanted};
 
@@ -19,6 +19,8 @@ pub(super) struct Exact<'a> {
     pub(super) felt: Felt,
     /// Which corners lie at its start.
     pub(super) touching: [bool; 2],
+    /// What the crack has been through, where it is kept.
+    pub(super) wear: Option<Wear>,
 }
 
 /// Run one block through one motion.
@@ -40,20 +42,44 @@ pub fn simulate(
         reactions: &reactions,
         felt: Felt::default(),
         touching: [false; 2],
+        wear: None,
     };
-    exact.run(shaking, start.is_none());
-    let energy = block.kinetic_energy(&exact.walk.summary.velocity);
-    exact.walk.end(energy, Vec::new())
+    if start.is_none() && !exact.rests(&Piece::still(1.0)) {
+        exact.walk.summary.outcome = Outcome::Unstable;
+    } else {
+        exact.run(shaking, 0);
+    }
+    exact.end()
+}
+
+/// Go on from a sample with a block whose friction has come to a constant; its crack slips, and lifts, as before.
+pub(in super::super) fn go_on(walk: Walk, shaking: &Shaking, from: usize, wear: Option<Wear>) -> Run {
+    let reactions = Reactions::new(walk.block);
+    let mut exact = Exact {
+        walk,
+        reactions: &reactions,
+        felt: Felt::default(),
+        touching: [false; 2],
+        wear,
+    };
+    exact.run(shaking, from);
+    exact.end()
 }
 
 impl Exact<'_> {
-    fn run(&mut self, shaking: &Shaking, stands: bool) {
-        if stands && !self.rests(&Piece::still(1.0)) {
-            self.walk.summary.outcome = Outcome::Unstable;
-            return;
+    /// Hand over what there is to tell.
+    fn end(self) -> Run {
+        let energy = self.walk.block.kinetic_energy(&self.walk.summary.velocity);
+        Run {
+            worn: self.wear,
+            ..self.walk.end(energy, Vec::new())
         }
+    }
+
+    /// From a sample to the end of the record.
+    fn run(&mut self, shaking: &Shaking, from: usize) {
         let n = shaking.time.len();
-        let mut k = 0;
+        let mut k = from;
         // Whether the present mode was chosen by the state as it is now.
         let mut settled = false;
         while k + 1 < n {
@@ -164,7 +190,12 @@ impl<'a> Single<'a> for Exact<'a> {
         self.walk.summary.velocity = *velocity;
     }
 
-    fn begin(&mut self) {}
+    fn begin(&mut self) {
+        let lies = self.walk.mode.contacts() == [true, true];
+        if let Some(wear) = &mut self.wear {
+            wear.end.bonded &= lies;
+        }
+    }
 }
 
 impl<'a> Exactly<'a, 1> for Exact<'a> {

@@ -11,6 +11,7 @@
 
 use super::super::block::Vector;
 use super::super::mode::Corner;
+use super::shaking::TurningShaking;
 use super::step::State;
 use super::water::FollowingWater;
 use crate::inside::{Anchor, Law};
@@ -147,6 +148,14 @@ impl TurningBlock {
         let moved = (self.mass + self.water_mass) * horizontal + self.mass * (self.gravity + up);
         let arm = self.centroid[1].abs() + self.width;
         along + across + moment / self.width + lift.abs() + held + moved + self.mass * arm * spin
+    }
+
+    /// Whether loads and geometry stay as they are as it moves on this ground.
+    pub(super) fn stays(&self, shaking: &TurningShaking) -> bool {
+        self.rotation == Rotation::Small
+            && self.water.law == Law::Constant
+            && self.anchors.is_empty()
+            && shaking.is_level()
     }
 
     /// Distance of the corner from the heel.

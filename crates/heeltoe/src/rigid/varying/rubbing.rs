@@ -68,6 +68,11 @@ impl<'a> Rubbing<'a> {
         self.law.by_stress()
     }
 
+    /// Whether nothing changes what it bears any more.
+    pub(super) fn settled(&self) -> bool {
+        self.law.settled(self.worn)
+    }
+
     /// Whether it bends downward alone.
     pub(super) fn sags_nowhere(&self) -> bool {
         self.law.sags_nowhere()

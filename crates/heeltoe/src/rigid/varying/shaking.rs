@@ -27,6 +27,11 @@ impl<'a> TurningShaking<'a> {
         Ok(TurningShaking { level, turning })
     }
 
+    /// Whether it never turns.
+    pub(super) fn is_level(&self) -> bool {
+        self.turning.is_none()
+    }
+
     /// Largest accelerations, without their signs.
     pub(super) fn peaks(&self) -> Ground {
         let [horizontal, vertical] = self.level.peaks();

@@ -4,6 +4,7 @@ use std::cell::Cell;
 
 use super::super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
 use super::super::choice::{accelerations, select, Moving};
+use super::super::exact;
 use super::super::mode::{Corner, Mode, Slip};
 use super::super::reaction::{Felt, Reactions};
 use super::super::result::{Outcome, Run};
@@ -119,9 +120,13 @@ pub fn simulate(
     varying.walk.summary.rotation_range = [theta.min(0.0), theta.max(0.0)];
     varying.walk.summary.ledger.start = varying.kinetic_energy();
     varying.strain();
-    varying.run(shaking, start.is_none());
-    varying.see();
-    varying.end()
+    match varying.run(shaking, start.is_none()) {
+        Some(from) => varying.go_on_exactly(shaking, from),
+        None => {
+            varying.see();
+            varying.end()
+        }
+    }
 }
 
 impl Varying<'_> {
@@ -134,6 +139,24 @@ impl Varying<'_> {
             rough: self.rough.map(Rough::end),
             ..self.walk.end(energy, self.anchors)
         }
+    }
+
+    /// Whether the block is one of the exact walk by now: its loads and its geometry never change, its friction no more,
+    /// and there is no error in its velocity that would grow.
+    fn is_exact(&self, shaking: &TurningShaking) -> bool {
+        self.turning.stays(shaking)
+            && self.rough.is_none()
+            && self.rubbing.as_ref().is_some_and(Rubbing::settled)
+            && self.error.speed == 0.0
+    }
+
+    /// Leave the rest of the motion to the exact walk.
+    fn go_on_exactly(mut self, shaking: &TurningShaking, from: usize) -> Run {
+        self.see();
+        let strength = self.struck();
+        let block = self.walk.block.rubbing(&strength);
+        let wear = self.rubbing.map(|rubbing| rubbing.told(&self.error));
+        exact::go_on(self.walk.with(&block), &shaking.level, from, wear)
     }
 
     /// Take over slip, gaps and their velocities.
@@ -168,15 +191,19 @@ impl Varying<'_> {
         self.instant(&[0.0; 3]).kinetic_energy(&self.state)
     }
 
-    fn run(&mut self, shaking: &TurningShaking, stands: bool) {
+    /// Go through the motion; returns the sample from which the exact walk can go on, where there is one.
+    fn run(&mut self, shaking: &TurningShaking, stands: bool) -> Option<usize> {
         if stands && self.pick(&Piece::still(1.0)) != Some(Mode::Rest) {
             self.walk.summary.outcome = Outcome::Unstable;
-            return;
+            return None;
         }
         let time = shaking.level.time;
         let mut held = false;
         let mut k = 0;
         while k + 1 < time.len() {
+            if self.is_exact(shaking) {
+                return Some(k);
+            }
             let mut local = 0.0;
             if held {
                 (k, local) = match self.walk.mode {
@@ -198,7 +225,7 @@ impl Varying<'_> {
             // What ends a motion is watched all the time: it goes on where the ground does.
             let chosen = held && self.walk.mode != Mode::Rest && (local > 0.0 || t0 > time[from - 1]);
             let Ok(cause) = self.cross(&whole, t0, chosen) else {
-                return;
+                return None;
             };
             held = cause.is_none();
             // An event on the very end of the piece belongs to the next.
@@ -207,7 +234,7 @@ impl Varying<'_> {
                 ..Piece::still(1e-9 * whole.left)
             };
             if cause.is_some() && !self.choose(&after, cause.map(|why| (0, why))) {
-                return;
+                return None;
             }
         }
         let end = time.len() - 1;
@@ -218,6 +245,7 @@ impl Varying<'_> {
         };
         let state = self.state;
         self.record(&state, &last, f64::INFINITY, time[end]);
+        None
     }
 
     /// Go from event to event to the end of a piece that begins at `time`, in the present mode if that has been `chosen`
