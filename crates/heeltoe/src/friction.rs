@@ -16,6 +16,10 @@
 
 use crate::table::{named, numbers};
 
+mod series;
+
+pub(crate) use series::{Terms, TERMS};
+
 named! {
     /// What the coefficient of friction goes by.
     Shape {
@@ -230,6 +234,13 @@ impl Law {
             return [cohesion * (1.0 - worn.path / loss).max(0.0); 2];
         }
         [if worn.path > 0.0 { 0.0 } else { cohesion }, 0.0]
+    }
+
+    /// Cohesion of what slides (Pa), and how it goes by the path up to the next corner.
+    pub(crate) fn bond_over_path(&self, worn: Worn) -> [f64; 2] {
+        let LawNumbers { cohesion, loss, .. } = self.numbers;
+        let [_, now] = self.bond(worn);
+        [now, if now > 0.0 { -cohesion / loss } else { 0.0 }]
     }
 
     /// What a crack of this width bears about a normal force.

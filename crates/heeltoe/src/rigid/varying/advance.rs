@@ -93,6 +93,9 @@ impl Varying<'_> {
         if let Some(slide) = self.closed_slide(piece, fresh) {
             return self.slide_on(&slide, piece, time);
         }
+        if let Some(series) = self.series(piece, fresh) {
+            return self.slide_by(&series, piece, time);
+        }
         let start = self.state;
         let rate = self.rates(&start, &piece.ground);
         let length = if self.walk.mode == Mode::Rest {

@@ -1,16 +1,31 @@
-//! A slide on both corners by any law, on one piece of the record: by the same steps as every other motion, but with the
-//! little that such a slide needs.
+//! A slide on both corners by any law, on one piece of the record: a power series in time.
 //!
-//! A block that lies on both corners has one way to go. Under a friction force F against the slip, its acceleration and
-//! both normal forces are affine in the ground's acceleration and in F, and `F = mu N + c` by the law.
+//! A block that lies on both corners has one way to go. With the friction F against the slip, the path r and the normal
+//! force N,
+//!
+//! `r'' = a_0 + a_1 t + b F`, `N = n_0 + n_1 t + g F`, `F = mu N + c`,
+//!
+//! and all terms follow one after the other, with those of mu by [`crate::friction::Unfolding`]. The end of the slide is a
+//! root of the series of its velocity.
 
-use super::super::block::{HEEL, SLIP, TOE};
-use super::super::event;
-use super::advance::{better, Trial, SHORTEST};
+use super::super::block::{Vector, HEEL, SLIP, TOE};
+use super::super::mode::Mode;
+use super::super::walk::Cause;
+use super::advance::Trial;
+use super::power::Power;
 use super::shaking::{Ground, Piece};
-use super::step::{middle, step, State};
+use super::step::State;
 use super::walk::Varying;
-use crate::friction::Strength;
+use crate::friction::{Strength, TERMS};
+
+/// A series is long enough where its last two terms are no more than this part of its leading ones; where it diverges, the
+/// others say nothing of its size.
+const FADED: f64 = 1e-16;
+const LEADING: usize = 3;
+/// The normal force goes by friction, where it does, by more than this: less is rounding.
+const FREE: f64 = 1e-13;
+/// A series that has not come to an end is cut to this part of the length at which it would.
+const SHORTER: f64 = 0.9;
 
 /// Normal forces at heel and toe, the load along the crack, and the acceleration.
 type Felt = [f64; 4];
@@ -21,72 +36,250 @@ pub(super) struct Flat {
     still: Felt,
     per_ground: [Felt; 3],
     per_friction: Felt,
+}
+
+/// A slide on a piece of the record; all series are in the time over its length.
+pub(super) struct Series {
     way: f64,
+    /// How long it holds (s).
+    length: f64,
+    /// Path from here on, its rate of change, and friction.
+    path: Power,
+    rate: Power,
+    friction: Power,
+    /// Normal forces at heel and toe and the load along the crack, without friction, and what friction adds.
+    felt: [[f64; 2]; 3],
+    per_friction: [f64; 2],
+    /// Path up to the next corner of the law, from here and since the first slip.
+    reach: f64,
+    corner: f64,
+    /// What the last terms come to: of the path (m), and of its velocity (m/s).
+    error: [f64; 2],
+}
+
+impl Series {
+    /// Whether both corners press all the time, whatever the rounding.
+    fn presses(&self, clear: f64) -> bool {
+        let (least, most) = (
+            self.friction.floor(),
+            self.friction.terms[0] + self.friction.swing(),
+        );
+        (0..2).all(|corner| {
+            let [now, change] = self.felt[corner];
+            let per = self.per_friction[corner];
+            now + change.min(0.0) + (per * least).min(per * most) > clear
+        })
+    }
+
+    /// The state after `since` from `start`, with the works of the loads and of friction.
+    fn state(&self, start: &State, since: f64) -> State {
+        let t = since / self.length;
+        let path = self.path.at(t);
+        let mut state = *start;
+        state[0] += self.way * path;
+        state[3] = self.way * self.rate.at(t) / self.length;
+        let [load, change] = self.felt[2];
+        // The integral of t dr is t r less that of r.
+        state[6] += self.way * (load * path + change * (t * path - self.path.integral(t)));
+        state[7] -= self.rubbed(t);
+        state
+    }
+
+    /// The work of friction up to a moment.
+    fn rubbed(&self, t: f64) -> f64 {
+        let (f, v) = (&self.friction.terms, &self.rate.terms);
+        let count = self.rate.count;
+        let power = |n: usize| (0..=n).map(|k| f[k] * v[n - k]).sum::<f64>();
+        t * (0..count)
+            .rev()
+            .fold(0.0, |sum, n| sum * t + power(n) / (n + 1) as f64)
+    }
+
+    /// When the slide ends, as a part of its length, and whether that is at a corner of the law.
+    fn end(&self) -> (f64, Option<Cause>, bool) {
+        let mut stop = self.rate.first_fall();
+        let mut left = Power {
+            terms: self.path.terms.map(|term| -term),
+            ..self.path
+        };
+        left.terms[0] += self.reach;
+        let corner = if self.reach.is_finite() {
+            left.first_fall()
+        } else {
+            None
+        };
+        let first = corner.filter(|at| stop.is_none_or(|stop| *at < stop));
+        if first.is_some() {
+            stop = None;
+        }
+        let at = first.or(stop).unwrap_or(1.0);
+        (at, stop.map(|_| Cause::Stop), first.is_some())
+    }
 }
 
 impl Varying<'_> {
-    /// Make one step on a piece, if nothing ends the slide in it, and return how long it is; none where something may. Its
-    /// works stay in the state.
-    pub(super) fn step_through(
-        &mut self,
-        flat: &mut Option<Flat>,
-        way: f64,
-        piece: &Piece,
-        clear: f64,
-        time: f64,
-    ) -> Option<f64> {
-        if !self.lies_plainly() || self.rubbing.as_ref()?.corner().is_finite() {
+    /// The slide by series from the present state on, where it is one whose corners press all the time; a slip that starts
+    /// does so with the acceleration of `fresh`, freed from rounding.
+    pub(super) fn series(&self, piece: &Piece, fresh: Option<Vector>) -> Option<Series> {
+        let Mode::Slide(slip) = self.walk.mode else {
+            return None;
+        };
+        let rubbing = self.rubbing.as_ref()?;
+        let way = slip.sign();
+        if !self.lies_plainly() || piece.left <= 0.0 {
             return None;
         }
-        let flat = match flat {
-            Some(flat) => flat,
-            None => flat.insert(self.flat(way)?),
+        let flat = self.flat(way)?;
+        let unit = piece.left;
+        let felt = |i: usize| {
+            let by = |ground: &Ground| -> f64 { (0..3).map(|k| flat.per_ground[k][i] * ground[k]).sum() };
+            [flat.still[i] + by(&piece.ground), unit * by(&piece.rate)]
         };
-        let start = self.state;
-        let (first, felt) = self.flat_rates(flat, &start, &piece.ground)?;
-        let mut length = piece.left.min(self.suggested);
-        let taken = loop {
-            let mut jams = false;
-            let mut rates = |t: f64, y: &State| {
-                let there = self.flat_rates(flat, y, &piece.after(t));
-                jams |= there.is_none();
-                there.map_or([0.0; 8], |(rate, _)| rate)
-            };
-            let taken = step(&start, &first, length, &self.scale, &mut rates);
-            if jams || !taken.error.is_finite() || length <= SHORTEST * self.time_scale {
+        let [heel, toe, load, pull] = [0, 1, 2, 3].map(felt);
+        let pressing = [heel[0] + toe[0], heel[1] + toe[1]];
+        let mut coupling = flat.per_friction[0] + flat.per_friction[1];
+        if coupling.abs() < FREE {
+            coupling = 0.0;
+        } else if rubbing.bends() {
+            return None;
+        }
+        let (worn, speed) = (rubbing.worn, way * self.state[3]);
+        let stress = pressing.map(|force| force / rubbing.width);
+        if pressing[0].min(pressing[0] + pressing[1]) <= 0.0 {
+            return None;
+        }
+        let mut unfolding = rubbing.law.unfold(worn.path, speed, stress, unit)?;
+        let [bond, per_path] = rubbing
+            .law
+            .bond_over_path(worn)
+            .map(|stress| stress * rubbing.width);
+        let square = unit * unit * way;
+        let begins = fresh.filter(|_| speed == 0.0).map(|all| square * all[SLIP]);
+        let [mut path, mut rate, mut mu, mut friction] = [[0.0; TERMS]; 4];
+        rate[0] = unit * speed;
+        let mut size = rate[0].abs();
+        let mut count = 1;
+        loop {
+            let n = count - 1;
+            mu[n] = unfolding.term(n, &path, &rate);
+            let beside = if n == 0 { bond } else { per_path * path[n] };
+            let before = if n == 0 { 0.0 } else { mu[n - 1] * pressing[1] };
+            let own: f64 = (1..=n).map(|k| mu[k] * friction[n - k]).sum::<f64>() * coupling;
+            let left = 1.0 - mu[0] * coupling;
+            if left <= 0.0 {
                 return None;
             }
-            if taken.error <= 1.0 {
-                break taken;
+            friction[n] = (mu[n] * pressing[0] + before + own + beside) / left;
+            let loads = if n < 2 { pull[n] } else { 0.0 };
+            let mut acceleration = square * (loads + flat.per_friction[3] * friction[n]);
+            if n == 0 {
+                acceleration = begins.unwrap_or(acceleration);
             }
-            length *= better(taken.error).clamp(0.1, 0.9);
-        };
-        let between = middle([&start, &taken.end], [&first, &taken.rate], length);
-        let (_, felt_between) = self.flat_rates(flat, &between, &piece.after(0.5 * length))?;
-        let (_, felt_at_end) = self.flat_rates(flat, &taken.end, &piece.after(length))?;
-        let pressed = [felt, felt_between, felt_at_end]
-            .iter()
-            .all(|[heel, toe, ..]| *heel > clear && *toe > clear);
-        let (v0, v1, a0) = (flat.way * start[3], flat.way * taken.end[3], flat.way * first[3]);
-        let bend = (v1 - v0 - a0 * length) / (length * length);
-        if !pressed || event::quadratic(v0, a0, bend, length).is_some() {
+            rate[count] = acceleration / count as f64;
+            path[count] = rate[n] / count as f64;
+            if count < LEADING {
+                size += rate[count].abs();
+            }
+            count += 1;
+            let faded = rate[count - 1].abs() + rate[count - 2].abs() <= FADED * size;
+            if faded && count > LEADING || count == TERMS {
+                break;
+            }
+        }
+        if !size.is_finite() || size == 0.0 {
             return None;
         }
-        let trial = Trial {
-            error: taken.error,
-            integrated: true,
-            ..Trial::still(start, first, length, piece)
+        let [mut path, mut rate, mut friction] = [path, rate, friction].map(|terms| Power { terms, count });
+        friction.count = count - 1;
+        let mut length = unit;
+        let last = rate.terms[count - 1].abs() + rate.terms[count - 2].abs();
+        if last > FADED * size {
+            let part = SHORTER * (FADED * size / last).powf(1.0 / (count - 2) as f64);
+            for power in [&mut path, &mut rate, &mut friction] {
+                power.shorten(part);
+            }
+            // It is the path's rate of change over the length.
+            rate.terms = rate.terms.map(|term| part * term);
+            length *= part;
+        }
+        let part = length / unit;
+        let tail = rate.terms[count - 1].abs() + rate.terms[count - 2].abs();
+        Some(Series {
+            way,
+            length,
+            path,
+            rate,
+            friction,
+            felt: [heel, toe, load].map(|[now, change]| [now, part * change]),
+            per_friction: [flat.per_friction[0], flat.per_friction[1]],
+            reach: rubbing.corner() - worn.path,
+            corner: rubbing.corner(),
+            error: [tail, tail / length],
+        })
+        .filter(|series| series.presses(super::line::CLEAR * self.walk.block.force_scale))
+    }
+
+    /// While nothing ends the slide, go through what is left of a piece, or as far as the series holds, and return how long
+    /// that took. Its works stay in the state.
+    pub(super) fn series_through(&mut self, piece: &Piece, time: f64) -> Option<f64> {
+        let series = self.series(piece, None)?;
+        let clear = series.rate.floor() > 0.5 * series.rate.terms[0];
+        if !clear || series.path.at(1.0) >= (1.0 - super::line::CLEAR) * series.reach {
+            return None;
+        }
+        let start = self.state;
+        self.record(&start, piece, time + series.length, time);
+        let end = series.state(&start, series.length);
+        self.wear(&end);
+        self.gather(series.error, series.length);
+        self.state = end;
+        Some(series.length)
+    }
+
+    /// Slide on to the next event, or as long as the series holds; returns the time that took and what ended it.
+    pub(super) fn slide_by(&mut self, series: &Series, piece: &Piece, time: f64) -> (f64, Option<Cause>) {
+        let (part, cause, turns_corner) = series.end();
+        let taken = if part == 1.0 {
+            series.length
+        } else {
+            part * series.length
         };
-        self.record(&start, piece, time + length, time);
-        self.wear(&taken.end);
-        self.gather_error(&trial, false, length);
-        self.suggest(length, taken.error);
-        self.state = taken.end;
-        Some(length)
+        let mut end = series.state(&self.state, taken);
+        if cause == Some(Cause::Stop) {
+            end[3] = 0.0;
+        }
+        let trial = Trial::still(self.state, [0.0; 8], series.length, piece);
+        self.move_on(&trial, &end, taken, time);
+        if taken > 0.0 {
+            self.gather(series.error, 0.0);
+            self.error.time += taken;
+        }
+        if turns_corner {
+            self.turn_corner(series.corner);
+        }
+        (taken, cause)
+    }
+
+    /// The state by the series, if there is one that reaches so far.
+    pub(super) fn by_series(&self, start: &State, piece: &Piece, since: f64) -> Option<State> {
+        let series = self.series(piece, None)?;
+        (since <= series.length).then(|| series.state(start, since))
+    }
+
+    /// Add the error of a series of this length to those before.
+    fn gather(&mut self, [path, speed]: [f64; 2], length: f64) {
+        let sum = &mut self.error;
+        sum.slip += sum.speed * length + path;
+        sum.speed += speed;
+        sum.time += length;
     }
 
     /// What is felt as the block slides this way; none where friction makes it infinite.
     fn flat(&self, way: f64) -> Option<Flat> {
+        let place = &self.flats[usize::from(way < 0.0)];
+        if let Some(flat) = place.get() {
+            return Some(flat);
+        }
         let felt = |ground: &Ground, friction: f64| -> Option<Felt> {
             let instant = self.turning.at(self.corner, &self.state, ground);
             let strength = Strength {
@@ -101,7 +294,7 @@ impl Varying<'_> {
         let change = |felt: Felt| -> Felt { std::array::from_fn(|i| felt[i] - still[i]) };
         // A force of the size of those at hand, so that rounding is small beside it.
         let force = self.walk.block.force_scale;
-        Some(Flat {
+        let flat = Flat {
             still,
             per_ground: [
                 change(felt(&[1.0, 0.0, 0.0], 0.0)?),
@@ -109,30 +302,8 @@ impl Varying<'_> {
                 change(felt(&[0.0, 0.0, 1.0], 0.0)?),
             ],
             per_friction: change(felt(&[0.0; 3], force)?).map(|change| change / force),
-            way,
-        })
-    }
-
-    /// [`Varying::rates`] at a state of such a slide, and what is felt there; none where friction makes it infinite.
-    fn flat_rates(&self, flat: &Flat, state: &State, ground: &Ground) -> Option<(State, Felt)> {
-        let mut felt = flat.still;
-        for (per, ground) in flat.per_ground.iter().zip(ground) {
-            for (value, per) in felt.iter_mut().zip(per) {
-                *value += per * ground;
-            }
-        }
-        let pressing = felt[0] + felt[1];
-        let per_friction = flat.per_friction[0] + flat.per_friction[1];
-        let friction = self.friction_at(state, pressing, per_friction)?;
-        for (value, per) in felt.iter_mut().zip(flat.per_friction) {
-            *value += per * friction;
-        }
-        let [.., load, acceleration] = felt;
-        let mut rate = [0.0; 8];
-        rate[SLIP] = state[3];
-        rate[3] = acceleration;
-        rate[6] = load * state[3];
-        rate[7] = -flat.way * friction * state[3];
-        Some((rate, felt))
+        };
+        place.set(Some(flat));
+        Some(flat)
     }
 }

@@ -19,6 +19,7 @@ mod instant;
 mod keep;
 mod line;
 mod located;
+mod power;
 mod rates;
 mod rest;
 mod rough;

@@ -56,7 +56,9 @@ impl Varying<'_> {
     pub(super) fn moved(&self, start: &State, rate: &State, piece: &Piece, since: f64) -> State {
         match self.closed_slide(piece, None) {
             Some(slide) => slide.state(start, since),
-            None => self.stepped(start, rate, piece, since).0,
+            None => self
+                .by_series(start, piece, since)
+                .unwrap_or_else(|| self.stepped(start, rate, piece, since).0),
         }
     }
 

@@ -9,7 +9,6 @@ use super::super::choice::VIOLATION;
 use super::super::mode::Mode;
 use super::super::walk::Cause;
 use super::advance::Trial;
-use super::flat::Flat;
 use super::line::{Felt, Force, Line, Slide, CLEAR};
 use super::shaking::{Ground, Piece, TurningShaking};
 use super::step::State;
@@ -101,12 +100,8 @@ impl Varying<'_> {
     /// While the block slides clear of every event, do what would be done piece by piece; return the last sample before that
     /// may end, and how far behind it.
     pub(super) fn slide_until(&mut self, shaking: &TurningShaking, from: usize) -> (usize, f64) {
-        let Mode::Slide(slip) = self.walk.mode else {
-            return (from, 0.0);
-        };
-        let (way, clear) = (slip.sign(), CLEAR * self.walk.block.force_scale);
+        let clear = CLEAR * self.walk.block.force_scale;
         let (time, kind) = (shaking.level.time, self.walk.mode.kind());
-        let mut flat: Option<Flat> = None;
         let (mut k, mut local) = (from, 0.0);
         while k + 1 < time.len() {
             if time[k + 1] <= time[k] {
@@ -118,7 +113,7 @@ impl Varying<'_> {
             let (before, since) = (self.state[0], time[k] + local);
             let slid = match self.closed_slide(&piece, None) {
                 Some(slide) => self.slide_through(&slide, &piece, clear, since),
-                None => self.step_through(&mut flat, way, &piece, clear, since),
+                None => self.series_through(&piece, since),
             };
             let Some(taken) = slid else {
                 break;

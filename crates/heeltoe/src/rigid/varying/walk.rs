@@ -11,6 +11,7 @@ use super::super::result::{Outcome, Run};
 use super::super::shaking::Piece as Level;
 use super::super::walk::{Carried, Cause, Options, Single, Walk, Wanted};
 use super::block::{Rotation, TurningBlock};
+use super::flat::Flat;
 use super::instant::Instant;
 use super::line::Line;
 use super::rough::Rough;
@@ -51,6 +52,8 @@ pub(super) struct Varying<'a> {
     pub(super) reserve: Option<[[f64; 4]; 4]>,
     /// Of a block that slides downstream or upstream, see [`super::slide`].
     pub(super) lines: [Cell<Option<Line>>; 2],
+    /// The same by any law, see [`super::flat`].
+    pub(super) flats: [Cell<Option<Flat>>; 2],
     /// Friction that goes by a law, where it does.
     pub(super) rubbing: Option<Rubbing<'a>>,
     /// Asperities, where the crack is rough.
@@ -111,6 +114,7 @@ pub fn simulate(
         anchors: vec![[0.0; 2]; turning.anchors.len()],
         reserve: None,
         lines: Default::default(),
+        flats: Default::default(),
         rubbing,
         rough: rough.map(|(asperities, before)| Rough::new(asperities, before, position[SLIP], block.width)),
         error: Gathered::default(),
