@@ -18,7 +18,7 @@ use crate::table::{named, numbers};
 
 mod series;
 
-pub(crate) use series::{Terms, TERMS};
+pub(crate) use series::{Terms, INVERSE, TERMS};
 
 named! {
     /// What the coefficient of friction goes by.

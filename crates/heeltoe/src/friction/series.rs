@@ -17,6 +17,17 @@ pub(crate) const TERMS: usize = 26;
 /// A series, in powers of the time over its length.
 pub(crate) type Terms = [f64; TERMS];
 
+/// One over each whole number, as integrals of a series ask for.
+pub(crate) const INVERSE: [f64; TERMS + 1] = {
+    let mut inverse = [0.0; TERMS + 1];
+    let mut n = 1;
+    while n <= TERMS {
+        inverse[n] = 1.0 / n as f64;
+        n += 1;
+    }
+    inverse
+};
+
 /// How the terms go on.
 enum Rule {
     /// No further terms.
@@ -27,8 +38,13 @@ enum Rule {
     Straight(f64),
     /// An exponential of the path's, or of those of the path per unit of time, times these; it falls by so much.
     Fading { rate: f64, drop: f64, by_speed: bool },
-    /// The tangent of so many angles per natural logarithm of the stress; stress at the start, and its change.
-    Tangent { rate: f64, stress: [f64; 2] },
+    /// The tangent of an angle, so much of it per natural logarithm of the stress; stress at the start, and its change;
+    /// terms of the angle and of one over the square of its cosine.
+    Tangent {
+        rate: f64,
+        stress: [f64; 2],
+        angle_and_square: Box<[Terms; 2]>,
+    },
 }
 
 /// A coefficient of friction whose terms are asked for one after the other.
@@ -37,9 +53,6 @@ pub(crate) struct Unfolding {
     first: f64,
     /// Of the exponential or the tangent.
     terms: Terms,
-    /// Of the angle, and of one over the square of its cosine.
-    angle: Terms,
-    square: Terms,
 }
 
 impl Law {
@@ -59,8 +72,6 @@ impl Law {
         let drop = peak - residual;
         let fading = |rate: f64, by_speed: bool| Rule::Fading { rate, drop, by_speed };
         let mut terms = [0.0; TERMS];
-        let mut angle = [0.0; TERMS];
-        let mut square = [0.0; TERMS];
         let rule = match self.shape {
             Shape::Constant => Rule::Level,
             Shape::Linear if path >= scale => Rule::Level,
@@ -80,9 +91,13 @@ impl Law {
                     (true, true) if first == last => Rule::Level,
                     (false, false) => {
                         terms[0] = first;
+                        let mut square = [0.0; TERMS];
                         square[0] = 1.0 + first * first;
-                        let rate = -roughness.to_radians() / std::f64::consts::LN_10;
-                        Rule::Tangent { rate, stress }
+                        Rule::Tangent {
+                            rate: -roughness.to_radians() / std::f64::consts::LN_10,
+                            stress,
+                            angle_and_square: Box::new([[0.0; TERMS], square]),
+                        }
                     }
                     _ => return None,
                 }
@@ -96,14 +111,7 @@ impl Law {
                 Rule::Straight(change)
             }
         };
-        angle[0] = 0.0;
-        Some(Unfolding {
-            rule,
-            first,
-            terms,
-            angle,
-            square,
-        })
+        Some(Unfolding { rule, first, terms })
     }
 }
 
@@ -114,28 +122,35 @@ impl Unfolding {
             return self.first;
         }
         let count = n as f64;
-        match self.rule {
+        match &mut self.rule {
             Rule::Level => 0.0,
-            Rule::Path(factor) => factor * path[n],
+            Rule::Path(factor) => *factor * path[n],
             Rule::Straight(change) => {
                 if n == 1 {
-                    change
+                    *change
                 } else {
                     0.0
                 }
             }
             Rule::Fading { rate, drop, by_speed } => {
-                let by = if by_speed { rate_of_path } else { path };
-                self.terms[n] = rate * grown(by, &self.terms, n) / count;
-                drop * self.terms[n]
+                let by = if *by_speed { rate_of_path } else { path };
+                self.terms[n] = *rate * grown(by, &self.terms, n) * INVERSE[n];
+                *drop * self.terms[n]
             }
-            Rule::Tangent { rate, stress } => {
-                let [now, change] = stress;
-                let before = (count - 1.0) * self.angle[n - 1] / rate;
-                let logarithm = if n == 1 { change } else { -before * change } / (count * now);
-                self.angle[n] = rate * logarithm;
-                self.terms[n] = grown(&self.angle, &self.square, n) / count;
-                self.square[n] = (0..=n).map(|k| self.terms[k] * self.terms[n - k]).sum();
+            Rule::Tangent {
+                rate,
+                stress: [now, change],
+                angle_and_square,
+            } => {
+                let [angle, square] = &mut **angle_and_square;
+                let logarithm = if n == 1 {
+                    *change
+                } else {
+                    -(count - 1.0) * angle[n - 1] / *rate * *change
+                };
+                angle[n] = *rate * logarithm / (count * *now);
+                self.terms[n] = grown(angle, square, n) * INVERSE[n];
+                square[n] = (0..=n).map(|k| self.terms[k] * self.terms[n - k]).sum();
                 self.terms[n]
             }
         }
@@ -144,5 +159,87 @@ impl Unfolding {
 
 /// `1 a_1 b_(n-1) + 2 a_2 b_(n-2) + ... + n a_n b_0`.
 fn grown(a: &Terms, b: &Terms, n: usize) -> f64 {
-    (1..=n).map(|k| k as f64 * a[k] * b[n - k]).sum()
+    let (mut sum, mut count) = (0.0, 0.0);
+    for k in 1..=n {
+        count += 1.0;
+        sum += count * a[k] * b[n - k];
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::friction::Law;
+
+    const WAY: [f64; 4] = [0.0, 0.8, -0.3, 0.1];
+    const UNIT: f64 = 0.5;
+
+    /// The series of a law on this way from a path and a speed on, and its value at a moment.
+    fn series(law: &Law, path: f64, stress: [f64; 2], t: f64) -> f64 {
+        let (mut way, mut rate) = ([0.0; TERMS], [0.0; TERMS]);
+        way[..4].copy_from_slice(&WAY);
+        for n in 1..4 {
+            rate[n - 1] = n as f64 * WAY[n];
+        }
+        let mut unfolding = law.unfold(path, rate[0] / UNIT, stress, UNIT).unwrap();
+        let mut sum = 0.0;
+        for n in 0..TERMS {
+            sum += unfolding.term(n, &way, &rate) * t.powi(n as i32);
+        }
+        sum
+    }
+
+    fn law(shape: Shape, points: &[[f64; 2]]) -> Law {
+        let numbers = LawNumbers {
+            peak: 1.1,
+            residual: 0.7,
+            scale: 2.0,
+            roughness: 10.0,
+            wall_strength: 50e6,
+            residual_angle: 30f64.to_radians(),
+            ..LawNumbers::default()
+        };
+        Law::new(shape, &numbers, points.to_vec())
+    }
+
+    #[test]
+    fn the_series_of_every_law_is_the_law() {
+        let points = [[0.0, 0.5], [1e6, 0.2], [2e6, 0.0]];
+        let stress = [1.2e6, -1.5e5];
+        for shape in [
+            Shape::Constant,
+            Shape::Linear,
+            Shape::Exponential,
+            Shape::Speed,
+            Shape::Barton,
+            Shape::Lift,
+        ] {
+            let law = law(shape, &points);
+            for t in [0.0, 0.4, 1.0] {
+                let path = 0.3 + t * (WAY[1] + t * (WAY[2] + t * WAY[3]));
+                let speed = (WAY[1] + t * (2.0 * WAY[2] + t * 3.0 * WAY[3])) / UNIT;
+                let [_, expected] = law.coefficients(stress[0] + t * stress[1], speed, path);
+                let value = series(&law, 0.3, stress, t);
+                assert!(
+                    (value - expected).abs() < 1e-13,
+                    "{shape:?} {t}: {value} {expected}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_corner_on_the_way_has_no_series() {
+        let points = [[0.0, 0.5], [1e6, 0.2], [2e6, 0.0]];
+        assert!(law(Shape::Lift, &points)
+            .unfold(0.0, 0.0, [1.1e6, -2e5], 1.0)
+            .is_none());
+        assert!(law(Shape::Barton, &[])
+            .unfold(0.0, 0.0, [49e6, 2e6], 1.0)
+            .is_none());
+        assert!(law(Shape::Barton, &[])
+            .unfold(0.0, 0.0, [51e6, 2e6], 1.0)
+            .is_some());
+    }
 }

@@ -29,6 +29,18 @@ pub(super) struct Moving<'a> {
     pub piece: &'a Piece<2>,
 }
 
+/// The reactions of all modes.
+pub(super) trait Modes {
+    fn of(&self, mode: Mode) -> &Reaction;
+}
+
+impl Modes for Reactions {
+    #[inline(always)]
+    fn of(&self, mode: Mode) -> &Reaction {
+        Reactions::of(self, mode)
+    }
+}
+
 /// Whether the block can move on in `mode`, and if so what it feels there.
 #[inline(always)]
 pub(super) fn admissible(reaction: &Reaction, moving: &Moving, tie: f64, felt: &mut Felt) -> bool {
@@ -78,7 +90,12 @@ pub(super) fn admissible(reaction: &Reaction, moving: &Moving, tie: f64, felt: &
 /// The mode in which the block goes on: the present one if it is still admissible and nothing has come to stand or to lie,
 /// else the first of [`Mode::ALL`] that is, or drift; `None` is a Painlevé paradox. What is felt there is in `felt` then.
 #[inline(always)]
-pub(super) fn select(reactions: &Reactions, present: Mode, moving: &Moving, felt: &mut Felt) -> Option<Mode> {
+pub(super) fn select(
+    reactions: &impl Modes,
+    present: Mode,
+    moving: &Moving,
+    felt: &mut Felt,
+) -> Option<Mode> {
     // A base that has come to stand is held by static friction if that can hold it: sticking goes first. So does
     // contact where a corner has come to lie: loads that just balance there leave it lying, while a motion that went
     // on would lift it by rounding, and close it at once.
@@ -94,7 +111,7 @@ pub(super) fn select(reactions: &Reactions, present: Mode, moving: &Moving, felt
 
 /// As [`select`], where the present mode, if the block may go on in it, is admissible by a hair at most.
 #[inline(never)]
-fn another(reactions: &Reactions, present: Option<Mode>, moving: &Moving, felt: &mut Felt) -> Option<Mode> {
+fn another(reactions: &impl Modes, present: Option<Mode>, moving: &Moving, felt: &mut Felt) -> Option<Mode> {
     for (tie, first) in [(TIE, None), (HAIR, present)] {
         for mode in first.into_iter().chain(Mode::ALL).chain([Mode::Drift]) {
             if admissible(reactions.of(mode), moving, tie, felt) {

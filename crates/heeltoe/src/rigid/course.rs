@@ -25,7 +25,7 @@ pub(super) struct Earliest {
 
 impl Earliest {
     #[inline(always)]
-    fn note(&mut self, t: f64, ended: Ended) {
+    pub(super) fn note(&mut self, t: f64, ended: Ended) {
         if t < self.step || (t == self.step && self.ended.is_none()) {
             self.step = t;
             self.ended = Some(ended);

@@ -113,7 +113,7 @@ fn all_held(a: &[Vector; 3], b: &Vector) -> Vector {
 }
 
 impl Reaction {
-    fn new(block: &Block, mode: Mode) -> Self {
+    pub(super) fn new(block: &Block, mode: Mode) -> Self {
         let (pull, free) = &pulled(block, mode);
         let accelerations = block.acceleration_scale();
         let size = |i: usize| {

@@ -48,6 +48,7 @@ impl Exact<'_> {
         let s = &mut self.walk.summary;
         let [mut position, mut velocity] = [s.position[SLIP], s.velocity[SLIP]];
         let (mut ledger, mut gathered, mut time) = (s.ledger, s.slip_by_mode[kind], s.time_by_mode[kind]);
+        let mut path = self.wear.as_ref().map_or(0.0, |wear| wear.end.path);
         let mut k = from;
         for piece in shaking.pieces(from) {
             let step = piece.left;
@@ -68,13 +69,14 @@ impl Exact<'_> {
                 position += step * (velocity + step * (a0 / 2.0 + step * a1 / 6.0));
                 velocity += step * (a0 + step * a1 / 2.0);
                 gathered += position - before;
+                path += (position - before).abs();
                 time += step;
             }
             k += 1;
         }
         // It goes one way alone.
         if let Some(wear) = &mut self.wear {
-            wear.end.path += (position - s.position[SLIP]).abs();
+            wear.end.path = path;
         }
         s.slip_range = [s.slip_range[0].min(position), s.slip_range[1].max(position)];
         (s.position[SLIP], s.velocity[SLIP]) = (position, velocity);

@@ -96,6 +96,9 @@ impl Varying<'_> {
         if let Some(series) = self.series(piece, fresh) {
             return self.slide_by(&series, piece, time);
         }
+        if let Some(advanced) = self.advance_exactly(piece, time) {
+            return advanced;
+        }
         let start = self.state;
         let rate = self.rates(&start, &piece.ground);
         let length = if self.walk.mode == Mode::Rest {

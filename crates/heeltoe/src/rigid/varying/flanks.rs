@@ -81,7 +81,7 @@ impl Varying<'_> {
     }
 
     /// The flanks on both sides of a block that stands in a valley or on a peak, downstream or upstream neither way.
-    fn stands_between(&self, state: &State) -> Option<[i64; 2]> {
+    pub(super) fn stands_between(&self, state: &State) -> Option<[i64; 2]> {
         let rough = self.rough.as_ref()?;
         if state[3] != 0.0 {
             return None;
@@ -155,7 +155,7 @@ impl Varying<'_> {
         }
     }
 
-    fn stand_on(&mut self, flank: i64) {
+    pub(super) fn stand_on(&mut self, flank: i64) {
         if let Some(rough) = &mut self.rough {
             rough.turn_to(flank);
         }
@@ -241,7 +241,7 @@ impl Varying<'_> {
     }
 }
 
-fn goes_upstream(mode: Mode, falls: bool) -> bool {
+pub(super) fn goes_upstream(mode: Mode, falls: bool) -> bool {
     match mode.slip() {
         Some(slip) => slip == Slip::Upstream,
         None => falls && mode == Mode::Drift,

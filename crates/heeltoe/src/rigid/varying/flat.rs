@@ -12,11 +12,12 @@ use super::super::block::{Vector, HEEL, SLIP, TOE};
 use super::super::mode::Mode;
 use super::super::walk::Cause;
 use super::advance::Trial;
+use super::line::CLEAR;
 use super::power::Power;
 use super::shaking::{Ground, Piece};
 use super::step::State;
 use super::walk::Varying;
-use crate::friction::{Strength, TERMS};
+use crate::friction::{Strength, INVERSE, TERMS};
 
 /// A series is long enough where its last two terms are no more than this part of its leading ones; where it diverges, the
 /// others say nothing of its size.
@@ -92,7 +93,7 @@ impl Series {
         let power = |n: usize| (0..=n).map(|k| f[k] * v[n - k]).sum::<f64>();
         t * (0..count)
             .rev()
-            .fold(0.0, |sum, n| sum * t + power(n) / (n + 1) as f64)
+            .fold(0.0, |sum, n| sum * t + power(n) * INVERSE[n + 1])
     }
 
     /// When the slide ends, as a part of its length, and whether that is at a corner of the law.
@@ -164,19 +165,22 @@ impl Varying<'_> {
             mu[n] = unfolding.term(n, &path, &rate);
             let beside = if n == 0 { bond } else { per_path * path[n] };
             let before = if n == 0 { 0.0 } else { mu[n - 1] * pressing[1] };
-            let own: f64 = (1..=n).map(|k| mu[k] * friction[n - k]).sum::<f64>() * coupling;
-            let left = 1.0 - mu[0] * coupling;
-            if left <= 0.0 {
-                return None;
+            friction[n] = mu[n] * pressing[0] + before + beside;
+            if coupling != 0.0 {
+                let left = 1.0 - mu[0] * coupling;
+                if left <= 0.0 {
+                    return None;
+                }
+                let own: f64 = (1..=n).map(|k| mu[k] * friction[n - k]).sum();
+                friction[n] = (friction[n] + own * coupling) / left;
             }
-            friction[n] = (mu[n] * pressing[0] + before + own + beside) / left;
             let loads = if n < 2 { pull[n] } else { 0.0 };
             let mut acceleration = square * (loads + flat.per_friction[3] * friction[n]);
             if n == 0 {
                 acceleration = begins.unwrap_or(acceleration);
             }
-            rate[count] = acceleration / count as f64;
-            path[count] = rate[n] / count as f64;
+            rate[count] = acceleration * INVERSE[count];
+            path[count] = rate[n] * INVERSE[count];
             if count < LEADING {
                 size += rate[count].abs();
             }
@@ -204,7 +208,7 @@ impl Varying<'_> {
         }
         let part = length / unit;
         let tail = rate.terms[count - 1].abs() + rate.terms[count - 2].abs();
-        Some(Series {
+        let series = Series {
             way,
             length,
             path,
@@ -215,8 +219,11 @@ impl Varying<'_> {
             reach: rubbing.corner() - worn.path,
             corner: rubbing.corner(),
             error: [tail, tail / length],
-        })
-        .filter(|series| series.presses(super::line::CLEAR * self.walk.block.force_scale))
+        };
+        if !series.presses(CLEAR * self.walk.block.force_scale) {
+            return None;
+        }
+        Some(series)
     }
 
     /// While nothing ends the slide, go through what is left of a piece, or as far as the series holds, and return how long
@@ -224,7 +231,7 @@ impl Varying<'_> {
     pub(super) fn series_through(&mut self, piece: &Piece, time: f64) -> Option<f64> {
         let series = self.series(piece, None)?;
         let clear = series.rate.floor() > 0.5 * series.rate.terms[0];
-        if !clear || series.path.at(1.0) >= (1.0 - super::line::CLEAR) * series.reach {
+        if !clear || series.path.at(1.0) >= (1.0 - CLEAR) * series.reach {
             return None;
         }
         let start = self.state;

@@ -33,7 +33,7 @@ impl Varying<'_> {
     }
 
     /// What friction bears about a normal force in a mode at a state of the present step.
-    fn strength(&self, mode: Mode, normal: f64, state: &State) -> Strength {
+    pub(super) fn strength(&self, mode: Mode, normal: f64, state: &State) -> Strength {
         let (Some(rubbing), Some(worn)) = (&self.rubbing, self.worn_at(state)) else {
             return self.walk.block.strength();
         };
@@ -62,27 +62,6 @@ impl Varying<'_> {
             reactions = under(&strength, mode, instant)?;
         }
         Some((reactions, strength))
-    }
-
-    /// The friction of a base that slips, at a state of the present step: the normal force is `pressing` and so much more
-    /// for each unit of friction. None where that makes it infinite.
-    pub(super) fn friction_at(&self, state: &State, pressing: f64, per_friction: f64) -> Option<f64> {
-        let bends = self.rubbing.as_ref().is_some_and(Rubbing::bends);
-        let mut normal = pressing;
-        for _ in 0..TANGENTS {
-            let strength = self.strength(self.walk.mode, normal, state);
-            let ([_, coefficient], [_, constant]) = (strength.coefficient, strength.constant);
-            let left = 1.0 - coefficient * per_friction;
-            if left <= 0.0 {
-                return None;
-            }
-            let friction = (coefficient * pressing + constant) / left;
-            let before = std::mem::replace(&mut normal, pressing + per_friction * friction);
-            if !bends || (normal - before).abs() <= FOUND * self.walk.block.force_scale {
-                return Some(friction);
-            }
-        }
-        None
     }
 
     /// How much more the base that slips now would be pulled after a short while, under the same normal forces.

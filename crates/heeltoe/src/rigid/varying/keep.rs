@@ -76,7 +76,7 @@ impl Varying<'_> {
     }
 
     /// Slip and gaps at a state, and their velocities.
-    fn contact(&self, state: &State) -> [Vector; 2] {
+    pub(super) fn contact(&self, state: &State) -> [Vector; 2] {
         let (corner, state) = self.slipping(state);
         let [heel, toe] = self.turning.gaps(corner, &state);
         [

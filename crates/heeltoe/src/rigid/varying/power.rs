@@ -1,7 +1,7 @@
 //! A power series in the time over its length, and where it falls through zero.
 
 use super::super::event::bracketed;
-use crate::friction::{Terms, TERMS};
+use crate::friction::{Terms, INVERSE, TERMS};
 
 /// Halvings in the search for a fall; what falls and rises again within so short a time only touches.
 const HALVINGS: usize = 40;
@@ -31,7 +31,7 @@ impl Power {
     /// Its integral from zero on.
     pub(super) fn integral(&self, t: f64) -> f64 {
         let terms = self.terms[..self.count].iter().enumerate().rev();
-        t * terms.fold(0.0, |sum, (n, term)| sum * t + term / (n + 1) as f64)
+        t * terms.fold(0.0, |sum, (n, term)| sum * t + term * INVERSE[n + 1])
     }
 
     /// The least that it can be anywhere in [0, 1].

@@ -58,6 +58,7 @@ impl Varying<'_> {
             Some(slide) => slide.state(start, since),
             None => self
                 .by_series(start, piece, since)
+                .or_else(|| self.by_cubic(start, piece, since))
                 .unwrap_or_else(|| self.stepped(start, rate, piece, since).0),
         }
     }

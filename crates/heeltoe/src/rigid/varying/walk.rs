@@ -3,7 +3,7 @@
 use std::cell::Cell;
 
 use super::super::block::{Affine, Block, Vector, HEEL, SLIP, TOE};
-use super::super::choice::{accelerations, select, Moving};
+use super::super::choice::{accelerations, select, Modes, Moving};
 use super::super::exact;
 use super::super::mode::{Corner, Mode, Slip};
 use super::super::reaction::{Felt, Reactions};
@@ -14,6 +14,7 @@ use super::block::{Rotation, TurningBlock};
 use super::flat::Flat;
 use super::instant::Instant;
 use super::line::Line;
+use super::plain::level;
 use super::rough::Rough;
 use super::rubbing::{Gathered, Rubbing};
 use super::shaking::{Ground, Piece, TurningShaking};
@@ -56,6 +57,8 @@ pub(super) struct Varying<'a> {
     pub(super) flats: [Cell<Option<Flat>>; 2],
     /// Friction that goes by a law, where it does.
     pub(super) rubbing: Option<Rubbing<'a>>,
+    /// Whether its loads and its geometry stay as they are, see [`super::plain`].
+    pub(super) plain: bool,
     /// Asperities, where the crack is rough.
     pub(super) rough: Option<Rough>,
     pub(super) error: Gathered,
@@ -116,6 +119,7 @@ pub fn simulate(
         lines: Default::default(),
         flats: Default::default(),
         rubbing,
+        plain: turning.stays(shaking),
         rough: rough.map(|(asperities, before)| Rough::new(asperities, before, position[SLIP], block.width)),
         error: Gathered::default(),
     };
@@ -147,8 +151,8 @@ impl Varying<'_> {
 
     /// Whether the block is one of the exact walk by now: its loads and its geometry never change, its friction no more,
     /// and there is no error in its velocity that would grow.
-    fn is_exact(&self, shaking: &TurningShaking) -> bool {
-        self.turning.stays(shaking)
+    fn is_exact(&self) -> bool {
+        self.plain
             && self.rough.is_none()
             && self.rubbing.as_ref().is_some_and(Rubbing::settled)
             && self.error.speed == 0.0
@@ -205,7 +209,7 @@ impl Varying<'_> {
         let mut held = false;
         let mut k = 0;
         while k + 1 < time.len() {
-            if self.is_exact(shaking) {
+            if self.is_exact() {
                 return Some(k);
             }
             let mut local = 0.0;
@@ -335,21 +339,29 @@ impl Varying<'_> {
 
     /// The mode in which the block can go on with its bond as it is.
     pub(super) fn chosen(&mut self, piece: &Piece) -> Option<Mode> {
+        if let Some((reactions, upstream)) = self.ready(piece) {
+            return self.choose_among(&reactions, upstream, &level(piece));
+        }
         let (reactions, upstream) = self.reactions_about(piece);
         let level = Level {
             ground: [0.0; 2],
             rate: [1.0 / UNIT, 0.0],
             left: piece.left,
         };
+        self.choose_among(&reactions, upstream, &level)
+    }
+
+    /// The first of the modes in which it can go on; what it starts with is kept.
+    fn choose_among(&mut self, reactions: &impl Modes, upstream: bool, piece: &Level<2>) -> Option<Mode> {
         let closed = self.closed();
         let slip = self.velocity()[SLIP];
         let moving = Moving {
             closed,
             velocity: slip,
-            piece: &level,
+            piece,
         };
         let mut felt = Felt::default();
-        let mode = select(&reactions, self.walk.mode, &moving, &mut felt)?;
+        let mode = select(reactions, self.walk.mode, &moving, &mut felt)?;
         self.take_side(mode, upstream);
         let starts = [
             if slip == 0.0 {
@@ -360,7 +372,7 @@ impl Varying<'_> {
             f64::from(closed[0]),
             f64::from(closed[1]),
         ];
-        let first = accelerations(reactions.of(mode), &felt, starts, level.left).map(|[value, _]| value);
+        let first = accelerations(reactions.of(mode), &felt, starts, piece.left).map(|[value, _]| value);
         self.starting = Some(first);
         Some(mode)
     }
