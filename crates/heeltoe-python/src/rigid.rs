@@ -14,8 +14,10 @@ use crate::results::{by_column, BlockRun};
 use crate::tables::{named, pool, row, rows, slice, wrong, Numbers};
 use crate::watch::{prompt, watched};
 
-/// Runs of no more events, samples and moments that are wanted take a few milliseconds: nobody interrupts them.
+/// Runs of no more events, samples and moments that are wanted take a few milliseconds: nobody interrupts them. Events of
+/// a block that is integrated take longer.
 const EVENTS_AT_ONCE: u64 = 2000;
+const INTEGRATED_AT_ONCE: u64 = 500;
 const MOMENTS_AT_ONCE: usize = 50_000;
 
 /// How far a run has come (s).
@@ -28,16 +30,33 @@ fn block(numbers: &Numbers) -> PyResult<Block> {
     Ok(Block::new(&BlockNumbers::from_row(&row(numbers, "a block")?)))
 }
 
-/// One run with its events, and with what is seen of it at some moments (s).
-fn walked(py: Python<'_>, times: &Numbers, walk: impl FnOnce(Wanted) -> Run + Send) -> PyResult<Run> {
+/// One run of a motion of so many samples with its events, and with what is seen of it at some moments (s): beside Python,
+/// where it has more than so many events.
+fn walked(
+    py: Python<'_>,
+    samples: usize,
+    times: &Numbers,
+    options: Options,
+    at_once: u64,
+    walk: impl Fn(Options, Wanted<'_>) -> Run + Sync,
+) -> PyResult<Run> {
     let times = times.as_slice()?;
-    watched(py, None, reached, |stop| {
-        walk(Wanted {
-            times,
-            events: true,
-            stop,
-        })
-    })
+    let wanted = Wanted {
+        times,
+        events: true,
+        ..Wanted::default()
+    };
+    if samples + times.len() <= MOMENTS_AT_ONCE {
+        let few = Options {
+            event_limit: options.event_limit.min(at_once),
+            ..options
+        };
+        let run = prompt(py, || walk(few, wanted))?;
+        if run.summary.outcome != Outcome::EventLimit || few.event_limit == options.event_limit {
+            return Ok(run);
+        }
+    }
+    watched(py, None, reached, |stop| walk(options, Wanted { stop, ..wanted }))
 }
 
 /// Run one block; see `_kernel.pyi`.
@@ -65,22 +84,7 @@ pub fn run_rigid<'py>(
     };
     let walk =
         |options: Options, wanted: Wanted<'_>| exact::simulate(&block, &shaking, start, options, wanted);
-    if time.len()? + output_times.len()? <= MOMENTS_AT_ONCE {
-        let few = Options {
-            event_limit: event_limit.min(EVENTS_AT_ONCE),
-            ..options
-        };
-        let wanted = Wanted {
-            times: output_times.as_slice()?,
-            events: true,
-            ..Wanted::default()
-        };
-        let run = prompt(py, || walk(few, wanted))?;
-        if run.summary.outcome != Outcome::EventLimit || few.event_limit == event_limit {
-            return BlockRun::of(py, run, true);
-        }
-    }
-    let run = walked(py, &output_times, |wanted| walk(options, wanted))?;
+    let run = walked(py, time.len()?, &output_times, options, EVENTS_AT_ONCE, walk)?;
     BlockRun::of(py, run, true)
 }
 
@@ -134,9 +138,10 @@ pub fn run_rigid_varying<'py>(
         worn: worn.map_or(BeenThrough::FRESH, |(path, bonded)| BeenThrough { path, bonded }),
         asperities: asperities.map(|asperities| (asperities, rough.unwrap_or_default())),
     });
-    let run = walked(py, &output_times, |wanted| {
+    let walk = |options: Options, wanted: Wanted<'_>| {
         varying::simulate(&block, &body, surface.as_ref(), &shaking, start, options, wanted)
-    })?;
+    };
+    let run = walked(py, time.len()?, &output_times, options, INTEGRATED_AT_ONCE, walk)?;
     BlockRun::of(py, run, false)
 }
 

@@ -139,6 +139,7 @@ def test_random_dams_agree_with_the_walk_by_integration(seed):
         walked(case, time, ground, law, None if seed % 2 else up, integrated=which) for which in (False, True)
     )
     assert closed.outcome == judge.outcome
-    assert closed.worn.integrated <= judge.worn.integrated
+    # Both may have the same time to integrate: it ends where each of them finds the end of a slide.
+    assert closed.worn.integrated <= judge.worn.integrated + 1e-9
     if closed.summary.impacts == 0.0:
         assert closed.summary.slip == pytest.approx(judge.summary.slip, rel=1e-9, abs=judge.worn.error + 1e-9)

@@ -56,13 +56,13 @@ impl Power {
     /// First moment in [0, 1] at which it falls through zero; one that reaches zero at the end but for rounding does so.
     /// A root at the start, where it rises, is none.
     pub(super) fn first_fall(&self) -> Option<f64> {
-        if self.floor() > 0.0 {
+        let rounding = 4.0 * f64::EPSILON * (self.terms[0].abs() + self.swing());
+        if self.floor() > rounding {
             return None;
         }
         if self.terms[0] < 0.0 {
             return Some(0.0);
         }
-        let rounding = 4.0 * f64::EPSILON * (self.terms[0] + self.swing());
         let ends_at_zero = || (self.at(1.0) <= rounding && self.rate(1.0) <= 0.0).then_some(1.0);
         let mut whole = *self;
         if whole.terms[0] == 0.0 {
