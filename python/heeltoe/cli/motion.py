@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -149,7 +150,8 @@ def _written(
     from heeltoe.base.atomic_files import check_directory, write_text
     from heeltoe.views.figures.motion import write_motion_figure
 
-    into = out if out is not None and (out.is_dir() or not out.suffix) else None
+    # A name that is too long for any file is no directory, either: Path.is_dir raises.
+    into = out if out is not None and (os.path.isdir(out) or not out.suffix) else None
     for option, option_value in (("--figure", figure), ("--out", None if into else out)):
         if option_value is not None and len(motions) > 1:
             raise InputError("motion-one", option, f"{len(motions)} motions")
@@ -157,7 +159,10 @@ def _written(
         raise InputError("figure-format", "--figure", figure)
     if into is not None:
         check_directory(into, "--out")
-        into.mkdir(parents=True, exist_ok=True)
+        try:
+            into.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise InputError("cannot-write", "--out", into, reason=error.strerror or error) from None
     written = []
     for number, motion in enumerate(motions):
         name = _file_name(motion.name)
