@@ -27,7 +27,7 @@ from heeltoe.study.plan.file import Study, read_study
 from heeltoe.study.plan.plan import Pilot, Plan, plan_of
 from heeltoe.study.run.batches import SECONDS, run_part
 from heeltoe.study.run.schedule import check_workers, run_here, run_on_workers
-from heeltoe.study.run.store import Store, begin, keep, keep_questions, keep_seconds, pilot_of
+from heeltoe.study.run.store import Store, begin, keep_questions, keep_seconds, pilot_of
 
 #: Seconds that a part should take a worker: long beside what it costs to hand one out, short beside a patient wait.
 _SECONDS = 2.0
@@ -217,9 +217,7 @@ def _begun(plan: Plan, directory: Path, resume: bool, before: Callable[[Outlook]
     expected = outlook(plan, os.cpu_count() or 1)
     if before is not None:
         before(expected)
-    store = begin(plan, directory, expected.size, resume=resume)
-    keep(store, plan)
-    return store, plan
+    return begin(plan, directory, expected.size, resume=resume), plan
 
 
 def _run(plan: Plan, store: Store, scheduler: str | None, progress: Callable[[Progress], None] | None) -> None:
