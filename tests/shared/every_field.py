@@ -67,6 +67,7 @@ BASE: Fields = {
         "peak_slip": "20 mm",
         "opening_upstream": "10 mm",
         "opening_downstream": "10 mm",
+        "cracked_length": "5 m",
     },
     "statics": {
         "bonded": 0.3,

@@ -413,6 +413,7 @@ pub struct DamRun {
     lower: Table,
     force: Table,
     status: Py<PyArray2<u8>>,
+    damage: Table,
     modes: (Table, Table),
     water: Table,
     extremes: Py<PyTuple>,
@@ -454,6 +455,7 @@ impl DamRun {
             lower: shaped(py, frames.lower, count)?.unbind(),
             force: shaped(py, frames.force, count)?.unbind(),
             status: shaped(py, frames.status, count)?.unbind(),
+            damage: shaped(py, frames.damage, count)?.unbind(),
             modes: (
                 shaped(py, frames.modes_upper, count)?.unbind(),
                 shaped(py, frames.modes_lower, count)?.unbind(),

@@ -118,6 +118,8 @@ class Limits(Fields):
     """Opening of the crack at the upstream face."""
     opening_downstream: Annotated[Length, Field(ge=0.0)] | None = None
     """Opening of the crack at the downstream face."""
+    cracked_length: Annotated[Length, Field(ge=0.0)] | None = None
+    """Length that is cracked in the end: of a bonded joint what the earthquake cracks, of a crack all of it."""
 
 
 #: Of a flood's depth: that there is none.

@@ -630,6 +630,8 @@ class DamRun:
         the lower one behind them [N].
     status
         (f, c) of each watched node, counting ``CONTACT_STATUSES``.
+    damage
+        (f, c) of the bond of each: 0 intact, 1 broken or without a bond; (f, 0) without a bonded joint.
     modes
         (f, m) amplitudes of the modes of the upper and of the lower part.
     water
@@ -651,6 +653,7 @@ class DamRun:
     lower: Final[Floats]
     force: Final[Floats]
     status: Final[NDArray[np.uint8]]
+    damage: Final[Floats]
     modes: Final[tuple[Floats, Floats]]
     water: Final[Floats]
     extremes: Final[tuple[StressExtremes, ...]]

@@ -118,6 +118,9 @@ HEADLINES = (
 )
 """In the order in which they are shown."""
 
+#: What is cracked in the end: of a bonded joint what the earthquake cracks, of a crack its width.
+CRACKED = "cracked_length_m"
+
 
 def leading_crack(slips_m: Sequence[float], first: int) -> int:
     """Return which of several cracks leads: that which slips most, or the `first` one of the case where none slips by

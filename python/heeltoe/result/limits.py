@@ -18,6 +18,7 @@ LABELS = {
     "peak_slip": "largest slip",
     "opening_upstream": "opening at the upstream face",
     "opening_downstream": "opening at the downstream face",
+    "cracked_length": "cracked length",
 }
 
 
@@ -85,6 +86,19 @@ def _check(name: str, limit: float, crack: CrackResponse, *, failed: bool) -> Li
     """Compare a number of one crack with what it may be."""
     numbers = crack.numbers
     assert numbers is not None
+    if name == "cracked_length":
+        joint = numbers.get("joint")
+        evidence = numbers.get("evidence")
+        worth = None if evidence is None else evidence["cracked_length_m"]
+        return LimitCheck(
+            name=name,
+            # A crack that is no joint was there from the beginning.
+            value_m=numbers["crack_width_m"] if joint is None else joint["cracked_length_m"],
+            allowed_m=limit,
+            failed=failed,
+            uncertainty_m=0.0 if worth is None else worth.uncertainty,
+            elevation_m=crack.elevation,
+        )
     peak = max(("peak_slip_downstream_m", "peak_slip_upstream_m"), key=lambda key: abs(numbers[key]))
     keys = {
         "residual_slip": "residual_slip_m",

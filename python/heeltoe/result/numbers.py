@@ -91,9 +91,11 @@ class ElasticFrictionLaw(FrictionLawState):
 class BondState(Block):
     """What has become of the bond of a joint."""
 
-    first_cracking_s: Annotated[float | None, Number("When the joint begins to crack; null where it holds.", "s")]
+    first_cracking_s: Annotated[
+        float | None, Number("When the bond of the joint first breaks; null where it holds.", "s")
+    ]
     first_cracking_at_m: Annotated[
-        float | None, Number("Where it begins to crack, from the upstream face; null where it holds.", "m")
+        float | None, Number("Where it breaks first, from the upstream face; null where it holds.", "m")
     ]
     cracked_through_s: Annotated[
         float | None, Number("When it is cracked from face to face; null where a ligament is left.", "s")
@@ -390,6 +392,9 @@ class EvidenceNumbers(Block):
     rocking_upstream_rad: Annotated[HeadlineWorth, Number("What the rotation upstream is worth.", "rad")]
     opening_upstream_m: Annotated[HeadlineWorth, Number("What the opening at the upstream face is worth.", "m")]
     opening_downstream_m: Annotated[HeadlineWorth, Number("What the opening at the downstream face is worth.", "m")]
+    cracked_length_m: Annotated[
+        HeadlineWorth | None, Number("What the cracked length of a joint is worth; null of a crack.", "m")
+    ] = None
 
 
 class ElasticCrack(CrackNumbers):

@@ -15,7 +15,7 @@ from heeltoe.units.write import angle, length, speed
 if TYPE_CHECKING:
     from heeltoe.result.limits import LimitCheck
     from heeltoe.result.numbers import BondState
-    from heeltoe.result.response import Response
+    from heeltoe.result.response import CrackResponse, Response
 
 # Less time in the air in all [s] is a few bounces, which the strikes tell of.
 _IN_THE_AIR_S = 0.05
@@ -153,26 +153,24 @@ def _slip(response: Response, units: str) -> str:
 def joint_said(response: Response, units: str = "si") -> str:
     """Say whether the joints of an elastic dam crack, from where, and what is left; nothing of a crack."""
     if not response.several:
-        return _joint(getattr(response, "joint", None), response.crack_width_m, "The joint", units)
+        return _joint(response, "The joint", units)
     return " ".join(
         text
         for crack in response.cracks
-        if (
-            text := _joint(
-                getattr(crack, "joint", None),
-                crack.crack_width_m,
-                f"The joint at {_level(crack.elevation, units)}",
-                units,
-            )
-        )
+        if (text := _joint(crack, f"The joint at {_level(crack.elevation, units)}", units))
     )
 
 
-def _joint(bond: BondState | None, width: float, joint: str, units: str) -> str:
+def _joint(crack: Response | CrackResponse, joint: str, units: str) -> str:
+    bond: BondState | None = getattr(crack, "joint", None)
     if bond is None:
         return ""
+    width: float = crack.crack_width_m
     if bond.first_cracking_s is None:
-        return f"{joint} holds over its {length(width, units)}."
+        softened = ""
+        if bond.softening_length_m > 0.0:
+            softened = f"; {length(bond.softening_length_m, units)} of it has softened"
+        return f"{joint} does not crack over its {length(width, units)}{softened}."
     when = "before the earthquake" if bond.first_cracking_s == 0.0 else f"at {bond.first_cracking_s:.2f} s"
     if bond.cracked_through_s is not None:
         through = "already then" if bond.cracked_through_s == 0.0 else f"at {bond.cracked_through_s:.2f} s"
@@ -182,13 +180,17 @@ def _joint(bond: BondState | None, width: float, joint: str, units: str) -> str:
         for face, cracked in (("upstream", bond.cracked_upstream_m), ("downstream", bond.cracked_downstream_m))
         if cracked > 0.0
     ]
-    if not faces and bond.cracked_length_m > 0.0:
-        faces = [f"{length(bond.cracked_length_m, units)} between the faces"]
     if not faces:
-        return (
-            f"{joint} begins to crack {when}, but holds: {length(bond.softening_length_m, units)} of it has softened."
-        )
-    return f"{joint} begins to crack {when}: {' and '.join(faces)} of {length(width, units)}; the rest holds."
+        faces = [f"{length(bond.cracked_length_m, units)} between the faces"]
+    how_far = f"{' and '.join(faces)} of {length(width, units)}{_certain(crack, units)}"
+    return f"{joint} begins to crack {when}: {how_far}; the rest holds."
+
+
+def _certain(crack: Response | CrackResponse, units: str) -> str:
+    """Return how certain the cracked length of a joint is."""
+    evidence = getattr(crack, "evidence", None)
+    worth = None if evidence is None else evidence.cracked_length_m
+    return "" if worth is None else f" (numerically ± {length(worth.uncertainty, units)})"
 
 
 def _elastic_slip(response: Response, units: str) -> str:

@@ -13,7 +13,9 @@ from heeltoe import InputError, read_case, run
 from heeltoe.models.flexible.body.bond import node_lengths, zone_mesh
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.body.step import longest_step
+from heeltoe.models.statics.after import ligament_of, statics_after
 from heeltoe.result.verdict import verdict
+from heeltoe.views.figures.crack import joint_figure, joint_states
 from heeltoe.views.figures.energy import energy_figure
 
 # Strong and tough: a brittle one would ask for elements and steps of its own.
@@ -80,7 +82,7 @@ def test_a_strength_beyond_reach_is_the_bonded_dam():
     twice["motion"]["points"] = [[t, f"{2.0 * float(a.split()[0])} g"] for t, a in PULSES]
     one, two = (run(read_case(each), "flexible") for each in (fields, twice))
     assert one.joint.first_cracking_s is None
-    assert verdict(one).startswith("The joint holds over its")
+    assert verdict(one).startswith("The joint does not crack over its")
     assert max(one.opening_upstream_m, one.opening_downstream_m) < 1e-12
     # The first frame is the state of rest, which is not scaled.
     for name in ("normal_force_n", "friction_force_n"):
@@ -146,7 +148,7 @@ def test_a_brittle_joint_asks_for_a_short_step():
 def test_several_joints_crack_in_an_order():
     fields = dam()
     fields["cracks"] = [
-        {"elevation": "18 m", "friction": 1.0, "bond": BOND},
+        {"elevation": "18 m", "friction": 1.0, "bond": BOND | {"fracture_energy": "20 N/m"}},
         {"elevation": "6 m", "bond": STRONG},
     ]
     del fields["crack"]
@@ -154,7 +156,7 @@ def test_several_joints_crack_in_an_order():
     upper, lower = (crack.joint for crack in response.cracks)
     assert upper.first_cracking_s is not None
     assert lower.first_cracking_s is None
-    assert "The joint at 6 m holds" in verdict(response)
+    assert "The joint at 6 m does not crack" in verdict(response)
 
 
 @pytest.mark.parametrize("pattern", ["constant", "full while open", "zero while open"])
@@ -164,3 +166,61 @@ def test_water_enters_what_opens(pattern):
     response = run(read_case(fields), "flexible")
     assert response.ok
     assert response.energy.residual < 1e-9
+
+
+#: Its heel bears some 0.9 MPa of tension and of shear before the earthquake, and more on a finer mesh.
+BASE = {"tensile_strength": "0.8 MPa", "cohesion": "1.2 MPa", "fracture_energy": "100 N/m"}
+
+
+@pytest.mark.parametrize("across", [13, 26, 40])
+def test_what_a_joint_is_before_the_earthquake_does_not_depend_on_the_mesh(across):
+    """A corner that softens by a hair is no crack, and keeps the shear that its limit allows."""
+    fields = dam(**BASE)
+    fields["crack"]["elevation"] = "0 m"
+    fields["flexible"]["elements_across"] = across
+    still = build_flexible_dam(read_case(fields))
+    along, across_ = still.crack_forces[0]
+    lengths = node_lengths(still.reduced[0].position[: along.size])
+    tension, shear = -across_[0] / lengths[0], abs(along[0]) / lengths[0]
+    assert still.start.stands
+    assert tension <= 0.8e6 * (1.0 + 1e-9)
+    # The end of the line of the shear strength: c - f_t at that tension.
+    assert 0.35e6 < shear < 1.2e6 - tension + 2e3
+    fields["motion"]["points"] = [["0 s", "0 g"], ["0.01 s", "0.001 g"], ["0.02 s", "0 g"]]
+    assert run(read_case(fields), "flexible").joint.first_cracking_s is None
+
+
+def test_the_picture_shows_what_the_numbers_say():
+    fields = dam()
+    fields["limits"] = {"cracked_length": "1 m"}
+    response = run(read_case(fields), "flexible")
+    along, states = joint_states(response.crack)
+    lengths = node_lengths(along)
+    cracked = np.where(states >= 2, lengths, 0.0).sum(axis=1)
+    assert cracked == pytest.approx(response.histories["cracked_length_m"], abs=1e-9)
+    softening = np.where(states == 1, lengths, 0.0).sum(axis=1)
+    assert softening == pytest.approx(response.histories["softening_length_m"], abs=1e-9)
+    # Nothing heals.
+    assert np.all(np.diff(response.crack.damage, axis=0) >= 0.0)
+    assert {text.get_text() for text in joint_figure(response).legends[0].get_texts()} >= {"intact", "softening"}
+    (check,) = response.limits
+    assert (check.name, check.value_m) == ("cracked_length", response.joint.cracked_length_m)
+    assert check.met == (response.joint.cracked_length_m <= 1.0)
+
+
+def test_what_is_left_bears_after_the_earthquake():
+    case = read_case(dam(**STRONG))
+    held = run(case, "flexible")
+    assert ligament_of(held) == (0.0, held.crack_width_m)
+    (after,) = (each for each in statics_after(case, held).cases if each.name == "post-seismic")
+    assert after.cohesive_force_n == pytest.approx(60e6 * held.crack_width_m, rel=1e-6)
+    assert any("the joint holds over" in str(text) for text in after.assumptions)
+
+
+def test_the_evidence_covers_the_cracked_length():
+    fields = dam()
+    fields["flexible"] = {"elements_across": 6, "evidence": "step"}
+    response = run(read_case(fields), "flexible")
+    worth = response.evidence.cracked_length_m
+    assert worth.value == response.joint.cracked_length_m
+    assert worth.uncertainty >= 0.5 * response.crack_width_m / 6.0 * (1.0 - 1e-9)

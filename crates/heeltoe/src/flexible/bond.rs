@@ -16,10 +16,12 @@
 //! metre, slip by `G_II` beside friction, which acts throughout. `k` leads back to the origin when the node closes,
 //! `f_t (1 - lambda) / w_max`, but is no stiffer than the step can follow. The bond's part of the shear changes
 //! elastically within `C - mu T`, by as stiff a spring, beside the friction `mu (p_n + T)`: so a node that opens loses
-//! no shear at once, and contact has a solution.
+//! no shear at once, and contact has a solution. In the search for rest the bond holds its share of the shear without such a
+//! give: that of the joint before anything opens, then what it was found to bear.
 //!
-//! In a step of dt, contact is solved for what is left of `p` without the bond, whose conditions are those of a crack. `T` and `C` are means of the start and the end of the step, found by passes: so the work of a bond
-//! that breaks is `a G_f`, whatever the step.
+//! In a step of dt, contact is solved for what is left of `p` without the bond, whose conditions are those of a crack.
+//! `T` and `C` are means of the start and the end of the step, found by passes: so the work of a bond that breaks is
+//! `a G_f`, whatever the step.
 
 use super::coulomb::{ContactOperator, Known, Problem, Report, Solver};
 use super::crack_line::Line;
@@ -35,6 +37,8 @@ const MISSED: f64 = 1e-11;
 const HALVED: u32 = 20;
 const MOST: u32 = 60;
 
+/// So many times their strengths tie joints before the search for rest.
+const TIED: f64 = 1e6;
 /// Less damage is rounding.
 const LEAST: f64 = 1e-9;
 
@@ -61,9 +65,8 @@ pub(super) struct Bond {
     stiffest: [f64; 2],
     /// After the step, if this is the last pass.
     next: After,
-    /// Mean tension, shear strength beside friction, and shear of the step (N), and whether the latter acts.
+    /// Mean tension, shear strength beside friction, and shear of the step (N).
     mean: [f64; 3],
-    springs: bool,
     /// Whether a closed node bears its cohesion as a limit, in the search for rest.
     rigid: bool,
 }
@@ -131,15 +134,10 @@ impl Bond {
         }
         let after = self.bears(next.damage, next.gap, next.widest);
         next.shear = next.shear.clamp(-after[1], after[1]);
-        self.springs = open || !self.rigid;
         self.mean = [
             0.5 * (before[0] + after[0]),
             0.5 * (before[1] + after[1]),
-            if self.springs {
-                0.5 * (self.shear + next.shear)
-            } else {
-                0.0
-            },
+            0.5 * (self.shear + next.shear),
         ];
         self.next = next;
     }
@@ -163,12 +161,22 @@ impl Bond {
 pub struct Cracked {
     /// Work (J) that the bond has taken.
     pub energy: f64,
-    /// When the first node began to soften (s), and where: distance from the heel (m); -1 where none has.
+    /// When the first node broke (s), and where: distance from the heel (m); -1 where none has.
     pub first: [f64; 2],
     /// When no node was intact or softening any more (s); -1 before.
     pub through: f64,
     /// Length broken from the heel and from the toe, all that is broken, and all that softens (m).
     pub lengths: [f64; 4],
+}
+
+impl Cracked {
+    /// Nothing has happened to it.
+    pub(super) const NONE: Cracked = Cracked {
+        energy: 0.0,
+        first: [-1.0; 2],
+        through: -1.0,
+        lengths: [0.0; 4],
+    };
 }
 
 /// All bonds.
@@ -181,21 +189,25 @@ pub(super) struct Bonds {
     shift: Vec<f64>,
     /// What they have taken in the step from each component of each contact.
     pub taken: Vec<f64>,
+    /// Damage of each contact, 1 where it has no bond.
+    pub damage: Vec<f64>,
     passes: u32,
+    /// Whether the joints are still tied, at the start of the search for rest.
+    tied: bool,
 }
 
 impl Bonds {
     /// None where no crack is bonded. Each crack's contacts have a share of its length (m), and are there from the
     /// beginning or in place of others; `shaken` says whether the dynamic strengths are asked for.
     pub(super) fn new(lines: &[Line], shares: &[Vec<(f64, bool)>], shaken: bool) -> Option<Self> {
-        if lines.iter().all(|line| line.bond.is_none()) {
+        if !lines.iter().any(Line::bonded) {
             return None;
         }
         let mut first = 0;
         let mut cracks = Vec::new();
         for (line, shares) in lines.iter().zip(shares) {
             let mut bonds = Vec::new();
-            if let Some(law) = line.bond {
+            if let Some(law) = line.bond.filter(|_| line.bonded()) {
                 let factor = if shaken { law.dynamic } else { 1.0 };
                 let strengths = [factor * law.tensile, factor * law.cohesion];
                 let mut place = 0.0;
@@ -216,7 +228,6 @@ impl Bonds {
                         stiffest: [0.0; 2],
                         next: After::default(),
                         mean: [0.0; 3],
-                        springs: true,
                         rigid: !shaken,
                     });
                     place += length;
@@ -225,13 +236,15 @@ impl Bonds {
             first += shares.len();
             cracks.push(bonds);
         }
-        let none = Cracked {
-            first: [-1.0; 2],
-            through: -1.0,
-            ..Cracked::default()
-        };
+        let mut damage = vec![1.0; first];
+        cracks
+            .iter()
+            .flatten()
+            .for_each(|bond: &Bond| damage[bond.contact] = 0.0);
         Some(Bonds {
-            cracked: vec![none; cracks.len()],
+            cracked: vec![Cracked::NONE; cracks.len()],
+            damage,
+            tied: !shaken,
             shift: vec![0.0; 2 * first],
             taken: vec![0.0; 2 * first],
             cracks,
@@ -267,10 +280,11 @@ impl Bonds {
         self.passes = 0;
         if self.iter_mut().any(|bond| bond.rigid) {
             problem.added.resize(solver.status.len(), [0.0; 2]);
+            problem.lean.resize(solver.status.len(), 0.0);
         }
         let m = solver.status.len();
         let stiffest = 2.0 * FOLLOWED / (step.theta * step.dt * step.dt);
-        for bond in self.iter_mut() {
+        for bond in self.cracks.iter_mut().flatten() {
             let k = bond.contact;
             let status = solver.status[k];
             bond.stiffest = [stiffest * problem.scale[m + k], stiffest * problem.scale[k]];
@@ -281,6 +295,9 @@ impl Bonds {
             };
             let still = if status.slips() { Status::Stick } else { status };
             bond.follow(still, [0.0; 2], bond.shear);
+            if self.tied {
+                bond.mean = [TIED * bond.strength[0], TIED * bond.strength[1], 0.0];
+            }
         }
         self.draw(problem, step.dt, 1.0);
     }
@@ -298,11 +315,9 @@ impl Bonds {
                 change = change.max(more.abs());
                 shift[component] += more;
             }
-            if !bond.springs {
-                for added in &mut problem.added[k] {
-                    change = change.max((cohesion - *added).abs());
-                    *added += far * (cohesion - *added);
-                }
+            if bond.rigid {
+                problem.added[k] = [cohesion; 2];
+                problem.lean[k] = shear;
             }
         }
         change
@@ -389,6 +404,11 @@ impl Bonds {
         Known.velocities::<W>(problem, &self.shift, &mut shifted);
         problem.b = shifted;
         let report = solver.solve::<W>(problem, &mut Known);
+        solver
+            .p
+            .iter_mut()
+            .zip(&self.shift)
+            .for_each(|(p, own)| *p += own);
         let m = solver.status.len();
         for bond in self.iter_mut() {
             let k = bond.contact;
@@ -398,11 +418,7 @@ impl Bonds {
                 solver.p[k] / step.dt,
             );
         }
-        solver
-            .p
-            .iter_mut()
-            .zip(&self.shift)
-            .for_each(|(p, own)| *p += own);
+        self.tied = false;
         report
     }
 
@@ -441,11 +457,14 @@ impl Bonds {
     /// Look at how far each crack has gone.
     fn look(&mut self, now: f64) {
         for (bonds, cracked) in self.cracks.iter().zip(&mut self.cracked) {
+            for bond in bonds {
+                self.damage[bond.contact] = bond.damage;
+            }
             if bonds.is_empty() {
                 continue;
             }
             if cracked.first[0] < 0.0 {
-                if let Some(bond) = bonds.iter().find(|bond| bond.damage > LEAST) {
+                if let Some(bond) = bonds.iter().find(|bond| bond.damage >= 1.0) {
                     cracked.first = [now, bond.place];
                 }
             }

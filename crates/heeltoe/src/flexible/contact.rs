@@ -77,7 +77,7 @@ impl Contacts {
             let corners = lines.get(k).map_or_else(Corners::default, Corners::of);
             contactors.extend(chosen(kind, place.upper.count, place.lower.count));
             contactors.extend(turned_around(kind, &corners));
-            if lines.get(k).is_some_and(|line| line.bond.is_some()) {
+            if lines.get(k).is_some_and(Line::bonded) {
                 contactors[first..]
                     .iter_mut()
                     .for_each(|contactor: &mut Contactor| contactor.slack = SLACK);

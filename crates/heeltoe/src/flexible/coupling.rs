@@ -70,6 +70,7 @@ impl Crack {
                 mu_slip: friction.iter().map(|mu| mu[1]).collect(),
                 scale: vec![0.0; 2 * m],
                 added: Vec::new(),
+                lean: Vec::new(),
             },
             solver: if m >= MANY && laws.is_none() && (bonds.is_none() || shaken) {
                 Solver::with_inverse(m)

@@ -43,6 +43,12 @@ pub struct Line {
 }
 
 impl Line {
+    /// Whether anything bonds it; a bond without strength is that of a crack.
+    pub(super) fn bonded(&self) -> bool {
+        self.bond
+            .is_some_and(|law| law.tensile > 0.0 || law.cohesion > 0.0)
+    }
+
     /// The only crack of a dam, between faces of so many nodes.
     pub fn only(nodes: [usize; 2], friction: [f64; 2], give: RockingThresholds) -> Self {
         Line {

@@ -81,17 +81,16 @@ impl Dam {
             if line.law.is_some() || self.contactors == 5 {
                 return Err("a bonded joint has constant friction, and its nodes are watched once");
             }
-            let numbers = [
-                bond.tensile,
-                bond.cohesion,
-                bond.energy[0],
-                bond.energy[1],
-                bond.dynamic,
-            ];
-            if !numbers.iter().all(|number| *number > 0.0 && number.is_finite())
+            let strengths = [bond.tensile, bond.cohesion];
+            let others = [bond.energy[0], bond.energy[1], bond.dynamic];
+            if !strengths.iter().all(|strength| *strength >= 0.0)
+                || !others.iter().all(|number| *number > 0.0)
+                || strengths.iter().chain(&others).any(|number| !number.is_finite())
                 || bond.cohesion < friction * bond.tensile
             {
-                return Err("a bond needs strengths and energies above zero, and a cohesion of friction times its tensile strength");
+                return Err(
+                    "a bond needs energies above zero, and a cohesion of friction times its tensile strength",
+                );
             }
         }
         if self.cracks.len() > 1 && !self.inside.is_empty() {

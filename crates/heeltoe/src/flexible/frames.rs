@@ -26,6 +26,8 @@ pub struct Frames {
     pub force: Vec<f64>,
     /// Status of each contactor, by its place among [`Status::NAMES`].
     pub status: Vec<u8>,
+    /// Damage of the bond of each, 1 where it has none; empty without a bonded joint.
+    pub damage: Vec<f64>,
     /// Amplitudes of all modes of the upper body, on request.
     pub modes_upper: Vec<f64>,
     /// Amplitudes of all modes of the lower body, on request.
@@ -45,6 +47,7 @@ impl Frames {
         faces: Faces,
         since: &Since,
         status: &[Status],
+        damage: &[f64],
     ) {
         self.rows.extend(cracks.map(|now| now.row()));
         self.upper.extend_from_slice(faces.upper);
@@ -52,6 +55,7 @@ impl Frames {
         let rate = since.rate();
         self.force.extend(since.nodes.iter().map(|p| p * rate));
         self.status.extend(status.iter().map(|s| *s as u8));
+        self.damage.extend_from_slice(damage);
     }
 
     /// Whether slip and openings of all `cracks` change by less than `moved` in the last `seconds`, or in the second half

@@ -48,6 +48,7 @@ fn random(dice: &mut Dice, contacts: usize, coupling: f64, mu: f64) -> Problem {
         mu_stick: vec![mu; contacts],
         mu_slip: vec![mu; contacts],
         added: Vec::new(),
+        lean: Vec::new(),
     }
 }
 
@@ -160,6 +161,7 @@ fn single(b: [f64; 2], mu: f64) -> (Status, Vec<f64>, Report) {
         mu_stick: vec![mu],
         mu_slip: vec![mu],
         added: Vec::new(),
+        lean: Vec::new(),
     };
     let mut solver = Solver::new(1);
     let report = solver.solve::<Plain>(&mut problem, &mut Known);
@@ -204,6 +206,7 @@ fn pivoting_keeps_the_order_of_the_unknowns() {
         mu_stick: vec![10.0; 2],
         mu_slip: vec![10.0; 2],
         added: Vec::new(),
+        lean: Vec::new(),
     };
     let mut solver = Solver::new(2);
     let report = solver.solve::<Plain>(&mut problem, &mut Known);

@@ -6,9 +6,10 @@
 use std::ops::Range;
 
 use super::bodies::Sides;
+use super::bond::Cracked;
 use super::contact::Contactor;
 use super::coupling::Crack;
-use super::crack_line::RockingThresholds;
+use super::crack_line::Line;
 use super::dam::{Dam, Wanted};
 use super::envelope::Envelope;
 use super::faces::{mean_along, Faces};
@@ -43,18 +44,30 @@ impl Watch {
         place: Place,
         contacts: Range<usize>,
         contactors: &[Contactor],
-        give: RockingThresholds,
+        line: &Line,
         start: Faces,
     ) -> Self {
         let faces = place.of(start);
         let zero = mean_along(faces.upper) - mean_along(faces.lower);
         let along = place.of(dam.bodies.faces(|body| &body.position)).upper.along;
+        let width = along[along.len() - 1] - along[0];
+        // A bond without strength is broken from the start.
+        let cracked = match line.bond {
+            Some(_) if !line.bonded() => Cracked {
+                lengths: [width, width, width, 0.0],
+                ..Cracked::default()
+            },
+            _ => Cracked::NONE,
+        };
         Watch {
-            stance: Stance::new(give, &contactors[contacts.clone()], faces),
-            summary: Summary::default(),
+            stance: Stance::new(line.give, &contactors[contacts.clone()], faces),
+            summary: Summary {
+                cracked,
+                ..Summary::default()
+            },
             zero,
             motion: Motion::of(faces, zero),
-            reach: REACH * (along[along.len() - 1] - along[0]),
+            reach: REACH * width,
             contacts,
             place,
         }
@@ -136,9 +149,7 @@ impl<'a> Walk<'a> {
         Walk {
             dam,
             cracks: cracks
-                .map(|((place, contacts), line)| {
-                    Watch::new(dam, place, contacts, contactors, line.give, start)
-                })
+                .map(|((place, contacts), line)| Watch::new(dam, place, contacts, contactors, line, start))
                 .collect(),
             crack,
             steps: Summary::default(),
@@ -171,7 +182,8 @@ impl<'a> Walk<'a> {
             watch.book(end, self.dt, position, &self.crack, normal / time);
         }
         if let Some(bonds) = &self.crack.bonds {
-            for (watch, cracked) in self.cracks.iter_mut().zip(&bonds.cracked) {
+            let bonded = self.cracks.iter_mut().zip(&bonds.cracked).zip(&self.dam.cracks);
+            for ((watch, cracked), _) in bonded.filter(|(_, line)| line.bonded()) {
                 watch.summary.cracked = *cracked;
             }
         }
@@ -206,7 +218,8 @@ impl<'a> Walk<'a> {
             summary: &watch.summary,
             ledger,
         });
-        self.frames.keep(cracks, position, since, status);
+        let damage = self.crack.bonds.as_ref().map_or(&[][..], |bonds| &bonds.damage);
+        self.frames.keep(cracks, position, since, status, damage);
         if self.wanted.modes {
             self.frames.keep_modes(&self.dam.bodies, modes);
             self.frames.water.extend_from_slice(water);

@@ -26,7 +26,7 @@ from heeltoe.models.flexible.run.slip_history import Worn, law_warnings, worn_of
 from heeltoe.models.flexible.warnings import judge_outcome, stands, warnings_of
 from heeltoe.models.runner import STEP, severity, until_rest
 from heeltoe.motion.earthquake import Earthquake
-from heeltoe.result.contract import leading_crack
+from heeltoe.result.contract import CRACKED, leading_crack
 from heeltoe.result.numbers import SignNumbers
 from heeltoe.result.rest import LAST_S, last_change, still_since
 from heeltoe.units.sentences import Sentence
@@ -149,7 +149,12 @@ class Rested(NamedTuple):
             name: max(abs(getattr(row, column)) for row in self.run.summaries for column in columns)
             for name, columns in _LIMITED.items()
         }
-        limits = {name: getattr(case.limits, name) for name in _LIMITED}
+        dam = self.shaken.dam
+        lengths = zip(self.run.summaries, dam.lines, dam.sections, strict=True)
+        worst[CRACKED.removesuffix("_m")] = max(
+            row.cracked_length if line.bond is not None else section.crack_width for row, line, section in lengths
+        )
+        limits = {name: getattr(case.limits, name) for name in worst}
         return sum(limit is not None and worst[name] > limit for name, limit in limits.items())
 
     def badness(self, case: Case) -> tuple[int, int, float]:

@@ -9,6 +9,7 @@ from heeltoe.case.model import Case
 from heeltoe.errors.sanitize import plain
 from heeltoe.models.statics.joints import Joints, statics_of_sections
 from heeltoe.models.statics.model import Statics, statics
+from heeltoe.result.numbers import BondState
 from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.warnings.notice import Notice
@@ -70,7 +71,25 @@ def statics_after(case: Case, *runs: Response) -> Statics:
         source = f"the {model} model ends {outcome!r}, zero is taken"
         found = statics(case, 0.0, slip_source=source, beside=beside)
         return replace(found, warnings=(Notice("slip-untold", model=model, outcome=outcome), *found.warnings))
-    return statics(case, trusted.residual_slip_m, slip_source=slip_source(trusted), beside=beside)
+    source, ligament = slip_source(trusted), ligament_of(trusted)
+    # What still holds has not slid: its faces are apart by what the concrete gives.
+    slip = trusted.residual_slip_m if ligament is None else 0.0
+    return statics(case, slip, slip_source=source, ligament=ligament, beside=beside)
+
+
+def ligament_of(run: Response) -> tuple[float, float] | None:
+    """Return from where to where a bonded joint still holds after its earthquake [m from the heel]; None of a crack,
+    and of a joint that is cracked through.
+
+    What has cracked or softened between its ends is taken off the side of the heel.
+    """
+    joint: BondState | None = getattr(run, "joint", None)
+    if joint is None or joint.cracked_through_s is not None:
+        return None
+    width: float = run.crack_width_m
+    to = width - joint.cracked_downstream_m
+    lost = joint.cracked_length_m - joint.cracked_downstream_m + joint.softening_length_m
+    return min(lost, to), to
 
 
 def slip_source(run: Response) -> str:

@@ -117,7 +117,7 @@ def _rarity(case: Case, earthquake: StaticsEarthquake) -> tuple[Loads, tuple[Sen
     return "earthquake", (Sentence(text),)
 
 
-def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
+def post_seismic(case: Case, slip: float, source: str, ligament: tuple[float, float] | None = None) -> Solved | None:
     """Return the usual loads on the block where the earthquake has left it; None where it has slid off its crack.
 
     Parameters
@@ -128,6 +128,8 @@ def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
         Residual slip, positive downstream [m].
     source
         Where the slip comes from.
+    ligament
+        From where to where a bonded joint still holds [m from the heel]; None of a crack.
     """
     width, size, choice = case.cut.crack_width, abs(slip), case.statics
     if size >= width:
@@ -143,10 +145,17 @@ def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
         friction = math.tan(max(math.atan(friction) - falling, 0.0))
         kind = "kinetic, on a flank of the asperities that falls in the direction of the push, tan(φ - i)"
     told = f"friction {friction:g}, {kind}" if law is None else "friction that all slip leaves, by crack.law"
-    said = [
-        Sentence.of("slip {slip_m:.4f m} {way}: {source}", slip_m=size, way=way, source=source),
-        Sentence(f"{told}; the crack has slid: no cohesion, no tensile strength"),
-    ]
+    bond = case.crack.bond if ligament is not None else None
+    said = [Sentence.of("slip {slip_m:.4f m} {way}: {source}", slip_m=size, way=way, source=source)]
+    if bond is None:
+        said.append(Sentence(f"{told}; the crack has slid: no cohesion, no tensile strength"))
+    else:
+        assert ligament is not None
+        text = (
+            "{told}; the joint holds over {left_m:.3f m} of its {width_m:.3f m}; there alone count the static cohesion "
+            "and tensile strength of crack.bond"
+        )
+        said.append(Sentence.of(text, told=told, left_m=ligament[1] - ligament[0], width_m=width))
     if size:
         text = (
             "the block stands on {left_m:.3f m} of its {width_m:.3f m}, whether or not the ground goes on beyond the "
@@ -165,6 +174,8 @@ def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
         said.append(Sentence("prestress of the anchors as before the slip"))
     start, end = (0.0, width - size) if slip >= 0.0 else (size, width)
     contact = Contact(start, end, bonded_from=end)
+    if bond is not None and ligament is not None:
+        contact = Contact(start, end, ligament[0], bond.tensile_strength, ligament[1])
     water = still_water(case, start, end)
     matches = not size
     if not matches and climbs(case.crack.kinks):
@@ -173,7 +184,8 @@ def post_seismic(case: Case, slip: float, source: str) -> Solved | None:
             "the straight line from heel to toe, and its kinks count for nothing"
         )
         said.append(Sentence(text))
-    given = Given("post-seismic", "post-earthquake", friction, 0.0, tuple(said), sources_of(case), law, matches)
+    cohesion = 0.0 if bond is None else bond.cohesion
+    given = Given("post-seismic", "post-earthquake", friction, cohesion, tuple(said), sources_of(case), law, matches)
     return solve_case(given, case, _dry(case), contact, water)
 
 

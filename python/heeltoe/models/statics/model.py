@@ -125,6 +125,7 @@ def statics(
     *,
     slip_source: str = "given",
     overturned_about: str | None = None,
+    ligament: tuple[float, float] | None = None,
     beside: tuple[str, ...] = (),
 ) -> Statics:
     """Judge the stability of the block above the crack.
@@ -144,6 +145,9 @@ def statics(
         Where `slip_m` comes from, for the result.
     overturned_about
         "toe" or "heel" where the earthquake has overturned the block: the check after it fails then.
+    ligament
+        From where to where the earthquake has left a bonded joint whole [m from the heel]; there its bond counts after
+        the earthquake.
     beside
         Models whose runs stand beside these checks: of fields that they read it is not said that they change nothing.
 
@@ -172,7 +176,7 @@ def statics(
             fallen(f"the earthquake overturns the block about its {overturned_about}: nothing stands after it")
         )
     if slip is not None and source is not None:
-        after = post_seismic(case, slip, source)
+        after = post_seismic(case, slip, source, ligament)
         if after is None:
             lost = "a slip of {slip_m:.2f m} leaves nothing of the {width_m:.2f m} that the block stood on"
             checks.append(fallen(lost, slip_m=abs(slip), width_m=section.crack_width))

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from scipy.special import ndtr
 
 from heeltoe.base.arrays import Floats
+from heeltoe.result.contract import CRACKED
 from heeltoe.study.answers.likelihood import Tally, Witnesses, fit, within
 from heeltoe.study.run.aggregate import SHAKEN, Walk
 
@@ -33,6 +34,7 @@ LIMITED = {
     "opening_upstream": ("opening_upstream_m",),
     "opening_downstream": ("opening_downstream_m",),
     "rotation": ("rocking_downstream_rad", "rocking_upstream_rad"),
+    "cracked_length": (CRACKED,),
 }
 
 

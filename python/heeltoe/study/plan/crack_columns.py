@@ -8,7 +8,7 @@ from typing import NamedTuple
 from heeltoe.base.arrays import Floats
 from heeltoe.case.combinations import check
 from heeltoe.case.model import Case
-from heeltoe.result.contract import HEADLINES
+from heeltoe.result.contract import CRACKED, HEADLINES
 
 
 class OfCrack(NamedTuple):
@@ -36,6 +36,12 @@ def columns_of_cracks(cracks: int) -> tuple[str, ...]:
     """Return the names of the headline numbers of each of several cracks; none of a single one."""
     places = range(cracks) if cracks > 1 else ()
     return tuple(column_of(place, headline.key) for place in places for headline in HEADLINES)
+
+
+def numbers_of_cracks(cracks: int) -> tuple[str, ...]:
+    """Return the names of all numbers of each of several cracks that the runs of a study have."""
+    places = range(cracks) if cracks > 1 else ()
+    return (*columns_of_cracks(cracks), *(column_of(place, CRACKED) for place in places))
 
 
 def column_of(place: int, key: str) -> str:

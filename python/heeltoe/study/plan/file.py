@@ -203,6 +203,8 @@ class FragilityLimits(Fields):
     """Of the largest opening at either face."""
     rotation: Annotated[tuple[DimensionlessNumber, ...], BeforeValidator(_listed)] = ()
     """Of the largest rotation [rad]."""
+    cracked_length: Annotated[tuple[Length, ...], BeforeValidator(_listed)] = ()
+    """Of the length of a bonded joint that cracks; a little less than its width stands for a joint cracked through."""
 
 
 class Fragility(Fields):

@@ -40,10 +40,10 @@ from heeltoe.models.runner import (
     until_rest,
 )
 from heeltoe.motion.earthquake import Earthquake
-from heeltoe.result.contract import HEADLINES, headlines, leading_crack
+from heeltoe.result.contract import CRACKED, HEADLINES, headlines, leading_crack
 from heeltoe.result.numbers import SlipByMode, TimeByMode
 from heeltoe.result.response import Response
-from heeltoe.study.plan.crack_columns import OfCrack, column_of, columns_of_cracks
+from heeltoe.study.plan.crack_columns import OfCrack, column_of, numbers_of_cracks
 from heeltoe.study.plan.plan import Plan, Runs
 
 #: What the case of a run refuses, as water above the crest: such a run has no result and is counted as this.
@@ -60,6 +60,7 @@ NUMBERS = (
     "largest_impact_velocity_m_s",
     "end_time_s",
     "energy_residual",
+    CRACKED,
 )
 
 Words = NDArray[Any]
@@ -71,7 +72,7 @@ class Found:
     """Results of some runs, filled model by model."""
 
     def __init__(self, count: int, cracks: int) -> None:
-        self.numbers = {name: np.full(count, np.nan) for name in (*NUMBERS, *columns_of_cracks(cracks))}
+        self.numbers = {name: np.full(count, np.nan) for name in (*NUMBERS, *numbers_of_cracks(cracks))}
         self.impacts = np.zeros(count, dtype=np.int64)
         self.slid_off = np.zeros(count, dtype=bool)
         self.undetermined = np.zeros(count, dtype=bool)
@@ -89,9 +90,9 @@ class Found:
         """Put what some runs came to into their rows: at the crack that leads, and at each of several."""
         columns = {name: request.named[name] for name in NUMBERS}
         columns |= {
-            column_of(k, headline.key): crack.named[headline.key]
+            column_of(k, key): crack.named[key]
             for k, crack in enumerate(cracks)
-            for headline in HEADLINES
+            for key in (*(headline.key for headline in HEADLINES), CRACKED)
         }
         trusted = np.isin(outcome, TRUSTED)
         for name, values in columns.items():
@@ -107,8 +108,11 @@ def _largest_slip(named: Mapping[str, Floats]) -> Floats:
     return np.maximum(named["peak_slip_downstream_m"], -named["peak_slip_upstream_m"])
 
 
-def _of_table(table: Mapping[str, Floats], width: Floats, headline: Mapping[str, Floats]) -> OfCrack:
-    """Return the numbers at a crack that the rows of a kernel have; the `headline` ones have been read of them."""
+def _of_table(
+    table: Mapping[str, Floats], width: Floats, headline: Mapping[str, Floats], *, joint: bool = False
+) -> OfCrack:
+    """Return the numbers at a crack, or at a bonded `joint`, that the rows of a kernel have; the `headline` ones have
+    been read of them."""
     named = {
         **headline,
         **{f"slip_{name}_m": table[f"slip_{name}"] for name in _SLIPS},
@@ -117,6 +121,7 @@ def _of_table(table: Mapping[str, Floats], width: Floats, headline: Mapping[str,
         "end_time_s": table["end_time"],
         "energy_residual": table["energy_residual"],
         "impacts": table["impacts"],
+        CRACKED: table["cracked_length"] if joint else width,
     }
     return OfCrack(named, width)
 
@@ -137,6 +142,8 @@ def _of_responses(responses: Sequence[Response], place: int) -> OfCrack:
             **{f"time_{name}_s": value for name, value in numbers.time_by_mode_s.items()},
             "end_time_s": response.end_time_s,
             "energy_residual": response.energy.residual,
+            # These models know no joint that holds.
+            CRACKED: numbers.crack_width_m,
         }
         rows.append({name: row[name] if name in row else numbers[name] for name in names})
         widths.append(numbers.crack_width_m)
@@ -362,7 +369,11 @@ def _flexible(plan: Plan, runs: Runs, rows: Integers, results: Found, threads: i
             named = headlines(table)
             if made is not None and made.means:
                 named |= {name: np.full(scales.size, mean) for name, mean in made.means[place].items()}
-            cracks.append(_of_table(table, np.full(scales.size, section.crack_width), named))
+            cracks.append(
+                _of_table(
+                    table, np.full(scales.size, section.crack_width), named, joint=dam.lines[place].bond is not None
+                )
+            )
         outcome = np.array([rested.outcome for rested in ran], dtype=object)
         return _led(outcome, cracks, dam.asked)
 

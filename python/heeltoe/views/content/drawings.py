@@ -29,6 +29,7 @@ CAPTIONS = {
     "motion": "The ground motion, as used: acceleration, velocity, displacement.",
     "spectrum": "Response spectrum of the ground motion, 5 % of critical damping.",
     "crack-level": "Acceleration of ground and crack, their response spectra, and the amplification; dotted: periods.",
+    "joint": "Where the bond of the joint is intact, softens and is broken, over time; above, how far it is cracked.",
     "crack": "What each place of the crack does over time.",
     "deformed": "Deformed dam with its principal stresses, tension on the left, compression on the right.",
     "tension": "Largest principal tension over the run at every place, and the largest of all.",
@@ -52,7 +53,7 @@ _SHARES |= {"bands": 0.8, "slips": 0.8, "fragility": 0.8}
 # Histories are drawn lower than on a page of their own, so that two of them share one, or one and a table; letters stay
 # as large as they are.
 _LOWER = {"comparison": 0.8, "response": 0.75, "accelerations": 0.75, "forces": 0.9, "crack-level": 0.75}
-_LOWER |= {"crack": 0.8, "pressure": 0.75}
+_LOWER |= {"crack": 0.8, "joint": 0.8, "pressure": 0.75}
 _LEAST_HEIGHT = 4.5
 # What belongs to the words around it does not wait for another page.
 _HELD = ("summary",)
@@ -68,6 +69,7 @@ _OF_BOTH = (
         "response",
         "energy",
         "spectrum",
+        "joint",
         "crack",
         "pressure",
         "deformed",

@@ -85,6 +85,19 @@ _LAW: tuple[tuple[str, str, str | None], ...] = (
     ("Time walked by integration, the rest exactly", "integrated_time_s", "time"),
     ("Estimated error of the integration", "integration_error_m", None),
 )
+_JOINT: tuple[tuple[str, str, str | None], ...] = (
+    ("First cracking", "first_cracking_s", "time"),
+    ("Place of it, from the upstream face", "first_cracking_at_m", "length"),
+    ("Cracked through", "cracked_through_s", "time"),
+    ("Cracked from the upstream face", "cracked_upstream_m", "length"),
+    ("Cracked from the downstream face", "cracked_downstream_m", "length"),
+    ("Cracked in all", "cracked_length_m", "length"),
+    ("Softened, not yet cracked", "softening_length_m", "length"),
+    ("Energy that the bond took", "fracture_energy_j", "energy"),
+    ("Process zone of the concrete", "process_zone_m", "length"),
+    ("Longest element along the joint", "element_m", "length"),
+    ("Tensile strength that the model takes", "tensile_strength_pa", None),
+)
 _FIGURES = (
     "comparison",
     "response",
@@ -95,6 +108,7 @@ _FIGURES = (
     "accelerations",
     "forces",
     "path",
+    "joint",
     "crack",
     "pressure",
     "deformed",
@@ -140,6 +154,7 @@ def results(subject: Subject) -> Section:
             *_at_the_crack(subject),
             *_anchors(subject),
             *_law(subject),
+            *_joint(subject),
             *_sequence(subject),
         ]
     else:
@@ -264,13 +279,28 @@ def _law(subject: Subject) -> list[Block]:
     return blocks
 
 
-def _laws_of(response: Response) -> list[tuple[str, Mapping[str, Any]]]:
-    """Return what says what laws have come to, of each of several cracks or of the only one, and where that stands."""
+def _joint(subject: Subject) -> list[Block]:
+    """Return what has become of the bonds of joints."""
+    blocks: list[Block] = []
+    for run in subject.runs:
+        for prefix, found in _laws_of(run.response, "joint"):
+            at = written(" at {at_m:g m}", subject.units, at_m=found["elevation_m"]) if "elevation_m" in found else ""
+            rows = tuple(
+                (label, subject.numbers(f"{run.prefix}{prefix}joint.{key}", quantity))
+                for label, key, quantity in _JOINT
+                if found["joint"][key] is not None
+            )
+            blocks.append(Table(("", "value"), rows, f"What has become of the joint{at}.", "lr"))
+    return blocks
+
+
+def _laws_of(response: Response, block: str = "friction_law") -> list[tuple[str, Mapping[str, Any]]]:
+    """Return what says what a law or a bond has come to, of each of several cracks or of the only one, and where."""
     if not response.several:
         laws = [("", response.summary)]
     else:
         laws = [(f"cracks.{place}.", crack.to_json()) for place, crack in enumerate(response.cracks)]
-    return [(prefix, numbers) for prefix, numbers in laws if numbers.get("friction_law") is not None]
+    return [(prefix, numbers) for prefix, numbers in laws if numbers.get(block) is not None]
 
 
 def _sequence(subject: Subject) -> list[Block]:

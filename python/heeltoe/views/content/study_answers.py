@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from heeltoe.views.content.study import StudySubject
 
 _SHARES = (("50%", "half stay below"), ("84%", "84 % stay below"), ("95%", "95 % stay below"), ("largest", "largest"))
-_A = {"residual_slip": "a", "peak_slip": "a", "opening": "an", "rotation": "a"}
+_A = {"residual_slip": "a", "peak_slip": "a", "opening": "an", "rotation": "a", "cracked_length": "a"}
 _NAMES = {"pga": "PGA", "pgv": "PGV", "sa": "SA", "arias": "Arias intensity", "housner intensity": "Housner intensity"}
 _SHOWN = ("residual_slip_m", "opening_upstream_m", "rocking_upstream_rad")
 

@@ -151,5 +151,6 @@ OF_STUDIES: dict[str, str] = {
         for mode in ("rest", "sliding", "rocking", "slide_rocking", "drifting")
     },
     "energy_residual": "What is left of the balance of energies, over the turnover.",
+    "cracked_length_m": "Length that is cracked in the end, of a crack that is no bonded joint all of it.",
     "slid_off": "Whether the part above has slid off.",
 }

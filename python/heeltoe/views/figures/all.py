@@ -48,6 +48,7 @@ NAMES = (
     "spectrum",
     "crack-level",
     "slips",
+    "joint",
     "crack",
     "pressure",
     "deformed",
@@ -56,7 +57,7 @@ NAMES = (
     "modes",
 )
 #: Those that each of several cracks has.
-_OF_CRACKS = ("response", "slip-by-mode", "friction", "forces", "path", "crack", "pressure")
+_OF_CRACKS = ("response", "slip-by-mode", "friction", "forces", "path", "joint", "crack", "pressure")
 #: Lift-offs below this [m] have no picture of their own.
 _NO_LIFT = 1e-5
 
@@ -181,13 +182,15 @@ def _drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]
 
 
 def _elastic_drawings(response: FlexibleResponse, units: str) -> dict[str, Callable[[], Figure]]:
-    from heeltoe.views.figures.crack import crack_figure, pressure_figure
+    from heeltoe.views.figures.crack import crack_figure, joint_figure, pressure_figure
     from heeltoe.views.figures.dam import mesh_figure, modes_figure
     from heeltoe.views.figures.stress.deformed import deformed_figure
     from heeltoe.views.figures.stress.tension import tension_figure
 
     dam = response.crack.dam
     told = {"tension": lambda: tension_figure(response, units)} if response.tension is not None else {}
+    if response.joint is not None:
+        told["joint"] = lambda: joint_figure(response, units)
     return {
         "crack": lambda: crack_figure(response, units),
         "pressure": lambda: pressure_figure(response, units),

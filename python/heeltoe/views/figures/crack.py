@@ -1,4 +1,5 @@
-"""What each node of an elastic dam's crack does over time, and how hard the faces press on each other."""
+"""What each node of an elastic dam's crack does over time, how its bond breaks, and how hard the faces press on each
+other."""
 
 from __future__ import annotations
 
@@ -7,6 +8,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from numpy.typing import NDArray
 
 from heeltoe.base.arrays import Floats
 from heeltoe.kernel.dam import CONTACT_STATUSES
@@ -14,7 +16,7 @@ from heeltoe.models.flexible.result.history import CrackHistory
 from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.views.figures.panels import draw_slip, panels
-from heeltoe.views.figures.style import describe, styled
+from heeltoe.views.figures.style import COLOURS, describe, styled
 from heeltoe.views.figures.time_axis import time_axis
 
 # From light to dark in black and white: nothing, open, stick, slip one way, slip the other way.
@@ -25,6 +27,20 @@ STATUS_COLOURS = {
     "slip downstream": "#0072B2",
     "slip upstream": "#4A1500",
 }
+# Of a joint, from whole to broken; what is broken and closed is as dark as it moves.
+_JOINT_COLOURS = {
+    "intact": "#FFFFFF",
+    "softening": "#E69F00",
+    "broken, open": STATUS_COLOURS["open"],
+    "broken, sticks": STATUS_COLOURS["stick"],
+    "broken, slips downstream": STATUS_COLOURS["slip downstream"],
+    "broken, slips upstream": STATUS_COLOURS["slip upstream"],
+}
+_JOINT_STATES = tuple(_JOINT_COLOURS)
+# What a broken node does, of the statuses of contact; one with nothing opposite is open.
+_BROKEN = {"absent": 2, "open": 2, "stick": 3, "slip downstream": 4, "slip upstream": 5}
+# Less damage of a bond is rounding.
+_LEAST_DAMAGE = 1e-9
 # The largest pressures are blows of single nodes; the colours end before them, at this share of all [%].
 _SHOWN = 98.0
 _COLUMNS = 1500
@@ -53,12 +69,7 @@ def crack_figure(response: FlexibleResponse, units: str = "si") -> Figure:
 def _status_map(axes: Axes, history: CrackHistory, scale: Scale) -> list[str]:
     """Colour every watched node of one whole face at every moment by its status; return which there are."""
     names = CONTACT_STATUSES
-    along = history.upper_position[0, 0]
-    # The nodes of a face that is watched as a whole come first; those of its ends that follow say nothing new.
-    status = history.status[:, : along.size]
-    if status.shape[1] < along.size:
-        assert history.lower_position is not None
-        along = history.lower_position[0, 0, : status.shape[1]]
+    along, status = _whole_face(history)
     axes.pcolormesh(
         borders(history.time),
         scale(borders(along)),
@@ -68,8 +79,67 @@ def _status_map(axes: Axes, history: CrackHistory, scale: Scale) -> list[str]:
         # Hundreds of thousands of rectangles would make a drawing of many megabytes.
         rasterized=True,
     )
-    _label_crack(axes, scale)
+    _label_crack(axes, scale, "crack")
     return [name for k, name in enumerate(names) if (status == k).any()]
+
+
+def _whole_face(history: CrackHistory) -> tuple[Floats, NDArray[np.uint8]]:
+    """Return places (k,) and statuses (f, k) of the watched nodes of the face that is watched as a whole."""
+    along = history.upper_position[0, 0]
+    # They come first; those of the ends of the other face that follow say nothing new.
+    status = history.status[:, : along.size]
+    if status.shape[1] < along.size:
+        assert history.lower_position is not None
+        along = history.lower_position[0, 0, : status.shape[1]]
+    return along, status
+
+
+@styled
+def joint_figure(response: FlexibleResponse, units: str = "si") -> Figure:
+    """Draw where the bond of a joint is intact, softens and is broken over time, with the cracked length above it."""
+    history, h = response.crack, response.histories
+    scale = unit_system(units).scale("length", response.crack_width_m)
+    figure, (lengths, joint) = panels([1.0, 1.8], 1.55)
+    describe(figure, response)
+    for key, label, colour, dash in (
+        ("cracked_length_m", "in all", "#000000", "-"),
+        ("cracked_upstream_m", "from the upstream face", COLOURS["slip"], "--"),
+        ("cracked_downstream_m", "from the downstream face", COLOURS["rotation"], ":"),
+    ):
+        lengths.plot(h["time_s"], scale(h[key]), color=colour, linestyle=dash, linewidth=1.4, label=label)
+    lengths.set_ylabel(f"cracked length [{scale.unit}]")
+    lengths.set_ylim(0.0, 1.05 * scale(response.crack_width_m))
+    lengths.legend(loc="best")
+    along, states = joint_states(history)
+    joint.pcolormesh(
+        borders(history.time),
+        scale(borders(along)),
+        states.T,
+        cmap=ListedColormap(list(_JOINT_COLOURS.values())),
+        norm=BoundaryNorm(np.arange(len(_JOINT_STATES) + 1) - 0.5, len(_JOINT_STATES)),
+        rasterized=True,
+    )
+    _label_crack(joint, scale, "joint")
+    time_axis(joint, response)
+    there = [name for k, name in enumerate(_JOINT_STATES) if (states == k).any()]
+    handles = [Patch(facecolor=_JOINT_COLOURS[name], edgecolor="#888888", label=name, linewidth=0.5) for name in there]
+    figure.legend(handles=handles, loc="outside lower center", ncols=min(3, len(there)))
+    figure.align_ylabels([lengths, joint])
+    return figure
+
+
+def joint_states(history: CrackHistory) -> tuple[Floats, NDArray[np.int8]]:
+    """Return the places (k,) [m] of the nodes of a joint, and what each does at every moment (f, k).
+
+    0 is intact, 1 softening; from 2 on the bond is broken, and the node open, sticking, slipping downstream, slipping
+    upstream.
+    """
+    assert history.damage is not None
+    along, status = _whole_face(history)
+    damage = history.damage[:, : along.size]
+    contact = np.array([_BROKEN[name] for name in CONTACT_STATUSES], dtype=np.int8)[status]
+    states = np.where(damage >= 1.0, contact, np.where(damage > _LEAST_DAMAGE, 1, 0)).astype(np.int8)
+    return along, states
 
 
 @styled
@@ -109,7 +179,7 @@ def pressure_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     beyond = "max" if pressure.max() > most else "neither"
     bar = figure.colorbar(image, ax=crack, extend=beyond, pad=0.01, aspect=18)
     bar.set_label(f"contact pressure [{scale.unit}]")
-    _label_crack(crack, length)
+    _label_crack(crack, length, "crack")
     time_axis(crack, response)
     handle = Patch(facecolor="white", edgecolor="#999999", hatch="////", label="open: no contact pressure")
     figure.legend(handles=[handle], loc="outside lower center")
@@ -139,8 +209,8 @@ def contact_pressure(history: CrackHistory) -> tuple[Floats, Floats]:
     return history.time[starts], np.add.reduceat(pressure, starts, axis=0) / counts[:, None]
 
 
-def _label_crack(axes: Axes, scale: Scale) -> None:
-    axes.set_ylabel(f"along the crack [{scale.unit}]\nheel below, toe above")
+def _label_crack(axes: Axes, scale: Scale, name: str) -> None:
+    axes.set_ylabel(f"along the {name} [{scale.unit}]\nheel below, toe above")
     axes.grid(visible=False)
 
 

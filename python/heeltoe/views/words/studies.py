@@ -19,6 +19,7 @@ KINDS = {
     "opening_upstream": "upstream opening",
     "opening_downstream": "downstream opening",
     "rotation": "rotation",
+    "cracked_length": "cracked length",
 }
 #: As headings.
 TRAITS = {

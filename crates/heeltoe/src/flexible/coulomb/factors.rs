@@ -141,7 +141,8 @@ impl Factors {
         }
         let size = problem.b.len();
         for &contact in &self.slips {
-            let added = self.of[contact].sign() * problem.added(contact, true);
+            let sign = self.of[contact].sign();
+            let added = sign * problem.added(contact, true, -sign);
             let felt = &problem.g[contact * size..][..size];
             for (x, &k) in self.x.iter_mut().zip(&self.unknowns) {
                 *x += felt[k] * added;
@@ -319,7 +320,7 @@ impl Linear for Factors {
             let sign = self.of[contact].sign();
             p[contact] = -sign * problem.mu_slip[contact] * p[m + contact];
             if !problem.added.is_empty() {
-                p[contact] -= sign * problem.added(contact, true);
+                p[contact] -= sign * problem.added(contact, true, -sign);
             }
         }
     }

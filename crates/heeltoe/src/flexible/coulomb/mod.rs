@@ -234,7 +234,7 @@ impl Solver {
             let (p_t, p_n) = (self.p[contact], self.p[m + contact]);
             let status = self.status[contact];
             let scale = problem.scale[m + contact];
-            let limit = problem.mu_stick[contact] * p_n + problem.added(contact, false);
+            let limit = problem.mu_stick[contact] * p_n + problem.added(contact, false, p_t);
             let (violation, next) = match status {
                 Status::Open if u_n < -slack_u => (-u_n, Status::Stick),
                 Status::Stick | Status::SlipDownstream | Status::SlipUpstream if p_n < -slack_p => {
@@ -292,8 +292,11 @@ impl Solver {
         } else {
             problem.mu_slip[contact]
         };
-        let limit = p_n * mu + problem.added(contact, !sticks);
-        let along = p_t - (p_t - self.u[contact] * scale_t).max(-limit).min(limit);
+        let limit = |along| p_n * mu + problem.added(contact, !sticks, along);
+        let along = p_t
+            - (p_t - self.u[contact] * scale_t)
+                .max(-limit(-1.0))
+                .min(limit(1.0));
         across.max(along.abs())
     }
 

@@ -15,18 +15,25 @@ pub(in super::super) struct Problem {
     pub mu_slip: Vec<f64>,
     /// What each contact bears beside that up to which it sticks, and with which it slips; empty without a law.
     pub added: Vec<[f64; 2]>,
+    /// By how much what a contact bears beside friction is less for positive impulses, and more for negative ones;
+    /// empty where it bears as much either way.
+    pub lean: Vec<f64>,
     /// About what impulse changes the velocity of each component by 1: a scale to measure violations by.
     pub scale: Vec<f64>,
 }
 
 impl Problem {
-    /// What a contact under this normal impulse bears beside friction in proportion to it; nothing without a law.
+    /// What a contact bears, of impulses `along` of either sign, beside friction in proportion to the normal impulse;
+    /// nothing without a law.
     #[inline(always)]
-    pub(super) fn added(&self, contact: usize, slips: bool) -> f64 {
-        match self.added.get(contact) {
-            None => 0.0,
-            Some(added) => added[usize::from(slips)],
-        }
+    pub(super) fn added(&self, contact: usize, slips: bool, along: f64) -> f64 {
+        let Some(added) = self.added.get(contact) else {
+            return 0.0;
+        };
+        let added = added[usize::from(slips)];
+        self.lean
+            .get(contact)
+            .map_or(added, |lean| added - lean * along.signum())
     }
 }
 

@@ -16,10 +16,11 @@ impl Solver {
         let (m, size) = (self.status.len(), problem.b.len());
         for contact in 0..m {
             let p_n = self.p[m + contact].max(0.0);
-            let limit = (problem.mu_stick[contact] * p_n + problem.added(contact, false)).max(0.0);
+            let limit =
+                |along| (problem.mu_stick[contact] * p_n + problem.added(contact, false, along)).max(0.0);
             self.p[m + contact] = if self.status[contact].closed() { p_n } else { 0.0 };
             self.p[contact] = if self.status[contact].closed() {
-                self.p[contact].clamp(-limit, limit)
+                self.p[contact].clamp(-limit(-1.0), limit(1.0))
             } else {
                 0.0
             };
@@ -41,7 +42,8 @@ impl Solver {
                     free: [free_t, free_n],
                     mu_stick: problem.mu_stick[contact],
                     mu_slip: problem.mu_slip[contact],
-                    added: [false, true].map(|slips| problem.added(contact, slips)),
+                    added: [-1.0, 1.0]
+                        .map(|along| [false, true].map(|slips| problem.added(contact, slips, along))),
                 };
                 let (status, new_t, new_n) = local.solve();
                 self.status[contact] = status;
@@ -67,7 +69,8 @@ struct Local {
     free: [f64; 2],
     mu_stick: f64,
     mu_slip: f64,
-    added: [f64; 2],
+    /// For impulses against its direction and along it: what it sticks with, and slips with.
+    added: [[f64; 2]; 2],
 }
 
 impl Local {
@@ -81,12 +84,13 @@ impl Local {
         let det = tt * nn - tn * nt;
         let stick_t = (-free_t * nn + free_n * tn) / det;
         let stick_n = (-free_n * tt + free_t * nt) / det;
-        if stick_n >= 0.0 && stick_t.abs() <= self.mu_stick * stick_n + self.added[0] {
+        let added = self.added[usize::from(stick_t > 0.0)][0];
+        if stick_n >= 0.0 && stick_t.abs() <= self.mu_stick * stick_n + added {
             return (Status::Stick, stick_t, stick_n);
         }
         for (status, sign) in [(Status::SlipDownstream, 1.0), (Status::SlipUpstream, -1.0)] {
             let mu = -sign * self.mu_slip;
-            let added = -sign * self.added[1];
+            let added = -sign * self.added[usize::from(sign < 0.0)][1];
             let p_n = -(free_n + nt * added) / (nn + mu * nt);
             let u_t = free_t + (tn + mu * tt) * p_n + tt * added;
             if p_n >= 0.0 && sign * u_t >= 0.0 {

@@ -90,6 +90,8 @@ class Evidence:
         Whether the numbers to trust are means over the runs with the shaking varied, as single runs scatter.
     worth
         Of each headline number.
+    cracked
+        Of the cracked length of a bonded joint; None of a crack.
     time_step, other_step
         Of the run that is reported, and of the one beside it [s].
     across, other_across
@@ -109,6 +111,7 @@ class Evidence:
     asked: Literal["step", "full"]
     mean: bool
     worth: dict[str, Worth]
+    cracked: Worth | None
     time_step: float
     other_step: float
     across: int
@@ -159,5 +162,6 @@ class Evidence:
             work=self.work,
             budget=BUDGET,
             budget_spent=self.spent,
+            cracked_length_m=None if self.cracked is None else self.cracked.numbers(),
             **{name: worth.numbers() for name, worth in self.worth.items()},
         )

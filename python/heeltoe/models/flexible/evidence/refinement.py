@@ -14,7 +14,7 @@ from heeltoe.kernel.dam import DamRun
 from heeltoe.models.flexible.evidence.evidence import BUDGET, FLOOR_M, Evidence, Worth, allowed
 from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
-from heeltoe.result.contract import HEADLINES
+from heeltoe.result.contract import CRACKED, HEADLINES
 
 #: Fewer elements along the crack than these have no coarser mesh worth a comparison.
 _FEWEST_ACROSS = 4
@@ -210,21 +210,30 @@ class _Stand:
         third = None if self._third is None else trials.numbers(self._third, scales, crack)
         # Of runs that scatter those of both meshes tell by how much.
         ensembles = ([own] if beside is None else [own, beside]) if mean else None if varied is None else [varied]
-        worth = {
-            each.key: _worth(
-                each.key,
-                float(own[each.key].mean()) if mean else float(run[each.key][0]),
-                float(run[each.key][0]),
-                float(other[each.key][0]),
-                _moved_by_mesh(each.key, own, beside, third),
-                None if ensembles is None else [runs[each.key] for runs in ensembles],
+
+        def worth_of(key: str) -> Worth:
+            return _worth(
+                key,
+                float(own[key].mean()) if mean else float(run[key][0]),
+                float(run[key][0]),
+                float(other[key][0]),
+                _moved_by_mesh(key, own, beside, third),
+                None if ensembles is None else [runs[key] for runs in ensembles],
             )
-            for each in HEADLINES
-        }
+
+        worth = {each.key: worth_of(each.key) for each in HEADLINES}
+        dam = trials.dam_of(self._level.mesh).dam
+        cracked = None
+        if dam.lines[crack].bond is not None:
+            # What one run cracks is what it says; no less is known than half an element.
+            half = 0.5 * dam.sections[crack].crack_width / self._options.elements_across
+            length = worth_of(CRACKED)
+            cracked = replace(length, value=length.run, least=half)
         return Evidence(
             asked="full" if self._full else "step",
             mean=mean,
             worth=worth,
+            cracked=cracked,
             time_step=trials.step_of(self._level),
             other_step=trials.step_of(self._step),
             across=self._options.elements_across,

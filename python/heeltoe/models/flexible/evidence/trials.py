@@ -18,7 +18,7 @@ from heeltoe.models.flexible.body.cost import Cost, building, parts_of
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import running
-from heeltoe.result.contract import HEADLINES, headlines
+from heeltoe.result.contract import CRACKED, HEADLINES, headlines
 
 #: Factors on the shaking: as it is, and up to 1 % either way.
 SCALES = (1.0, 0.99, 0.995, 1.005, 1.01)
@@ -172,7 +172,8 @@ class Trials:
                     {name: float(column[place]) for name, column in table.items()} for table in tables
                 )
         rows = [self._numbers[level, scale][crack] for scale in scales]
-        return headlines({each.column: np.array([row[each.column] for row in rows]) for each in HEADLINES})
+        found = headlines({each.column: np.array([row[each.column] for row in rows]) for each in HEADLINES})
+        return found | {CRACKED: np.array([row["cracked_length"] for row in rows])}
 
     def failed(self, level: Level, scales: Sequence[float]) -> int:
         """Return how many of these runs, all made before, end without a result."""

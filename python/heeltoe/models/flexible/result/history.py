@@ -43,6 +43,9 @@ class CrackHistory:
         Which nodes are watched, 1 to 5 as in ``flexible.contactors`` of the case.
     place
         Which of the dam's cracks it is, from the crest down.
+    damage
+        (f, c) of the bond of each watched node: 0 intact, below 1 softening, 1 broken; None of a crack that is no
+        bonded joint.
     """
 
     time: Floats
@@ -54,6 +57,7 @@ class CrackHistory:
     dam: FlexibleDam
     contactors: int = 3
     place: int = 0
+    damage: Floats | None = None
 
     def __repr__(self) -> str:
         nodes = self.upper_position.shape[-1]

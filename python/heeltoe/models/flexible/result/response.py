@@ -39,6 +39,7 @@ class ElasticCrackResponse(CrackResponse):
     frames: CrackHistory
 
     joint = Of[BondState | None]()
+    evidence = Of[EvidenceNumbers | None]()
 
 
 @dataclass(frozen=True, eq=False, kw_only=True, repr=False)

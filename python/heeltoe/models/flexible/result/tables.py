@@ -73,6 +73,7 @@ def histories_of_cracks(case: Case, dam: FlexibleDam, run: DamRun) -> tuple[Crac
                 lower_position=bodies[1 - side][:, :, low : low + counted] if counted else None,
                 force=forces[side][:, :, first : first + count],
                 status=run.status[:, watched : watched + contacts],
+                damage=run.damage[:, watched : watched + contacts] if line.bond is not None else None,
                 modes=modes,
                 dam=dam,
                 contactors=case.flexible.contactors,
