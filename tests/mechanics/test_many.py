@@ -94,8 +94,8 @@ def drawn(height, count, seed=1, **others):
 @pytest.mark.parametrize("path", ALL_EXAMPLES, ids=lambda path: path.relative_to(EXAMPLES).as_posix())
 def test_examples(path):
     case = read_case(path)
-    if case.further_cracks or case.crack.kinks:
-        lacking = "several cracks" if case.further_cracks else "kinks"
+    if case.further_cracks or case.crack.kinks or case.crack.bond:
+        lacking = "several cracks" if case.further_cracks else "kinks" if case.crack.kinks else "a bonded joint"
         with pytest.raises(InputError, match=f"a table of blocks does not support {lacking}"):
             block_columns(case, {"crack.friction": [0.5]})
         return
