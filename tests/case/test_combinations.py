@@ -52,6 +52,11 @@ CHANGES = {
     "another number of elements below": {"flexible.elements_across_below": 5},
     "virtual water that does not rotate": {"reservoir.virtual_mass_rotates": False},
     "Zangar's water pressure": {"reservoir.hydrodynamic": "zangar"},
+    "compressible water": {"reservoir.compressible": True},
+    "water that follows the vertical motion": {
+        "reservoir.follows_vertical_motion": True,
+        "motion.vertical": {"points": [["0 s", "0 g"], ["1 s", "0.05 g"]]},
+    },
 }
 BASE = read_case(
     {

@@ -68,6 +68,12 @@ def test_what_a_reader_expects_to_matter_is_told_by_itself():
             "flexible.virtual_mass",
             "no water",
         ),
+        (
+            {"reservoir": {"depth": "95 m", "floor_reflection": 0.8}},
+            ["flexible"],
+            "reservoir.floor_reflection",
+            "reservoir.compressible",
+        ),
         ({"silt": SILT}, ["rigid"], "silt.vertical_density", "vertical face"),
         (
             {"silt": SILT | {"depth": "60 m"}, "section": BATTERED, "crack": {"friction": 1.0, "elevation": "40 m"}},

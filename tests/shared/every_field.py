@@ -226,6 +226,11 @@ HELPED |= {
     f"further_cracks[0].bond.{name}": (SEVERAL | {"further_cracks": [SECOND | {"bond": BONDED}]}, None)
     for name in BONDED
 }
+HELPED |= {
+    f"{side}.{name}": ({f"{side}.compressible": True}, None)
+    for side in ("reservoir", "tailwater")
+    for name in ("wave_speed", "floor_reflection")
+}
 HELPED["crack.kinks"] = (dict.fromkeys(_STRAIGHT_ALONE, GONE), [["8 m", "0.5 m"]])
 HELPED |= {
     "crack.uplift": (SEVERAL | {"crack.uplift": "none"}, "uniform"),

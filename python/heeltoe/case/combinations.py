@@ -262,6 +262,22 @@ FEATURES = {
             'set hydrodynamic = "westergaard"',
             _options("reservoir.hydrodynamic", "tailwater.hydrodynamic", unlike=("westergaard",)),
         ),
+        Feature(
+            "compressible water",
+            tuple(
+                f"{side}.{name}"
+                for side in ("reservoir", "tailwater")
+                for name in ("compressible", "wave_speed", "floor_reflection")
+            ),
+            "set compressible = false",
+            _options("reservoir.compressible", "tailwater.compressible", among=(True,)),
+        ),
+        Feature(
+            "water that follows the vertical motion",
+            ("reservoir.follows_vertical_motion", "tailwater.follows_vertical_motion"),
+            "set follows_vertical_motion = false",
+            _options("reservoir.follows_vertical_motion", "tailwater.follows_vertical_motion", among=(True,)),
+        ),
     )
 }
 
@@ -296,6 +312,14 @@ RULES = (
     Rule("another number of elements below", "kinks", (), "both faces share the corners of the crack"),
     Rule("cohesion of the static checks", "a law with cohesion", (), "cohesion would be stated twice"),
     Rule("damping of free parts", "penalty contact", (), _NOT_THERE),
+    Rule("compressible water", "penalty contact", (), _NOT_THERE),
+    Rule("compressible water", "options of the thesis", (), "the water of the thesis is a mass"),
+    Rule(
+        "compressible water",
+        "water that follows the vertical motion",
+        (),
+        "compressible water feels the vertical motion by itself",
+    ),
     Rule("three cracks", "", ("rigid",), "its blocks are two at most, one on the other"),
     Rule(
         "several cracks",

@@ -20,6 +20,7 @@ from heeltoe.case.quantities import (
     LineForce,
     Pressure,
     Stiffness,
+    Velocity,
 )
 from heeltoe.case.sentences import gathered
 from heeltoe.errors.error import InputError, shown
@@ -63,6 +64,14 @@ class Water(Fields):
     hydrodynamic: Literal["westergaard", "zangar"] = "westergaard"
     """Pressure of the water that moves with a rigid block, and of the pseudo-static checks: Westergaard's, less in
     proportion before each slope of the face; or Zangar's for a face of one slope."""
+    compressible: Truth = False
+    """Sound travels in the water before an elastic dam, and leaves along the reservoir and through its floor; otherwise
+    the water is a mass that moves with the face."""
+    wave_speed: Annotated[Velocity, Field(ge=100.0, le=1e5)] = Field(default="1440 m/s", validate_default=True)
+    """Of sound in compressible water."""
+    floor_reflection: Annotated[DimensionlessNumber, Field(ge=0.0, le=1.0)] = 0.9
+    """Part of a pressure wave that the floor under compressible water throws back: 1 a rigid floor, 0.9 sound rock
+    without sediment, less where there is some (Fenves and Chopra 1984)."""
 
 
 class Reservoir(Water):

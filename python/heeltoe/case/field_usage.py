@@ -53,6 +53,14 @@ READ_BY: dict[str, frozenset[str]] = {
     "further_cracks.bond": frozenset({"flexible"}),
     "reservoir.virtual_mass_rotates": _BLOCKS,
     "tailwater.virtual_mass_rotates": _BLOCKS,
+    **dict.fromkeys(
+        (
+            f"{side}.{name}"
+            for side in ("reservoir", "tailwater")
+            for name in ("compressible", "wave_speed", "floor_reflection")
+        ),
+        frozenset({"flexible"}),
+    ),
     "reservoir.hydrodynamic": _BLOCKS | {"statics"},
     "tailwater.hydrodynamic": _BLOCKS | {"statics"},
     "anchors.axial_stiffness": _SHAKEN,
@@ -226,6 +234,9 @@ def _idle_choices(case: Case, models: Sequence[str]) -> Iterator[Rule]:
     yield flexible and unjudged, "concrete.tensile_strength is not given", ("concrete.dynamic_tension",)
     water = any(body and body.depth for body in (case.reservoir, case.tailwater))
     yield elastic and not water, "there is no water", ("flexible.virtual_mass", "flexible.damping_on_water")
+    for side, body in (("reservoir", case.reservoir), ("tailwater", case.tailwater)):
+        fields = (f"{side}.wave_speed", f"{side}.floor_reflection")
+        yield flexible and body is not None and not body.compressible, f"{side}.compressible is not set", fields
     below = case.outline.area - case.cut.area > 1e-9 * case.outline.area
     across, across_below = "flexible.elements_across", "flexible.elements_across_below"
     yield elastic and not below, "nothing is below the crack", (across_below,)

@@ -105,6 +105,9 @@ depth = "95 m"                     # above the lowest point of the section
 # density = "1000 kg/m^3"
 # follows_vertical_motion = false  # pressure on the faces times 1 + a_v / g; needs motion.vertical
 # hydrodynamic = "westergaard"     # pressure of water that moves; or "zangar", for a face of one slope
+# compressible = false             # sound travels in the water before an elastic dam
+# wave_speed = "1440 m/s"          # of that sound
+# floor_reflection = 0.9           # of a wave of it: 1 rigid floor, less with sediment
 # nappe = "none"                   # of water above the crest, on it; or "weight", "falling"
 # virtual_mass_rotates = true      # of a rigid block, spread over the face; false: in one point, as in Zhu (2004)
 

@@ -71,6 +71,12 @@ class Energy(Block):
     ]
     damping_j: Annotated[float, Number("Energy lost in the concrete's damping; zero for a block.", _J)] = 0.0
     fracture_j: Annotated[float, Number("Energy that the bonds of joints have taken; zero without one.", _J)] = 0.0
+    floor_j: Annotated[
+        float, Number("Energy that left through the floor of the reservoir; zero without compressible water.", _J)
+    ] = 0.0
+    far_end_j: Annotated[
+        float, Number("Energy that left along the reservoir; zero without compressible water.", _J)
+    ] = 0.0
     numerical_j: Annotated[float, Number("Energy lost by the time stepping itself; zero for a block.", _J)] = 0.0
     gained_j: Annotated[
         float, Number("Sum of what contact added in steps in which its work was positive; it should be nothing.", _J)

@@ -22,7 +22,7 @@ impl ContactOperator for FacesOperator<'_, '_> {
     #[inline(always)]
     fn fill(&mut self, problem: &mut Problem, wanted: impl Fn(usize) -> bool) {
         let answers = self.bodies.map(|body| body.answers(self.damping));
-        let gain = &self.dampers.gain[self.damping];
+        let gain = self.dampers.holding(self.damping);
         self.blocks.fill(
             &mut problem.g,
             self.contacts,
@@ -36,7 +36,7 @@ impl ContactOperator for FacesOperator<'_, '_> {
     #[inline(always)]
     fn fill_row(&mut self, problem: &mut Problem, contact: usize, wanted: impl Fn(usize) -> bool) {
         let answers = self.bodies.map(|body| body.answers(self.damping));
-        let gain = &self.dampers.gain[self.damping];
+        let gain = self.dampers.holding(self.damping);
         let others = (0..self.contacts.len()).filter(|other| wanted(*other));
         self.blocks.fill_row(
             &mut problem.g,

@@ -17,6 +17,7 @@ use super::bond::Bonds;
 use super::contact::{Contacts, Pair};
 use super::coulomb::{Problem, Report, Solver, MANY};
 use super::dam::Dam;
+use super::dampers::Holding;
 use super::faces::Faces;
 use super::kinks::Turn;
 use super::law::spots::{spots, Spot};
@@ -153,7 +154,8 @@ impl Crack {
     /// Put all of `G` together.
     pub(super) fn fill(&mut self, answers: Sides<Compliance>, softness: f64) {
         let (g, contacts) = (&mut self.problem.g, &self.contacts);
-        self.blocks.fill(g, contacts, answers, &[], softness, |_| true);
+        self.blocks
+            .fill(g, contacts, answers, Holding::Gain(&[]), softness, |_| true);
     }
 
     /// Take the forces of a dam at rest for the solution of a step.
@@ -248,21 +250,21 @@ impl Blocks {
         let m = contacts.len();
         for (k, pair) in contacts.pairs.iter().enumerate() {
             if let (Some(pair), 0.0) = (pair, scale[k]) {
-                let block = block(pair, pair, &answers());
+                let block = block(pair, pair, &answers(), Holding::Gain(&[]));
                 (scale[k], scale[m + k]) = (1.0 / block[0][0], 1.0 / block[1][1]);
             }
         }
     }
 
     /// Write how each of the `wanted` contacts answers to an impulse at any other of them, where it is not known. `gain`
-    /// is that of the dashpots, `softness` is added to the answer to itself.
+    /// says what dashpots and water hold back, `softness` is added to the answer to itself.
     #[inline(always)]
     pub(super) fn fill(
         &mut self,
         g: &mut [f64],
         contacts: &Contacts,
         answers: Sides<Compliance>,
-        gain: &[f64],
+        gain: Holding,
         softness: f64,
         wanted: impl Fn(usize) -> bool,
     ) {
@@ -280,7 +282,7 @@ impl Blocks {
         g: &mut [f64],
         contacts: &Contacts,
         answers: &Sides<Compliance>,
-        gain: &[f64],
+        gain: Holding,
         softness: f64,
         i: usize,
         others: impl Iterator<Item = usize>,
@@ -300,7 +302,7 @@ impl Blocks {
             }
             *known = self.now;
             self.feel(j, other, answers, gain);
-            let block = block(one, other, answers);
+            let block = block(one, other, answers, gain);
             for (a, row) in block.iter().enumerate() {
                 for (b, value) in row.iter().enumerate() {
                     let held = self.held_back(a * m + i, b * m + j);
@@ -315,8 +317,9 @@ impl Blocks {
 
     /// Find what the dashpots feel of a contact.
     #[inline(always)]
-    fn feel(&mut self, contact: usize, pair: &Pair, answers: &Sides<Compliance>, gain: &[f64]) {
+    fn feel(&mut self, contact: usize, pair: &Pair, answers: &Sides<Compliance>, gain: Holding) {
         let d = self.dampers;
+        let Holding::Gain(gain) = gain else { return };
         if d == 0 || self.felt[contact] >= self.moved[contact] {
             return;
         }
@@ -353,13 +356,16 @@ impl Blocks {
     }
 }
 
-/// How a contact answers to another, but for dashpots.
+/// How a contact answers to another, but for dashpots that hold it back by their gain.
 #[inline(always)]
-fn block(one: &Pair, other: &Pair, answers: &Sides<Compliance>) -> [[f64; 2]; 2] {
+fn block(one: &Pair, other: &Pair, answers: &Sides<Compliance>, gain: Holding) -> [[f64; 2]; 2] {
     let mut block = [[0.0; 2]; 2];
     answers.upper.couple(&mut block, &one.upper, &other.upper);
     if let Some(lower) = &answers.lower {
         lower.couple(&mut block, &one.lower, &other.lower);
+    }
+    if let Holding::Nodes(held) = gain {
+        held.take_off(&mut block, one, other);
     }
     one.turn.of_block(other.turn, block)
 }

@@ -19,11 +19,13 @@
 //! The answers of the parts have these rows behind the crack nodes, and so have their velocities.
 
 use super::bodies::Sides;
+use super::contact::Pair;
+use super::dam::Dam;
 use super::ledger::Ledger;
 use super::modal_stepper::{Drive, ModalStepper};
 use super::reservoir::{Reservoir, Water};
 use super::scheme::TimeStep;
-use super::simd::Lanes;
+use super::simd::{Group, Lanes, LANES};
 
 /// The dashpots of a run, and the water that is tied to the bodies as they are.
 pub(super) struct Dampers<'a> {
@@ -33,14 +35,115 @@ pub(super) struct Dampers<'a> {
     theta: f64,
     water: Option<Water<'a>>,
     /// `N` for both states of damping, row by row.
-    pub gain: [Vec<f64>; 2],
+    gain: [Vec<f64>; 2],
+    /// With water, whose rows are many: `N` in groups, and what the rows hold back of the crack.
+    wide: Option<[Wide; 2]>,
     /// Rates before the step; impulses, and those of them that answer to contact.
     rate: Vec<f64>,
     pull: Vec<f64>,
     further: Vec<f64>,
     room: Vec<f64>,
+    wide_room: Vec<Group>,
+    nodes_room: Vec<Group>,
     /// Energy the dashpots have taken.
     taken: f64,
+}
+
+/// What many rows are to the bodies, for one state of damping.
+struct Wide {
+    /// `N`, row by row, each filled up with zeros to whole groups.
+    gain: Vec<Group>,
+    held: Held,
+}
+
+/// `W_cd N W_dc`: what the rows hold back of the answers of the crack nodes of both bodies, those of the upper one first,
+/// row by row.
+pub(super) struct Held {
+    matrix: Vec<Group>,
+    columns: [usize; 2],
+}
+
+impl Held {
+    fn new(bodies: &Sides<ModalStepper>, gain: &[f64], state: usize) -> Self {
+        let columns = [
+            bodies.upper.body.columns(),
+            bodies.lower.as_ref().map_or(0, |body| body.body.columns()),
+        ];
+        let count = gain.len().isqrt();
+        // Rows: what each link feels of each node.
+        let mut felt = vec![Vec::new(); count];
+        for body in bodies.iter() {
+            let rows = body.damper_rows(state).chunks_exact(body.body.stride());
+            for (felt, row) in felt.iter_mut().zip(rows) {
+                felt.extend_from_slice(&row.as_flattened()[..body.body.columns()]);
+            }
+        }
+        let size = columns[0] + columns[1];
+        let stride = size.div_ceil(LANES);
+        let mut matrix = vec![[0.0; LANES]; size * stride];
+        for (gains, one) in gain.chunks_exact(count).zip(&felt) {
+            let mut held = vec![0.0; size];
+            for (gain, other) in gains.iter().zip(&felt) {
+                held.iter_mut().zip(other).for_each(|(sum, x)| *sum += gain * x);
+            }
+            for (row, x) in matrix.chunks_exact_mut(stride).zip(one) {
+                let row = row.as_flattened_mut().iter_mut();
+                row.zip(&held).for_each(|(sum, held)| *sum += x * held);
+            }
+        }
+        Held { matrix, columns }
+    }
+
+    /// Take what is held back off the answers of the bodies to their impulses.
+    #[inline(always)]
+    fn answer(&self, bodies: &mut Sides<ModalStepper>, room: &mut [Group]) {
+        let stride = (self.columns[0] + self.columns[1]).div_ceil(LANES);
+        room.fill([0.0; LANES]);
+        let mut rows = self.matrix.chunks_exact(stride);
+        for body in bodies.iter() {
+            for (row, impulse) in rows.by_ref().zip(&body.impulse) {
+                axpy(*impulse, row, room);
+            }
+        }
+        let mut held = &room.as_flattened()[..];
+        for body in bodies.iter_mut() {
+            let (own, rest) = held.split_at(body.impulse.len());
+            let answer = body.answer.as_flattened_mut().iter_mut();
+            answer.zip(own).for_each(|(x, held)| *x -= held);
+            held = rest;
+        }
+    }
+
+    /// Take what is held back of the answer of two contacts off it.
+    // In line it would be compiled a dozen times over.
+    #[inline(never)]
+    pub(super) fn take_off(&self, block: &mut [[f64; 2]; 2], one: &Pair, other: &Pair) {
+        let stride = (self.columns[0] + self.columns[1]).div_ceil(LANES);
+        let places = |pair: &Pair, direction: usize| {
+            let [upper, lower] = [0, 1].map(|side| {
+                let first = side * self.columns[0] + direction * self.columns[side] / 2;
+                let nodes = if side == 0 { &pair.upper } else { &pair.lower };
+                nodes.map(|(node, weight)| (first + node, weight))
+            });
+            [upper[0], upper[1], lower[0], lower[1]]
+        };
+        for (r, row) in block.iter_mut().enumerate() {
+            for (c, value) in row.iter_mut().enumerate() {
+                for (i, a) in places(one, r) {
+                    // Of a rigid plane there are no nodes.
+                    if a == 0.0 {
+                        continue;
+                    }
+                    let held = self.matrix[i * stride..][..stride].as_flattened();
+                    for (j, b) in places(other, c) {
+                        if b != 0.0 {
+                            *value -= a * b * held[j];
+                        }
+                    }
+                }
+            }
+        }
+    }
 }
 
 impl<'a> Dampers<'a> {
@@ -72,8 +175,24 @@ impl<'a> Dampers<'a> {
             }
             inverse_gain(&own, &own_matrix, weight)
         });
+        let wide = water.is_some().then(|| {
+            [0, 1].map(|state| Wide {
+                gain: in_groups(&gain[state], count),
+                held: Held::new(bodies, &gain[state], state),
+            })
+        });
         let zeros = vec![0.0; count];
         Dampers {
+            wide,
+            wide_room: vec![[0.0; LANES]; count.div_ceil(LANES)],
+            nodes_room: vec![
+                [0.0; LANES];
+                bodies
+                    .iter()
+                    .map(|body| body.body.columns())
+                    .sum::<usize>()
+                    .div_ceil(LANES)
+            ],
             dashpots,
             count,
             water,
@@ -117,7 +236,9 @@ impl<'a> Dampers<'a> {
         if let Some(water) = &mut self.water {
             water.begin(drive.ground, &mut self.room[self.dashpots..]);
         }
-        respond(&self.gain[damping], &self.room, &mut self.pull);
+        self.respond(damping);
+        self.pull.copy_from_slice(&self.further);
+        self.further.fill(0.0);
         for body in bodies.iter_mut() {
             body.pull_free::<W>(damping, &self.pull);
         }
@@ -126,11 +247,19 @@ impl<'a> Dampers<'a> {
     /// Change the answers to impulses of contact, which the parts have, by what the dashpots do about them.
     #[inline(always)]
     pub(super) fn follow<W: Lanes>(&mut self, bodies: &mut Sides<ModalStepper>, damping: usize) {
+        if let Some(wide) = &self.wide {
+            return wide[damping].held.answer(bodies, &mut self.nodes_room);
+        }
+        self.respond_to_contact::<W>(bodies, damping);
+    }
+
+    #[inline(always)]
+    fn respond_to_contact<W: Lanes>(&mut self, bodies: &mut Sides<ModalStepper>, damping: usize) {
         self.room.fill(0.0);
         for body in bodies.iter() {
             add(&mut self.room, body.rates(&body.answer));
         }
-        respond(&self.gain[damping], &self.room, &mut self.further);
+        self.respond(damping);
         for body in bodies.iter_mut() {
             body.pull_answer::<W>(damping, &self.further);
         }
@@ -138,7 +267,14 @@ impl<'a> Dampers<'a> {
 
     /// Hand the impulses of dashpots and water to the parts, whose velocities are final, and book what they take.
     #[inline(always)]
-    pub(super) fn finish(&mut self, bodies: &mut Sides<ModalStepper>, drive: Drive) {
+    pub(super) fn finish<W: Lanes>(&mut self, bodies: &mut Sides<ModalStepper>, drive: Drive) {
+        if self.wide.is_some() {
+            for body in bodies.iter_mut() {
+                body.find_answer::<W>(drive.damping);
+            }
+            self.respond_to_contact::<W>(bodies, drive.damping);
+            bodies.iter_mut().for_each(ModalStepper::finish_answer);
+        }
         add(&mut self.pull, &self.further);
         self.room.fill(0.0);
         for body in bodies.iter_mut() {
@@ -157,6 +293,43 @@ impl<'a> Dampers<'a> {
         }
     }
 
+    /// Find the impulses of all rows at the rates in `room`.
+    #[inline(always)]
+    fn respond(&mut self, damping: usize) {
+        let Some(wide) = &self.wide else {
+            respond(&self.gain[damping], &self.room, &mut self.further);
+            return;
+        };
+        self.wide_room.fill([0.0; LANES]);
+        let rows = wide[damping].gain.chunks_exact(self.wide_room.len());
+        for (row, rate) in rows.zip(&self.room) {
+            axpy(*rate, row, &mut self.wide_room);
+        }
+        let found = self.wide_room.as_flattened();
+        self.further
+            .iter_mut()
+            .zip(found)
+            .for_each(|(pull, x)| *pull = -x);
+    }
+
+    /// By what the rows hold back a contact: their gain, or what they hold back of all crack nodes.
+    #[inline(always)]
+    pub(super) fn holding(&self, damping: usize) -> Holding<'_> {
+        match &self.wide {
+            None => Holding::Gain(&self.gain[damping]),
+            Some(wide) => Holding::Nodes(&wide[damping].held),
+        }
+    }
+
+    /// Number of rows that the contact problem has to feel by itself.
+    pub(super) fn felt(dam: &Dam) -> usize {
+        if dam.reservoir.is_some() {
+            0
+        } else {
+            dam.bodies.upper.links()
+        }
+    }
+
     /// Add what they have taken to a ledger, and what the water holds.
     pub(super) fn book(&self, ledger: &mut Ledger) {
         ledger.damping += self.taken;
@@ -165,6 +338,35 @@ impl<'a> Dampers<'a> {
             water.book(ledger);
         }
     }
+}
+
+/// How rows hold back what a contact does.
+#[derive(Clone, Copy)]
+pub(super) enum Holding<'s> {
+    /// By their gain `N`.
+    Gain(&'s [f64]),
+    /// By what they hold back of all crack nodes.
+    Nodes(&'s Held),
+}
+
+/// Add a multiple of a row to a sum.
+#[inline(always)]
+fn axpy(x: f64, row: &[Group], sum: &mut [Group]) {
+    for (sum, row) in sum.iter_mut().zip(row) {
+        for l in 0..LANES {
+            sum[l] += x * row[l];
+        }
+    }
+}
+
+/// A square matrix in groups, each row filled up with zeros.
+fn in_groups(matrix: &[f64], count: usize) -> Vec<Group> {
+    let stride = count.div_ceil(LANES);
+    let mut groups = vec![[0.0; LANES]; count * stride];
+    for (full, row) in groups.chunks_exact_mut(stride).zip(matrix.chunks_exact(count)) {
+        full.as_flattened_mut()[..count].copy_from_slice(row);
+    }
+    groups
 }
 
 /// The impulses of dashpots with this gain at these rates.

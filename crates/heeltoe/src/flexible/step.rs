@@ -310,7 +310,7 @@ impl<'a> Moreau<'a> {
         let before = self.acted();
         if !self.quiet {
             if !self.dampers.is_empty() {
-                self.dampers.finish(&mut self.bodies, self.drive);
+                self.dampers.finish::<W>(&mut self.bodies, self.drive);
             }
             for body in self.bodies.iter_mut() {
                 body.move_crack::<W>(self.step);

@@ -9,6 +9,7 @@ use super::coupling::Crack;
 use super::crack_forces::Inside;
 use super::crack_line::{Line, RockingThresholds};
 use super::dam::Dam;
+use super::dampers::Holding;
 use super::faces::Faces;
 use super::observe::State;
 use super::place::Place;
@@ -330,7 +331,14 @@ fn what_has_not_moved_keeps_its_answer() {
                 problem,
                 ..
             } = &mut kept;
-            blocks.fill(&mut problem.g, contacts, answer(), &[], 0.1, wanted);
+            blocks.fill(
+                &mut problem.g,
+                contacts,
+                answer(),
+                Holding::Gain(&[]),
+                0.1,
+                wanted,
+            );
             partly += usize::from(kept.contacts.moved.contains(&false));
             let mut new = Crack::new(&dam, 0, true);
             new.contacts.pairs.clone_from(&kept.contacts.pairs);

@@ -11,6 +11,7 @@ use super::contact::Contactor;
 use super::coupling::Crack;
 use super::crack_line::Line;
 use super::dam::{Dam, Wanted};
+use super::dampers::Dampers;
 use super::envelope::Envelope;
 use super::faces::{mean_along, Faces};
 use super::frames::{Frames, Since, Snapshot};
@@ -139,7 +140,7 @@ pub(super) struct Walk<'a> {
 impl<'a> Walk<'a> {
     /// `start` is where the nodes of both bodies are.
     pub(super) fn new(dam: &'a Dam, dt: f64, wanted: Wanted<'a>, start: Faces) -> Self {
-        let mut crack = Crack::new(dam, dam.bodies.upper.links(), true);
+        let mut crack = Crack::new(dam, Dampers::felt(dam), true);
         crack.solver.lasting = dam.cracks.len() > 1;
         let contactors = &crack.contacts.contactors;
         let cracks = Place::all(&dam.cracks)

@@ -14,6 +14,8 @@ _ENERGY = (
     ("Impacts", "impact_j"),
     ("Damping of the concrete", "damping_j"),
     ("Fracture of the joint", "fracture_j"),
+    ("Left through the floor of the reservoir", "floor_j"),
+    ("Left along the reservoir", "far_end_j"),
     ("Lost by the time stepping", "numerical_j"),
     ("Left in the dam", "left_j"),
     ("Made by contact, which should be none", "gained_j"),

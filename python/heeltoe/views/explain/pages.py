@@ -30,6 +30,14 @@ _PAGES = {
     "tailwater.virtual_mass_rotates": "rigid.md equation 6a",
     "reservoir.hydrodynamic": "statics.md#hydrodynamic-pressure",
     "tailwater.hydrodynamic": "statics.md#hydrodynamic-pressure",
+    **dict.fromkeys(
+        (
+            f"{side}.{name}"
+            for side in ("reservoir", "tailwater")
+            for name in ("compressible", "wave_speed", "floor_reflection")
+        ),
+        "water-and-rock.md",
+    ),
     "reservoir.nappe": "statics.md#water-above-the-crest",
     "uplift": "statics.md#forces",
     "uplift.drain_x": "sections.md#drains",

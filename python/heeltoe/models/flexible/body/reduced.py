@@ -23,6 +23,7 @@ from heeltoe.models.flexible.body.damping import Damping, damping_of
 from heeltoe.models.flexible.body.elastic import Body
 from heeltoe.models.flexible.body.inside import CrackAnchor, FollowingWater, crack_anchors, following_water
 from heeltoe.models.flexible.body.modes import Modes
+from heeltoe.models.flexible.body.reservoir import WaterBody, water_body
 from heeltoe.models.flexible.body.rocking_thresholds import elastic_give
 from heeltoe.models.flexible.mesh.kinks import angles
 
@@ -114,6 +115,8 @@ class FlexibleDam(BondedDam):
         What acts in the crack beside contact: water whose pressure changes, anchors with stiffness.
     lines
         The cracks as the kernel takes them.
+    reservoir
+        The compressible water before it, if there is any.
     """
 
     section: CutSection
@@ -128,6 +131,7 @@ class FlexibleDam(BondedDam):
     water: FollowingWater | None
     anchors: tuple[CrackAnchor, ...]
     lines: tuple[CrackLine, ...]
+    reservoir: WaterBody | None
 
     def __repr__(self) -> str:
         parts = zip(self.bodies, self.modes, strict=True)
@@ -166,13 +170,14 @@ def _build(case: Case) -> FlexibleDam:
     bodies, modes = bonded.bodies, bonded.modes
     sections = tuple(each.cut for each in case.single_crack_cases)
     damping = damping_of(case, bonded, modes)
+    reservoir = water_body(case, bodies)
     reduced = tuple(
-        _reduced(body, basis, still, damping, place, sections)
+        _reduced(body, basis, still, damping, place, sections, reservoir)
         for place, (body, basis, still) in enumerate(zip(bodies, modes, bonded.bent, strict=True))
     )
     water, anchors = following_water(case, bodies), crack_anchors(case, bodies)
     lines = _lines(case, bonded)
-    kernel = _cracked(case, reduced, water, anchors, lines)
+    kernel = _cracked(case, reduced, water, anchors, lines, reservoir)
     # The penalty method begins with its crack bonded and its springs unloaded.
     exact = case.flexible.contact == "coulomb"
     static, start = bonded.bent, Start(not exact, (0.0,) * len(lines), (0,) * len(lines))
@@ -203,6 +208,7 @@ def _build(case: Case) -> FlexibleDam:
         water=water,
         anchors=anchors,
         lines=lines,
+        reservoir=reservoir,
     )
 
 
@@ -212,10 +218,12 @@ def _cracked(
     water: FollowingWater | None,
     anchors: tuple[CrackAnchor, ...],
     lines: tuple[CrackLine, ...],
+    reservoir: WaterBody | None,
 ) -> CrackedDam:
     upper, *lower = (side_by_side_in(reduced[first::2]) for first in range(min(2, len(reduced))))
+    contactors = case.flexible.contactors
     return CrackedDam(
-        upper, lower[0] if lower else None, lines, case.flexible.contactors, water, anchors, asked=case.asked
+        upper, lower[0] if lower else None, lines, contactors, water, anchors, reservoir, asked=case.asked
     )
 
 
@@ -294,12 +302,18 @@ def damped(case: Case, dam: FlexibleDam, factor: float) -> FlexibleDam:
             dam.reduced, damping.sticking, damping.free, damping.dashpots, strict=True
         )
     )
-    kernel = _cracked(case, reduced, dam.water, dam.anchors, dam.lines)
+    kernel = _cracked(case, reduced, dam.water, dam.anchors, dam.lines, dam.reservoir)
     return replace(dam, reduced=reduced, damping=damping, kernel=kernel)
 
 
 def _reduced(
-    body: Body, modes: Modes, static: Floats, damping: Damping, place: int, sections: tuple[CutSection, ...]
+    body: Body,
+    modes: Modes,
+    static: Floats,
+    damping: Damping,
+    place: int,
+    sections: tuple[CutSection, ...],
+    reservoir: WaterBody | None,
 ) -> ReducedBody:
     horizontal = np.zeros(static.size)
     horizontal[::2] = 1.0
@@ -324,6 +338,6 @@ def _reduced(
         position=(np.concatenate(at) + np.concatenate(moved)).T.reshape(-1),
         dampers=np.ascontiguousarray(damping.dashpots[place]),
         damper_signs=damping.signs,
-        wet=np.empty((0, modes.omega_squared.size)),
+        wet=np.empty((0, modes.omega_squared.size)) if reservoir is None else reservoir.rows(place, modes),
         boundary=np.empty((0, 0)),
     )

@@ -50,7 +50,8 @@ def virtual_masses(mesh: BodyMesh, case: Case, *, above: bool) -> Any:
             found.add(mesh.upstream, case.reservoir, depth, _surface(case, case.reservoir), None)
     else:
         for path, water, side in ((mesh.upstream, case.reservoir, 1.0), (mesh.downstream, case.tailwater, -1.0)):
-            if water is not None:
+            # Compressible water is no mass, see heeltoe.models.flexible.body.reservoir.
+            if water is not None and not water.compressible:
                 found.add(path, water, water.depth, _surface(case, water), side)
     return found.matrix()
 

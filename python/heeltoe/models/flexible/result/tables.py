@@ -201,6 +201,8 @@ def energy_of(run: DamRun) -> Energy:
         residual=raw.energy_residual,
         damping_j=raw.energy_damping,
         fracture_j=raw.energy_fracture,
+        floor_j=raw.energy_floor,
+        far_end_j=raw.energy_far_end,
         numerical_j=raw.energy_numerical,
         gained_j=raw.energy_gained,
     )

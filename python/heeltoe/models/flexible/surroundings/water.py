@@ -39,8 +39,8 @@ from heeltoe.models.flexible.surroundings.reduction import (
     size_of,
 )
 
-# The near field goes on beyond the foot of the face by so many depths.
-_NEAR = 0.5
+#: The near field goes on beyond the foot of the face by so many depths.
+NEAR = 0.5
 # Elements over the shortest wave, and over the depth at least.
 _PER_WAVE, _ROWS = 4.0, 10
 # Patterns of the face's motion over the depth, polynomials of rising degree, whose answers are kept.
@@ -161,7 +161,7 @@ def reduced_water(
     highest: float = 15.0,
     floor: float | None = None,
     upstream: bool = True,
-    near: float = _NEAR,
+    near: float = NEAR,
     enough: float = ENOUGH,
 ) -> ReducedWater:
     """Return the water before a face in few unknowns.
