@@ -101,7 +101,8 @@ impl Held {
         room.fill([0.0; LANES]);
         let mut rows = self.matrix.chunks_exact(stride);
         for body in bodies.iter() {
-            for (row, impulse) in rows.by_ref().zip(&body.impulse) {
+            // In this order, as the rows go on with the next body.
+            for (impulse, row) in body.impulse.iter().zip(rows.by_ref()) {
                 axpy(*impulse, row, room);
             }
         }

@@ -14,8 +14,8 @@ from heeltoe.models.flexible.body.elastic import Body, dofs
 from heeltoe.models.flexible.body.modes import Modes
 from heeltoe.models.flexible.surroundings.water import NEAR, ReducedWater, reduced_water
 
-# Frequency [Hz] up to which the water answers well: far above that of any blow that moves a dam as a whole.
-_HIGHEST = 20.0
+# Frequency [Hz] up to which the water answers well.
+_HIGHEST = 15.0
 
 
 @dataclass(frozen=True, eq=False)
