@@ -184,6 +184,7 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # [limits]                         # what you allow: the verdict and the report compare with it
 # residual_slip = "150 mm"
 # peak_slip = "200 mm"
+# cracked_length = "5 m"          # of a bonded joint
 # opening_upstream = "50 mm"
 # opening_downstream = "50 mm"
 
