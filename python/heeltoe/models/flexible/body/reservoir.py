@@ -76,7 +76,7 @@ def water_body(case: Case, bodies: Sequence[Body], *, longer: float = 1.0) -> Wa
     longer
         Factor on the length of the near field.
     """
-    found: list[tuple[ReducedWater, str, list[tuple[int, Integers]]]] = []
+    waters: list[tuple[ReducedWater, str, list[tuple[int, Integers]]]] = []
     base = case.cut.base_elevation
     for side, water in (("reservoir", case.reservoir), ("tailwater", case.tailwater)):
         if water is None or not water.compressible or water.depth <= 0.0:
@@ -94,14 +94,14 @@ def water_body(case: Case, bodies: Sequence[Body], *, longer: float = 1.0) -> Wa
             upstream=side == "reservoir",
             near=longer * NEAR,
         )
-        found.append((reduced, side, wet))
-    if not found:
+        waters.append((reduced, side, wet))
+    if not waters:
         return None
-    counts = [reduced.omega_squared.size for reduced, _, _ in found]
+    counts = [reduced.omega_squared.size for reduced, _, _ in waters]
     firsts = np.cumsum([0, *counts])
     coupling = [np.zeros((firsts[-1], body.mesh.nodes.size)) for body in bodies]
     faces = []
-    for (reduced, side, wet), first, last in zip(found, firsts, firsts[1:], strict=False):
+    for (reduced, side, wet), first, last in zip(waters, firsts, firsts[1:], strict=False):
         column = 0
         for place, path in wet:
             own = reduced.coupling[:, column : column + 2 * path.size]
@@ -111,10 +111,10 @@ def water_body(case: Case, bodies: Sequence[Body], *, longer: float = 1.0) -> Wa
         pressure[:, first:last] = reduced.pressure
         faces.append(WetFace(side, np.vstack([bodies[place].mesh.nodes[path] for place, path in wet]), pressure))
     return WaterBody(
-        np.concatenate([reduced.omega_squared for reduced, _, _ in found]),
-        block_diag(*(reduced.damping_floor for reduced, _, _ in found)),
-        block_diag(*(reduced.damping_far for reduced, _, _ in found)),
-        np.vstack([reduced.ground for reduced, _, _ in found]),
+        np.concatenate([reduced.omega_squared for reduced, _, _ in waters]),
+        block_diag(*(reduced.damping_floor for reduced, _, _ in waters)),
+        block_diag(*(reduced.damping_far for reduced, _, _ in waters)),
+        np.vstack([reduced.ground for reduced, _, _ in waters]),
         tuple(coupling),
         tuple(faces),
     )
