@@ -106,7 +106,7 @@ impl Held {
                 axpy(*impulse, row, room);
             }
         }
-        let mut held = &room.as_flattened()[..];
+        let mut held: &[f64] = room.as_flattened();
         for body in bodies.iter_mut() {
             let (own, rest) = held.split_at(body.impulse.len());
             let answer = body.answer.as_flattened_mut().iter_mut();
