@@ -6,8 +6,8 @@
 //! `q'' = M^-1 (Q + G^T (T, N_h, N_t))`
 //!
 //! is integrated to a tolerance far below anything that is shown, and events are found on the integrated motion. Where only
-//! friction goes by a law nothing is integrated that has a closed form: rest, rocking and flight ([`plain`]), a slide whose
-//! friction is a straight line over the path ([`slide`]); any other slide is a power series ([`flat`]), and once the law has
+//! friction goes by a law nothing is integrated that has a closed form: rest, rocking and flight (`plain`), a slide whose
+//! friction is a straight line over the path (`slide`); any other slide is a power series (`flat`), and once the law has
 //! come to a constant the exact walk goes on.
 
 mod advance;
