@@ -8,6 +8,7 @@ from matplotlib.figure import Figure
 from heeltoe import decoupled, read_case, rigid
 from heeltoe.study.small.overturning import overturning_map
 from heeltoe.study.small.run_table import parse_axes, run_small
+from heeltoe.validation.blocks.joints import BEAM_ENERGY, FIRST_PART, MEASURED, bend_beam
 from heeltoe.views.figures.crack_level import crack_level_figure
 from heeltoe.views.figures.histories import response_figure
 from heeltoe.views.figures.overturning import overturning_figure
@@ -51,6 +52,30 @@ def real_cracks() -> Figure:
     return figure
 
 
+def measured_beam() -> Figure:
+    """Return the notched beam of a test, beside the band that was measured."""
+    mouth, least, most = zip(*MEASURED, strict=True)
+    curves = (
+        (1.0, "-", "all of the energy"),
+        (FIRST_PART, "--", f"{100 * FIRST_PART:g} % of it, the first slope of concrete"),
+    )
+    with rc_context(STYLE):
+        figure = Figure(figsize=(7.0, 4.0), layout="constrained")
+        axes = figure.subplots()
+        axes.fill_between(
+            (0.0, *mouth), (0.0, *least), (0.0, *most), color="0.8", label="measured, cycles from below to above"
+        )
+        for part, dash, name in curves:
+            opening, force = bend_beam(part * BEAM_ENERGY)
+            axes.plot(opening, force, linestyle=dash, linewidth=1.5, label=name)
+        axes.set_xlim(0.0, 0.2)
+        axes.set_ylim(bottom=0.0)
+        axes.set_xlabel("mouth opening [mm]")
+        axes.set_ylabel("force [N]")
+        axes.legend(loc="upper right")
+    return figure
+
+
 if __name__ == "__main__":
     varied = parse_axes(["crack.friction=0.8,1.0,1.2", "uplift.pattern=uniform,triangular"])
     grid = run_small(EXAMPLES / "koyna.toml", [], varied, decoupled)
@@ -60,3 +85,4 @@ if __name__ == "__main__":
     save(real_cracks(), HERE / "real-cracks.png", dpi=110)
     pulses = overturning_map(read_case(EXAMPLES / "slender.toml"), count=100)
     save(overturning_figure(pulses), HERE / "overturning.png", dpi=110)
+    save(measured_beam(), HERE / "measured-beam.png", dpi=110)

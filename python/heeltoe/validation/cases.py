@@ -24,6 +24,7 @@ from heeltoe.validation.blocks import (
     elastic_cracks,
     flexible_blocks,
     friction_laws,
+    joints,
     rough_blocks,
     sliding_spectra,
     thesis_blocks,
@@ -43,6 +44,7 @@ _PROTOTYPE = "an independent program made after it"
 # What other arithmetic has been seen to move, and some more: of slips of cracks at the base,
 # of the stiffest dams among them, and at a height, and of a block that strikes without damping.
 _BASE_STEADY, _STIFF_STEADY, _HIGH_STEADY = 0.01, 0.06, 0.02
+_PULLED = "Nothing shakes: springs draw the ends apart slowly."
 _CHAPTER_7 = f"{REFERENCES['flexible']}"
 _BY_DEPTH = Chart(r"(?P<series>friction [\d.]+), water (?P<x>[\d.]+) m", "depth of water [m]", "slip [mm]", "y")
 _SUMS = "Sums and integrals in closed form: there is no step and no mesh."
@@ -144,6 +146,28 @@ CASES: dict[str, Declared] = {
         "Towards the rigid block with the modulus.",
         _SMOOTH,
         long=True,
+    ),
+    "bonded-bar": Declared(
+        joints.bonded_bar,
+        ("flexible",),
+        "Closed forms: a bar that softens in one place",
+        "With the speed of the pull, to the closed forms: inertia and damping are what is left.",
+        _PULLED,
+    ),
+    "bonded-cantilevers": Declared(
+        joints.bonded_cantilevers,
+        ("flexible",),
+        "The J integral: P. C. Paris and A. J. Paris, International Journal of Fracture 38 (1988), R19-R21",
+        "Two meshes stand in the rows.",
+        _PULLED,
+    ),
+    "notched-beam": Declared(
+        joints.notched_beam,
+        ("flexible",),
+        "D. Grégoire, L. B. Rojas-Solano and G. Pijaudier-Cabot, International Journal for Numerical and Analytical "
+        "Methods in Geomechanics 37 (2013), 1434-1452, beam 4, by the data of pypd (github.com/mark-hobbs/pypd)",
+        "16 elements along the depth; with 32 the forces change by 2 %.",
+        _PULLED,
     ),
     "sequence": Declared(
         friction_laws.sequence,
