@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from dataclasses import replace
 
 import numpy as np
@@ -74,16 +75,16 @@ def judged(response: Response, limit: str, *, evidence: bool = True):
 def test_a_limit_within_the_uncertainty_is_not_met_or_missed_for_certain(response, limit, met, certain, words):
     slip, peak = judged(response, limit)
     assert (slip.met, slip.certain) == (met, certain)
-    assert (peak.value_m, peak.met, peak.certain) == (0.070, True, True)
+    assert (peak.value, peak.met, peak.certain) == (0.070, True, True)
     found = replace(response, limits=(slip, peak))
     assert verdict(found).endswith(words)
     (said, _) = found.to_json()["limits"]
-    assert (said["met"], said["certain"], said["uncertainty_m"]) == (met, certain, 0.011)
+    assert (said["met"], said["certain"], said["uncertainty"]) == (met, certain, 0.011)
 
 
 def test_without_evidence_nothing_is_said_of_certainty(response):
     slip, _ = judged(response, "60.001 mm", evidence=False)
-    assert (slip.met, slip.certain, slip.uncertainty_m) == (True, True, 0.0)
+    assert (slip.met, slip.certain, slip.uncertainty) == (True, True, 0.0)
 
 
 def test_where_single_runs_scatter_the_mean_is_judged():
@@ -93,5 +94,17 @@ def test_where_single_runs_scatter_the_mean_is_judged():
     worth = found.evidence["residual_slip_m"]
     assert found.evidence["value_is"] == "mean"
     (check,) = found.limits
-    assert check.value_m == abs(worth["value"]) != abs(worth["run"])
-    assert check.uncertainty_m == worth["uncertainty"] > 0.0
+    assert check.value == abs(worth["value"]) != abs(worth["run"])
+    assert check.uncertainty == worth["uncertainty"] > 0.0
+
+
+def test_rotation_and_crest_have_limits_with_units_and_utilisation():
+    limits = {"rotation": "0.05 mrad", "crest_displacement": "1 m", "crest_acceleration": "0.2 g"}
+    found = flexible(read_case({**tomllib.loads(BASE.read_text()), "limits": limits}, FAST[:-1]))
+    turn, far, hard = found.limits
+    assert [check.unit for check in found.limits] == ["rad", "m", "g"]
+    assert turn.value == max(found.rocking_downstream_rad, found.rocking_upstream_rad)
+    assert (far.value, hard.value) == (found.crest.displacement_m, found.crest.acceleration_g)
+    assert hard.utilisation == pytest.approx(hard.value / 0.2)
+    assert (hard.met, far.met) == (False, True)
+    assert "its crest acceleration of" in verdict(found)

@@ -68,6 +68,9 @@ BASE: Fields = {
         "opening_upstream": "10 mm",
         "opening_downstream": "10 mm",
         "cracked_length": "5 m",
+        "rotation": "0.1 mrad",
+        "crest_displacement": "5 mm",
+        "crest_acceleration": "1 g",
     },
     "statics": {
         "bonded": 0.3,

@@ -96,7 +96,7 @@ def test_units_that_nobody_knows(both):
 def test_figures_of_a_rigid_block(tmp_path, changes, panels):
     response = rigid(example("typical-base", *changes))
     assert len(response_figure(response).axes) == panels
-    names = {"response", "accelerations", "energy", "spectrum"}
+    names = {"response", "accelerations", "crest", "energy", "spectrum"}
     # What only slides has its slip in the first picture.
     names |= {"path", "slip-by-mode"} if panels == 5 else set()
     paths = save_all(all_figures(None, response), tmp_path)

@@ -110,7 +110,7 @@ def test_terminal_says_the_worse_sign_the_worst_crack_and_what_is_not_met(termin
         assert length(abs(slip)) in text, at
     assert f"residual slip at the crack at {worst:g} m of {length(abs(slips[worst]))}" in text
     (limit,) = [check for check in told["limits"] if not check["met"]]
-    assert limit["value_m"] == abs(slips[worst])
+    assert limit["value"] == abs(slips[worst])
     # No number in the tables is without its unit.
     (table,) = re.findall(r"recorded ok 0 m (.*?) leads", text) or [""]
     assert table.count(" mm") == 4

@@ -84,6 +84,7 @@ READ_BY: dict[str, frozenset[str]] = {
     "decoupled": frozenset({"decoupled"}),
     "statics": frozenset({"statics"}),
     "limits": _SHAKEN,
+    **dict.fromkeys(("limits.crest_displacement", "limits.crest_acceleration"), frozenset({"rigid", "flexible"})),
     "analysis": _BLOCKS,
     "analysis.silence": _SHAKEN,
     "analysis.time_limit": _ELASTIC,

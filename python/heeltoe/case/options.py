@@ -9,7 +9,15 @@ from typing import Annotated, Literal, Self, get_args
 from pydantic import BeforeValidator, Field, model_validator
 
 from heeltoe.case.fields import Count, Fields, Fraction, FrictionCoefficient, Head, TimeSpan, Truth
-from heeltoe.case.quantities import DimensionlessNumber, Duration, Length, MemorySize, Pressure
+from heeltoe.case.quantities import (
+    AccelerationField,
+    Angle,
+    DimensionlessNumber,
+    Duration,
+    Length,
+    MemorySize,
+    Pressure,
+)
 from heeltoe.case.sentences import gathered
 from heeltoe.errors.error import InputError, shown
 
@@ -120,6 +128,19 @@ class Limits(Fields):
     """Opening of the crack at the downstream face."""
     cracked_length: Annotated[Length, Field(ge=0.0)] | None = None
     """Length that is cracked in the end: of a bonded joint what the earthquake cracks, of a crack all of it."""
+    rotation: Annotated[Angle, Field(ge=0.0)] | None = None
+    """Rotation of the part above the crack, either way."""
+    crest_displacement: Annotated[Length, Field(ge=0.0)] | None = None
+    """Horizontal displacement of the crest from where it stands before the earthquake, relative to the ground, either
+    way. Single runs of the rigid block and of the elastic dam are judged by it, and of suites and studies none."""
+    crest_acceleration: AccelerationField | None = None
+    """Horizontal acceleration of the crest with that of the ground, either way; judged as its displacement."""
+
+    @model_validator(mode="after")
+    @gathered
+    def _accelerate(self) -> Iterator[InputError]:
+        if self.crest_acceleration is not None and self.crest_acceleration.value < 0.0:
+            yield InputError("out-of-range", "crest_acceleration", str(self.crest_acceleration), bound="at least 0")
 
 
 #: Of a flood's depth: that there is none.

@@ -187,6 +187,9 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # cracked_length = "5 m"          # of a bonded joint
 # opening_upstream = "50 mm"
 # opening_downstream = "50 mm"
+# rotation = "2 mrad"
+# crest_displacement = "100 mm"
+# crest_acceleration = "2 g"
 
 # [statics]                        # of `heeltoe statics`
 # criteria = "USACE"               # or USBR, FERC, CDA, CADAM3D

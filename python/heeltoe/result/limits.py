@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated, Any
 
 from heeltoe.base.blocks import Block, Number
+from heeltoe.units.parse import Acceleration
 
 if TYPE_CHECKING:
     from heeltoe.case.options import Limits
@@ -19,7 +20,15 @@ LABELS = {
     "opening_upstream": "opening at the upstream face",
     "opening_downstream": "opening at the downstream face",
     "cracked_length": "cracked length",
+    "rotation": "rotation",
+    "crest_displacement": "crest displacement",
+    "crest_acceleration": "crest acceleration",
 }
+# In what they are counted that are no lengths.
+_UNITS = {"rotation": "rad", "crest_acceleration": "g"}
+#: Those that are lengths.
+LENGTHS = tuple(name for name in LABELS if name not in _UNITS)
+_CREST = {"crest_displacement": "displacement_m", "crest_acceleration": "acceleration_g"}
 
 
 # How a run ends whose dam has failed.
@@ -30,19 +39,29 @@ class LimitCheck(Block):
     """A result beside what the user allows."""
 
     name: Annotated[str, Number("Field of limits in the case.")]
-    value_m: Annotated[float, Number("What the run has, without its sign.", "m")]
-    allowed_m: Annotated[float, Number("How much the case allows.", "m")]
+    value: Annotated[float, Number("What the run has, without its sign, in `unit`.")]
+    allowed: Annotated[float, Number("How much the case allows, in `unit`.")]
     failed: Annotated[
         bool,
         Number("Whether the dam has overturned, or does not even stand without an earthquake: it keeps no limit then."),
     ]
-    uncertainty_m: Annotated[
-        float, Number("How far the result may be off by its evidence; zero where there is none.", "m")
+    uncertainty: Annotated[
+        float, Number("How far the result may be off by its evidence, in `unit`; zero where there is none.")
     ] = 0.0
     elevation_m: Annotated[
         float | None,
         Number("Of the crack whose result it is, where there are several: the largest of all.", "m", optional=True),
     ] = None
+
+    @property
+    def unit(self) -> str:
+        """In what it is counted: m, rad or g."""
+        return _UNITS.get(self.name, "m")
+
+    @property
+    def utilisation(self) -> float | None:
+        """The result over what is allowed; None where nothing is allowed."""
+        return self.value / self.allowed if self.allowed else None
 
     @property
     def label(self) -> str:
@@ -52,16 +71,17 @@ class LimitCheck(Block):
     @property
     def met(self) -> bool:
         """Whether the dam holds, and the result is within the limit."""
-        return not self.failed and self.value_m <= self.allowed_m
+        return not self.failed and self.value <= self.allowed
 
     @property
     def certain(self) -> bool:
         """Whether the limit is met, or not, wherever within its uncertainty the result lies."""
-        return self.failed or abs(self.value_m - self.allowed_m) > self.uncertainty_m or not self.uncertainty_m
+        return self.failed or abs(self.value - self.allowed) > self.uncertainty or not self.uncertainty
 
     def to_json(self) -> dict[str, Any]:
-        """Return its fields, and whether the limit is met, and for certain."""
-        return {**super().to_json(), "met": self.met, "certain": self.certain}
+        """Return its fields, its unit, how much of the limit is used, and whether it is met, and for certain."""
+        more = {"unit": self.unit, "utilisation": self.utilisation, "met": self.met, "certain": self.certain}
+        return {**super().to_json(), **more}
 
 
 def check_limits(limits: Limits, response: Response) -> tuple[LimitCheck, ...]:
@@ -73,13 +93,28 @@ def check_limits(limits: Limits, response: Response) -> tuple[LimitCheck, ...]:
     if response.outcome not in ("ok", *_FAILURES):
         return ()
     failed = response.outcome in _FAILURES
-    # Of several cracks any may break a limit.
-    checks = [
-        max((_check(name, limit, crack, failed=failed) for crack in response.cracks), key=lambda check: check.value_m)
-        for name in LABELS
-        if (limit := getattr(limits, name)) is not None
-    ]
-    return tuple(check if response.several else replace(check, elevation_m=None) for check in checks)
+    checks: list[LimitCheck] = []
+    for name in LABELS:
+        limit = allowed_of(limits, name, response.gravity)
+        if limit is None:
+            continue
+        if name in _CREST:
+            if response.crest is not None:
+                checks.append(
+                    LimitCheck(name=name, value=getattr(response.crest, _CREST[name]), allowed=limit, failed=failed)
+                )
+            continue
+        # Of several cracks any may break a limit.
+        cracks = [_check(name, limit, crack, failed=failed) for crack in response.cracks]
+        worst = max(cracks, key=lambda check: check.value)
+        checks.append(worst if response.several else replace(worst, elevation_m=None))
+    return tuple(checks)
+
+
+def allowed_of(limits: Limits, name: str, gravity: float) -> float | None:
+    """Return what a limit allows: lengths in m, rotations in rad, accelerations in g of so many m/s2; None without."""
+    limit: float | Acceleration | None = getattr(limits, name)
+    return limit.si(gravity) / gravity if isinstance(limit, Acceleration) else limit
 
 
 def _check(name: str, limit: float, crack: CrackResponse, *, failed: bool) -> LimitCheck:
@@ -93,26 +128,28 @@ def _check(name: str, limit: float, crack: CrackResponse, *, failed: bool) -> Li
         return LimitCheck(
             name=name,
             # A crack that is no joint was there from the beginning.
-            value_m=numbers["crack_width_m"] if joint is None else joint["cracked_length_m"],
-            allowed_m=limit,
+            value=numbers["crack_width_m"] if joint is None else joint["cracked_length_m"],
+            allowed=limit,
             failed=failed,
-            uncertainty_m=0.0 if worth is None else worth.uncertainty,
+            uncertainty=0.0 if worth is None else worth.uncertainty,
             elevation_m=crack.elevation,
         )
+    turned = max(("rocking_downstream_rad", "rocking_upstream_rad"), key=lambda key: abs(numbers[key]))
     peak = max(("peak_slip_downstream_m", "peak_slip_upstream_m"), key=lambda key: abs(numbers[key]))
     keys = {
         "residual_slip": "residual_slip_m",
         "peak_slip": peak,
         "opening_upstream": "opening_upstream_m",
         "opening_downstream": "opening_downstream_m",
+        "rotation": turned,
     }
     key, evidence = keys[name], numbers.get("evidence")
     uncertainty = 0.0 if evidence is None else evidence[key].uncertainty
     return LimitCheck(
         name=name,
-        value_m=abs(numbers[key]),
-        allowed_m=limit,
+        value=abs(numbers[key]),
+        allowed=limit,
         failed=failed,
-        uncertainty_m=uncertainty,
+        uncertainty=uncertainty,
         elevation_m=crack.elevation,
     )

@@ -21,6 +21,7 @@ from heeltoe.mechanics.block import StaticState
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.comparison import meaning, ratio
 from heeltoe.result.contract import TOO_FAR, leading_crack
+from heeltoe.result.crest import CrestMotion, crest_motion
 from heeltoe.result.limits import LimitCheck
 from heeltoe.result.numbers import (
     OF_SEVERAL,
@@ -337,6 +338,11 @@ class Response(Numbered, Shown):
         return self.cracks[self.asked].histories
 
     @property
+    def crest(self) -> CrestMotion | None:
+        """How the crest moves; None where the model does not say."""
+        return crest_motion(self.histories, self.gravity)
+
+    @property
     def mode(self) -> tuple[str, ...]:
         """Mode of motion at each moment of the histories, by name."""
         return self.cracks[self.asked].mode
@@ -408,6 +414,7 @@ class Response(Numbered, Shown):
             "warnings": [notice.to_json() for notice in self.warnings],
             **plain_json(self.summary),
             **several,
+            **({} if (crest := self.crest) is None else {"crest": crest.to_json()}),
             "silence_s": self.silence_s,
             **static_json(self.static),
             "energy": None if self.energy is None else self.energy.to_json(),

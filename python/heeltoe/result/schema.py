@@ -7,6 +7,7 @@ from typing import Any
 from heeltoe.base.blocks import Block, json_schema
 from heeltoe.mechanics.block import CriticalAccelerationsInG, StaticState
 from heeltoe.result.contract import HEADLINES
+from heeltoe.result.crest import CrestMotion
 from heeltoe.result.limits import LimitCheck
 from heeltoe.result.numbers import OF_SEVERAL, BlockNumbers, Chain, ElasticCrack, ElasticDam, SignNumbers, Spread
 from heeltoe.result.response import OUTCOMES, Chosen, Energy
@@ -25,7 +26,9 @@ def run_schema() -> dict[str, Any]:
     result = {
         "type": "object",
         "properties": {**_of_every_run(), **_of_models()},
-        "required": sorted(_of_every_run().keys() - {"spread", "sequence", "signs", "ratio", "meaning", "beside"}),
+        "required": sorted(
+            _of_every_run().keys() - {"crest", "spread", "sequence", "signs", "ratio", "meaning", "beside"}
+        ),
     }
     return {
         "$schema": "https://json-schema.org/draft/2020-12/schema",
@@ -67,6 +70,7 @@ def _of_every_run() -> dict[str, Any]:
         "static": {"type": "object", "properties": static},
         "left_out": {"type": "object", "additionalProperties": _TEXT},
         "energy": _or_null(json_schema(Energy)),
+        "crest": json_schema(CrestMotion),
         "spread": json_schema(Spread),
         "sequence": {"type": "array", "items": json_schema(Stage)},
         "signs": {"type": "array", "items": json_schema(SignNumbers)},

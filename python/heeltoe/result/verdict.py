@@ -9,7 +9,7 @@ from heeltoe.result.rest import comes_to_rest, last_of, motion_end, rests_from
 from heeltoe.result.sequence import sequence_said
 from heeltoe.result.tension import cracks_said
 from heeltoe.units.sentences import written
-from heeltoe.units.write import angle, length, speed
+from heeltoe.units.write import angle, length, measured, speed
 
 # Not at run time: a response says its verdict in its JSON.
 if TYPE_CHECKING:
@@ -88,7 +88,8 @@ def _limits(response: Response, units: str) -> str:
     if response.outcome == "overturned":
         return "It keeps none of its limits: a dam that has overturned has failed."
     broken = [
-        f"{limited(check, units)} of {_judged(check, units)} is more than the {length(check.allowed_m, units)} allowed"
+        f"{limited(check, units)} of {_judged(check, units)} is more than the "
+        f"{measured(check.allowed, check.unit, units)} allowed"
         for check in response.limits
         if not check.met
     ]
@@ -97,7 +98,7 @@ def _limits(response: Response, units: str) -> str:
         return f"It does not keep within its limits{doubt}: its {' and its '.join(broken)}."
     doubted = [
         f"{limited(check, units)} of {_judged(check, units)} may be more than the "
-        f"{length(check.allowed_m, units)} allowed"
+        f"{measured(check.allowed, check.unit, units)} allowed"
         for check in response.limits
         if not check.certain
     ]
@@ -122,8 +123,8 @@ def _level(elevation: float, units: str) -> str:
 
 def _judged(check: LimitCheck, units: str) -> str:
     """Return a result, and how uncertain it is where that decides."""
-    value = length(check.value_m, units)
-    return value if check.certain else f"{value} ± {length(check.uncertainty_m, units)}"
+    value = measured(check.value, check.unit, units)
+    return value if check.certain else f"{value} ± {measured(check.uncertainty, check.unit, units)}"
 
 
 def _spread(response: Response, units: str) -> str:

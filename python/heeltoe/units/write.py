@@ -95,6 +95,13 @@ def angle(radians: float) -> str:
     return f"{radians:.3g} rad" if abs(radians) >= 1.0 else f"{1e3 * radians:.3g} mrad"
 
 
+def measured(value: float, unit: str, units: str = "si") -> str:
+    """Write a number in ``"m"``, ``"rad"`` or ``"g"`` as people say it."""
+    if unit == "m":
+        return length(value, units)
+    return angle(value) if unit == "rad" else f"{value:.3g} {unit}"
+
+
 def scaled(value: float, scale: Scale, count: int = 3) -> str:
     """Write a value in SI with the unit of a scale, to so many digits, none cut off before the point."""
     shown = scale(value)

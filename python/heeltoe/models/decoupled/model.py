@@ -25,6 +25,7 @@ from heeltoe.models.runner import reach_of_block, until_rest
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.motion.spectrum import response_spectrum
 from heeltoe.result.contract import JOINT_METER_M
+from heeltoe.result.crest import ACCELERATION, DISPLACEMENT
 from heeltoe.result.numbers import BondedMotion, Chain, CrackLevel, CrackMotionConvergence, CrackSpectrum
 from heeltoe.result.response import Response
 from heeltoe.warnings.notice import Notice
@@ -194,7 +195,8 @@ def _change(slip: float, coarser: float) -> float:
 
 def _histories(block: Response, found: CrackMotion, earthquake: Earthquake) -> dict[str, Floats]:
     """Put the ground's own motion where the block has that of the crack, and the crack's beside it."""
-    histories = dict(block.histories)
+    # Where the crest is relative to the ground hangs on the part below, too.
+    histories = {name: values for name, values in block.histories.items() if name not in (DISPLACEMENT, ACCELERATION)}
     moments, shaking = histories["time_s"], earthquake.shaking
     result = {"time_s": moments, "ground_acceleration_m_s2": np.interp(moments, shaking.time, shaking.horizontal)}
     if shaking.up is not None:

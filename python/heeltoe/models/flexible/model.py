@@ -18,7 +18,7 @@ from heeltoe.models.flexible.evidence.excitation import self_excitation
 from heeltoe.models.flexible.evidence.refinement import Answer, answer
 from heeltoe.models.flexible.result.envelope import envelope_of
 from heeltoe.models.flexible.result.response import FlexibleResponse
-from heeltoe.models.flexible.result.tables import crack_responses, dam_numbers, energy_of, histories_of_cracks
+from heeltoe.models.flexible.result.tables import crack_responses, crest_of, dam_numbers, energy_of, histories_of_cracks
 from heeltoe.models.flexible.result.tension import tension_of, tension_warnings
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import analysing, frame_step_of
@@ -27,6 +27,8 @@ from heeltoe.models.flexible.warnings import judge_outcome, stands, warnings_of
 from heeltoe.models.runner import STEP, severity, until_rest
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.contract import CRACKED, leading_crack
+from heeltoe.result.crest import crest_motion
+from heeltoe.result.limits import allowed_of
 from heeltoe.result.numbers import SignNumbers
 from heeltoe.result.rest import LAST_S, last_change, still_since
 from heeltoe.units.sentences import Sentence
@@ -39,6 +41,7 @@ _LIMITED = {
     "peak_slip": ("slip_max", "slip_min"),
     "opening_upstream": ("opening_heel",),
     "opening_downstream": ("opening_toe",),
+    "rotation": ("rotation_max", "rotation_min"),
 }
 
 
@@ -154,7 +157,13 @@ class Rested(NamedTuple):
         worst[CRACKED.removesuffix("_m")] = max(
             row.cracked_length if line.bond is not None else section.crack_width for row, line, section in lengths
         )
-        limits = {name: getattr(case.limits, name) for name in worst}
+        crest = crest_motion(
+            {**crest_of(self.shaken, self.run), "ground_acceleration_m_s2": self.shaken.shaking.horizontal},
+            case.gravity,
+        )
+        if crest is not None:
+            worst |= {"crest_displacement": crest.displacement_m, "crest_acceleration": crest.acceleration_g}
+        limits = {name: allowed_of(case.limits, name, case.gravity) for name in worst}
         return sum(limit is not None and worst[name] > limit for name, limit in limits.items())
 
     def badness(self, case: Case) -> tuple[int, int, float]:

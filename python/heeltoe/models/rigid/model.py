@@ -8,7 +8,7 @@ from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.mechanics.block import Block, build_block
-from heeltoe.models.rigid.tables import crack_response, energy_of, references_of
+from heeltoe.models.rigid.tables import crack_response, energy_of, references_of, with_crest
 from heeltoe.models.rigid.walk import walk_with_drainage
 from heeltoe.models.rigid.warnings import advice_of, warnings_of
 from heeltoe.models.runner import largest_rotation, outcome_of
@@ -52,6 +52,7 @@ def run_rigid(
         run.outcome, float(largest_rotation(run.summary.by_name())), finite=case.analysis.rotation == "finite"
     )
     started = outcome != "unstable"
+    crack = crack_response(case, block, shaking, moments, run, started=started, drainage=drainage)
     return Response(
         model="rigid",
         title=case.title,
@@ -62,7 +63,7 @@ def run_rigid(
         motion=earthquake.motion,
         vertical=earthquake.vertical,
         gravity=case.gravity,
-        cracks=(crack_response(case, block, shaking, moments, run, started=started, drainage=drainage),),
+        cracks=tuple(with_crest([crack], [block])),
         references=references_of(case, block, run),
         silence_s=earthquake.silence,
     )

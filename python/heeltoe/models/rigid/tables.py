@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,7 @@ from heeltoe.mechanics.block import Block, static_state
 from heeltoe.mechanics.references import cited
 from heeltoe.models.rigid.slip_history import law_found, law_histories, roughness_found, roughness_histories
 from heeltoe.result.contract import HEADLINES, headlines, slip_by_mode, time_by_mode
+from heeltoe.result.crest import crest_histories
 from heeltoe.result.numbers import AnchorForce, BlockNumbers
 from heeltoe.result.response import CrackResponse, Energy
 
@@ -122,6 +124,30 @@ def crack_response(
         mode=tuple(MODE_NAMES.take(run.mode).tolist()) if started else (),
         event_log=events_of(run),
         static=static_state(block),
+    )
+
+
+def with_crest(cracks: Sequence[CrackResponse], blocks: Sequence[Block]) -> list[CrackResponse]:
+    """Return what cracks did with the motion of the crest, which goes with the blocks, one on the other."""
+    if not all(crack.histories for crack in cracks):
+        return list(cracks)
+    place = np.sum([_crest_of(crack, block) for crack, block in zip(cracks, blocks, strict=True)], axis=0)
+    h = cracks[0].histories
+    crest = crest_histories(h["time_s"], place, h["ground_acceleration_m_s2"])
+    return [replace(crack, histories={**crack.histories, **crest}) for crack in cracks]
+
+
+def _crest_of(crack: CrackResponse, block: Block) -> Floats:
+    """Return how far one crack moves the upstream edge of the crest downstream [m]: a turn counter-clockwise, about the
+    heel, moves it upstream."""
+    h, section = crack.histories, block.section
+    corners = section.polygon[section.polygon[:, 1] >= section.crest_elevation]
+    ahead, above = (corners[np.argmin(corners[:, 0])] - np.array(section.heel)).tolist()
+    turn = h["rotation_rad"]
+    finite = block.case.analysis.rotation == "finite"
+    turned = (np.cos(turn) - 1.0) * ahead - np.sin(turn) * above if finite else -turn * above
+    return np.asarray(
+        h["slip_m"] * np.cos(section.inclination) - h["gap_heel_m"] * np.sin(section.inclination) + turned
     )
 
 

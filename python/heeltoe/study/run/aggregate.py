@@ -68,9 +68,9 @@ class Walk:
 
     @property
     def limits(self) -> dict[str, Any]:
-        """What the base case allows, by the name of the limit."""
+        """What the base case allows, by the name of the limit; its limits on the crest are those of single runs."""
         limits = self.told["case"].get("limits") or {}
-        return {name: value for name, value in limits.items() if value is not None}
+        return {name: value for name, value in limits.items() if value is not None and not name.startswith("crest_")}
 
     def of_cracks(self, name: str) -> list[str]:
         """Return the columns of a headline number at each of several cracks, from the crest down; none of one crack."""

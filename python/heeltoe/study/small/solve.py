@@ -25,7 +25,7 @@ from heeltoe.case.read import read_case
 from heeltoe.errors.error import InputError, shown
 from heeltoe.models.run import AUTO, check_model, models_of, run
 from heeltoe.models.runner import TRUSTED
-from heeltoe.result.limits import LABELS
+from heeltoe.result.limits import LENGTHS
 from heeltoe.result.response import Response
 from heeltoe.result.write import build_info
 from heeltoe.study.plan.axes import Axis
@@ -232,8 +232,8 @@ def _limit_of(until: str) -> tuple[str, float]:
     """Return which limit a text names, and what it allows [m]."""
     name, equals, value = (part.strip() for part in until.partition("="))
     name = name.removeprefix("limits.").rstrip("<").strip()
-    if not equals or name not in LABELS:
-        raise InputError("solve-until", "--until", shown(until), names=", ".join(LABELS))
+    if not equals or name not in LENGTHS:
+        raise InputError("solve-until", "--until", shown(until), names=", ".join(LENGTHS))
     allowed = parse(value, "length", "--until")
     if allowed <= 0.0:
         raise InputError("out-of-range", "--until", value, bound="above 0")
@@ -391,5 +391,5 @@ def _point(value: float, response: Response, limit: str, shift: float) -> Point:
     sign = next((way.sign for way in response.signs if way.governs), "")
     if check is None or check.failed or response.outcome not in TRUSTED:
         return Point(value, None, 0.0, False, sign, response.outcome)
-    result = max(check.value_m + shift, 0.0)
-    return Point(value, result, check.uncertainty_m, result <= check.allowed_m, sign, response.outcome)
+    result = max(check.value + shift, 0.0)
+    return Point(value, result, check.uncertainty, result <= check.allowed, sign, response.outcome)

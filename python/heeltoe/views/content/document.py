@@ -44,14 +44,14 @@ def document(subject: Subject) -> Document:
     hashed = input_hash(subject.case, (subject.first.response.motion, subject.first.response.vertical))
     sections = (
         question(subject),
+        limits(subject),
         given_input(subject),
         ground_motion(subject),
-        method(subject),
         results(subject),
         evidence(subject),
-        limitations(subject),
         static_checks(subject),
-        limits(subject),
+        limitations(subject),
+        method(subject),
         Section("References", (References(subject.references),)),
         rerun(subject),
         defaults(subject),

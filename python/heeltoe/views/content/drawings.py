@@ -24,6 +24,8 @@ CAPTIONS = {
     "asperities": "How far the rough crack dilates as it slips, and the angle that wear leaves its flanks.",
     "accelerations": "Acceleration of the ground, acceleration of the slip, and the forces at heel and toe.",
     "forces": "Forces across the crack.",
+    "crest": "How the crest moves: its displacement relative to the ground, and its acceleration with that of the "
+    "ground.",
     "energy": "Where the energy put in by the earthquake goes.",
     "path": "Path of the part above the crack.",
     "motion": "The ground motion, as used: acceleration, velocity, displacement.",
@@ -41,20 +43,28 @@ CAPTIONS = {
 _SHARES = {
     "section": 0.7,
     "law": 0.7,
-    "tension": 0.8,
-    "spectrum": 0.7,
+    "tension": 0.62,
+    "spectrum": 0.6,
     "slip-by-mode": 0.8,
     "friction": 0.9,
     "asperities": 0.9,
-    "energy": 0.8,
-    "mesh": 0.55,
+    "energy": 0.75,
+    "mesh": 0.36,
+    "deformed": 0.78,
 }
 _SHARES |= {"bands": 0.8, "slips": 0.8, "fragility": 0.8}
 # Histories are drawn lower than on a page of their own, so that two of them share one, or one and a table; letters stay
 # as large as they are.
-_LOWER = {"comparison": 0.8, "response": 0.75, "accelerations": 0.75, "forces": 0.9, "crack-level": 0.75}
-_LOWER |= {"crack": 0.8, "joint": 0.8, "pressure": 0.75}
-_LEAST_HEIGHT = 4.5
+_LOWER = {
+    "comparison": 0.64,
+    "response": 0.75,
+    "accelerations": 0.75,
+    "forces": 0.9,
+    "crack-level": 0.75,
+    "crest": 0.55,
+}
+_LOWER |= {"crack": 0.7, "joint": 0.7, "pressure": 0.75}
+_LEAST_HEIGHT = 4.0
 # What belongs to the words around it does not wait for another page.
 _HELD = ("summary",)
 # Flatter ones have panels side by side, with no room to spare.
@@ -66,7 +76,7 @@ _OF_BOTH = (
         "section",
         "motion",
         "comparison",
-        "response",
+        "crest",
         "energy",
         "spectrum",
         "joint",

@@ -21,6 +21,7 @@ _ENERGY = (
     ("Made by contact, which should be none", "gained_j"),
     ("What the ledger leaves unexplained, over the turnover", "residual"),
 )
+_RARE = ("fracture_j", "floor_j", "far_end_j")
 _FLEXIBLE = (
     ("Time step", "time_step_s", None),
     ("Steps", "steps", None),
@@ -71,8 +72,9 @@ def evidence(subject: Subject) -> Section:
         blocks += _spread(subject, run)
     if any(run.response.energy is not None for run in subject.runs):
         ledgers = [run.response.energy for run in subject.runs if run.response.energy is not None]
-        bonded = any(ledger.fracture_j for ledger in ledgers)
-        entries = [(label, name) for label, name in _ENERGY if bonded or name != "fracture_j"]
+        # What only joints and water with sound have.
+        there = {name: any(getattr(ledger, name) for ledger in ledgers) for name in _RARE}
+        entries = [(label, name) for label, name in _ENERGY if there.get(name, True)]
         rows = tuple(_energy_row(subject, label, name) for label, name in entries)
         blocks.append(Table(subject.head(), _seen(rows), f"Energy ledger, {subject.per_width}.", subject.align()))
         blocks += subject.figure("energy")[-1:]

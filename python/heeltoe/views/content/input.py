@@ -24,13 +24,13 @@ def given_input(subject: Subject) -> Section:
     rows = _rows(subject, given=True)
     text = (
         f"All that the case says, in {_SYSTEMS[subject.units]} units {subject.per_width}; x points downstream, z up. "
-        "What it leaves to the program’s defaults is in the appendix."
+        "What it leaves to the program’s defaults is in the appendix; "
     )
     return Section(
         "Input",
         (
-            paragraph(text),
-            Table(("field", "value", "meaning"), rows, "Given by the case.", "lll", (3.8, 2.7, 5.7)),
+            paragraph(text, Code("heeltoe explain FIELD"), " says what a field means."),
+            Table(("field", "value"), tuple(row[:2] for row in rows), "Given by the case.", "ll"),
             *subject.figure("section"),
         ),
     )
@@ -38,14 +38,16 @@ def given_input(subject: Subject) -> Section:
 
 def defaults(subject: Subject) -> Section:
     """Return the appendix with all fields at their defaults."""
-    rows = _rows(subject, given=False)
+    rows = tuple(row[:2] for row in _rows(subject, given=False) if row[1] != "none")
     return Section(
         "Appendix: defaults",
         (
             paragraph(
-                f"Fields that the case does not give, with the values that were used. {_unused(subject)}".strip()
+                "Fields that the case does not give, with the values that were used; what is not listed is none. ",
+                Code("heeltoe explain FIELD"),
+                f" says what one means. {_unused(subject)}".rstrip(),
             ),
-            Table(("field", "value", "meaning"), rows, "Left to defaults.", "lll", (3.8, 2.7, 5.7)),
+            Table(("field", "value"), rows, "Left to defaults.", "ll"),
         ),
     )
 

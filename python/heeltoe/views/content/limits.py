@@ -8,6 +8,7 @@ from heeltoe.units.sentences import quantity
 from heeltoe.views.content.subject import Subject
 from heeltoe.views.content.tree import Block, Code, Inline, Section, Table, paragraph
 
+_QUANTITIES = {"m": "displacement", "rad": "rotation", "g": "g"}
 _EXAMPLE = {"si": "100 mm", "us": "4 in"}
 
 
@@ -23,15 +24,21 @@ def limits(subject: Subject) -> Section:
             rows.append(
                 (
                     label if len(subject.runs) == 1 else f"{label}, {run.name}",
-                    n(key + "value_m"),
-                    n(key + "allowed_m"),
+                    n(key + "value", _QUANTITIES[check.unit]),
+                    n(key + "allowed", _QUANTITIES[check.unit]),
+                    n(key + "utilisation", "share"),
                     ("yes" if check.met else "NO") + ("" if check.certain else ", within its uncertainty"),
                 )
             )
     blocks: list[Block] = []
     if rows:
         blocks.append(
-            Table(("", "result", "allowed", "met"), tuple(rows), "Results beside the limits, slips either way.", "lrrl")
+            Table(
+                ("", "result", "allowed", "used", "met"),
+                tuple(rows),
+                "Results beside the limits, slips either way.",
+                "lrrrl",
+            )
         )
     elif any(run.response.ok for run in subject.runs):
         blocks.append(

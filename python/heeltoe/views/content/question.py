@@ -9,7 +9,7 @@ from heeltoe.result.contract import HEADLINES
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.result.verdict import advice, limited, verdict
 from heeltoe.units.sentences import written
-from heeltoe.units.write import NOTHING, digits, length
+from heeltoe.units.write import NOTHING, digits, measured
 from heeltoe.views.content.checks import missed_of
 from heeltoe.views.content.subject import Run, Subject
 from heeltoe.views.content.tree import (
@@ -99,9 +99,10 @@ def _not_met(subject: Subject) -> Block | None:
     items: list[tuple[Inline, ...]] = []
     for check in subject.result.limits:
         if not check.met:
-            found, allowed = length(check.value_m, units), length(check.allowed_m, units)
-            doubt = "" if check.certain else f" ± {length(check.uncertainty_m, units)}"
-            text = f"{limited(check, units)} of {found}{doubt}, {allowed} allowed"
+            found, allowed = (measured(number, check.unit, units) for number in (check.value, check.allowed))
+            doubt = "" if check.certain else f" ± {measured(check.uncertainty, check.unit, units)}"
+            used = "" if check.utilisation is None else f", {100.0 * check.utilisation:.0f} % of it"
+            text = f"{limited(check, units)} of {found}{doubt}, {allowed} allowed{used}"
             text += f"{', by a dam that has failed' if check.failed else ''}."
             items.append((Strong("Limit. "), glued(text)))
     if subject.joints is not None:

@@ -107,6 +107,7 @@ _FIGURES = (
     "crack-level",
     "accelerations",
     "forces",
+    "crest",
     "path",
     "joint",
     "crack",

@@ -14,6 +14,7 @@ from heeltoe.models.statics.checks import Check
 from heeltoe.models.statics.load_case import LoadCase
 from heeltoe.models.statics.model import Statics
 from heeltoe.models.statics.sheet import ForceLine
+from heeltoe.result.crest import CrestMotion
 from heeltoe.result.limits import LimitCheck
 from heeltoe.result.numbers import OF_SEVERAL, BlockNumbers, Chain, ElasticCrack, ElasticDam, SignNumbers, Spread
 from heeltoe.result.response import Chosen, Energy, Response
@@ -48,6 +49,7 @@ _BLOCKS: tuple[tuple[str, type[Block], str], ...] = (
     ("static.", StaticState, _RUN),
     ("chosen.", Chosen, _RUN),
     ("limits[].", LimitCheck, _RUN),
+    ("crest.", CrestMotion, _RUN),
     ("sequence[].", Stage, _RUN),
     ("signs[].", SignNumbers, _RUN),
     ("motion.", MotionNumbers, _RUN),

@@ -14,6 +14,7 @@ from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.result.response import Response
 from heeltoe.units.systems import unit_system
 from heeltoe.views.figures.crack_level import crack_level_figure
+from heeltoe.views.figures.crest import crest_figure
 from heeltoe.views.figures.dense import filled_in
 from heeltoe.views.figures.energy import energy_figure
 from heeltoe.views.figures.histories import (
@@ -43,6 +44,7 @@ NAMES = (
     "asperities",
     "accelerations",
     "forces",
+    "crest",
     "energy",
     "path",
     "spectrum",
@@ -60,6 +62,8 @@ NAMES = (
 _OF_CRACKS = ("response", "slip-by-mode", "friction", "forces", "path", "joint", "crack", "pressure")
 #: Lift-offs below this [m] have no picture of their own.
 _NO_LIFT = 1e-5
+#: Nor has the motion of a crest that goes with the ground up to this [m].
+_NO_SHIFT = 1e-5
 
 
 class Figures(Mapping[str, Figure]):
@@ -168,6 +172,8 @@ def _drawings(response: Response, units: str) -> dict[str, Callable[[], Figure]]
         found["forces"] = lambda: force_figure(response, units)
     else:
         found["accelerations"] = lambda: acceleration_figure(response, units)
+    if response.crest is not None and response.crest.displacement_m > _NO_SHIFT:
+        found["crest"] = lambda: crest_figure(response, units)
     if response.energy is not None and response.energy.input_j:
         found["energy"] = lambda: energy_figure(response, units)
     if lifts_off(response, _NO_LIFT):

@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from heeltoe.result.response import Response
 from heeltoe.units.systems import unit_system
-from heeltoe.views.figures.panels import largest, panels, shown_rotation
+from heeltoe.views.figures.panels import draw_limits, largest, panels, shown_rotation
 from heeltoe.views.figures.shaking import draw_shaking, shaking_heights
 from heeltoe.views.figures.style import COLOURS, heading, shaken_by, styled
 from heeltoe.views.figures.time_axis import time_axis
@@ -17,6 +17,13 @@ _PANELS = (
     ("gap_heel_m", "displacement", "opening at\nthe heel [{}]"),
     ("gap_toe_m", "displacement", "opening at\nthe toe [{}]"),
 )
+# The limits that each panel shows.
+_LIMITS = {
+    "slip_m": {"residual_slip": "residual slip", "peak_slip": "peak slip"},
+    "rotation_rad": {"rotation": "rotation"},
+    "gap_heel_m": {"opening_upstream": "opening"},
+    "gap_toe_m": {"opening_downstream": "opening"},
+}
 
 
 @styled
@@ -48,6 +55,7 @@ def comparison_figure(dam: Response, block: Response, units: str = "si") -> Figu
                 linewidth=1.1,
                 label=f"{response.model} model",
             )
+        draw_limits(panel, dam, _LIMITS[key], scale)
         panel.set_ylabel(label.format(scale.unit))
     time_axis(rest[-1], dam, block)
     figure.legend(*rest[-1].get_legend_handles_labels(), loc="outside lower center", ncols=2)

@@ -17,7 +17,7 @@ from heeltoe.models.flexible.result.response import FlexibleResponse
 from heeltoe.units.systems import Scale, unit_system
 from heeltoe.views.figures.panels import draw_slip, panels
 from heeltoe.views.figures.style import COLOURS, describe, styled
-from heeltoe.views.figures.time_axis import time_axis
+from heeltoe.views.figures.time_axis import strong_part, time_axis
 
 # From light to dark in black and white: nothing, open, stick, slip one way, slip the other way.
 STATUS_COLOURS = {
@@ -55,7 +55,7 @@ def crack_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     describe(figure, response)
     draw_slip(slip, response, system)
     seen = _status_map(crack, history, system.scale("length"))
-    time_axis(crack, response)
+    strong_part(crack, response)
     names = {"absent": "nothing opposite"}
     handles = [
         Patch(facecolor=STATUS_COLOURS[name], edgecolor="#888888", label=names.get(name, name), linewidth=0.5)
@@ -144,7 +144,8 @@ def joint_states(history: CrackHistory) -> tuple[Floats, NDArray[np.int8]]:
 
 @styled
 def pressure_figure(response: FlexibleResponse, units: str = "si") -> Figure:
-    """Draw the contact pressure along an elastic dam's crack over time; where nothing presses it is white, hatched.
+    """Draw the contact pressure along an elastic dam's crack while it shakes strongly; where nothing presses it is
+    white, hatched.
 
     Pressures are the nodes' forces over the lengths that belong to them, mean from frame to frame. Single blows may
     lie beyond the end of the colours.
@@ -153,9 +154,8 @@ def pressure_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     system = unit_system(units)
     time, pressure = contact_pressure(history)
     length = system.scale("length")
-    figure, (slip, crack) = panels([1.0, 2.2], 1.55)
+    figure, (crack,) = panels([1.6], 1.55)
     describe(figure, response)
-    draw_slip(slip, response, system)
     pressed = pressure > 0.0
     # Both ends are corners, under which the concrete's stress has no bound.
     inner = pressure[:, 1:-1][pressed[:, 1:-1]]
@@ -180,10 +180,9 @@ def pressure_figure(response: FlexibleResponse, units: str = "si") -> Figure:
     bar = figure.colorbar(image, ax=crack, extend=beyond, pad=0.01, aspect=18)
     bar.set_label(f"contact pressure [{scale.unit}]")
     _label_crack(crack, length, "crack")
-    time_axis(crack, response)
+    strong_part(crack, response)
     handle = Patch(facecolor="white", edgecolor="#999999", hatch="////", label="open: no contact pressure")
     figure.legend(handles=[handle], loc="outside lower center")
-    figure.align_ylabels([slip, crack])
     return figure
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TypeGuard
 
 import numpy as np
@@ -21,6 +21,8 @@ from heeltoe.views.figures.style import COLOURS, MODE_COLOURS, WIDTH
 _KINDS = {"sliding": "slide", "rocking": "rock", "slide-rocking": "slide-rock", "drifting": "drift"}
 # From which part of the time on the spread of what remains is drawn.
 _LAST = 0.97
+# A limit that is farther than so many times what there is has no line.
+_NEAR = 2.0
 # Up to which rotation a block that overturns at once is shown [rad].
 _TILTED = 0.05
 
@@ -62,8 +64,44 @@ def draw_slip(axes: Axes, response: Response, units: Units) -> None:
         axes.axhline(scale(edge), color=COLOURS["slip"], linewidth=0.6, linestyle=":")
     if largest(h["slip_m"], ends, within) == 0.0:
         axes.set_ylim(-1.0, 1.0)
+    draw_limits(axes, response, {"residual_slip": "residual slip", "peak_slip": "peak slip"}, scale)
     varied = "" if spread is None else f", {scale(ends[0]):.4g} to {scale(ends[1]):.4g} with the shaking varied"
     beside(axes, f"{slip_in_the_end(response, scale)}{varied}", colour=COLOURS["slip"])
+
+
+def draw_limits(axes: Axes, response: Response, names: Mapping[str, str], scale: Scale) -> None:
+    """Draw what the case allows as lines, as far as they are near what there is.
+
+    Parameters
+    ----------
+    names
+        Of the fields of ``limits``, with what each line is called.
+    scale
+        The unit of the axis.
+    """
+    reach = max(map(abs, axes.get_ylim()))
+    low, high = axes.get_ylim()
+    for check in response.limits:
+        allowed = float(scale(check.allowed))
+        if check.name not in names or not 0.0 < allowed <= _NEAR * reach:
+            continue
+        # Where nothing goes, there is no need of a line.
+        sides = [allowed] if low > -0.25 * reach else [-allowed] if high < 0.25 * reach else [allowed, -allowed]
+        for side in sides:
+            axes.axhline(side, color=COLOURS["crack"], linewidth=0.9, linestyle=(0, (6, 2)))
+            axes.annotate(
+                f"{names[check.name]} allowed",
+                (1.0, side),
+                xycoords=("axes fraction", "data"),
+                xytext=(-3, 2),
+                textcoords="offset points",
+                ha="right",
+                va="bottom",
+                fontsize=7,
+                color=COLOURS["crack"],
+            )
+            low, high = min(low, 1.15 * side), max(high, 1.15 * side)
+    axes.set_ylim(low, high)
 
 
 def slip_in_the_end(response: Response, scale: Scale) -> str:
@@ -90,6 +128,7 @@ def draw_rotation(axes: Axes, response: Response, units: Units) -> None:
     scale = units.scale("rotation", largest(h["rotation_rad"]))
     axes.plot(h["time_s"], scale(h["rotation_rad"]), color=COLOURS["rotation"], linewidth=1.0)
     axes.set_ylabel(f"rotation [{scale.unit}]\n(+ about heel)")
+    draw_limits(axes, response, {"rotation": "rotation"}, scale)
     if cut is not None:
         axes.set_yscale("symlog", linthresh=float(scale(cut)), linscale=2.0)
         ends = [float(scale(h["rotation_rad"].min())), float(scale(h["rotation_rad"].max()))]
@@ -116,6 +155,7 @@ def draw_openings(axes: Axes, response: Response, units: Units) -> None:
     axes.set_ylabel(f"opening [{scale.unit}]")
     top = scale(most) * 1.05
     axes.set_ylim(min(0.0, axes.get_ylim()[0]) if cut is None else -0.05 * top, top or 1.0)
+    draw_limits(axes, response, {"opening_upstream": "heel", "opening_downstream": "toe"}, scale)
     axes.legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=2, fontsize=8, borderaxespad=0.0)
 
 

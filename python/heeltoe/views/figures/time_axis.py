@@ -13,6 +13,8 @@ from heeltoe.views.figures.panels import pieces
 
 # Up to where the ground shakes strongly: this share of its Arias intensity has come in (as in D5-75).
 _SHAKEN = 0.75
+# Between these its strong part lies: a little more than in D5-95.
+_BEGUN, _OVER = 0.02, 0.98
 # What follows is left out where the axis gets shorter than this part of the run.
 _SHORTER = 0.85
 # Beyond what happens, a part of it.
@@ -43,6 +45,20 @@ def time_axis(axes: Axes, *responses: Response) -> None:
         label += ";\n" if ";" in label else "; "
         label += f"at rest from here to the end at {end:.4g} s"
     axes.set_xlabel(label)
+
+
+def strong_part(axes: Axes, response: Response) -> None:
+    """Label the axis of time, which has the strong part of the shaking alone: what single nodes do in a hundredth of a
+    second is no more than stripes over the whole run."""
+    time_axis(axes, response)
+    motion = response.motion
+    if motion.parts or not motion.pga:
+        return
+    start, end = axes.get_xlim()
+    low, high = math.floor(husid_time(motion, _BEGUN)), math.ceil(husid_time(motion, _OVER))
+    if high - low < _SHORTER * (end - start):
+        axes.set_xlim(max(low, start), min(high, end))
+        axes.set_xlabel(f"time [s]; the strong part of {end:.4g} s")
 
 
 def begins(*responses: Response) -> list[float]:

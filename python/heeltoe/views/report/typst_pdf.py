@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
 from typing import Any, Literal
@@ -49,6 +50,10 @@ _NO_FONT = Notes(
 )
 _SHORT = 12
 """Rows of a table that is kept on one page; longer ones are broken, so that no page stays half empty."""
+_LONG = 8
+"""Rows from which on a table of two columns has its second half beside the first."""
+# Columns of one with both halves side by side.
+_HALVES = 5
 _HELD = 3
 """Rows at the head and the foot of a longer table that stay together."""
 _WIDTH_MM, _HEIGHT_MM = 170.0, 225.0
@@ -207,7 +212,19 @@ def _plain(block: Block) -> str:
     return f"#listing({_string(_breakable(block.text, _WIDE))})"
 
 
+def _in_halves(table: Table) -> Table:
+    """Return a long narrow table with its second half beside the first."""
+    if len(table.head) != 2 or len(table.rows) < _LONG or table.widths:
+        return table
+    half = -(-len(table.rows) // 2)
+    blank: tuple[Inline, ...] = ("", "")
+    second = (*table.rows[half:], *[blank] * (2 * half - len(table.rows)))
+    rows = tuple((*left, "", *right) for left, right in zip(table.rows[:half], second, strict=True))
+    return replace(table, head=(*table.head, "", *table.head), rows=rows, align=f"{table.align}l{table.align}")
+
+
 def _table(table: Table) -> str:
+    table = _in_halves(table)
     count = len(table.head)
     widths = [f"{share:g}fr" for share in table.widths] or ["auto"] * count
     letters = table.align.ljust(count, "l")
@@ -230,7 +247,7 @@ def _table(table: Table) -> str:
             cells.append("[]")
         cells += [_inline((cell,), _NARROW if table.widths else _WIDE) for cell in row]
     cells.append("table.hline(stroke: 0.8pt)")
-    size = "8.5pt" if table.widths else "9.5pt"
+    size = "8.5pt" if table.widths or count == _HALVES else "9.5pt"
     body = f"text({size}, table(columns: ({columns}), align: ({align},), {', '.join(cells)}))"
     figure = f"figure(kind: table, supplement: [Table], caption: {_words(table.caption)}, {body})"
     return f"#{{ show figure: set block(breakable: {str(broken).lower()}); {figure} }}"

@@ -16,7 +16,7 @@ from pydantic import BaseModel
 from heeltoe.case.project import Project
 from heeltoe.errors.sanitize import plain
 from heeltoe.units.sentences import UNITS, scale
-from heeltoe.units.write import digits
+from heeltoe.units.write import angle, digits
 
 # SI units as people write them, and those of a quantity (in SI, its name) from the largest; a largest number takes the
 # first of them that it reaches.
@@ -32,7 +32,7 @@ _SI = {
 _ENOUGH = {"m": 0.5}
 # No stress in a dam comes to so much, and all moduli do [Pa].
 _MODULUS = 1e9
-_MOVEMENTS = ("residual_slip", "peak_slip", "opening", "opening_upstream", "opening_downstream")
+_MOVEMENTS = ("residual_slip", "peak_slip", "opening", "opening_upstream", "opening_downstream", "crest_displacement")
 _QUANTITY = re.compile(r"(-?\d+(?:\.\d*)?(?:e[+-]?\d+)?) ([A-Za-z/^\d]+)")
 # Longer lists, as the points of a drawn motion, are not read by anyone; their hash is in the report.
 _MOST_ITEMS = 12
@@ -137,6 +137,8 @@ def _written(value: Any, name: str, units: str, largest: Mapping[str, float]) ->
 
 
 def _quantity(number: float, unit: str, name: str, units: str, largest: Mapping[str, float]) -> str:
+    if unit == "rad" and name == "rotation":
+        return angle(number)
     if unit == "rad":
         return f"{_number(np.degrees(number).item())}°"
     if unit not in UNITS:

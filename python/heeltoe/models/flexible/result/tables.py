@@ -23,6 +23,7 @@ from heeltoe.models.flexible.result.response import ElasticCrackResponse
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.slip_history import law_found, sliding_friction, worn_of
 from heeltoe.result.contract import slip_by_mode, time_by_mode
+from heeltoe.result.crest import crest_histories
 from heeltoe.result.numbers import (
     AnchorForce,
     BeforeShaking,
@@ -241,11 +242,21 @@ def histories_of(shaking: Shaking, run: DamRun, place: int, law: bool = False, b
     }
 
 
+def crest_of(shaken: ShakenDam, run: DamRun) -> dict[str, Floats]:
+    """Return the histories of the upstream edge of the crest."""
+    dam, time = shaken.dam, run.frames.time
+    row = 2 * int(dam.bodies[0].mesh.upstream[-1])
+    place = apart(run.modes, dam.modes)[0] @ dam.modes[0].shapes[row]
+    ground = np.interp(time, shaken.shaking.time, shaken.shaking.horizontal)
+    return crest_histories(time, place, ground)
+
+
 def crack_responses(
     found: Answer, histories: Sequence[CrackHistory], static: StaticState
 ) -> list[ElasticCrackResponse]:
     """Return what each crack did, from the crest down; `static` is the state at the one asked of."""
     shaken, run = found.shaken, found.run
+    crest = crest_of(shaken, run)
     responses = []
     for history, case in zip(histories, shaken.case.single_crack_cases, strict=True):
         place = history.place
@@ -255,9 +266,12 @@ def crack_responses(
             ElasticCrackResponse(
                 elevation=section.heel[1] - section.base_elevation,
                 of_crack=crack_numbers(case, shaken.dam, run, history, evidence),
-                histories=histories_of(
-                    shaken.shaking, run, place, law=case.crack.law is not None, bond=case.crack.bond is not None
-                ),
+                histories={
+                    **histories_of(
+                        shaken.shaking, run, place, law=case.crack.law is not None, bond=case.crack.bond is not None
+                    ),
+                    **crest,
+                },
                 mode=modes_of(run, place),
                 event_log={},
                 static=static if place == shaken.dam.asked else static_state(build_block(case)),

@@ -14,7 +14,7 @@ from heeltoe.kernel.shaking import Shaking
 from heeltoe.kernel.stack import StackRun, run_stack
 from heeltoe.mechanics.block import Block, build_block, instability
 from heeltoe.models.rigid.model import moments_of
-from heeltoe.models.rigid.tables import crack_response, energy_of, references_of
+from heeltoe.models.rigid.tables import crack_response, energy_of, references_of, with_crest
 from heeltoe.models.rigid.walk import limits_of
 from heeltoe.models.rigid.warnings import ADVICE, advice_of, warnings_of
 from heeltoe.models.runner import largest_rotation, outcome_of
@@ -84,7 +84,7 @@ def run_two_blocks(case: Case, earthquake: Earthquake, output_step: float | None
         motion=earthquake.motion,
         vertical=earthquake.vertical,
         gravity=case.gravity,
-        cracks=tuple(cracks),
+        cracks=tuple(with_crest(cracks, blocks)),
         asked=leads,
         references=references_of(case, first, alone),
         silence_s=earthquake.silence,

@@ -1,0 +1,45 @@
+"""The motion of the crest: that of a block in closed form, of an elastic dam beside it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from heeltoe import GroundMotion, flexible, read_case, rigid
+from heeltoe.result.crest import ACCELERATION, DISPLACEMENT, crest_histories
+from shared.dams import BASE
+
+TIME = np.arange(0.0, 3.0 + 1e-9, 0.005)
+SHAKES = GroundMotion.from_points(TIME, 6.0 * np.sin(2.0 * np.pi * 2.0 * TIME))
+
+
+def test_a_parabola_has_its_own_acceleration_and_the_ground():
+    time = np.array([0.0, 0.1, 0.15, 0.3, 0.4])
+    found = crest_histories(time, 7.0 + 1.5 * time**2, np.full(5, 2.0))
+    assert found[DISPLACEMENT][0] == 0.0
+    assert found[ACCELERATION][1:-1] == pytest.approx(5.0)
+    assert found[ACCELERATION][[0, -1]] == pytest.approx(2.0)
+
+
+def test_the_crest_of_a_block_goes_with_its_slip_and_turn():
+    case = read_case(BASE)
+    found = rigid(case, SHAKES)
+    h, height = found.histories, case.cut.height
+    assert h["rotation_rad"].min() < 0.0 < h["slip_m"].max()
+    assert h[DISPLACEMENT] == pytest.approx(h["slip_m"] - h["rotation_rad"] * height, abs=1e-12)
+    assert found.crest.residual_displacement_m == pytest.approx(found.residual_slip_m, abs=1e-9)
+    # While a block slides without turning, its crest has the acceleration of slip and ground.
+    inner = np.flatnonzero((h["rotation_rad"] == 0.0) & (np.arange(h["time_s"].size) % 2 == 0))[1:-1]
+    smooth = [k for k in inner if len({found.mode[j] for j in (k - 1, k, k + 1)}) == 1]
+    both = (h["slip_acceleration_m_s2"] + h["ground_acceleration_m_s2"])[smooth]
+    assert len(smooth) > 50
+    assert np.median(np.abs(h[ACCELERATION][smooth] - both)) < 0.02
+
+
+def test_the_crest_of_a_stiff_elastic_dam_that_sticks_shakes_as_the_ground():
+    stiff = read_case(BASE, ["concrete.modulus=2000 GPa", "crack.friction=3", "flexible.evidence=none"])
+    # One that begins at once would let the dam swing in its own period, too.
+    gentle = GroundMotion.from_points(TIME, 0.6 * np.sin(2.0 * np.pi * TIME) * np.sin(np.pi * TIME / TIME[-1]) ** 2)
+    found = flexible(stiff, gentle)
+    assert found.crest.amplification == pytest.approx(1.0, abs=0.02)
+    assert found.crest.displacement_m < 1e-3
