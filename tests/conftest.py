@@ -19,6 +19,7 @@ from heeltoe.errors.error import CATALOGUE as ERRORS
 from heeltoe.errors.error import InputError
 from heeltoe.warnings.notice import CATALOGUE as WARNINGS
 from heeltoe.warnings.notice import Notice
+from shared.attack_page import write_page
 from shared.dams import FAST, ROOT, SHORT, example
 
 # Not tests themselves, but what they assert with.
@@ -102,6 +103,8 @@ def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     ]:
         counts = "".join(f"{found.get(end, 0):>10d}" for end in ends)
         terminalreporter.write_line(f"{what:32s}{sum(found.values()):>10d}{counts}")
+    if page := os.environ.get("HEELTOE_ATTACK_PAGE"):
+        write_page(Path(page), rows)
 
 
 @pytest.fixture(scope="session")

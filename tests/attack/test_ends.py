@@ -107,8 +107,20 @@ def test_too_little_memory_is_one_line(error, monkeypatch, capsys):
     assert capsys.readouterr().err == ("heeltoe: not enough memory; provide more memory, or request a smaller run\n")
 
 
+OF_HAZARD = """
+case = "case.toml"
+[motions]
+folder = "quakes"
+[fragility]
+limits = {{ residual_slip = ["1 mm"] }}
+measure = "pga"
+[hazard]
+file = "{pipe}"
+"""
+
+
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no named pipes here")
-@pytest.mark.parametrize("kind", ["case", "section", "study", "criteria"])
+@pytest.mark.parametrize("kind", ["case", "section", "study", "criteria", "dams", "hazard"])
 def test_a_pipe_without_a_writer_is_one_sentence(kind, monkeypatch, tmp_path):
     monkeypatch.setattr("heeltoe.base.input_files.PATIENCE", 0.2)
     pipe = tmp_path / "pipe"
@@ -119,6 +131,8 @@ def test_a_pipe_without_a_writer_is_one_sentence(kind, monkeypatch, tmp_path):
         "section": ("run", BLOCK, "--set", f"section={{file = '{pipe}', unit = 'm'}}"),
         "study": ("study", pipe),
         "criteria": ("statics", BLOCK, "--set", f"statics.criteria_file={pipe}"),
+        "dams": ("study", study_file(tmp_path, f"case = 'case.toml'\ncases = '{pipe}'\n"), "--dry-run"),
+        "hazard": ("study", study_file(tmp_path, OF_HAZARD.format(pipe=pipe), "hazard.toml"), "--dry-run"),
     }[kind]
     try:
         ended = run_command(*words)

@@ -8,7 +8,7 @@ import signal
 import stat
 import traceback
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, NoReturn
@@ -27,20 +27,30 @@ class TooLong(BaseException):
 class Attack:
     """How often what came of it, and what should not have."""
 
-    def __init__(self, name: str) -> None:
-        self.name = name
+    def __init__(self, name: str, seconds: float = SECONDS) -> None:
+        self.name, self.seconds = name, seconds
         self.ends: Counter[str] = Counter()
         self.defects: list[str] = []
 
-    def strike(self, what: str, *arguments: str | Path, cwd: Path, data: bool = False) -> str:
-        """Run a command; `data` where its standard output shall be JSON. A refusal leaves the directory as it was."""
+    def strike(
+        self,
+        what: str,
+        *arguments: str | Path,
+        cwd: Path,
+        data: bool = False,
+        judge: Callable[[dict[str, Any]], list[str]] | None = None,
+    ) -> str:
+        """Run a command; `data` where its standard output shall be JSON, in which `judge` says what is wrong. A refusal
+        leaves the directory as it was."""
         before = _files(cwd)
         try:
-            with limited():
+            with limited(self.seconds):
                 said = command(*arguments, cwd=cwd)
             wrong = faults(said, data=data)
+            if judge and not wrong and said.returncode != 2:
+                wrong = answers(said, judge)
         except TooLong:
-            said, wrong = None, [f"computes longer than {SECONDS:g} s"]
+            said, wrong = None, [f"computes longer than {self.seconds:g} s"]
         except BaseException as error:
             last = traceback.extract_tb(error.__traceback__)[-1]
             said, wrong = None, [f"{type(error).__name__}: {error} ({last.filename}:{last.lineno})"]
@@ -82,6 +92,14 @@ def faults(said: Said, *, data: bool) -> list[str]:
         if strange:
             wrong.append(f"says {strange!r} raw")
     return wrong
+
+
+def answers(said: Said, judge: Callable[[dict[str, Any]], list[str]]) -> list[str]:
+    """Return what is wrong with the JSON of a command, and with its end beside that."""
+    answer = json.loads(said.stdout)
+    trusted = answer.get("outcome") in (None, "ok", "overturned")
+    ends = [] if trusted is (said.returncode == 0) else [f"ends with {said.returncode}: {answer['outcome']}"]
+    return [*ends, *judge(answer)]
 
 
 def _no_constant(name: str) -> NoReturn:

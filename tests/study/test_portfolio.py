@@ -9,6 +9,7 @@ import pytest
 
 import heeltoe
 from heeltoe.errors.error import InputError
+from heeltoe.result.contract import CRACKED
 from heeltoe.study.plan.plan import plan_of
 from heeltoe.study.run.batches import NUMBERS, run_part
 from shared.command import command
@@ -74,8 +75,10 @@ def test_a_row_is_the_single_run_of_its_dam(tmp_path, model):
     motion = {"file": str(tmp_path / "quakes/quake-a-000.txt"), "pga": "0.7 g", "sign": "recorded"}
     fields = plan.case.with_(changes).model_dump(mode="json", exclude_unset=True) | {"motion": motion}
     alone = heeltoe.run(heeltoe.read_case(fields), model)
-    names = [name for name in NUMBERS if name.endswith("_m") and not name.startswith("slip_")]
+    names = [name for name in NUMBERS if name.endswith("_m") and not name.startswith("slip_") and name != CRACKED]
     assert {name: row[name] for name in names} == {name: getattr(alone, name) for name in names}
+    # It was a crack from the beginning.
+    assert row[CRACKED] == alone.crack_width_m
     assert row["residual_slip_m"] != 0.0
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import os
 import select
 import stat
@@ -30,6 +31,34 @@ def read_bounded(path: Path, largest: int) -> bytes:
                 content += part
             return bytes(content)
         return _of_pipe(handle, largest)
+
+
+def read_csv_rows(path: Path, largest: int) -> list[list[str]]:
+    """Return the cells of a table in UTF-8, without blanks around them and without empty rows.
+
+    Raises
+    ------
+    OSError
+        Where it cannot be read, see :func:`read_bounded`.
+    ValueError
+        Where it is larger than `largest` bytes, or no table.
+    """
+    content = read_bounded(path, largest)
+    if len(content) > largest:
+        raise ValueError(f"it is larger than {largest // 10**6} MB")
+    try:
+        # Editors on Windows begin a file with a byte order mark.
+        lines = list(csv.reader(content.decode("utf-8-sig").splitlines()))
+    except csv.Error as error:
+        raise ValueError(str(error)) from None
+    return [[cell.strip() for cell in line] for line in lines if any(cell.strip() for cell in line)]
+
+
+def reason_of(error: OSError | ValueError) -> str:
+    """Return why a file cannot be read, in words for a message."""
+    if isinstance(error, UnicodeError):
+        return "it is not in UTF-8"
+    return (getattr(error, "strerror", None) or str(error)).rstrip(".")
 
 
 def _of_pipe(handle: int, largest: int) -> bytes:

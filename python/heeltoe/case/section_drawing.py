@@ -34,8 +34,7 @@ def corners_of_drawing(path: Path, layer: str | None) -> tuple[Corners, str]:
     InputError
         Where it is no drawing, or has no closed polyline, several, or one with arcs.
     """
-    drawing = _read(path)
-    closed = list(_closed(drawing))
+    drawing, closed = _read(path)
     on_layers = Counter(line.dxf.layer for line in closed)
     # Names of layers are the same in large and small letters.
     mine = [line for line in closed if layer is None or line.dxf.layer.lower() == layer.lower()]
@@ -53,7 +52,8 @@ def corners_of_drawing(path: Path, layer: str | None) -> tuple[Corners, str]:
     return [(float(point.x), float(point.y)) for point in points], _UNITS.get(drawing.units, "")
 
 
-def _read(path: Path) -> Any:
+def _read(path: Path) -> tuple[Any, list[Any]]:
+    """Return a drawing, and its closed polylines."""
     try:
         from ezdxf.filemanagement import readfile
     except ImportError:
@@ -61,7 +61,8 @@ def _read(path: Path) -> Any:
     # It would tell on standard error what it makes of a broken file.
     logging.getLogger("ezdxf").setLevel(logging.CRITICAL)
     try:
-        return readfile(path)
+        drawing = readfile(path)
+        return drawing, list(_closed(drawing))
     except Exception as error:  # ezdxf passes on whatever a broken file leads to
         reason = plain(str(error)) or type(error).__name__
         raise InputError("drawing-unreadable", "section.file", reason=reason) from None

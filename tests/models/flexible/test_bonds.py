@@ -224,3 +224,13 @@ def test_the_evidence_covers_the_cracked_length():
     worth = response.evidence.cracked_length_m
     assert worth.value == response.joint.cracked_length_m
     assert worth.uncertainty >= 0.5 * response.crack_width_m / 6.0 * (1.0 - 1e-9)
+
+
+def test_a_joint_that_cracks_through_is_as_long_as_it_is():
+    # The dead load strains the faces, whose lengths add up to more than the crack is wide.
+    response = run(
+        read_case(dam(tensile_strength="0.1 MPa", cohesion="0.3 MPa") | {"limits": {"cracked_length": "30 m"}})
+    )
+    assert response.joint.cracked_through_s is not None
+    assert response.joint.cracked_length_m <= response.crack_width_m
+    assert response.histories["cracked_length_m"].max() <= response.crack_width_m

@@ -155,7 +155,8 @@ class Rested(NamedTuple):
         dam = self.shaken.dam
         lengths = zip(self.run.summaries, dam.lines, dam.sections, strict=True)
         worst[CRACKED.removesuffix("_m")] = max(
-            row.cracked_length if line.bond is not None else section.crack_width for row, line, section in lengths
+            min(row.cracked_length, section.crack_width) if line.bond is not None else section.crack_width
+            for row, line, section in lengths
         )
         crest = crest_motion(
             {**crest_of(self.shaken, self.run), "ground_acceleration_m_s2": self.shaken.shaking.horizontal},

@@ -8,7 +8,6 @@ import gzip
 import io
 import tarfile
 import zipfile
-import zlib
 from collections.abc import Iterator
 from pathlib import PurePosixPath
 from typing import IO
@@ -23,11 +22,6 @@ _GZIP, _ZIP = b"\x1f\x8b", (b"PK\x03\x04", b"PK\x05\x06")
 # Of bzip2 the size of its blocks comes between.
 _BZIP2, _BLOCK = b"BZh", (b"1AY&SY", b"\x17rE8P\x90")
 _TAR_AT, _TAR = 257, b"ustar"
-# A way of packing that is not known is a RuntimeError, a size beyond all memory an OverflowError.
-_DAMAGED: tuple[type[Exception], ...] = (
-    *(zipfile.BadZipFile, tarfile.TarError, zlib.error),
-    *(EOFError, RuntimeError, ValueError, OverflowError, OSError),
-)
 
 
 def is_archive(data: bytes) -> bool:
@@ -62,7 +56,9 @@ def unpacked(data: bytes, name: str) -> list[tuple[str, bytes]]:
             if not _is_tar(data):
                 return [(name, data)]
         return _taken(_tar_members(data), name)
-    except _DAMAGED as error:
+    except (InputError, MemoryError):
+        raise
+    except Exception as error:  # a damaged archive ends in whatever its readers stumble over
         reason = " ".join(str(error).split())[:80] or type(error).__name__
         raise InputError("record-archive", name, reason=reason) from None
 

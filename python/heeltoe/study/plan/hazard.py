@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import os
 import re
 from collections.abc import Sequence
@@ -12,6 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from heeltoe.base.arrays import Floats
+from heeltoe.base.input_files import read_csv_rows, reason_of
 from heeltoe.errors.error import InputError, shown
 from heeltoe.study.plan.file import Hazard
 from heeltoe.study.plan.problems import Problems
@@ -28,6 +28,8 @@ QUANTITIES = {
     "housner intensity": "length",
 }
 _UNIT = re.compile(r"\[([^\[\]]+)\]")
+# Bytes; no curve comes near.
+_LARGEST = 1_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,10 +97,9 @@ def read_hazard(hazard: Hazard, measure: str, gravity: float, directory: Path) -
 def _of_file(path: Path, field: str) -> list[tuple[str, float]]:
     """Return strengths with their unit, and rates, of a file of two columns with a header."""
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
+        rows = read_csv_rows(path, _LARGEST)
     except (OSError, ValueError) as error:
-        raise InputError("hazard-unreadable", "hazard.file", shown(str(path)), reason=type(error).__name__) from None
-    rows = [[cell.strip() for cell in line] for line in csv.reader(lines) if any(cell.strip() for cell in line)]
+        raise InputError("hazard-unreadable", "hazard.file", shown(str(path)), reason=reason_of(error)) from None
     unit = _UNIT.search(rows[0][0]) if rows else None
     if unit is None:
         raise InputError("hazard-header", field)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -11,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from heeltoe.base.input_files import read_csv_rows, reason_of
 from heeltoe.case.model import Case
 from heeltoe.case.paths import quantity_of
 from heeltoe.errors.error import InputError, shown
@@ -23,6 +23,8 @@ from heeltoe.units.parse import parse
 MOST = 200_000
 #: The column of the names.
 NAME = "name"
+# Bytes; a table of as many dams as may be has less.
+_LARGEST = 64_000_000
 _HEAD = re.compile(r"([^\[\]]+(?:\[\d+\][^\[\]]*)*?)\s*(?:\[([^\[\]]*)\])?\s*")
 
 
@@ -74,8 +76,7 @@ def read_table(path: Path) -> DamTable:
     InputError
         Where there is no such file, a column is no field, or a cell no value of it.
     """
-    lines = list(csv.reader(_text(path).splitlines()))
-    rows = [[cell.strip() for cell in line] for line in lines if any(cell.strip() for cell in line)]
+    rows = _rows(path)
     if len(rows) < 2:
         raise InputError("dams-empty", "cases", shown(path.name))
     head, *dams = rows
@@ -102,13 +103,13 @@ def read_table(path: Path) -> DamTable:
     return DamTable(names, tuple(axes))
 
 
-def _text(path: Path) -> str:
+def _rows(path: Path) -> list[list[str]]:
     try:
-        if not path.is_file():
-            raise InputError("dams-missing", "cases", shown(str(path)))
-        return path.read_text(encoding="utf-8-sig")
+        return read_csv_rows(path, _LARGEST)
+    except FileNotFoundError:
+        raise InputError("dams-missing", "cases", shown(str(path))) from None
     except (OSError, ValueError) as error:
-        raise InputError("dams-unreadable", "cases", shown(str(path)), reason=type(error).__name__) from None
+        raise InputError("dams-unreadable", "cases", shown(str(path)), reason=reason_of(error)) from None
 
 
 def _axis(title: str, cells: Sequence[str]) -> Axis:

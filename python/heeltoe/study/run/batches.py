@@ -121,7 +121,7 @@ def _of_table(
         "end_time_s": table["end_time"],
         "energy_residual": table["energy_residual"],
         "impacts": table["impacts"],
-        CRACKED: table["cracked_length"] if joint else width,
+        CRACKED: np.minimum(table["cracked_length"], width) if joint else width,
     }
     return OfCrack(named, width)
 

@@ -204,7 +204,7 @@ def read_told(directory: Path) -> dict[str, Any]:
         return dict(record)
     except FileNotFoundError:
         raise InputError("study-not-there", str(directory)) from None
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
         raise InputError("study-unreadable", str(path), reason=type(error).__name__) from None
 
 

@@ -14,7 +14,7 @@ from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
 from heeltoe.kernel.dam import DAM_OUTCOMES, DamRun, Ending
-from heeltoe.models.flexible.body.cost import Cost, building, parts_of
+from heeltoe.models.flexible.body.cost import Cost, building, compressible_sides, parts_of
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
 from heeltoe.models.flexible.run.expected import running
@@ -85,7 +85,7 @@ class Trials:
         """Return what so many runs at level 0 are estimated to take with one at another level among them."""
         first = self._shaken[0]
         case, end = with_mesh(first.case, level.mesh), first.shaking.end
-        parts = building(parts_of(case))
+        parts = building(parts_of(case), compressible_sides(case))
         runs = running(first.case, end, self._frame_step, self.step, runs=work)
         finest = running(case, end, self._frame_step, self.step_of(level))
         return Cost(parts.seconds + runs.seconds, parts.memory + finest.memory)
@@ -173,7 +173,8 @@ class Trials:
                 )
         rows = [self._numbers[level, scale][crack] for scale in scales]
         found = headlines({each.column: np.array([row[each.column] for row in rows]) for each in HEADLINES})
-        return found | {CRACKED: np.array([row["cracked_length"] for row in rows])}
+        width = self.dam_of(level.mesh).dam.sections[crack].crack_width
+        return found | {CRACKED: np.minimum([row["cracked_length"] for row in rows], width)}
 
     def failed(self, level: Level, scales: Sequence[float]) -> int:
         """Return how many of these runs, all made before, end without a result."""

@@ -139,13 +139,15 @@ def bond_of(case: Case, dam: FlexibleDam, run: DamRun, place: int) -> BondState 
         return None
     mesh = zone_mesh(bond, case.concrete.modulus or 0.0, along_crack(dam.bodies[place], dam.sections[place]))
     cracks = raw.first_cracking >= 0.0
+    # The kernel adds lengths of a face that its loads have strained.
+    width = dam.sections[place].crack_width
     return BondState(
         first_cracking_s=raw.first_cracking if cracks else None,
         first_cracking_at_m=raw.first_cracking_place if cracks else None,
         cracked_through_s=raw.cracked_through if raw.cracked_through >= 0.0 else None,
-        cracked_upstream_m=raw.cracked_from_heel,
-        cracked_downstream_m=raw.cracked_from_toe,
-        cracked_length_m=raw.cracked_length,
+        cracked_upstream_m=min(raw.cracked_from_heel, width),
+        cracked_downstream_m=min(raw.cracked_from_toe, width),
+        cracked_length_m=min(raw.cracked_length, width),
         softening_length_m=raw.softening_length,
         fracture_energy_j=raw.crack_fracture,
         process_zone_m=mesh.zone,
@@ -209,19 +211,22 @@ def energy_of(run: DamRun) -> Energy:
     )
 
 
-def histories_of(shaking: Shaking, run: DamRun, place: int, law: bool = False, bond: bool = False) -> dict[str, Floats]:
-    """Return the histories of the contract for a crack, frame by frame; with those of its friction `law` and `bond`."""
+def histories_of(
+    shaking: Shaking, run: DamRun, place: int, *, law: bool = False, bonded_width: float | None = None
+) -> dict[str, Floats]:
+    """Return the histories of the contract for a crack, frame by frame; with those of its friction `law`, and of a bond
+    over its width [m]."""
     column, time = run.all_frames[place], run.frames.time
     result = {"time_s": time, "ground_acceleration_m_s2": np.interp(time, shaking.time, shaking.horizontal)}
     if shaking.up is not None:
         result["vertical_ground_acceleration_m_s2"] = np.interp(time, shaking.time, shaking.up)
     if law:
         result |= {"slip_path_m": column.slip_path, "friction_strength_n": column.friction_strength}
-    if bond:
+    if bonded_width is not None:
         result |= {
-            "cracked_upstream_m": column.cracked_from_heel,
-            "cracked_downstream_m": column.cracked_from_toe,
-            "cracked_length_m": column.cracked_length,
+            "cracked_upstream_m": np.minimum(column.cracked_from_heel, bonded_width),
+            "cracked_downstream_m": np.minimum(column.cracked_from_toe, bonded_width),
+            "cracked_length_m": np.minimum(column.cracked_length, bonded_width),
             "softening_length_m": column.softening_length,
             "fracture_energy_j": column.energy_fracture,
         }
@@ -268,7 +273,11 @@ def crack_responses(
                 of_crack=crack_numbers(case, shaken.dam, run, history, evidence),
                 histories={
                     **histories_of(
-                        shaken.shaking, run, place, law=case.crack.law is not None, bond=case.crack.bond is not None
+                        shaken.shaking,
+                        run,
+                        place,
+                        law=case.crack.law is not None,
+                        bonded_width=None if case.crack.bond is None else section.crack_width,
                     ),
                     **crest,
                 },

@@ -1,0 +1,55 @@
+"""The page of the documentation that says what an attack has tried, and what came of it."""
+
+from __future__ import annotations
+
+import os
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from importlib.metadata import version
+from pathlib import Path
+
+ENDS = ("accepted", "refused", "no result", "defect")
+#: How many random cases a long attack tries, and with which seed; see the Makefile.
+CASES, SEED = int(os.environ.get("HEELTOE_ATTACK_CASES", "2000")), int(os.environ.get("HEELTOE_ATTACK_SEED", "34"))
+_TEXT = """# Attacks
+
+`make attack` tries to break heeltoe, with {cases:,} random cases from the seed {seed} (`CASES`, `SEED`), and writes
+this page; `make test` tries a short form. This was version {version}.
+
+| what | tried | accepted | refused | no result | defects |
+| --- | ---: | ---: | ---: | ---: | ---: |
+{rows}
+
+*Accepted* is an answer that holds what {judge} asks of it: no NaN, no contradiction of
+outcome, verdict, limits and numbers, an exit code that fits. *Refused* is a sentence for each field that is wrong, exit
+code 2, and no file written or changed. *No result* is a run whose outcome says why it has none, exit code 3. Anything
+else is a defect: a traceback, a run that computes longer than its limit, a file that is left behind, a letter that
+controls a terminal.
+Pairs of features are also compared with the table of [what goes with what](generated/combinations.md).
+
+The cases are in {generator}; a defect names the seed that makes its case. Of twins and laws,
+*accepted* is a comparison that agrees.
+"""
+
+
+def write_page(path: Path, rows: Iterable[tuple[str, Mapping[str, int]]]) -> None:
+    """Write what came of all attacks; rows of one name are added up."""
+    sums: dict[str, Counter[str]] = {}
+    for what, found in rows:
+        sums.setdefault(str(what), Counter()).update(found)
+    total: Counter[str] = sum(sums.values(), Counter())
+    lines = [_row(what, found) for what, found in [*sorted(sums.items()), ("all", total)]]
+    text = _TEXT.format(
+        cases=CASES,
+        seed=SEED,
+        version=version("heeltoe"),
+        rows="\n".join(lines),
+        judge="`tests/shared/contradictions.py`",
+        generator="`tests/shared/random_features.py`",
+    )
+    path.write_text(text, encoding="utf-8")
+
+
+def _row(what: str, found: Mapping[str, int]) -> str:
+    counts = " | ".join(f"{found.get(end, 0):,}" for end in ENDS)
+    return f"| {what} | {sum(found.values()):,} | {counts} |"
