@@ -12,6 +12,7 @@ rational Krylov space; Antoulas, Approximation of Large-Scale Dynamical Systems,
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -45,6 +46,45 @@ class LinearBody:
         options = {"SymmetricMode": True}
         factors = splu(sparse.csc_matrix(operator), permc_spec="MMD_AT_PLUS_A", diag_pivot_thresh=0.01, options=options)
         return factors.solve(forces.astype(complex))
+
+
+def reduced_modes(
+    body: LinearBody,
+    inputs: Floats,
+    norm: Sparse,
+    sampled: Sequence[complex],
+    between: Sequence[complex],
+    most: int,
+    enough: float,
+    static: Floats | None = None,
+) -> tuple[tuple[Floats, Floats], float]:
+    """Return a body in few of its shapes, as :meth:`Projected.modes` gives them, and the error that these leave.
+
+    Parameters
+    ----------
+    body
+        Of N unknowns.
+    inputs
+        B, (N, k).
+    norm
+        From :func:`norm_of`.
+    sampled, between
+        Rates of the answers that the shapes are made of, and those at which the error is measured.
+    most
+        How many shapes there may be beside the static ones.
+    enough
+        Relative error that may remain.
+    static
+        Shapes (N, j) that are kept whatever the answers are.
+    """
+    answers = [body.response(rate, inputs) for rate in sampled]
+    columns = [real_columns(answer / size_of(answer, norm)) for answer in answers]
+    snapshots = np.column_stack(columns) if columns else np.empty((inputs.shape[0], 0))
+    first, least = (0, inputs.shape[1]) if static is None else (static.shape[1], static.shape[1])
+    projected = Projected.of(body, main_shapes(norm, snapshots, static)[:, : first + most])
+    exact = {rate: inputs.T @ body.response(rate, inputs) for rate in between}
+    kept, error = enough_shapes(projected, inputs, exact, enough, least)
+    return kept.modes(), error
 
 
 def main_shapes(norm: Sparse, snapshots: Floats, first: Floats | None = None) -> Floats:

@@ -27,17 +27,20 @@ import scipy.sparse as sparse
 from scipy.sparse.linalg import splu
 
 from heeltoe.base.arrays import Floats, Integers
+from heeltoe.models.flexible.surroundings.edges import (
+    GAUSS_POINTS,
+    GAUSS_WEIGHTS,
+    edge_shapes,
+    edge_shares,
+    smooth_patterns,
+)
 from heeltoe.models.flexible.surroundings.reduction import (
     Complexes,
     LinearBody,
-    Projected,
     Sparse,
     congruent,
-    enough_shapes,
-    main_shapes,
     norm_of,
-    real_columns,
-    size_of,
+    reduced_modes,
 )
 
 #: Distance of the last ring in half widths of the base.
@@ -335,16 +338,10 @@ def _tie(basis: Any, base: Floats, middle: float, half: float) -> tuple[Sparse, 
         for dofs in (basis.nodal_dofs, basis.facet_dofs, basis.interior_dofs):
             axis[dofs[number]] = number
     led, free = np.flatnonzero(under), np.flatnonzero(~under)
-    nodes = base[:, 0] - middle
-    edge = 2 * np.clip(np.searchsorted(nodes[2:-1:2], places[0, led]), 0, (nodes.size - 3) // 2)
-    low, high = nodes[edge], nodes[edge + 2]
-    s = (2.0 * places[0, led] - low - high) / (high - low)
-    shares = np.stack([s * (s - 1.0) / 2.0, 1.0 - s**2, s * (s + 1.0) / 2.0], axis=-1)
+    nodes, shares = edge_shares(base[:, 0] - middle, places[0, led])
     first = 2 * len(base)
     rows = np.concatenate([np.repeat(led, 3), free])
-    columns = np.concatenate(
-        [(2 * (edge[:, None] + np.arange(3)) + axis[led][:, None]).reshape(-1), first + np.arange(free.size)]
-    )
+    columns = np.concatenate([(2 * nodes + axis[led][:, None]).reshape(-1), first + np.arange(free.size)])
     values = np.concatenate([shares.reshape(-1), np.ones(free.size)])
     shape = (places.shape[1], first + free.size)
     return sparse.csr_matrix((values, (rows, columns)), shape), places[:, free].T
@@ -362,14 +359,11 @@ def _reduced(full: FullRock, base: Floats, material: RockMaterial, highest: floa
     weight = np.concatenate([np.ones(full.base.size), (1.0 + distance) ** -_FADING])
     norm = norm_of(body, np.pi / 2.0 * material.shear_speed / half, weight)
     rates = [complex(_GROWTH, 1.0) * limit * ratio for ratio in np.geomspace(_LOWEST, 1.05, _SAMPLED)]
-    answers = [] if material.massless else [body.response(rate, smooth) for rate in rates]
-    columns = [real_columns(answer / size_of(answer, norm)) for answer in answers]
-    snapshots = np.column_stack(columns) if columns else static[:, :0]
-    projected = Projected.of(body, main_shapes(norm, snapshots, static)[:, : static.shape[1] + _MOST])
-    between = [] if material.massless else [(low + high) / 2.0 for low, high in pairwise(rates[::-2])]
-    exact = {rate: smooth.T @ body.response(rate, smooth) for rate in between}
-    kept, error = enough_shapes(projected, smooth, exact, enough, static.shape[1])
-    squares, shapes = kept.modes()
+    between = [(low + high) / 2.0 for low, high in pairwise(rates[::-2])]
+    if material.massless:
+        rates = between = []
+    modes, error = reduced_modes(body, smooth, norm, rates, between, _MOST, enough, static)
+    squares, shapes = modes
     own, leaving = (congruent(part, shapes) for part in (full.damping_material, full.damping_radiation))
     return ReducedRock(squares, own + leaving, own, leaving, shapes[full.base], highest, error)
 
@@ -377,14 +371,13 @@ def _reduced(full: FullRock, base: Floats, material: RockMaterial, highest: floa
 def smooth_tractions(base: Floats) -> Floats:
     """Return forces on the nodes of the base of tractions that are polynomials along it, in x and in z, (2 n, 2 k)."""
     x = base[:, 0]
-    points, weights = np.polynomial.legendre.leggauss(4)
-    shapes = np.stack([points * (points - 1.0) / 2.0, 1.0 - points**2, points * (points + 1.0) / 2.0])
+    shapes = edge_shapes(GAUSS_POINTS)
     forces = np.zeros((len(x), 2, _PATTERNS, 2))
     for edge in range(0, len(x) - 2, 2):
         low, high = x[edge], x[edge + 2]
-        at = (low + high) / 2.0 + (high - low) / 2.0 * points
-        legendre = np.polynomial.legendre.legvander(2.0 * (at - x[0]) / (x[-1] - x[0]) - 1.0, _PATTERNS - 1)
-        share = np.einsum("ip,pk,p->ik", shapes, legendre, weights / 2.0) * (high - low) / (x[-1] - x[0])
+        at = (low + high) / 2.0 + (high - low) / 2.0 * GAUSS_POINTS
+        patterns = smooth_patterns(at, x[0], x[-1], _PATTERNS)
+        share = np.einsum("pi,pk,p->ik", shapes, patterns, GAUSS_WEIGHTS / 2.0) * (high - low) / (x[-1] - x[0])
         for axis in (0, 1):
             forces[edge : edge + 3, axis, :, axis] += share
     scaled: Floats = (forces / (1.0 + np.arange(_PATTERNS))[:, None]).reshape(2 * len(x), 2 * _PATTERNS)

@@ -25,18 +25,21 @@ import numpy as np
 import scipy.sparse as sparse
 
 from heeltoe.base.arrays import Floats, Integers
+from heeltoe.models.flexible.surroundings.edges import (
+    GAUSS_POINTS,
+    GAUSS_WEIGHTS,
+    edge_shapes,
+    edge_shares,
+    smooth_patterns,
+)
 from heeltoe.models.flexible.surroundings.far_field import Channel, channel
 from heeltoe.models.flexible.surroundings.reduction import (
     Complexes,
     LinearBody,
-    Projected,
     Sparse,
     congruent,
-    enough_shapes,
-    main_shapes,
     norm_of,
-    real_columns,
-    size_of,
+    reduced_modes,
 )
 
 #: The near field goes on beyond the foot of the face by so many depths.
@@ -356,22 +359,9 @@ def _tie(near: _Near, far: Channel) -> tuple[Sparse, Sparse]:
     return tie, beyond
 
 
-def _shapes(places: Floats) -> Floats:
-    """Return the quadratic shapes of an edge at places from -1 to 1, last axis."""
-    return np.stack([places * (places - 1.0) / 2.0, 1.0 - places**2, places * (places + 1.0) / 2.0], axis=-1)
-
-
-def _at(heights: Floats, z: Floats) -> tuple[Integers, Floats]:
-    """Return of a straight line of quadratic edges the three nodes at heights, and their shares."""
-    edge = 2 * np.clip(np.searchsorted(heights[2:-1:2], z), 0, (heights.size - 3) // 2)
-    low, high = heights[edge], heights[edge + 2]
-    return edge[:, None] + np.arange(3), _shapes((2.0 * z - low - high) / (high - low))
-
-
 def _face_matrices(paths: Sequence[Floats], near: _Near, surface: float) -> tuple[Sparse, Sparse]:
     """Return Q^T, the flow through the face into the near field's nodes of each velocity of the nodes of the paths, and
     the potential at these nodes of those of the near field."""
-    points, weights = np.polynomial.legendre.leggauss(4)
     heights = near.face_points[:, 1]
     count = sum(len(path) for path in paths)
     rows, columns, values = [], [], []
@@ -384,15 +374,15 @@ def _face_matrices(paths: Sequence[Floats], near: _Near, surface: float) -> tupl
             for low, high in pairwise(ends):
                 if high <= low:
                     continue
-                z = (low + high) / 2.0 + (high - low) / 2.0 * points
+                z = (low + high) / 2.0 + (high - low) / 2.0 * GAUSS_POINTS
                 # Edges are straight, or so nearly that the height tells the place.
                 place = 2.0 * (z - corners[0, 1]) / (corners[2, 1] - corners[0, 1]) - 1.0
-                own = _shapes(place)
-                nodes, shares = _at(heights, z)
+                own = edge_shapes(place)
+                nodes, shares = edge_shares(heights, z)
                 slope = (corners[2, 0] - corners[0, 0]) / (corners[2, 1] - corners[0, 1])
                 # The normal out of the water times the length: (1, -slope) dz.
                 for axis, normal in ((0, 1.0), (1, -slope)):
-                    entry = np.einsum("pi,pj,p->pij", shares, own, weights * (high - low) / 2.0 * normal)
+                    entry = np.einsum("pi,pj,p->pij", shares, own, GAUSS_WEIGHTS * (high - low) / 2.0 * normal)
                     rows.append(np.broadcast_to(near.face[nodes][:, :, None], entry.shape).reshape(-1))
                     column = 2 * (first + edge + np.arange(3)) + axis
                     columns.append(np.broadcast_to(column, entry.shape).reshape(-1))
@@ -402,7 +392,7 @@ def _face_matrices(paths: Sequence[Floats], near: _Near, surface: float) -> tupl
     flow = sparse.csr_matrix((value, (row, column)), (near.mass.shape[0], 2 * count))
     z = np.concatenate([path[:, 1] for path in paths])
     under = np.flatnonzero(z < surface)
-    nodes, shares = _at(heights, z[under])
+    nodes, shares = edge_shares(heights, z[under])
     interpolated = sparse.csr_matrix(
         (shares.reshape(-1), (np.repeat(under, 3), near.face[nodes].reshape(-1))), (count, near.mass.shape[0])
     )
@@ -422,14 +412,12 @@ def _wall(near: _Near) -> Floats:
 def _patterns(near: _Near, surface: float) -> Floats:
     """Return the flow of normal velocities that are polynomials over the depth, the higher the smaller."""
     heights = near.face_points[:, 1]
-    bottom = heights[0]
-    points, weights = np.polynomial.legendre.leggauss(4)
     flow = np.zeros((near.mass.shape[0], _PATTERNS))
     for edge, (low, high) in enumerate(pairwise(heights[::2])):
-        z = (low + high) / 2.0 + (high - low) / 2.0 * points
-        legendre = np.polynomial.legendre.legvander(2.0 * (z - bottom) / (surface - bottom) - 1.0, _PATTERNS - 1)
+        z = (low + high) / 2.0 + (high - low) / 2.0 * GAUSS_POINTS
+        patterns = smooth_patterns(z, heights[0], surface, _PATTERNS)
         nodes = near.face[2 * edge : 2 * edge + 3]
-        flow[nodes] += np.einsum("pi,pk,p->ik", _shapes(points), legendre, weights * (high - low) / 2.0)
+        flow[nodes] += np.einsum("pi,pk,p->ik", edge_shapes(GAUSS_POINTS), patterns, GAUSS_WEIGHTS * (high - low) / 2.0)
     scaled: Floats = flow / (1.0 + np.arange(_PATTERNS))
     return scaled
 
@@ -440,15 +428,11 @@ def _reduced(full: FullWater, highest: float, enough: float) -> ReducedWater:
     # A little growth keeps the resonances of a channel without losses finite, as any shaking does that has an end.
     sampled = [_GROWTH * full.first + 1j * omega for omega in _frequencies(full.first, limit)]
     sampled += [factor * limit for factor in _SUDDEN]
-    answers = [body.response(rate, inputs) for rate in sampled]
     norm = norm_of(body, full.first, (1.0 + full.distance) ** -_FADING)
-    snapshots = np.column_stack([real_columns(answer / size_of(answer, norm)) for answer in answers])
-    projected = Projected.of(body, main_shapes(norm, snapshots)[:, :_MOST])
     between = [(low + high) / 2.0 for low, high in pairwise(sampled[: -len(_SUDDEN) : 2])]
     between += [factor * limit * 1.2 for factor in _SUDDEN]
-    exact = {rate: inputs.T @ body.response(rate, inputs) for rate in between}
-    kept, error = enough_shapes(projected, inputs, exact, enough, inputs.shape[1])
-    squares, shapes = kept.modes()
+    modes, error = reduced_modes(body, inputs, norm, sampled, between, _MOST, enough)
+    squares, shapes = modes
     taken_floor, taken_far = (congruent(part, shapes) for part in (full.damping_floor, full.damping_far))
     return ReducedWater(
         squares,
