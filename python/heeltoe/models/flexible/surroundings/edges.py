@@ -25,5 +25,6 @@ def edge_shares(nodes: Floats, places: Floats) -> tuple[Integers, Floats]:
 
 def smooth_patterns(places: Floats, start: float, end: float, count: int) -> Floats:
     """Return Legendre polynomials of rising degree at places between two ends, (k, count)."""
-    patterns: Floats = np.polynomial.legendre.legvander(2.0 * (places - start) / (end - start) - 1.0, count - 1)
+    along = 2.0 * (places - start) / (end - start) - 1.0
+    patterns: Floats = np.asarray(np.polynomial.legendre.legvander(along, count - 1), dtype=np.float64)
     return patterns
