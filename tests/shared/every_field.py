@@ -160,6 +160,7 @@ HELPED: dict[str, tuple[Fields, Any]] = {
         [[0.0, "20 m"], [1.0, "3 m"]],
     ),
     "flexible.elements_across_below": ({}, 5),
+    "flexible.elements_away": ({"flexible.elements_across": 8}, 2),
     "flexible.time_step": ({}, "0.3 ms"),
     "flexible.mesh_above": ({}, "nowhere.msh"),
     "flexible.mesh_below": ({}, "nowhere.msh"),

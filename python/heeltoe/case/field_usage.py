@@ -76,7 +76,7 @@ READ_BY: dict[str, frozenset[str]] = {
             f"flexible.{name}"
             for name in (
                 *("plane", "virtual_mass"),
-                *("elements_across", "elements_across_below", "mesh_above", "mesh_below"),
+                *("elements_across", "elements_across_below", "elements_away", "mesh_above", "mesh_below"),
             )
         ),
         _ELASTIC,
@@ -244,6 +244,12 @@ def _idle_choices(case: Case, models: Sequence[str]) -> Iterator[Rule]:
     yield elastic and bool(options.mesh_below), "flexible.mesh_below is given", (across_below,)
     meshed_below = not below or options.mesh_below or options.elements_across_below
     yield elastic and bool(options.mesh_above and meshed_below), "flexible.mesh_above is given", (across,)
+    meshed = [
+        *([] if options.mesh_above else [options.row_counts()]),
+        *([options.row_counts(below=True)] if below and not options.mesh_below else []),
+    ]
+    even = not any(halvings for _, halvings in meshed)
+    yield elastic and even, "the elements along the crack cannot be halved to so few", ("flexible.elements_away",)
     yield (
         "decoupled" in models and bool(case.motion and case.motion.vertical),
         "the block feels a vertical motion of the ground in any case",

@@ -35,6 +35,9 @@ class Flexible(Fields):
     """Plane stress (dams with open joints between monoliths) or plane strain."""
     elements_across: Annotated[int, Field(strict=True, ge=1, le=200)] = 8
     """Number of elements along the crack."""
+    elements_away: Annotated[int, Field(strict=True, ge=1, le=200)] | None = None
+    """Number of elements of the rows far from the crack: fewer elements from row to row, by halves. As many as along
+    the crack where it is not given."""
     damping: Literal["relative", "stiffness", "modal", "thesis", "deformation"] = "relative"
     """Rayleigh's on the motion relative to a rigid slide along the crack; its stiffness term alone; one ratio for the
     modes of the intact dam; as in Zhu (2004), Rayleigh's on all motion while the crack sticks; or, for comparison,
@@ -73,6 +76,15 @@ class Flexible(Fields):
     """Of `idce`: Newmark's gamma; more than 0.5 damps fast vibrations. With 0.5 contact makes energy at every blow."""
     newmark_beta: Annotated[DimensionlessNumber, Field(ge=0.25, le=1.0)] | None = None
     """Of `idce`: Newmark's beta; (gamma + 1/2)^2 / 4 where it is not given."""
+
+    def row_counts(self, *, below: bool = False) -> tuple[int, int]:
+        """Return how many elements the rows far from the crack have, and how often these are halved at it: while those
+        along it are a multiple of four, and no fewer than are wanted."""
+        across = (self.elements_across_below if below else None) or self.elements_across
+        halvings = 0
+        while self.elements_away and across % 4 == 0 and across >= 2 * self.elements_away:
+            across, halvings = across // 2, halvings + 1
+        return across, halvings
 
     @model_validator(mode="after")
     @gathered

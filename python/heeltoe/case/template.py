@@ -153,6 +153,7 @@ pga = "0.4 g"                      # leave out to take the record as it is
 # plane = "stress"                 # or strain
 # elements_across = 8              # along the crack
 # elements_across_below = 8        # in the part below the crack, where it differs
+# elements_away = 8                # far from the crack: so many along a fine crack need not be everywhere
 # mesh_above = "above.msh"         # your own mesh of eight-node quadrilaterals in place of ours
 # mesh_below = "below.msh"
 # modes = 200                      # to keep of each part; all of a small one without it

@@ -314,8 +314,7 @@ CATALOGUE: dict[str, tuple[Severity, str, str]] = {
     "energy-made": (
         "grave",
         "flexible.contact",
-        "contact has created energy, {gained_j:.3g J} in a turnover of {turnover_j:.3g J}, as a penalty "
-        'does at every blow: compare with another time_step and with flexible.contact = "coulomb"',
+        "contact has created energy, {gained_j:.3g J} in a turnover of {turnover_j:.3g J}{why}",
     ),
     # decoupled chain, spread
     "sampling-matters": (

@@ -6,6 +6,7 @@ import copy
 import math
 from typing import Any
 
+import meshio
 import numpy as np
 import pytest
 
@@ -15,8 +16,12 @@ from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.body.step import longest_step
 from heeltoe.models.statics.after import ligament_of, statics_after
 from heeltoe.result.verdict import verdict
+from heeltoe.views.content.question import question
+from heeltoe.views.content.subject import Subject
 from heeltoe.views.figures.crack import joint_figure, joint_states
 from heeltoe.views.figures.energy import energy_figure
+from heeltoe.views.files.vtk import write_vtk_series
+from heeltoe.views.words.numbers import Numbers
 
 # Strong and tough: a brittle one would ask for elements and steps of its own.
 STRONG = {
@@ -145,6 +150,19 @@ def test_a_brittle_joint_asks_for_a_short_step():
     assert brittle[1] == "crack.bond"
 
 
+def test_a_mesh_that_is_fine_at_the_joint_alone_cracks_as_one_that_is_fine_everywhere():
+    fields = dam()
+    fields["flexible"]["elements_across"] = 16
+    even = run(read_case(fields), "flexible")
+    fields["flexible"]["elements_away"] = 4
+    graded = run(read_case(fields), "flexible")
+    assert graded.joint.element_m == pytest.approx(even.joint.element_m)
+    assert 0.0 < even.joint.cracked_length_m < even.crack_width_m
+    assert graded.joint.first_cracking_s == pytest.approx(even.joint.first_cracking_s, abs=1e-3)
+    assert graded.joint.cracked_length_m == pytest.approx(even.joint.cracked_length_m, abs=even.joint.element_m)
+    assert graded.joint.fracture_energy_j == pytest.approx(even.joint.fracture_energy_j, rel=0.05)
+
+
 def test_several_joints_crack_in_an_order():
     fields = dam()
     fields["cracks"] = [
@@ -206,6 +224,26 @@ def test_the_picture_shows_what_the_numbers_say():
     (check,) = response.limits
     assert (check.name, check.value) == ("cracked_length", response.joint.cracked_length_m)
     assert check.met == (response.joint.cracked_length_m <= 1.0)
+
+
+def test_vtk_files_have_the_damage(tmp_path):
+    history = run(read_case(dam()), "flexible").crack
+    write_vtk_series(history, tmp_path, frames=[0, -1])
+    last = meshio.read(sorted(tmp_path.glob("crack-*.vtu"))[-1])
+    upper = last.point_data["damage"][: history.upper_position.shape[2]]
+    assert upper == pytest.approx(history.damage[-1][: upper.size])
+    assert upper.max() == 1.0
+    # Nodes at one place crack as one.
+    assert last.point_data["damage"][upper.size :] == pytest.approx(upper)
+
+
+def test_the_report_asks_whether_the_joint_cracks():
+    fields = dam()
+    response = run(read_case(fields), "flexible")
+    subject = Subject(read_case(fields), response, Numbers(response.to_json(), "si"), figures={})
+    text = str(question(subject))
+    assert "Does the joint of" in text
+    assert "Cracked length of the joint" in text
 
 
 def test_what_is_left_bears_after_the_earthquake():

@@ -107,6 +107,7 @@ def test_what_is_refined(moved, given, finer):
         asked="full",
         mean=False,
         worth={"residual_slip_m": Worth(0.1, 0.1, *moved)},
+        cracked=None,
         time_step=1e-4,
         other_step=2e-4,
         across=8,

@@ -83,6 +83,39 @@ def test_mesh_has_the_shape_of_the_section(corners, tenths, across, below):
         assert np.all(np.abs(nodes[:, None] - line).max(axis=2).min(axis=0) < size)
 
 
+@pytest.mark.parametrize("elevation", [0.0, 40.0, 90.0])
+@pytest.mark.parametrize(("across", "away", "halvings"), [(32, 4, 3), (24, 5, 2), (20, 5, 1), (10, 5, 0), (80, 10, 3)])
+def test_rows_grow_away_from_the_crack(elevation, across, away, halvings):
+    mesh, section = meshed(TYPICAL, elevation, elements_across=across, elements_away=away)
+    even, _ = meshed(TYPICAL, elevation, elements_across=across)
+    assert make(TYPICAL, flexible={"elements_across": across, "elements_away": away}).flexible.row_counts() == (
+        across // 2**halvings,
+        halvings,
+    )
+    for body, other, wanted in zip(bodies(mesh), bodies(even), (section.area, 4040.0 - section.area), strict=False):
+        check_elements(body.nodes, body.elements, "typical")
+        check_pieces(body.nodes, body.elements, "typical")
+        assert area(body) == pytest.approx(wanted, rel=1e-9)
+        assert body.nodes[body.crack] == pytest.approx(other.nodes[other.crack], abs=1e-9)
+        assert len(np.unique(body.elements)) == len(body.nodes)
+        assert halvings == 0 or len(body.nodes) < (0.5 if halvings > 2 else 0.8) * len(other.nodes)
+    far = mesh.upper.nodes[:, 1].max()
+    assert np.sum(np.isclose(mesh.upper.nodes[:, 1], far)) == 2 * across // 2**halvings + 1
+
+
+@given(dams(), st.integers(0, 9))
+def test_graded_rows_have_the_shape_of_the_section(corners, tenths):
+    assume(not flat(corners))
+    elevation = tenths / 10 * max(z for _, z in corners)
+    mesh, section = meshed(corners, elevation, elements_across=16, elements_away=3)
+    whole = make(corners).cut.area
+    for body, wanted in zip(bodies(mesh), (section.area, whole - section.area), strict=False):
+        check_elements(body.nodes, body.elements, "graded")
+        check_pieces(body.nodes, body.elements, "graded")
+        assert area(body) == pytest.approx(wanted, rel=1e-9)
+    assert len(mesh.upper.crack) == 33
+
+
 @given(dams(), st.integers(0, 9))
 def test_mirror_image(corners, tenths):
     assume(not flat(corners))

@@ -103,6 +103,8 @@ class Pilot:
         Of each crack, from the crest down, the headline numbers that are means because single runs scatter.
     other_sign
         The same of the motion the other way round, where the study has it.
+    elements_away
+        Far from the crack; None where as many as along it.
     """
 
     elements_across: int
@@ -114,6 +116,7 @@ class Pilot:
     evidence: Mapping[str, Any] | None
     means: Sequence[Mapping[str, float]] = ()
     other_sign: Pilot | None = None
+    elements_away: int | None = None
 
     def to_json(self) -> dict[str, Any]:
         """Return it as it is kept."""
@@ -141,6 +144,7 @@ class Pilot:
         update = {
             "elements_across": self.elements_across,
             "elements_across_below": self.elements_across_below,
+            "elements_away": self.elements_away,
             "evidence": "none",
         }
         return case.model_copy(update={"flexible": case.flexible.model_copy(update=update)})

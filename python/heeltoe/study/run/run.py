@@ -284,4 +284,5 @@ def _pilot(motion: int, response: Answer, ground: Earthquake, other_sign: Pilot 
         None if evidence is None else evidence.numbers().to_json(),
         [crack.values() if crack.mean else {} for crack in response.evidences],
         other_sign,
+        options.elements_away,
     )

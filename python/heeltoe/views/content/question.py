@@ -58,17 +58,22 @@ def question(subject: Subject) -> Section:
 def _question(subject: Subject) -> Block:
     motion = subject.first.prefix + "motion."
     n = subject.numbers
+    before, after, asked = "What does the part of “", "” above its crack do", "does it"
+    bonded = sum(alone.crack.bond is not None for alone in subject.case.single_crack_cases)
+    if bonded:
+        before, after = ("Does the joint of “" if bonded == 1 else "Do the joints of “"), "” crack"
+        asked = "how far, and does the part above then"
     return paragraph(
         Strong("Question. "),
-        "What does the part of “",
+        before,
         subject.title,
-        "” above its crack do in the ground motion ",
+        f"{after} in the ground motion ",
         Code(subject.first.response.motion.name),
         ", ",
         n(motion + "pga_g"),
         " at its peak and ",
         n(motion + "duration_s"),
-        " long: does it slide, rock about its heel or its toe, lift off, and where does it come to rest?",
+        f" long: {asked} slide, rock about its heel or its toe, lift off, and where does it come to rest?",
     )
 
 
@@ -145,6 +150,8 @@ def _numbers(subject: Subject) -> Block:
             row = subject.row(each.full.capitalize(), each.key, sign=each.way)
             rows.append(row + ((_ratio(subject, each.key),) if both else ()))
         rows.append(("At the end of the run", *map(_end, subject.runs), *([""] if both else [])))
+    if any(run.response.summary.get("joint") for run in subject.runs):
+        rows.append(subject.row("Cracked length of the joint", "joint.cracked_length_m") + (("",) if both else ()))
     tensions = [run.response.summary.get("tension") for run in subject.runs]
     if any(tensions):
         rows.append(subject.row("Largest tension in the concrete", "tension.stress_pa") + (("",) if both else ()))
@@ -176,6 +183,13 @@ def _numbers_of_cracks(subject: Subject) -> Block:
         )
         for each in HEADLINES
     ]
+    bonds = [getattr(result.cracks[place], "joint", None) for place in places]
+    if any(bonds):
+        lengths = (
+            subject.numbers(f"{run.prefix}cracks.{place}.joint.cracked_length_m") if bond else NOTHING
+            for place, bond in zip(places, bonds, strict=True)
+        )
+        rows.append(("Cracked length of the joint", *lengths))
     factors = [result.cracks[place].static.sliding_safety_factor for place in places]
     rows.append(
         ("Sliding safety factor under static loads", *(NOTHING if at is None else digits(at, 4) for at in factors))

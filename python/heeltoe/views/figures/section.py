@@ -151,7 +151,7 @@ def draw_crack(canvas: Canvas, case: Case, *, small: bool) -> None:
     canvas.line(line, keep_off=True, color="white", linewidth=3.6, zorder=4.5)
     canvas.line(line, color=COLOURS["crack"], linewidth=2.0, zorder=4.6)
     if small:
-        canvas.label("crack", section.toe, COLOURS["crack"], first=(1, 1))
+        canvas.label("crack" if case.crack.bond is None else "joint", section.toe, COLOURS["crack"], first=(1, 1))
         return
     canvas.label("heel", section.heel, first=(-1, -1))
     canvas.label("toe", section.toe, first=(1, -1))

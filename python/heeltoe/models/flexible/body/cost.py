@@ -67,10 +67,15 @@ class Part:
         return Cost(seconds, NUMBER * memory)
 
 
+# Nodes for each element along a crack that is finer than the rest, in the rows that grow away from it.
+_GRADED = 25.0
+
+
 def part_of(case: Case, nodes: int, freedoms: float | None = None) -> Part:
     """Return a part with so many nodes along its crack; with the program's own mesh if nothing else is said."""
     across = (nodes - 1) / 2.0
-    own = 2.0 * (3.0 * ROWS * across**2 + 5.0 * across)
+    away = min(across, case.flexible.elements_away or across)
+    own = 2.0 * (3.0 * ROWS * away**2 + 5.0 * away + _GRADED * (across - away))
     return Part(freedoms or own, nodes, case.flexible.modes or FIRST_KEPT)
 
 

@@ -187,9 +187,7 @@ def with_mesh(case: Case, mesh: int) -> Case:
     def changed(across: int) -> int:
         return math.ceil(across * 2.0**mesh)
 
-    below = case.flexible.elements_across_below
-    update = {
-        "elements_across": changed(case.flexible.elements_across),
-        "elements_across_below": None if below is None else changed(below),
-    }
+    names = ("elements_across", "elements_across_below", "elements_away")
+    counts = {name: getattr(case.flexible, name) for name in names}
+    update = {name: None if count is None else changed(count) for name, count in counts.items()}
     return case.model_copy(update={"flexible": case.flexible.model_copy(update=update)})

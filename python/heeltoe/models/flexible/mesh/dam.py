@@ -114,8 +114,8 @@ def dam_mesh(case: Case) -> DamMesh:
         section = case.single_crack_cases[-1].cut
         if case.outline.area - section.area <= _NOTHING * section.area:
             return DamMesh(above, None)
-        across = options.elements_across_below or options.elements_across
-        return DamMesh(above, _own(*_faces_below(case.single_crack_cases[-1]), across, section, above=False))
+        counts = options.row_counts(below=True)
+        return DamMesh(above, _own(*_faces_below(case.single_crack_cases[-1]), counts, section, above=False))
     below = case.outline.area - section.area
     # At the base, or along a sloping one, there is nothing below.
     grounded = below <= _NOTHING * section.area
@@ -123,31 +123,31 @@ def dam_mesh(case: Case) -> DamMesh:
     if options.mesh_above:
         upper = _from_file(directory / options.mesh_above, section, section.area, above=True)
     else:
-        upper = _own(section.upstream_face, section.downstream_face, options.elements_across, section, above=True)
+        upper = _own(section.upstream_face, section.downstream_face, options.row_counts(), section, above=True)
     if grounded:
         if options.mesh_below:
             raise InputError("mesh-none-below", "flexible.mesh_below", options.mesh_below)
         return DamMesh((upper,), None)
     if options.mesh_below:
         return DamMesh((upper,), _from_file(directory / options.mesh_below, section, below, above=False))
-    across = options.elements_across_below or options.elements_across
-    return DamMesh((upper,), _own(*_faces_below(case), across, section, above=False))
+    counts = options.row_counts(below=True)
+    return DamMesh((upper,), _own(*_faces_below(case), counts, section, above=False))
 
 
 def _parts_above(case: Case) -> tuple[BodyMesh, ...]:
     """Return the parts above each of several cracks, from the crest down."""
-    across = case.flexible.elements_across
+    counts = away, halvings = case.flexible.row_counts()
     sections = [each.cut for each in case.single_crack_cases]
     grounded = case.outline.area - sections[-1].area <= _NOTHING * sections[-1].area
     for section in sections:
         _check_ends(section, grounded=grounded and section is sections[-1])
     first = sections[0]
-    found = [_own(first.upstream_face, first.downstream_face, across, first, above=True)]
+    found = [_own(first.upstream_face, first.downstream_face, counts, first, above=True)]
     for high, low in pairwise(sections):
         upstream = _up_to(low.upstream_face, high.heel)
         downstream = _up_to(low.downstream_face, high.toe)
-        faces = followed(upstream, downstream, across, above=False)
-        mesh = _between(*meshed_rows(faces.upstream, faces.downstream, across), high, low)
+        faces = followed(upstream, downstream, away, above=False)
+        mesh = _between(*meshed_rows(faces.upstream, faces.downstream, away, (halvings, halvings)), high, low)
         found.append(replace(mesh, missed=faces.missed))
     return tuple(found)
 
@@ -175,10 +175,14 @@ def _nearest(nodes: Floats, point: tuple[float, float]) -> int:
     return int(np.hypot(*(nodes - point).T).argmin())
 
 
-def _own(upstream: Floats, downstream: Floats, across: int, section: CutSection, *, above: bool) -> BodyMesh:
-    """Return the program's own mesh between two faces."""
-    faces = followed(upstream, downstream, across, above=above)
-    mesh = _body(*meshed_rows(faces.upstream, faces.downstream, across), section, "section", above=above)
+def _own(
+    upstream: Floats, downstream: Floats, counts: tuple[int, int], section: CutSection, *, above: bool
+) -> BodyMesh:
+    """Return the program's own mesh between two faces, with such counts of its rows' elements."""
+    away, halvings = counts
+    faces = followed(upstream, downstream, away, above=above)
+    finer = (halvings, 0) if above else (0, halvings)
+    mesh = _body(*meshed_rows(faces.upstream, faces.downstream, away, finer), section, "section", above=above)
     return replace(mesh, missed=faces.missed)
 
 

@@ -2,9 +2,10 @@
 
 Every line of nodes runs straight from face to face, every kink of a face is on such a line, and the rows grow and
 shrink with the width of the dam. Above and below an inclined crack the lines turn evenly, from the crack's direction
-to level, as they join points of the two faces at the same part of their heights. A pointed crest ends in three fields
-of quadrilaterals that meet inside the tip, so that the mesh has the very area of the section: blunting the tip would
-need many thin rows and still change weight and water pressure."""
+to level, as they join points of the two faces at the same part of their heights. Towards a crack rows may become
+thinner and their elements as many more: four elements of one row then meet two of the next. A pointed crest ends in
+three fields of quadrilaterals that meet inside the tip, so that the mesh has the very area of the section: blunting
+the tip would need many thin rows and still change weight and water pressure."""
 
 from __future__ import annotations
 
@@ -24,8 +25,10 @@ ROWS, _ROWS_OF_TIP = 1.65, 0.75
 # Between these ratios to the width of their elements, rows are as high as its square root says: with as many elements,
 # the higher frequencies of tall dams are much nearer to the exact ones than with rows as high as the elements are wide.
 _SQUAT, _SLENDER = 1.0, 3.0
-# Steps in which the height of rows is integrated over a segment between kinks.
-_STEPS = 100
+# Steps in which the height of rows is integrated over a segment between kinks; more where they grow with the distance.
+_STEPS, _FINE_STEPS = 100, 4000
+# By so much of the distance to the crack are rows higher than those at it.
+_GROWTH = 0.5
 # A face that runs more than this per unit of rise is a ledge: elements on it would be needles.
 _FLATTEST = 20.0
 # Rows that are a smaller part of the width of their elements come from a slip in the corners or a crack at the base.
@@ -36,7 +39,7 @@ _NEAR = 0.25
 _WEDGE = 0.02
 
 
-def meshed_rows(left: Floats, right: Floats, across: int) -> tuple[Floats, Integers]:
+def meshed_rows(left: Floats, right: Floats, across: int, finer: tuple[int, int] = (0, 0)) -> tuple[Floats, Integers]:
     """Mesh the part of a section between two faces.
 
     Parameters
@@ -45,7 +48,9 @@ def meshed_rows(left: Floats, right: Floats, across: int) -> tuple[Floats, Integ
         Upstream and downstream face, straight between points (x, z) [m], from bottom to top; they end at one point, or
         two. Where they start or end at two heights, the first or the last line of nodes slopes.
     across
-        Number of elements in a row.
+        Number of elements in a row, even where some are finer.
+    finer
+        How often the elements of the first and of the last row are halved.
 
     Returns
     -------
@@ -77,7 +82,8 @@ def meshed_rows(left: Floats, right: Floats, across: int) -> tuple[Floats, Integ
     if pointed:
         # Rows up to half the height of the uppermost segment, the tip from there.
         keys[-1] = ((keys[-2][0] + left[-1]) / 2.0, (keys[-2][1] + left[-1]) / 2.0)
-    lines = _graded(keys, across, across * (ROWS - _ROWS_OF_TIP if pointed else ROWS))
+    lines = _graded(keys, across, across * (ROWS - _ROWS_OF_TIP if pointed else ROWS), finer)
+    halvings = _halvings(lines, across, finer)
     if sloping:
         ends = (face[[0, -1], 1] for face in faces)
         back = [
@@ -85,12 +91,12 @@ def meshed_rows(left: Floats, right: Floats, across: int) -> tuple[Floats, Integ
             for points, given in zip(zip(*lines, strict=True), ends, strict=True)
         ]
         lines = list(zip(*back, strict=True))
-    fields = [_field(lines, across)]
+    fields = _fields(lines, across, halvings)
     if pointed:
-        fields += _tip(*lines[-1], faces[0][-1], across)
+        fields += _tip(*lines[-1], faces[0][-1], across * 2 ** halvings[-1])
     nodes, elements = _joined(fields)
     if sloping:
-        _check_turned(lines, nodes, elements, across)
+        _check_turned(lines, nodes, elements, across * 2 ** max(finer))
     return nodes, elements
 
 
@@ -140,36 +146,108 @@ def _key_lines(left: Floats, right: Floats, across: int) -> list[Line]:
     ]
 
 
-def _graded(keys: list[Line], across: int, wanted: float) -> list[Line]:
-    """Put about as many lines between the key lines as are wanted, close where the part is narrow."""
+def _graded(keys: list[Line], across: int, wanted: float, finer: tuple[int, int]) -> list[Line]:
+    """Put about as many lines between the key lines as are wanted, close where the part is narrow, and more of them
+    where its first or last elements are finer."""
     widths = np.array([end[0] - start[0] for start, end in keys]) / across
     heights = np.diff([(start[1] + end[1]) / 2.0 for start, end in keys])
     thin = heights < _THINNEST * widths[:-1]
     if thin.any():
         level = keys[int(np.argmax(thin))][0][1]
         raise InputError("mesh-thin", "section", f"{heights[thin][0]:.3g} m", level=f"{level:g} m")
-    places = (np.arange(_STEPS) + 0.5) / _STEPS
+    steps = _FINE_STEPS if any(finer) else _STEPS
+    places = (np.arange(steps) + 0.5) / steps
     width = widths[:-1, None] + np.diff(widths)[:, None] * places
+
+    highest: Floats = np.full(width.shape, math.inf)
 
     def rows(scale: float) -> Floats:
         """Rows per step of each segment."""
         height = np.clip(scale * np.sqrt(width), _SQUAT * width, _SLENDER * width)
-        return heights[:, None] / height / _STEPS
+        density: Floats = heights[:, None] / np.minimum(height, highest) / steps
+        return density
 
     # The coarsest scale is that at which all rows are as slender as they may be, the finest that of squat ones.
     fine, coarse = _SQUAT * math.sqrt(width.min()), _SLENDER * math.sqrt(width.max())
     for _ in range(50):
         middle = (fine + coarse) / 2.0
         fine, coarse = (middle, coarse) if rows(middle).sum() > wanted else (fine, middle)
+    levels = np.cumsum([0.0, *heights])
+    level = levels[:-1, None] + heights[:, None] * places
+    for end, halved in enumerate(finer):
+        if halved:
+            least = widths[-end] / 2.0**halved
+            highest = np.minimum(highest, least + _GROWTH * np.abs(level - levels[-end]))
     lines = keys[:1]
     for (below, above), density in zip(pairwise(keys), rows(coarse), strict=True):
         passed = np.concatenate([[0.0], np.cumsum(density)])
         count = max(1, round(passed[-1]))
         marks = np.arange(1, count) / count * passed[-1]
-        parts = np.interp(marks, passed, np.linspace(0.0, 1.0, _STEPS + 1))
+        parts = np.interp(marks, passed, np.linspace(0.0, 1.0, steps + 1))
         lines += [(below[0] + part * (above[0] - below[0]), below[1] + part * (above[1] - below[1])) for part in parts]
         lines.append(above)
     return lines
+
+
+def _halvings(lines: list[Line], across: int, finer: tuple[int, int]) -> list[int]:
+    """Return how often the elements along each line are halved: by one less from line to line at most."""
+    ends = np.array(lines)
+    widths, levels = ends[:, 1, 0] - ends[:, 0, 0], ends[:, :, 1].mean(axis=1)
+    heights = np.diff(levels)
+
+    def away(halved: int, widths: Floats, heights: Floats) -> list[int]:
+        found = [halved]
+        for width, height in zip(widths[1:], heights, strict=True):
+            wanted = round(math.log2(max(width / across / height, 1.0)))
+            found.append(min(max(wanted, found[-1] - 1), found[-1]))
+        return found
+
+    first, last = away(finer[0], widths, heights), away(finer[1], widths[::-1], heights[::-1])[::-1]
+    return [max(pair) for pair in zip(first, last, strict=True)]
+
+
+def _fields(lines: list[Line], across: int, halvings: list[int]) -> list[Floats]:
+    """Return the fields of the rows between lines, see :func:`_field`."""
+    found: list[Floats] = []
+    start = 0
+    for row, (below, above) in enumerate(pairwise(halvings)):
+        if below != above:
+            if row > start:
+                found.append(_field(lines[start : row + 1], across * 2**below))
+            found += _halved(lines[row], lines[row + 1], across * 2 ** max(below, above), upwards=below > above)
+            start = row + 1
+    if start + 1 < len(lines):
+        found.append(_field(lines[start:], across * 2 ** halvings[-1]))
+    return found
+
+
+# A group of four elements that meets two: the corners of its six elements from their down-left one on, along the line
+# with the four in quarters, towards the other in halves.
+_GROUP = (
+    ((1, 0), (2, 0), (2, 1), (1, 1)),
+    ((2, 0), (3, 0), (3, 1), (2, 1)),
+    ((0, 0), (1, 0), (1, 1), (0, 2)),
+    ((3, 0), (4, 0), (4, 2), (3, 1)),
+    ((1, 1), (2, 1), (2, 2), (0, 2)),
+    ((2, 1), (3, 1), (4, 2), (2, 2)),
+)
+
+
+def _halved(below: Line, above: Line, columns: int, *, upwards: bool) -> list[Floats]:
+    """Return the elements of a row of which one line has so many and the other half of them, each as a field of its
+    own; `upwards` where the upper one has fewer."""
+    found = []
+    for first in range(0, columns, 4):
+        for corners in _GROUP:
+            points = []
+            for quarter, half in corners:
+                along, up = (first + quarter) / columns, half / 2.0 if upwards else 1.0 - half / 2.0
+                start, end = (line[0] + along * (line[1] - line[0]) for line in (below, above))
+                points.append(start + up * (end - start))
+            # Upside down, the other way around.
+            low_left, low_right, high_right, high_left = points if upwards else points[::-1]
+            found.append(_field([(low_left, low_right), (high_left, high_right)], 1))
+    return found
 
 
 def _field(lines: list[Line], across: int) -> Floats:

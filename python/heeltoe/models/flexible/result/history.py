@@ -129,6 +129,16 @@ class CrackHistory:
             first += nodes.size
         return found
 
+    def node_damage(self) -> tuple[Floats, ...]:
+        """Return `damage` (f, k) at the places of the nodes of each face, straight from node to node of the upper one;
+        of a bonded joint."""
+        if self.damage is None:
+            raise ValueError("no bonded joint")
+        upper = self.drawn[0]
+        along, *others = (np.hypot(*(face - upper[0]).T) for face in self.drawn)
+        own = self.damage[:, : along.size]
+        return (own, *(np.array([np.interp(at, along, row) for row in own]) for at in others))
+
     def status_names(self) -> list[str]:
         """Return the names that `status` counts."""
         return list(CONTACT_STATUSES)
