@@ -3,24 +3,29 @@
 from __future__ import annotations
 
 import copy
+import io
 import math
 from typing import Any
 
 import meshio
 import numpy as np
 import pytest
+from rich.console import Console
 
-from heeltoe import InputError, read_case, run
+from heeltoe import InputError, flexible, read_case, run
 from heeltoe.models.flexible.body.bond import node_lengths, zone_mesh
 from heeltoe.models.flexible.body.reduced import build_flexible_dam
 from heeltoe.models.flexible.body.step import longest_step
 from heeltoe.models.statics.after import ligament_of, statics_after
 from heeltoe.result.verdict import verdict
+from heeltoe.study.small.run_table import parse_axes, run_small
 from heeltoe.views.content.question import question
 from heeltoe.views.content.subject import Subject
 from heeltoe.views.figures.crack import joint_figure, joint_states
 from heeltoe.views.figures.energy import energy_figure
 from heeltoe.views.files.vtk import write_vtk_series
+from heeltoe.views.terminal.response import print_response
+from heeltoe.views.terminal.small import print_small
 from heeltoe.views.words.numbers import Numbers
 
 # Strong and tough: a brittle one would ask for elements and steps of its own.
@@ -244,6 +249,26 @@ def test_the_report_asks_whether_the_joint_cracks():
     text = str(question(subject))
     assert "Does the joint of" in text
     assert "Cracked length of the joint" in text
+
+
+def test_the_terminal_says_how_much_is_cracked():
+    fields = dam()
+    response = run(read_case(fields), "flexible")
+    console = Console(file=io.StringIO(), width=80)
+    print_response(response, console)
+    heading, row = (line for line in console.file.getvalue().splitlines() if "residual" in line or " dam  " in line)
+    assert heading.split()[-1] == "cracked"
+    assert float(row.split()[-2]) == pytest.approx(response.joint.cracked_length_m, abs=0.01)
+
+
+def test_a_small_table_has_the_cracked_length():
+    axes = parse_axes(["crack.bond.tensile_strength=0.2MPa,0.5MPa"])
+    table = run_small(dam(), [], axes, flexible)
+    weak, strong = table.rows()
+    assert weak["cracked_length_m"] == table.responses[0].joint.cracked_length_m > strong["cracked_length_m"]
+    console = Console(file=io.StringIO(), width=120)
+    print_small(table, console)
+    assert "cracked" in console.file.getvalue()
 
 
 def test_what_is_left_bears_after_the_earthquake():

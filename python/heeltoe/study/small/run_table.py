@@ -23,7 +23,7 @@ from heeltoe.case.read import read_case
 from heeltoe.case.sentences import first_error
 from heeltoe.errors.error import InputError, shown
 from heeltoe.models.flexible.body.cost import Cost, check_cost
-from heeltoe.result.contract import HEADLINES
+from heeltoe.result.contract import CRACKED, HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.write import build_info
 from heeltoe.study.plan.axes import Axis, even
@@ -126,7 +126,12 @@ class SmallStudy(Table, Shown):
 
     def numbers(self) -> Iterable[dict[str, Any]]:
         """Return the numbers of the runs, and how they ended."""
-        return (_numbers(response, self.cracks) for response in self.responses)
+        return (_numbers(response, self.cracks, bonded=self.bonded) for response in self.responses)
+
+    @property
+    def bonded(self) -> bool:
+        """Whether a run has a bonded joint."""
+        return any(getattr(crack, "joint", None) is not None for run in self.responses for crack in run.cracks)
 
     def to_json(self) -> dict[str, Any]:
         """Return all results in full, with the values that belong to them."""
@@ -251,8 +256,9 @@ def _by_crack(cracks: Sequence[Mapping[str, Any]], count: int) -> dict[str, Any]
     }
 
 
-def _numbers(response: Response, cracks: int) -> dict[str, Any]:
+def _numbers(response: Response, cracks: int, *, bonded: bool) -> dict[str, Any]:
     summary = response.summary if response.ok else {}
+    joint = summary.get("joint") or {}
     by_mode = summary.get("slip_by_mode_m", {})
     slips = [headline.key for headline in HEADLINES if headline.kind == "slip"]
     others = [headline.key for headline in HEADLINES if headline.kind != "slip"]
@@ -261,6 +267,7 @@ def _numbers(response: Response, cracks: int) -> dict[str, Any]:
         **{f"slip_{name}_m": by_mode.get(name) for name in _MODES},
         **{name: summary.get(name) for name in (*others, "impacts")},
         **_by_crack([crack.to_json() for crack in response.cracks] if summary and response.several else (), cracks),
+        **({name: joint.get(name) for name in ("first_cracking_s", CRACKED)} if bonded else {}),
         "largest_tension_pa": (summary.get("tension") or {}).get("stress_pa"),
         **({} if response.beside is None else {"beside_residual_slip_m": _beside(response.beside)}),
         "limits_met": all(check.met for check in response.limits) if response.limits else None,

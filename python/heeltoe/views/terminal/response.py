@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
 from heeltoe.case.model import Case
+from heeltoe.result.numbers import BondState
 from heeltoe.result.response import Response
 from heeltoe.result.verdict import verdict
 from heeltoe.units.sentences import written
+from heeltoe.units.write import NOTHING, length
 from heeltoe.views.content.document import run_sections
 from heeltoe.views.content.subject import NAMES, Subject
 from heeltoe.views.terminal.render import Screen, print_title, quiet_table, render, safe
@@ -90,22 +93,33 @@ def _verdicts(response: Response, units: str) -> Table:
 def _table(response: Response, units: str) -> Table:
     """Return a row for each crack of each model, from the crest down."""
     cells: list[list[Cell]] = []
+    bonded = any(_bond(crack) is not None for run in response.responses if run.started for crack in run.cracks)
     for run in response.responses:
         if not run.started:
             continue
         for crack in run.cracks:
             where = f"at {written('{at_m:g m}', units, at_m=crack.elevation)}" if run.several else ""
             amounts = [Amount(sign * crack[key], kind) for _, key, sign, kind in _SHOWN]
-            cells.append([f"{NAMES.get(run.model, run.model)} {where}".strip(), *amounts])
+            bond = _bond(crack)
+            cracked = [NOTHING if bond is None else length(bond.cracked_length_m, units)] if bonded else []
+            cells.append([f"{NAMES.get(run.model, run.model)} {where}".strip(), *amounts, *cracked])
     table = quiet_table()
     # So close that a line of 80 characters holds the names of all columns beside that of a model.
     table.padding = (0, 1, 0, 0)
     table.add_column("", no_wrap=True)
     for label, *_ in _SHOWN:
-        table.add_column(label, justify="right")
+        table.add_column(label.removesuffix(" slip") if bonded else label, justify="right")
+    if bonded:
+        table.add_column("cracked", justify="right")
     for row in in_one_unit(cells, units):
         table.add_row(*row)
     return table
+
+
+def _bond(crack: Any) -> BondState | None:
+    """Return what has become of the bond of a crack; None where it has none."""
+    bond: BondState | None = getattr(crack, "joint", None)
+    return bond
 
 
 def _warnings(response: Response, units: str) -> list[str]:

@@ -13,7 +13,7 @@ from rich.table import Table
 
 from heeltoe.errors.sanitize import plain
 from heeltoe.models.decoupled.response import DecoupledResponse
-from heeltoe.result.contract import HEADLINES
+from heeltoe.result.contract import CRACKED, HEADLINES
 from heeltoe.result.response import Response
 from heeltoe.result.rest import comes_to_rest
 from heeltoe.result.verdict import advice
@@ -30,6 +30,11 @@ def _length(metres: float, units: str) -> str:
         return f"{inches:.{1 if abs(inches) >= 1e2 else 2 if abs(inches) >= 1.0 else 3}f}"
     size = abs(1e3 * metres)
     return f"{1e3 * metres:.{0 if size >= 1e3 else 1 if size >= 1.0 else 2}f}"
+
+
+def _long(metres: float, units: str) -> str:
+    """Write a length in m, or in feet."""
+    return f"{metres / (12.0 * INCH) if units == 'us' else metres:.3g}"
 
 
 def _mrad(value: float, units: str) -> str:
@@ -78,6 +83,8 @@ def print_small(grid: SmallStudy, console: Console, units: str = "si", *, detail
         slip = (_SLIP[0], beside, *_SLIP[1:])
     several = [_of_crack(place) for place in range(grid.cracks)]
     slip = (slip[0], *several, *slip[1:])
+    if grid.bonded:
+        slip = (*slip, (f"cracked\n({'ft' if units == 'us' else 'm'})", CRACKED, 1.0, _long))
     if not details:
         slip = tuple(column for column in slip if column not in _IN_DETAIL)
     rocking = _ROCKING if details else _ROCKING[_ROTATIONS:-1]
