@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from shared.dams import ROOT
+
 pytest.importorskip("playwright")
 
 RIGID = ".card[data-model=rigid]"
@@ -28,8 +30,7 @@ def test_opens_with_the_typical_dam(page, picture):
     page.wait_for_selector(f"{RIGID} .verdict")
     settled(page)
     assert "the dam slides 267.4 mm downstream" in page.inner_text(RIGID)
-    assert "at the base" in page.inner_text(".card[data-model=decoupled]")
-    assert not page.is_visible(".card[data-model=flexible]")
+    assert not page.is_visible(".card[data-model=decoupled]")
     picture(page, "answer")
 
 
@@ -94,6 +95,75 @@ def test_a_telephone_shows_what_is_dragged_and_what_it_does(page):
                 return each.contains(document.elementFromPoint(x + width / 2, y + 20));
             }"""
         )
+
+
+ELASTIC = ".card[data-model=flexible]"
+FIRST = (
+    "() => [...document.querySelectorAll('#page-answer .cards .card')].find(it => it.checkVisibility()).dataset.model"
+)
+
+
+def test_the_elastic_dam_leads_by_itself_and_is_cancelled_by_the_next_move(page, picture):
+    page.wait_for_selector(f"{ELASTIC} .headline")
+    settled(page)
+    assert page.evaluate(FIRST) == "flexible"
+    assert "816.3 mm" in page.inner_text(f"{ELASTIC} .headline")
+    page.evaluate("() => { window.heard = []; window.sent = WebSocket.prototype.send; }")
+    page.evaluate(
+        """() => { WebSocket.prototype.send = function (text) {
+            window.heard.push(JSON.parse(text)); return window.sent.call(this, text); }; }"""
+    )
+    for friction in (1.2, 1.3):
+        slide(page, "crack.friction", friction)
+        page.wait_for_function(
+            "(value) => window.heard.some(({ do: what, values }) => what === 'elastic' && values && "
+            "values['crack.friction'] === value)",
+            arg=friction,
+        )
+    settled(page)
+    # The first of the two was ended, and only the last is shown.
+    assert page.evaluate("() => window.heard.some(({ do: what, values }) => what === 'elastic' && values === null)")
+    assert page.evaluate(FIRST) == "flexible"
+    assert float(page.inner_text(f"{ELASTIC} .headline strong").split()[0]) < 816.3
+    picture(page, "answer-leads")
+
+
+def test_the_limit_and_a_colour_come_with_the_number(page, tmp_path):
+    page.wait_for_selector(f"{ELASTIC} .headline.free >> text=no limit set")
+    text = (ROOT / "examples" / "typical-base.toml").read_text() + '\n[limits]\nresidual_slip = "300 mm"\n'
+    path = tmp_path / "limited.toml"
+    path.write_text(text)
+    page.set_input_files("#case-file", path)
+    page.wait_for_selector(f"{RIGID} .headline.met >> text=within the 300.0 mm allowed")
+    page.wait_for_selector(f"{ELASTIC} .headline.failed >> text=more than the 300.0 mm allowed")
+
+
+def test_a_row_in_which_nothing_happens_is_a_line(page, tmp_path):
+    text = (ROOT / "examples" / "typical-base.toml").read_text()
+    path = tmp_path / "rigid.toml"
+    path.write_text("\n".join(line for line in text.splitlines() if not line.startswith("modulus")))
+    page.wait_for_selector(SLIP)
+    page.set_input_files("#case-file", path)
+    page.wait_for_selector(f"{ELASTIC}", state="hidden")
+    page.wait_for_function("() => document.querySelector('#page-answer .plot')._fullLayout?.annotations.length === 1")
+    rows = page.evaluate(
+        "() => ['yaxis2', 'yaxis3'].map((row) => document.querySelector('#page-answer .plot')._fullLayout[row]._length)"
+    )
+    assert rows[1] < 0.15 * rows[0]
+    assert "no rotation" in page.inner_text("#page-answer .plot")
+    assert "concrete.modulus" in page.inner_text("#page-answer .controls")
+
+
+def test_tables_are_read_whole(page):
+    page.set_viewport_size({"width": 1440, "height": 900})
+    page.wait_for_selector(SLIP)
+    page.select_option("#example", "two-cracks")
+    page.wait_for_selector(".card[data-details=rigid] .table")
+    settled(page)
+    page.click("text=Static checks of the same case")
+    page.wait_for_selector("[data-checks=statics] .table")
+    tables = "() => [...document.querySelectorAll('#page-answer .table')].filter(it => it.checkVisibility())"
+    assert page.evaluate(f"{tables}.every(it => it.scrollWidth <= it.clientWidth)")
 
 
 def test_an_elastic_run_is_cancelled(page):

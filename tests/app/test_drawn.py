@@ -97,7 +97,7 @@ def test_what_a_block_does_not_know_is_no_error(name, changes, said):
     case = example(name).with_(changes)
     absent = answer(case, {}, "rigid", "si")["absent"]
     assert said in absent
-    assert "run the elastic dam with its button" in absent
+    assert "see the elastic dam" in absent
     assert models_for(case)["models"] == ["flexible"]
 
 
@@ -150,5 +150,5 @@ def test_warnings_name_buttons_and_no_commands():
 
 def test_a_block_is_told_to_be_run_as_an_elastic_dam():
     said = " ".join(each["text"] for each in answer(example("typical-height"), {}, "rigid", "si")["warnings"])
-    assert "run the elastic dam with its button" in said
+    assert "see the elastic dam beside it" in said
     assert "--model" not in said

@@ -96,7 +96,7 @@ def run_elastic(page) -> None:
     assert page.inner_text(f"{ELASTIC} .verdict")
     from playwright.sync_api import TimeoutError as NotThere
 
-    run = page.locator("button:text-is('Run the elastic dam')")
+    run = page.locator("button:text-is('Run the elastic dam with evidence')")
     for _ in range(3):
         run.click()
         # On a busy machine the run may end before the hand is there: then it is tried again.

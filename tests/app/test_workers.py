@@ -12,6 +12,7 @@ import pytest
 from heeltoe.app.jobs import Job
 from heeltoe.app.live import flexible
 from heeltoe.app.workers import WorkerLostError, Workers
+from heeltoe.models.run import run
 from shared.dams import FAST, example
 
 
@@ -91,3 +92,25 @@ def test_what_reads_too_long_is_ended_and_the_next_is_read():
             workers.close()
 
     assert asyncio.run(read()) == 3
+
+
+def test_what_nobody_waits_for_stops_and_its_process_stays():
+    case = example("typical-base", "flexible.elements_across=24", "flexible.time_step=0.01ms").without_evidence()
+    workers = Workers()
+
+    async def cancel():
+        first = await workers.until_cancelled(os.getpid)
+        running, behind = (asyncio.ensure_future(workers.until_cancelled(run, case, "flexible")) for _ in range(2))
+        await asyncio.sleep(2.0)
+        assert not running.done()
+        running.cancel()
+        behind.cancel()
+        began = time.monotonic()
+        assert await workers.until_cancelled(os.getpid) == first
+        return time.monotonic() - began
+
+    try:
+        # Either of them would take minutes.
+        assert asyncio.run(asyncio.wait_for(cancel(), 60.0)) < 20.0
+    finally:
+        workers.close()

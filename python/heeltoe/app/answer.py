@@ -1,4 +1,5 @@
-"""Actions of the answer: what the dam does as a block while a slider moves, and as an elastic dam on a button."""
+"""Actions of the answer: what the dam does as a block while a slider moves, as an elastic dam as soon as
+it rests, and with evidence on a button."""
 
 from __future__ import annotations
 
@@ -56,6 +57,23 @@ async def decoupled(desk: Desk, request: Asked) -> dict[str, Any]:
     return {"of": "decoupled", **payload}
 
 
+async def elastic(desk: Desk, request: Asked) -> dict[str, Any]:
+    """Run the elastic dam without evidence with the sliders where they are; without values the tab waits for it no
+    longer. The next one takes the place of one that runs."""
+    from heeltoe.app.live import elastic as work
+
+    session = desk.session
+    if request.get("values") is None:
+        return {"of": "elastic stopped"}
+    changes = changes_of(session, request.get("values"))
+    try:
+        payload = await desk.workers.until_cancelled(work, session.case, changes, session.units)
+    except WorkerLostError:
+        payload = {"waits": _LOST}
+    session.elastic = payload.get("left")
+    return {"of": "elastic", **payload}
+
+
 async def flexible(desk: Desk, request: Asked) -> dict[str, Any]:
     """Start the flexible model with the sliders where they are; it tells how far it is, and its result in the end."""
     from heeltoe.app.live import flexible as work
@@ -94,6 +112,7 @@ async def cancel(desk: Desk, request: Asked) -> dict[str, Any]:
 ACTIONS = {
     "rigid": Entry(rigid, newest=True),
     "decoupled": Entry(decoupled, newest=True),
+    "elastic": Entry(elastic, replaced=True),
     "flexible": Entry(flexible),
     "cancel": Entry(cancel),
 }

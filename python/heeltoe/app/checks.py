@@ -22,6 +22,9 @@ async def statics(desk: Desk, request: Asked) -> dict[str, Any]:
     session = desk.session
     changes = changes_of(session, request.get("values"))
     left = [job.result["left"] for job in session.jobs.values() if job.result and "left" in job.result]
+    if session.elastic is not None:
+        # With evidence it is the better one.
+        left.insert(0, session.elastic)
     return {"of": "statics", **await desk.workers.quick(checked, session.case, changes, session.units, left)}
 
 
@@ -46,7 +49,7 @@ def _judged(case: Case, left: Sequence[Mapping[str, Any]]) -> Joints:
 
     if case.motion is None:
         return statics_of_sections(case)
-    now = case.model_dump_json()
+    now = case.without_evidence().model_dump_json()
     elastic = next((run for run in reversed(left) if run["case"] == now and run["slips_m"]), None)
     if elastic is not None and case.statics.residual_slip is None:
 

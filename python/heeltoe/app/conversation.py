@@ -37,6 +37,8 @@ class Conversation:
         self._busy: set[str] = set()
         # Of what only the newest is worth an answer: the one that waits while another is computed.
         self._waiting: dict[str, Asked] = {}
+        # Of what the next one replaces: the one that is computed.
+        self._replaced: dict[str, asyncio.Task[None]] = {}
         self._tasks: set[asyncio.Task[None]] = set()
 
     async def listen(self) -> None:
@@ -66,8 +68,12 @@ class Conversation:
         if len(self._tasks) >= _MOST_AT_ONCE:
             await self._desk.tell({"of": "bad request", "text": "too much at once", "serial": content.get("serial")})
             return
+        if entry.replaced and name in self._replaced:
+            self._replaced[name].cancel()
         self._busy.add(name)
         task = asyncio.create_task(self._answer(name, entry, content))
+        if entry.replaced:
+            self._replaced[name] = task
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
 

@@ -42,10 +42,21 @@ Action = Callable[[Desk, Asked], Awaitable[dict[str, Any]]]
 
 @dataclass(frozen=True)
 class Entry:
-    """An action, and whether only the newest of several that wait is worth an answer, as of a slider that moves."""
+    """An action, and what becomes of it when the tab asks for it again before its answer.
+
+    Attributes
+    ----------
+    action
+        What computes the answer.
+    newest
+        Whether of several that wait only the newest is worth an answer, as of a slider that moves.
+    replaced
+        Whether it is cancelled, and the new one begins at once.
+    """
 
     action: Action
     newest: bool = False
+    replaced: bool = False
 
 
 class BadRequestError(Exception):

@@ -11,11 +11,14 @@ from heeltoe.base.cache import Kept
 from heeltoe.case.combinations import UNSUPPORTED
 from heeltoe.case.model import Case
 from heeltoe.errors.error import InputError
-from heeltoe.models.run import cost_of, earthquake, live
+from heeltoe.models.run import AUTO, cost_of, earthquake, live, models_of, run
 from heeltoe.models.statics.after import slip_source
 from heeltoe.motion.earthquake import Earthquake
 from heeltoe.result.comparison import meaning
+from heeltoe.result.response import Response
 
+#: What takes longer than this by its estimate [s] does not begin by itself.
+LONGEST_S = 20.0
 _KEPT: Kept[Earthquake] = Kept(16)
 
 
@@ -32,7 +35,7 @@ def answer(case: Case, changes: Mapping[str, Any], model: str, units: str) -> di
     except InputError as error:
         if error.code != UNSUPPORTED:
             return refused(error)
-        return {"absent": f"{error.problem[:1].upper()}{error.problem[1:]}; run the elastic dam with its button."}
+        return {"absent": f"{error.problem[:1].upper()}{error.problem[1:]}; see the elastic dam."}
     return drawn(response, units) | {"dam": dam(changed, response), "computed_s": perf_counter() - began}
 
 
@@ -52,20 +55,43 @@ def refused(error: InputError) -> dict[str, Any]:
     return {"error": {"field": error.field, "text": str(error), "problem": error.problem, "remedy": error.remedy}}
 
 
-def flexible(say: Callable[[str], None], case: Case, changes: Mapping[str, Any], units: str) -> dict[str, Any]:
-    """Return what the elastic dam does, and what the block beside it means; it takes seconds to minutes."""
-    from heeltoe.models.run import AUTO, run
+def elastic(case: Case, changes: Mapping[str, Any], units: str) -> dict[str, Any]:
+    """Return what the elastic dam does, without evidence, or why that is not computed by itself."""
+    began = perf_counter()
+    try:
+        changed = (case.with_(changes) if changes else case).without_evidence()
+        names, why = models_of(changed)
+        if "flexible" not in names:
+            return {"absent": f"The elastic dam cannot be run: {why}."}
+        cost = cost_of(changed, "flexible")
+        if cost is not None and cost.seconds > LONGEST_S:
+            return {"waits": f"It takes about {cost.seconds:.0f} s: it is run with its button."}
+        response = run(changed, "flexible")
+    except InputError as error:
+        return refused(error)
+    return _elastic(changed, response, units) | {"computed_s": perf_counter() - began}
 
+
+def flexible(say: Callable[[str], None], case: Case, changes: Mapping[str, Any], units: str) -> dict[str, Any]:
+    """Return what the elastic dam does with its evidence, and what the block beside it means; it takes seconds to
+    minutes."""
     changed = case.with_(changes) if changes else case
+    if changed.flexible.evidence == "none":
+        # Without it, it has run by itself.
+        changed = changed.model_copy(update={"flexible": changed.flexible.with_evidence("full")})
     cost = cost_of(changed, "flexible")
     say("running the flexible model" + ("" if cost is None else f", about {max(1.0, cost.seconds):.0f} s"))
     response = run(changed, AUTO)
     beside = "" if response.beside is None else meaning(response, response.beside, units)
-    # What the static checks go on from.
+    return _elastic(changed, response, units) | {"beside": beside}
+
+
+def _elastic(case: Case, response: Response, units: str) -> dict[str, Any]:
+    """Return what the page shows of an elastic dam, and what the static checks go on from."""
     known = response.outcome == "ok"
-    slips = {
-        "case": changed.model_dump_json(),
+    left = {
+        "case": case.without_evidence().model_dump_json(),
         "source": slip_source(response),
         "slips_m": {f"{crack.elevation:g}": crack.residual_slip_m for crack in response.cracks} if known else {},
     }
-    return drawn(response, units) | {"dam": dam(changed, response), "beside": beside, "left": slips}
+    return drawn(response, units) | {"dam": dam(case, response), "left": left}

@@ -12,12 +12,13 @@ from numpy.typing import NDArray
 from heeltoe.app.wording import meant
 from heeltoe.base.arrays import Floats
 from heeltoe.case.model import Case
-from heeltoe.result.contract import HEADLINES
+from heeltoe.result.contract import HEADLINES, JOINT_METER_M, LEAST_M, LEAST_RAD
+from heeltoe.result.limits import LimitCheck
 from heeltoe.result.response import Response
-from heeltoe.result.verdict import verdict
+from heeltoe.result.verdict import limited, verdict
 from heeltoe.units.sentences import written
 from heeltoe.units.systems import unit_system
-from heeltoe.units.write import angle, length
+from heeltoe.units.write import angle, length, measured
 from heeltoe.views.animation.page import packed, part_data
 from heeltoe.views.figures.panels import pieces
 from heeltoe.views.figures.style import shaken_by
@@ -27,6 +28,8 @@ from heeltoe.views.words.law import law_lines
 
 # Stretches of a history of which each has its peaks drawn: as many as a large screen has room for.
 _BINS = 400
+# What is less all along is drawn as nothing.
+_LEAST = {"slip": JOINT_METER_M, "rotation": LEAST_RAD}
 _KINDS = {"sliding": "slide", "slide_rocking": "slide-rock", "drifting": "drift"}
 
 
@@ -36,7 +39,9 @@ def drawn(response: Response, units: str) -> dict[str, Any]:
         "model": response.model,
         "title": response.title,
         "ok": response.ok,
-        "verdict": verdict(response, units),
+        "headline": _headline(response, units),
+        # The numbers below have the openings.
+        "verdict": verdict(response, units, brief=True),
         "warnings": [{"text": meant(warning, units), "severity": warning.severity} for warning in response.warnings],
         "shaking": shaken_by(response),
         "seconds": response.seconds,
@@ -53,6 +58,52 @@ def drawn(response: Response, units: str) -> dict[str, Any]:
             {"label": label, "columns": columns, "rows": rows} for label, columns, rows in _tables(response, units)
         ],
     }
+
+
+_ENDS = {"overturned": "Overturns", "lost": "Falls off", "unstable": "Does not stand"}
+
+
+def _headline(response: Response, units: str) -> dict[str, Any]:
+    """Return the number that a reader looks for first: of the limits that which is nearest, or farthest beyond; without
+    limits the residual slip. Its state is ``"met"``, ``"doubted"``, ``"failed"``, or ``"free"`` without a limit."""
+    if not response.ok or response.outcome != "ok":
+        value = _ENDS.get(response.outcome, "No result")
+        return {"value": value, "label": "", "limit": "", "state": "failed", "limits": []}
+    checks = sorted(response.limits, key=_share, reverse=True)
+    if not checks:
+        slip = response.residual_slip_m
+        way = "" if abs(slip) < LEAST_M else " downstream" if slip > 0.0 else " upstream"
+        value = length(abs(slip), units) if way else "0"
+        return {"value": value, "label": f"residual slip{way}", "limit": "no limit set", "state": "free", "limits": []}
+    first, *others = checks
+    return {
+        "value": measured(first.value, first.unit, units),
+        "label": limited(first, units),
+        "limit": _within(first, units),
+        "state": _state(first),
+        "limits": [
+            {
+                "text": f"{limited(check, units)} {measured(check.value, check.unit, units)}: {_within(check, units)}",
+                "state": _state(check),
+            }
+            for check in others
+        ],
+    }
+
+
+def _share(check: LimitCheck) -> float:
+    """Return how much of a limit is used; where nothing is allowed, all of it or none."""
+    used = check.utilisation
+    return used if used is not None else 0.0 if check.met else float("inf")
+
+
+def _state(check: LimitCheck) -> str:
+    return "doubted" if not check.certain else "met" if check.met else "failed"
+
+
+def _within(check: LimitCheck, units: str) -> str:
+    says = {"met": "within", "doubted": "not for certain within", "failed": "more than"}[_state(check)]
+    return f"{says} the {measured(check.allowed, check.unit, units)} allowed"
 
 
 def _numbers(response: Response, units: str) -> list[dict[str, str]]:
@@ -88,7 +139,11 @@ def _curves(response: Response, units: str) -> dict[str, Any]:
     def rows(crack: Response) -> dict[str, Any]:
         values = {"slip": crack.histories["slip_m"], "rotation": crack.histories["rotation_rad"]}
         return {
-            name: {"unit": scale.unit, "values": packed(scale(values[name][kept]), "float32")}
+            name: {
+                "unit": scale.unit,
+                "values": packed(scale(values[name][kept]), "float32"),
+                "least": float(scale(_LEAST[name])),
+            }
             for name, scale in scales.items()
         }
 

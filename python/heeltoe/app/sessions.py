@@ -45,6 +45,8 @@ class Session:
         Files that it has sent, by the names that they have in the case: the names that they have here.
     records
         What is in those of them that are records, by the same names.
+    elastic
+        What the elastic dam was left with by its last run without evidence, for the static checks.
     kept
         What else a page wants to find again, by names of its own.
     jobs
@@ -73,6 +75,7 @@ class Session:
     draft: Draft | None = None
     sent: dict[str, str] = field(default_factory=dict)
     records: dict[str, Any] = field(default_factory=dict)
+    elastic: dict[str, Any] | None = None
     kept: dict[str, Any] = field(default_factory=dict)
     jobs: dict[int, Job] = field(default_factory=dict)
     uploads: int = 0

@@ -7,7 +7,9 @@ from heeltoe.warnings.notice import AS_ELASTIC, Notice
 _STATICS = "the list of static checks below"
 # The longer before what they begin with.
 _MEANT = {
-    AS_ELASTIC: "run the elastic dam with its button",
+    f"{AS_ELASTIC}, and the dam is elastic": "see the elastic dam beside it",
+    AS_ELASTIC: "see the elastic dam beside it",
+    "flexible.evidence is none": "run without evidence, for which there is a button",
     "heeltoe statics --slip": _STATICS,
     "heeltoe statics": _STATICS,
 }

@@ -10,11 +10,18 @@ import multiprocessing
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from contextlib import suppress
+from itertools import count
+from multiprocessing.connection import Connection
 from typing import Any
+
+from heeltoe.app.stopping import listen, stoppable
 
 THREADS = 4
 #: What the names of its threads begin with.
 WORKER_NAME = "heeltoe"
+# Never a fork: the server has threads.
+_SPAWN = multiprocessing.get_context("spawn")
 # How far the processes beside stand back.
 _NICE = 5
 
@@ -30,6 +37,7 @@ class Workers:
         self._threads = ThreadPoolExecutor(THREADS, thread_name_prefix=WORKER_NAME)
         # An executor starts its process when it is first asked.
         self._processes = {name: _process() for name in ("live", "aside")}
+        self._stoppable = _Stoppable()
         self._reader = _process()
         self._reading = asyncio.Lock()
 
@@ -50,6 +58,28 @@ class Workers:
     async def aside(self, compute: Callable[..., Any], *arguments: Any) -> Any:
         """Compute, as :meth:`beside`, what takes seconds and nobody moves a slider for."""
         return await self._in("aside", compute, *arguments)
+
+    async def until_cancelled(self, compute: Callable[..., Any], *arguments: Any) -> Any:
+        """Compute in a process of its own what stops at once where whoever waits for it is cancelled; the process stays
+        warm for the next.
+
+        Raises
+        ------
+        WorkerLostError
+            As :meth:`beside`.
+        """
+        worker = self._stoppable
+        number = next(worker.numbers)
+        try:
+            return await asyncio.get_running_loop().run_in_executor(worker.pool, stoppable, number, compute, *arguments)
+        except asyncio.CancelledError:
+            worker.stop(number)
+            raise
+        except BrokenProcessPool:
+            if self._stoppable is worker:
+                self._stoppable = _Stoppable()
+                worker.pool.shutdown(wait=False)
+            raise WorkerLostError from None
 
     async def _in(self, name: str, compute: Callable[..., Any], *arguments: Any) -> Any:
         process = self._processes[name]
@@ -85,8 +115,27 @@ class Workers:
     def close(self) -> None:
         """End all."""
         self._threads.shutdown(wait=False, cancel_futures=True)
-        for pool in (*self._processes.values(), self._reader):
+        for pool in (*self._processes.values(), self._stoppable.pool, self._reader):
             _end(pool, wait=True)
+
+
+class _Stoppable:
+    """A process whose work can be stopped, by its number, without an end of the process."""
+
+    def __init__(self) -> None:
+        self.numbers = count(1)
+        far_end, self._here = _SPAWN.Pipe(duplex=False)
+        self.pool = ProcessPoolExecutor(1, _SPAWN, initializer=_listening, initargs=(far_end,))
+
+    def stop(self, number: int) -> None:
+        """Stop a computation, whether it runs or waits."""
+        with suppress(OSError):
+            self._here.send(number)
+
+
+def _listening(numbers: Connection) -> None:
+    _quietly()
+    listen(numbers)
 
 
 def _end(pool: ProcessPoolExecutor, *, wait: bool = False) -> None:
@@ -97,8 +146,7 @@ def _end(pool: ProcessPoolExecutor, *, wait: bool = False) -> None:
 
 
 def _process() -> ProcessPoolExecutor:
-    # Never a fork: the server has threads.
-    return ProcessPoolExecutor(1, multiprocessing.get_context("spawn"), initializer=_quietly)
+    return ProcessPoolExecutor(1, _SPAWN, initializer=_quietly)
 
 
 def _quietly() -> None:

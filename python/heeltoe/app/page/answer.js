@@ -38,9 +38,14 @@ export function answerPage(talk) {
   const dotted = element("span", {});
   const plot = element("div", { class: "plot", role: "figure", "aria-label": "Ground acceleration, slip, rotation and modes of motion over time" });
   const flexible = new FlexibleRun(talk, () => values, (answer) => {
-    answers.flexible = answer;
-    if (flexible.isNew()) lead("flexible");
+    if (answer) answers.flexible = answer;
+    else delete answers.flexible;
+    if (answer && flexible.isNew()) {
+      dam.prefer("flexible");
+      statics.follow();
+    }
     redraw();
+    speak();
   });
   const dam = new DamInMotion((time) => cursor(plot, time));
   const spread = new Spread(talk, () => values);
@@ -64,17 +69,8 @@ export function answerPage(talk) {
     flexible.moved();
     spread.moved();
     statics.follow();
-    lead("");
-  }
-
-  /** The verdict of the better model leads, as long as it is of the sliders as they stand. @param {string} model */
-  function lead(model) {
-    dam.prefer(model);
-    const order = model === "flexible" ? [flexible.card, cards.rigid, cards.decoupled] : [cards.rigid, cards.decoupled, flexible.card];
-    for (const part of /** @type {const} */ (["root", "details"])) {
-      const place = order[0][part].parentElement;
-      if (place && place.firstElementChild !== order[0][part]) place.append(...order.map((card) => card[part]));
-    }
+    // The blocks follow the hand.
+    dam.prefer("");
   }
 
   /** @param {any} answer */
@@ -83,7 +79,9 @@ export function answerPage(talk) {
     for (const [serial, place] of positions) if (place < at - 1) positions.delete(serial);
     const had = Boolean(answers[answer.of] && answers[answer.of].curves);
     answers[answer.of] = { ...answer, position: at };
-    cards[answer.of].show(answer);
+    // A model that cannot be is no answer.
+    if (answer.absent) cards[answer.of].hide(true);
+    else cards[answer.of].show(answer);
     // What is older than the newest answer of any model stands beside a number that it does not belong to.
     const latest = Math.max(...LIVE.map((model) => (answers[model] ? answers[model].position : 0)));
     for (const model of LIVE) {
@@ -109,7 +107,8 @@ export function answerPage(talk) {
   function speak() {
     clearTimeout(speaking);
     speaking = setTimeout(() => {
-      const said = LIVE.map((model) => answers[model] && answers[model].verdict).filter(Boolean);
+      const better = flexible.isNew() && answers.flexible ? ["flexible"] : [];
+      const said = [...better, ...LIVE].map((model) => answers[model] && answers[model].verdict).filter(Boolean);
       byId("spoken").textContent = said.join(" ");
     }, SPOKEN_AFTER_MS);
   }
@@ -160,6 +159,7 @@ export function answerPage(talk) {
       showSliders(controls, state.sliders, state.drained, values, ask);
       controls.append(flexible.root);
       flexible.begin(state.inelastic);
+      for (const model of LIVE) cards[model].hide(!state.models.includes(model));
       spread.begin(state.models);
       ask(performance.now());
     }
@@ -178,12 +178,13 @@ export function answerPage(talk) {
         key.append(element("span", {}, patch, kind));
       }
       key.append(dotted);
-      const all = [cards.rigid, cards.decoupled, flexible.card];
+      // The better model leads.
+      const all = [flexible.card, cards.decoupled, cards.rigid];
       const verdicts = element("div", { class: "cards" }, ...all.map((card) => card.root));
       const details = element("div", { class: "cards" }, ...all.map((card) => card.details));
       const over = element("div", {}, plot, key);
       const more = element("div", { class: "cards" }, spread.root, statics.root);
-      root.append(element("div", { class: "answer" }, controls, element("div", {}, verdicts, element("div", { class: "over-time" }, over, dam.root), details, more)));
+      root.append(element("h2", { class: "unseen" }, "Answer"), element("div", { class: "answer" }, controls, element("div", {}, verdicts, element("div", { class: "over-time" }, over, dam.root), details, more)));
       return () => redraw();
     },
   };

@@ -24,7 +24,7 @@ function slips(answer) {
 /** What a response says beside its numbers: of a friction law, of each crack, of each motion. @param {any} answer */
 function further(answer) {
   const facts = answer.facts.map((/** @type {[string, string]} */ [label, text]) => element("p", {}, element("strong", {}, `${label}: `), text));
-  const tables = answer.tables.flatMap((/** @type {any} */ { label, columns, rows }) => [element("h3", { class: "plain" }, label), table(label, columns, rows.map(row))]);
+  const tables = answer.tables.flatMap((/** @type {any} */ { label, columns, rows }) => [element("h4", { class: "plain" }, label), table(label, columns, rows.map(row))]);
   return [...facts, ...tables];
 }
 
@@ -32,7 +32,18 @@ function further(answer) {
 function warnings(answer) {
   if (!answer.warnings.length) return [];
   const items = answer.warnings.map((/** @type {any} */ warning) => element("li", { class: warning.severity }, warning.text));
-  return [element("h3", {}, "What to know before using these numbers"), element("ul", { class: "warnings" }, ...items)];
+  return [element("h4", {}, "What to know before using these numbers"), element("ul", { class: "warnings" }, ...items)];
+}
+
+const BADGES = /** @type {Record<string, string>} */ ({ met: "✓ ", doubted: "? ", failed: "✗ ", free: "" });
+
+/** Number, limit and colour, which nobody has to read a sentence for. @param {any} headline */
+function headlineOf({ value, label, limit, state, limits }) {
+  const badge = (/** @type {string} */ of) => element("span", { "aria-hidden": "true" }, BADGES[of]);
+  const free = state === "free" ? [" (", element("a", { href: "#case" }, "page Case"), ")"] : [];
+  const judged = limit ? [element("p", { class: "judged" }, badge(state), limit, ...free)] : [];
+  const others = limits.map((/** @type {any} */ other) => element("li", { class: other.state }, badge(other.state), other.text));
+  return element("div", { class: `headline ${state}` }, element("p", {}, element("strong", {}, value), ` ${label}`), ...judged, ...(others.length ? [element("ul", {}, ...others)] : []));
 }
 
 export class Card {
@@ -41,8 +52,8 @@ export class Card {
     this.states = [element("span", { class: "state" }), element("span", { class: "state" })];
     this.verdict = element("div", { class: "content" }, element("p", { class: "faint" }, "computing"));
     this.content = element("div", { class: "content" });
-    this.root = element("section", { class: "card", "data-model": model, "aria-label": `${NAMES[model]}: verdict` }, element("h2", {}, NAMES[model], this.states[0]), this.verdict);
-    this.details = element("section", { class: "card", "data-details": model, "aria-label": `${NAMES[model]}: numbers` }, element("h2", {}, NAMES[model], this.states[1]), this.content);
+    this.root = element("section", { class: "card", "data-model": model, "aria-label": `${NAMES[model]}: verdict` }, element("h3", {}, NAMES[model], this.states[0]), this.verdict);
+    this.details = element("section", { class: "card", "data-details": model, "aria-label": `${NAMES[model]}: numbers` }, element("h3", {}, NAMES[model], this.states[1]), this.content);
     for (const part of [this.root, this.details]) part.style.setProperty("--of", `var(--${model})`);
     this.details.hidden = true;
   }
@@ -53,13 +64,21 @@ export class Card {
     this.details.hidden = hidden || !this.content.hasChildNodes();
   }
 
+  /** Of another dam nothing is known yet. */
+  wait() {
+    this.verdict.replaceChildren(element("p", { class: "faint" }, "computing"));
+    this.content.replaceChildren();
+    this.mark("");
+  }
+
   /** @param {any} answer */
   show(answer) {
     const said = answer.absent || (answer.error && answer.error.text) || answer.verdict;
     const kind = answer.absent ? "faint" : answer.ok ? "verdict" : "verdict bad";
     const count = answer.warnings ? answer.warnings.length : 0;
     const caveat = count ? [element("p", { class: "caveat" }, `${count} warning${count > 1 ? "s" : ""} below`)] : [];
-    this.verdict.replaceChildren(element("p", { class: kind }, said), ...caveat);
+    const headline = answer.headline && !answer.absent && !answer.error ? [headlineOf(answer.headline)] : [];
+    this.verdict.replaceChildren(...headline, element("p", { class: kind }, said), ...caveat);
     this.content.replaceChildren(...(answer.numbers ? [numbers(answer), slips(answer), ...further(answer)] : []), ...(answer.beside ? [element("p", {}, answer.beside)] : []), ...(answer.warnings ? warnings(answer) : []));
     this.hide(false);
   }

@@ -35,7 +35,7 @@ export class StaticChecks {
     const rows = found.checks.map((/** @type {any} */ { cells, met }) => element("tr", {}, ...cells.map((/** @type {string} */ cell) => element("td", {}, cell)), element("td", { class: met ? "" : "bad" }, met ? "met" : "fails")));
     const basis = found.basis.map((/** @type {[string, string]} */ [label, text]) => element("tr", {}, element("th", { scope: "row" }, label), element("td", {}, text)));
     this.content.replaceChildren(
-      element("p", { class: found.ok ? "" : "bad" }, found.verdict, found.failed.length ? ": " : "", found.failed.join("; ")),
+      element("p", { class: found.ok ? "" : "bad" }, found.failed.length ? `${found.verdict.replace(/\.$/, "")}: ${found.failed.join("; ")}.` : found.verdict),
       table("Checks", ["load case", "check", "is", "required", ""], rows),
       element("table", { class: "numbers facts", "aria-label": "What the checks rest on" }, element("tbody", {}, ...basis)),
       ...items(found.warnings),

@@ -3,7 +3,7 @@ import { element } from "./dom.js";
 import { drawnPoints, momentAt, picked, readPart, unpacked, waterOutline } from "../scene.js";
 
 const SVG = "http://www.w3.org/2000/svg";
-const NAMES = /** @type {Record<string, string>} */ ({ rigid: "rigid block", decoupled: "rigid block on an elastic part", flexible: "elastic dam: its top as a block" });
+const NAMES = /** @type {Record<string, string>} */ ({ rigid: "rigid block", decoupled: "rigid block on an elastic part", flexible: "elastic dam" });
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5];
 const MAGNIFICATIONS = [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000];
 /** Who wants less motion sees a picture now and then [ms]. */
@@ -44,7 +44,7 @@ export class DamInMotion {
     this.size.replaceChildren(element("option", { value: "" }, "as fits"), ...MAGNIFICATIONS.map((size) => element("option", { value: size }, size === 1 ? "to scale" : `× ${size}`)));
     this.says = element("p", { class: "faint", id: "dam-says" });
     const labelled = (/** @type {HTMLElement} */ select) => element("label", {}, `${select.getAttribute("data-label")} `, select);
-    this.root = element("section", { class: "card moving", "aria-label": "The dam in motion" }, element("h2", {}, "The dam in motion"), this.svg, element("div", { class: "in-line" }, this.play, ...[this.model, this.speed, this.size].map(labelled)), this.scrub, this.says);
+    this.root = element("section", { class: "card moving", "aria-label": "The dam in motion" }, element("h3", {}, "The dam in motion"), this.svg, element("div", { class: "in-line" }, this.play, ...[this.model, this.speed, this.size].map(labelled)), this.scrub, this.says);
     this.root.hidden = true;
   }
 

@@ -1,6 +1,11 @@
-/** The elastic dam on a button: it takes seconds to minutes, says how far it is, and can be cancelled. */
+/** The elastic dam: without evidence it runs by itself as soon as the sliders rest, and the next move ends that; with
+ * evidence, which tells how far its numbers may be off, it runs on a button, says how far it is, and can be cancelled. */
 import { Card } from "./card.js";
 import { element } from "./dom.js";
+
+/** How long no slider has moved when the run begins: a hand that stops for a moment drags on. */
+const RESTS_AFTER_MS = 300;
+const EVIDENCE = "Evidence is the same run with another time step, another mesh and slightly different shaking: how far the numbers may be off.";
 
 export class FlexibleRun {
   /**
@@ -14,14 +19,24 @@ export class FlexibleRun {
     this.done = done;
     this.number = 0;
     this.position = 0;
-    this.asked = 0;
+    /** Position of the sliders of the run with evidence, and of what is shown. */
+    this.asked = -1;
+    this.shown = -1;
+    /** Whether that has evidence. */
+    this.sure = false;
+    /** Number of the question of the run by itself; 0 where none is under way. */
+    this.serial = 0;
+    this.resting = 0;
+    this.can = false;
     this.card = new Card("flexible");
     this.card.hide(true);
-    this.start = element("button", { type: "button", class: "main", onclick: () => this.run() }, "Run the elastic dam");
+    this.start = element("button", { type: "button", class: "main", onclick: () => this.run() }, "Run the elastic dam with evidence");
     this.cancel = element("button", { type: "button", hidden: true, onclick: () => talk.ask("cancel", { number: this.number }) }, "Cancel");
     this.said = element("p", { class: "faint status", role: "status" });
     this.bar = element("progress", { hidden: true, "aria-label": "The elastic dam is computed" });
-    this.root = element("div", { class: "slider" }, this.start, this.cancel, this.bar, this.said);
+    this.about = element("p", { class: "faint status" }, EVIDENCE);
+    this.root = element("div", { class: "slider" }, this.start, this.cancel, this.bar, this.said, this.about);
+    talk.on("elastic", (answer) => this.hear(answer));
     talk.on("job", (job) => this.take(job));
     talk.on("job refused", ({ what, text }) => {
       if (what !== "flexible") return;
@@ -31,8 +46,12 @@ export class FlexibleRun {
 
   /** @param {string} why The elastic dam cannot be run; empty where it can. */
   begin(why) {
-    this.card.hide(true);
-    this.start.toggleAttribute("disabled", why !== "");
+    this.can = why === "";
+    this.shown = -1;
+    this.card.wait();
+    this.card.hide(!this.can);
+    this.start.toggleAttribute("disabled", !this.can);
+    this.start.hidden = this.about.hidden = !this.can;
     this.said.textContent = why;
   }
 
@@ -44,12 +63,49 @@ export class FlexibleRun {
   /** The sliders have moved: the result, if there is one, is of where they were. */
   moved() {
     this.position += 1;
-    if (!this.card.root.hidden) this.card.mark("of the sliders as they were");
+    clearTimeout(this.resting);
+    // Nobody waits for what runs.
+    if (this.serial) this.talk.ask("elastic", { values: null });
+    this.serial = 0;
+    if (!this.can) return;
+    if (this.shown >= 0) this.card.mark("updating");
+    this.resting = setTimeout(() => {
+      this.serial = this.talk.ask("elastic", { values: this.values() });
+    }, RESTS_AFTER_MS);
+  }
+
+  /** What has run by itself. @param {any} answer */
+  hear(answer) {
+    if (answer.serial !== this.serial) return;
+    this.serial = 0;
+    // That with evidence was there sooner.
+    if (this.sure && this.shown === this.position) return;
+    const reason = answer.absent || answer.waits || "";
+    this.said.textContent = reason;
+    if (reason || answer.error) {
+      // An error is that of the blocks, and stands there at its slider.
+      this.shown = -1;
+      this.card.hide(!answer.error);
+      if (answer.error) this.card.show(answer);
+      this.card.mark("");
+      this.done(null);
+      return;
+    }
+    this.show(answer, this.position, false);
+  }
+
+  /** @param {any} answer @param {number} position @param {boolean} sure */
+  show(answer, position, sure) {
+    this.shown = position;
+    this.sure = sure;
+    this.card.show(answer);
+    this.card.mark(this.isNew() ? "" : "of the sliders as they were");
+    this.done(answer);
   }
 
   /** Whether its result is of the sliders as they stand. */
   isNew() {
-    return this.asked === this.position;
+    return this.shown === this.position;
   }
 
   /** @param {any} job */
@@ -61,8 +117,7 @@ export class FlexibleRun {
     this.start.toggleAttribute("disabled", running);
     this.said.textContent = running ? `${job.said} (${Math.round(job.seconds)} s)` : job.said;
     if (job.state !== "done") return;
-    this.card.show(job.result);
-    this.card.mark(this.isNew() ? "" : "of the sliders as they were");
-    this.done(job.result);
+    if (this.asked === this.position) this.show(job.result, this.asked, true);
+    else this.said.textContent = "The sliders have moved since: the run with evidence was of where they were.";
   }
 }

@@ -34,15 +34,27 @@ function curves(answer) {
  * @returns {Line[]}
  */
 export function lines(shown) {
+  const better = shown[shown.length - 1]?.model;
   return shown.flatMap(({ model, stale, answer }, place) => {
     const { time, ground, cracks } = curves(answer);
     const first = place > 0 ? [] : [{ row: "ground", of: "ground", name: "ground", stale, width: 1.1, dash: "solid", x: time, y: ground }];
     return [...first, ...cracks.flatMap((crack) => (/** @type {const} */ (["slip", "rotation"])).map((row) => {
-      const dash = crack.name ? "dot" : model === "flexible" ? "dash" : "solid";
-      return { row, of: model, name: crack.name || model, stale, width: row === "slip" ? 2 : 1.1, dash, x: time, y: crack[row] };
+      const dash = crack.name ? "dot" : "solid";
+      // The better model stands out.
+      const width = (row === "slip" ? 2 : 1.1) * (model !== better ? 0.6 : 1);
+      return { row, of: model, name: crack.name || model, stale, width, dash, x: time, y: crack[row] };
     }))];
   });
 }
+
+/**
+ * The rows in which no curve leaves zero by what anybody could measure.
+ * @param {Shown[]} shown
+ */
+export const flatRows = (shown) => ["slip", "rotation"].filter((row) => {
+  const { least } = shown[0].answer.curves[row];
+  return lines(shown).every((line) => line.row !== row || line.y.every((value) => Math.abs(value) < least));
+});
 
 /** @param {Shown} shown @param {string} kind @returns {Span[]} */
 export const spans = ({ answer }, kind) => answer.ribbon.filter((/** @type {any} */ span) => span.kind === kind);

@@ -1,15 +1,35 @@
 /** The answer over time: ground, slip, rotation and modes of every model, on one time axis that zooms. */
 import { colour } from "../dom.js";
-import { AXES, KINDS, lines, spans, thickness } from "./lines.js";
+import { AXES, KINDS, flatRows, lines, spans, thickness } from "./lines.js";
 import { drawQuickly, following, forget, roomy } from "./quick.js";
 
 /** @typedef {import("./lines.js").Shown} Shown */
 /** @typedef {{width: number, height: number}} Size */
 
-/** From the top; parts of the height. */
-const ROWS = /** @type {Record<string, [number, number]>} */ ({ ground: [0.87, 1], slip: [0.48, 0.83], rotation: [0.17, 0.44], modes: [0, 0.13] });
+/** From the top; parts of the height between the gaps. */
+const HEIGHTS = /** @type {Record<string, number>} */ ({ ground: 0.13, slip: 0.35, rotation: 0.27, modes: 0.13 });
+const GAP = 0.04;
+/** Of a row where nothing happens. */
+const FLAT = 0.05;
 /** Narrower than this the plot has less around it [px]. */
 const NARROW = 600;
+
+/**
+ * Where the rows are: what is flat leaves its room to the others.
+ * @param {string[]} flat
+ * @returns {[string, [number, number]][]}
+ */
+function domains(flat) {
+  const rows = Object.entries(HEIGHTS).map(([row, height]) => /** @type {[string, number]} */ ([row, flat.includes(row) ? FLAT : height]));
+  const scale = (1 - GAP * (rows.length - 1)) / rows.reduce((sum, [, height]) => sum + height, 0);
+  let top = 1;
+  return rows.map(([row, height]) => {
+    const bottom = Math.max(0, top - height * scale);
+    const domain = /** @type {[number, number]} */ ([bottom, top]);
+    top = bottom - GAP;
+    return [row, domain];
+  });
+}
 
 /** @param {Shown[]} shown @param {boolean} narrow */
 function traces(shown, narrow) {
@@ -49,16 +69,18 @@ function layout(shown, size, ranges) {
   const made = /** @type {Record<string, object>} */ ({
     xaxis: { range: [0, end], title: { text: "time [s]" }, anchor: "y4", gridcolor: colour("rule"), zerolinecolor: colour("rule"), linecolor: colour("line") },
   });
-  for (const [row, domain] of Object.entries(ROWS)) {
+  const flat = flatRows(shown);
+  for (const [row, domain] of domains(flat)) {
     made[AXES[row].replace("y", "yaxis")] = {
       domain, title: { text: titles[row], font: { size: 12 }, standoff: 4 }, gridcolor: colour("rule"), zerolinecolor: colour("line"), nticks: narrow && row === "ground" ? 3 : 5, fixedrange: row === "modes",
       ...(row === "modes" ? { type: "category", categoryarray: shown.map(({ model }) => model).reverse(), categoryorder: "array", showgrid: false, range: [-0.6, shown.length - 0.4] } : { automargin: false }),
       // Said both ways: an axis about which nothing is said keeps the range that a drag has given it.
-      ...(row === "modes" ? {} : ranges[row] ? { range: ranges[row], autorange: false } : { autorange: true }),
+      ...(flat.includes(row) ? { title: { text: "" }, showticklabels: false, showgrid: false, fixedrange: true, autorange: false, range: [-1, 1].map((side) => 2 * side * shown[0].answer.curves[row].least) } : row === "modes" ? {} : ranges[row] ? { range: ranges[row], autorange: false } : { autorange: true }),
     };
   }
+  const annotations = flat.map((row) => ({ text: `no ${row}`, xref: "paper", yref: `${AXES[row]} domain`, x: 0.01, y: 0.5, yanchor: "bottom", showarrow: false, font: { size: 12 } }));
   return {
-    ...made, ...size, uirevision: "kept", showlegend: false, dragmode: narrow ? false : "zoom", hovermode: "closest",
+    ...made, ...size, annotations, uirevision: "kept", showlegend: false, dragmode: narrow ? false : "zoom", hovermode: "closest",
     margin: { l: narrow ? 66 : 84, r: 12, t: 8, b: 42 }, paper_bgcolor: colour("page"), plot_bgcolor: colour("page"),
     font: { color: colour("text"), family: "system-ui, sans-serif", size: narrow ? 11 : 13 },
   };
@@ -76,7 +98,7 @@ const last = new WeakMap();
  */
 export async function draw(place, shown, size, moving) {
   const plotly = /** @type {any} */ (window).Plotly;
-  const like = JSON.stringify([size, shown.map(({ model, answer: { curves: { end, slip, rotation } } }) => [model, end, slip.unit, rotation.unit])]);
+  const like = JSON.stringify([size, flatRows(shown), shown.map(({ model, answer: { curves: { end, slip, rotation } } }) => [model, end, slip.unit, rotation.unit])]);
   const before = last.get(place);
   const quick = moving && before !== undefined && before.like === like;
   const rows = quick ? before.rows || following(place) : null;
