@@ -126,6 +126,21 @@ def test_the_live_chain_is_the_chain():
 
 
 @pytest.mark.parametrize("units", ["si", "us"])
+def test_sliders_move_the_strengths_of_a_joint(units):
+    case = example("bonded-joint")
+    paths = [slider.path for slider in sliders(case, units)]
+    assert {"crack.bond.tensile_strength", "crack.bond.cohesion"} < set(paths)
+    for slider in sliders(case, units):
+        assert slider.least <= slider.value <= slider.most
+        for value in (slider.least, slider.most):
+            changed = case.with_(change(slider, value, case))
+            if slider.path == "crack.bond.cohesion":
+                assert changed.crack.bond.cohesion == pytest.approx(
+                    value * (1e6 if units == "si" else 6894.757), rel=1e-6
+                )
+
+
+@pytest.mark.parametrize("units", ["si", "us"])
 def test_sliders_stand_where_the_case_is_and_change_it(units):
     case = example("typical-base")
     for slider in sliders(case, units):

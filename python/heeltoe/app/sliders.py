@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from heeltoe.case.model import Case
-from heeltoe.units.systems import FOOT
+from heeltoe.units.systems import FOOT, unit_system
 
 # Where drains are put that the case does not have: a part of the width of the crack.
 _DRAINS_AT = 0.1
+# Of joints, and twice that of their shear [Pa].
+_MOST_TENSION, _MOST_COHESION = 3e6, 6e6
+# The end of a line, less what rounding takes.
+_WITHIN = 1.0 - 1e-9
 _FEET, _METRES = (FOOT, "ft"), (1.0, "m")
 
 
@@ -51,6 +56,7 @@ def sliders(case: Case, units: str) -> list[Slider]:
         _friction(case),
         _with(_water(case, units)),
         _with(Slider("crack.restitution", "Restitution", 0.0, 1.0, 0.01, crack.restitution)),
+        *_strengths(case, units),
         _with(Slider("motion.pga", "Peak acceleration", 0.02, 1.0, 0.01, pga or 0.4, "g")),
         Slider("uplift.drain_efficiency", "Drain efficiency", 0.0, 1.0, 0.01, efficiency or 0.0, off=no_water),
     ]
@@ -62,7 +68,24 @@ def _friction(case: Case) -> Slider:
     if crack.law is not None:
         reason = f"The law {crack.law.name} gives the friction of the crack."
         return Slider("crack.friction", "Friction coefficient", 0.3, 2.0, 0.01, 1.0, off=reason)
-    return _with(Slider("crack.friction", "Friction coefficient", 0.3, 2.0, 0.01, crack.mu_static))
+    # The line of a joint's shear strength ends at its tensile strength.
+    most = 2.0 if crack.bond is None else min(2.0, _WITHIN * crack.bond.cohesion / crack.bond.tensile_strength)
+    return _with(Slider("crack.friction", "Friction coefficient", min(0.3, most), most, 0.01, crack.mu_static))
+
+
+def _strengths(case: Case, units: str) -> Iterator[Slider]:
+    """Return the sliders of the strengths of a bonded joint; neither leaves the line of the shear strength, which ends
+    at the tensile strength."""
+    bond, friction = case.crack.bond, max(case.crack.mu_static, case.crack.mu_kinetic)
+    if bond is None:
+        return
+    scale = unit_system(units).scale("pressure")
+    tension, cohesion = scale(bond.tensile_strength), scale(bond.cohesion)
+    step = 0.01 if units == "si" else 1.0
+    most = min(scale(_MOST_TENSION), _WITHIN * cohesion / friction if friction else cohesion)
+    yield _with(Slider("crack.bond.tensile_strength", "Tensile strength", step, most, step, tension, scale.unit))
+    least, most = max(step, friction * tension / _WITHIN), scale(_MOST_COHESION)
+    yield _with(Slider("crack.bond.cohesion", "Cohesion", least, most, step, cohesion, scale.unit))
 
 
 def _water(case: Case, units: str) -> Slider:

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 #: Fields, values of each, and records of a study.
 MOST_FIELDS, MOST_VALUES, MOST_RECORDS = 30, 1000, 400
 _KINDS = tuple(get_args(Distribution.model_fields["distribution"].annotation))
-_LIMITS = ("residual_slip", "peak_slip", "opening", "rotation")
+_LIMITS = ("residual_slip", "peak_slip", "opening", "rotation", "cracked_length")
 # What tells components of one event in the catalogue apart stands before these.
 _SOURCE = re.compile(r"-nga2?$")
 _VERTICAL = re.compile(r"up|down|ud|ver|vert|vertical", re.IGNORECASE)

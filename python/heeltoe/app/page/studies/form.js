@@ -12,7 +12,7 @@ const METHODS = /** @type {Record<string, string>} */ ({
   sensitivity: "sensitivity: what Sobol’s indices need",
 });
 const MODELS = /** @type {Record<string, string>} */ ({ rigid: "rigid block", decoupled: "rigid block on an elastic part", flexible: "elastic dam" });
-const LIMITS = /** @type {Record<string, string>} */ ({ residual_slip: "Residual slip", peak_slip: "Peak slip", opening: "Opening", rotation: "Rotation" });
+const LIMITS = /** @type {Record<string, string>} */ ({ residual_slip: "Residual slip", peak_slip: "Peak slip", opening: "Opening", rotation: "Rotation", cracked_length: "Cracked length" });
 /** Slips that people ask for, in the units that are chosen. @type {Record<string, string>} */
 const SLIPS = { si: "10 mm, 150 mm", us: "0.5 in, 6 in" };
 const DRAWN = ["latin hypercube", "sobol", "sensitivity"];

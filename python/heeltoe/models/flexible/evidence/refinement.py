@@ -11,6 +11,7 @@ import numpy as np
 from heeltoe.base.arrays import Floats
 from heeltoe.case.options import Flexible
 from heeltoe.kernel.dam import DamRun
+from heeltoe.models.flexible.body.reduced import FlexibleDam
 from heeltoe.models.flexible.evidence.evidence import BUDGET, FLOOR_M, Evidence, Worth, allowed
 from heeltoe.models.flexible.evidence.trials import SCALES, Level, Trials
 from heeltoe.models.flexible.run.dam_runner import ShakenDam
@@ -148,6 +149,7 @@ class _Stand:
         self._trials, self._level, self._full = trials, level, full
         shaken = trials.dam_of(level.mesh)
         self._options = shaken.case.flexible
+        self._bonds = [alone.crack.bond for alone in shaken.case.single_crack_cases]
         longer = 2.0 * trials.step_of(level)
         self._step = Level(level.mesh, level.halvings + (-1 if shaken.may_step(longer) else 1))
         # Members of the ensemble take the longer of the two steps.
@@ -198,6 +200,11 @@ class _Stand:
         # Runs and their cost are those of all.
         return tuple(replace(each, runs=trials.runs, work=trials.work) for each in found)
 
+    def _lowered(self, crack: int, dam: FlexibleDam) -> bool:
+        """Return whether the elements along a joint are so long that its strength is lowered."""
+        bond, own = dam.lines[crack].bond, self._bonds[crack]
+        return bond is not None and own is not None and bond[0] < own.tensile_strength * (1.0 - 1e-12)
+
     def _evidence(self, crack: int, *, spent: bool) -> Evidence:
         trials = self._trials
         run, other = trials.numbers(self._level, _AS_IT_IS, crack), trials.numbers(self._step, _AS_IT_IS, crack)
@@ -226,9 +233,13 @@ class _Stand:
         cracked = None
         if dam.lines[crack].bond is not None:
             # What one run cracks is what it says; no less is known than half an element.
-            half = 0.5 * dam.sections[crack].crack_width / self._options.elements_across
+            width = dam.sections[crack].crack_width
             length = worth_of(CRACKED)
-            cracked = replace(length, value=length.run, least=half)
+            least = 0.5 * width / self._options.elements_across
+            if self._lowered(crack, dam):
+                # A strength that hangs on the mesh is no evidence of how far the joint cracks.
+                least = max(length.run, width - length.run)
+            cracked = replace(length, value=length.run, least=least)
         return Evidence(
             asked="full" if self._full else "step",
             mean=mean,
