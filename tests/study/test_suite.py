@@ -51,7 +51,7 @@ def test_the_limits_are_judged_by_what_is_asked_for(dam, records, judge, place):
     slips = sorted(record["residual_slip_m"] for record in answer["records"])
     value = np.mean(slips) if place is None else slips[place]
     slip, opening = answer["limits"]
-    assert slip["value_m"] == pytest.approx(value, rel=1e-12)
+    assert slip["value"] == pytest.approx(value, rel=1e-12)
     assert slip["met"] == (value <= 0.005)
     assert slip["utilisation"] == pytest.approx(value / 0.005)
     assert opening["met"]
@@ -193,3 +193,17 @@ def test_options_that_do_not_go_together_are_refused(dam, records, tmp_path, arg
     said = command("run", "dam.toml", *arguments, cwd=tmp_path)
     assert said.returncode == 2
     assert text in " ".join(said.stderr.split())
+
+
+def test_the_evidence_of_one_record_says_how_certain_a_limit_is(records):
+    changes = ["flexible.elements_across=4", "flexible.evidence=step"]
+    dam = example("typical-base", *changes, "limits.residual_slip=1 m", "limits.rotation=1 mrad")
+    asked = records / "quake-a-000.txt"
+    slip, turn = heeltoe.run_suite(dam, asked, model="flexible", pga="0.7 g").suite["models"][0]["limits"]
+    assert (slip["certain"], slip["unit"], turn["unit"]) == (True, "m", "rad")
+    assert 0.0 < slip["uncertainty"] < slip["value"]
+    near = dam.with_([f"limits.residual_slip={slip['value'] + 0.5 * slip['uncertainty']} m"])
+    found = heeltoe.run_suite(near, asked, model="flexible", pga="0.7 g")
+    close, _ = found.suite["models"][0]["limits"]
+    assert (close["met"], close["certain"]) == (True, False)
+    assert found.to_json()["directory"] is None

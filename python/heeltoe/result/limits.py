@@ -24,10 +24,10 @@ LABELS = {
     "crest_displacement": "crest displacement",
     "crest_acceleration": "crest acceleration",
 }
-# In what they are counted that are no lengths.
-_UNITS = {"rotation": "rad", "crest_acceleration": "g"}
+#: In what they are counted that are no lengths.
+UNITS = {"rotation": "rad", "crest_acceleration": "g"}
 #: Those that are lengths.
-LENGTHS = tuple(name for name in LABELS if name not in _UNITS)
+LENGTHS = tuple(name for name in LABELS if name not in UNITS)
 _CREST = {"crest_displacement": "displacement_m", "crest_acceleration": "acceleration_g"}
 
 
@@ -56,7 +56,7 @@ class LimitCheck(Block):
     @property
     def unit(self) -> str:
         """In what it is counted: m, rad or g."""
-        return _UNITS.get(self.name, "m")
+        return UNITS.get(self.name, "m")
 
     @property
     def utilisation(self) -> float | None:

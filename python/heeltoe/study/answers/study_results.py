@@ -42,10 +42,13 @@ class Opened(Shown):
         Where they are.
     told
         What the study is, as kept beside its runs.
+    kept
+        Whether its runs stay where they are; those of a suite without a directory go with the result.
     """
 
     store: Store
     told: dict[str, Any]
+    kept: bool = True
 
     def __repr__(self) -> str:
         left = "" if self.complete else f", {len(self.store.missing())} of {self.store.parts} parts missing"
@@ -330,7 +333,7 @@ class Opened(Shown):
         """Return what the study says, without its runs."""
         return {
             "title": self.title,
-            "directory": str(self.store.directory),
+            "directory": str(self.store.directory) if self.kept else None,
             "runs": self.store.count,
             "complete": self.complete,
             "outcomes": self.outcomes,

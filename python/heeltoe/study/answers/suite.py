@@ -15,6 +15,7 @@ import numpy as np
 
 from heeltoe.base.arrays import Floats
 from heeltoe.models.runner import TRUSTED, severity
+from heeltoe.result.limits import UNITS
 from heeltoe.study.answers.fragility import LIMITED, limit_number
 from heeltoe.study.run.aggregate import Walk
 from heeltoe.units.parse import STANDARD_GRAVITY
@@ -25,6 +26,8 @@ DEMANDS = {
     "peak_slip_m": "peak_slip",
     "opening_upstream_m": "opening_upstream",
     "opening_downstream_m": "opening_downstream",
+    "rotation_rad": "rotation",
+    "cracked_length_m": "cracked_length",
 }
 #: The mean of fewer records than this is no basis of EN 1998-1.
 ENOUGH_FOR_MEAN = 7
@@ -34,7 +37,7 @@ _SIGNS = ("recorded", "reversed")
 
 @dataclass(frozen=True)
 class _Way:
-    """What a record does to the dam one way round: how the run ended, and the demands [m], infinite where the dam
+    """What a record does to the dam one way round: how the run ended, and the demands, SI, infinite where the dam
     fails, not a number where nobody knows."""
 
     outcome: str
@@ -80,6 +83,7 @@ def _of_model(walk: Walk, model: str, judge: str) -> dict[str, Any]:
             records.append(_record(motion, signs))
     values = {key: np.array([_counted(record, key) for record in records]) for key in DEMANDS}
     statistics = {key: _statistics(column) for key, column in values.items()}
+    worth = (walk.told["pilot"] or {}).get("evidence")
     worst = max(records, key=lambda record: (severity(record["outcome"]), _counted(record, "residual_slip_m")))
     for record in records:
         record["governs"] = record is worst
@@ -89,7 +93,7 @@ def _of_model(walk: Walk, model: str, judge: str) -> dict[str, Any]:
         "statistics": statistics,
         "governing": {"motion": worst["motion"], "sign": worst["sign"]},
         "limits": [
-            _limit(name, limit_number(allowed), statistics[key][judge])
+            _limit(name, limit_number(allowed), statistics[key][judge], worth if model == "flexible" else None)
             for key, name in DEMANDS.items()
             if (allowed := walk.limits.get(name)) is not None
         ],
@@ -138,7 +142,7 @@ def _known(value: float) -> float | None:
 
 
 def _counted(record: Mapping[str, Any], key: str) -> float:
-    """Return a demand of a record [m]; what has no result to trust counts as infinitely much."""
+    """Return a demand of a record, SI; what has no result to trust counts as infinitely much."""
     value = record[key]
     return math.inf if value is None or record["outcome"] not in TRUSTED else float(value)
 
@@ -167,14 +171,31 @@ def below(ordered: Floats, share: float) -> Floats:
     return np.where(finite, first + part * (np.where(finite, second, 0.0) - np.where(finite, first, 0.0)), np.inf)
 
 
-def _limit(name: str, allowed: float, value: float | None) -> dict[str, Any]:
+def _limit(name: str, allowed: float, value: float | None, worth: Mapping[str, Any] | None) -> dict[str, Any]:
+    """Return how a number over the records stands to a limit; `worth` is the evidence of the record that has some."""
+    uncertainty = 0.0 if value is None or worth is None else _uncertainty(name, value, worth)
     return {
         "name": name,
-        "value_m": value,
-        "allowed_m": allowed,
+        "unit": UNITS.get(name, "m"),
+        "value": value,
+        "allowed": allowed,
+        "uncertainty": uncertainty,
         "utilisation": None if value is None or not allowed else value / allowed,
         "met": value is not None and value <= allowed,
+        "certain": value is None or not uncertainty or abs(value - allowed) > uncertainty,
     }
+
+
+def _uncertainty(name: str, value: float, worth: Mapping[str, Any]) -> float:
+    """Return how far a number over the records may be off: in proportion as in the record whose evidence is known, and
+    by no less than there."""
+    known = [worth[column] for column in LIMITED[name] if worth.get(column) is not None]
+    if not known:
+        return 0.0
+    # Of the ways that one limit limits, the larger is the one that counts.
+    own = max(known, key=lambda each: abs(each["value"]))
+    size = abs(own["value"])
+    return float(own["uncertainty"] * max(1.0, value / size if size else 1.0))
 
 
 def suite_spectra(walk: Walk, records: Sequence[Mapping[str, Any]]) -> dict[str, Any] | None:

@@ -6,6 +6,7 @@ import os
 import shutil
 import weakref
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from tempfile import mkdtemp
 from typing import Any
@@ -112,6 +113,8 @@ def run_suite(
     except BaseException:
         shutil.rmtree(place, ignore_errors=True)
         raise
+    # Nobody finds it there.
+    found = replace(found, kept=False)
     weakref.finalize(found, shutil.rmtree, place, ignore_errors=True)
     return found
 

@@ -10,9 +10,11 @@ import numpy as np
 from heeltoe.case.model import Case
 from heeltoe.motion.ground_motion import GroundMotion
 from heeltoe.result.write import build_info
+from heeltoe.units.sentences import quantity
 from heeltoe.views.content.subject import Subject
-from heeltoe.views.content.tree import Block, Code, Inline, Listing, Section, Strong, Table, paragraph
+from heeltoe.views.content.tree import Block, Code, Inline, Listing, Section, Strong, Table, glued, paragraph
 from heeltoe.views.words.fields import fields
+from heeltoe.views.words.sheet import lines
 
 _SYSTEMS = {"si": "SI", "us": "US"}
 # Blocks that only one model looks at.
@@ -32,8 +34,28 @@ def given_input(subject: Subject) -> Section:
             paragraph(text, Code("heeltoe explain FIELD"), " says what a field means."),
             Table(("field", "value"), tuple(row[:2] for row in rows), "Given by the case.", "ll"),
             *subject.figure("section"),
+            *_loads(subject),
         ),
     )
+
+
+def _loads(subject: Subject) -> tuple[Block, ...]:
+    """Return the usual loads as forces, arms and moments, where the report has static checks."""
+    if subject.joints is None:
+        return ()
+    joint = subject.joints.governing
+    usual = next((case for case in joint.statics.cases if case.name == "usual"), None)
+    if usual is None:
+        return ()
+    written = lines(usual, subject.units)
+    at = quantity(joint.elevation_m, ".5g m", subject.units)
+    rows: list[tuple[Inline, ...]] = [tuple(map(glued, row[:-1])) for row in written.rows]
+    rows[-1] = tuple(Strong(cell) if isinstance(cell, str) and cell else "" for cell in rows[-1])
+    caption = (
+        f"Loads before the earthquake on what is above the crack at {at}, {subject.per_width}: H positive downstream, "
+        "V upward, M = x V − z H counter-clockwise; arms from the heel of what is closed."
+    )
+    return (Table(written.head[:-1], tuple(rows), caption, "lrrrrr"),)
 
 
 def defaults(subject: Subject) -> Section:

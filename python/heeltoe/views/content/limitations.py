@@ -33,5 +33,20 @@ def limitations(subject: Subject) -> Section:
         model = run.response.model
         absent = unsupported_features(model)
         cannot = f" It cannot represent: {', '.join(absent)}." if absent else ""
-        blocks.append(paragraph(Strong(f"{model.capitalize()} model. "), glued(f"{_OF_MODEL[model]}{cannot}")))
+        words = f"{_OF_MODEL[model]} {_water(subject, model)}{cannot}"
+        blocks.append(paragraph(Strong(f"{model.capitalize()} model. "), glued(words)))
     return Section("Limitations of this analysis", (*blocks, paragraph(_JUDGE)))
+
+
+def _water(subject: Subject, model: str) -> str:
+    """Say what the water and the rock are to a model."""
+    reservoir = subject.case.reservoir
+    sound = model != "rigid" and reservoir is not None and reservoir.compressible
+    if sound:
+        water = "The water carries sound over a floor that takes some of it, in a reservoir of one depth."
+    elif reservoir is not None:
+        water = "The water is a mass that moves with the dam: sound in it, and what it takes away, are left out."
+    else:
+        water = ""
+    rock = "The rock below the base is rigid: it neither gives way nor takes energy from the dam."
+    return f"{water} {rock}".strip()

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from heeltoe.result.contract import HEADLINES
-from heeltoe.result.limits import LABELS
+from heeltoe.result.limits import LABELS, UNITS
 from heeltoe.study.answers.answers import MODES
-from heeltoe.units.write import NOTHING, digits, length, scaled
+from heeltoe.units.write import NOTHING, digits, measured, scaled
 from heeltoe.views.content.tree import Block, Code, Inline, Section, Strong, Table, paragraph
 from heeltoe.views.words.numbers import Amount, in_one_unit
 from heeltoe.views.words.studies import ABOUT_CRACKS, TRAITS, ends_of, left_out, limit_of, limits_of, strength_scale
@@ -46,7 +49,8 @@ def _limits(subject: StudySubject) -> dict[str, str]:
     """Return the limits of the base case in words, by their names."""
     limits = subject.case.limits
     return {
-        name: f"{LABELS[name]} of {length(getattr(limits, name), subject.units)}" for name in subject.found.walk.limits
+        name: f"{LABELS[name]} of {measured(getattr(limits, name), UNITS.get(name, 'm'), subject.units)}"
+        for name in subject.found.walk.limits
     }
 
 
@@ -204,7 +208,43 @@ def hazard_section(subject: StudySubject) -> Section | None:
         text += f" Up to {_percent(far)} of a rate come from beyond the ends of the hazard curve: extend it."
     head = ("exceeded", "probability a year", "rate within", "return period", f"most at a {_named(study)} of")
     table = Table(head, tuple(rows), "How often a year the limits are exceeded.", "lrrrr")
-    return Section("Annual probability", (paragraph(text), table, *subject.figure("hazard")))
+    blocks = (paragraph(text), table, *_at_strengths(subject, annual, limits), *subject.figure("hazard"))
+    return Section("Annual probability", blocks)
+
+
+def _at_strengths(
+    subject: StudySubject, annual: Sequence[Mapping[str, Any]], limits: Mapping[tuple[str, float], str]
+) -> tuple[Block, ...]:
+    """Return the probability of each limit in motions of the strengths of the hazard curve, with their return periods,
+    and which share of its annual rate motions up to there make."""
+    known = [row for row in annual if row["at"]]
+    if not known:
+        return ()
+    scale = strength_scale(known[0]["measure"], subject.units)
+    several = len(subject.found.walk.models) > 1
+    heads = [limits[row["limit"], row["value"]] + (f", {row['model']}" if several else "") for row in known]
+    rows: list[tuple[Inline, ...]] = []
+    for place, point in enumerate(known[0]["at"]):
+        years = 1.0 / point["annual_rate"]
+        cells = [
+            f"{_percent(row['at'][place]['probability'])}; {_percent(_made_up_to(row, point['strength']))}"
+            for row in known
+        ]
+        rows.append((scaled(point["strength"], scale), f"{digits(years, 3)} years", *cells))
+    caption = (
+        "Probability that a limit is exceeded in a motion of this strength; behind it, the share of the annual rate "
+        "that motions up to there make."
+    )
+    head = (_named(subject.study["fragility"]), "return period", *heads)
+    return (Table(head, tuple(rows), caption, "l" + "r" * (1 + len(known))),)
+
+
+def _made_up_to(row: Mapping[str, Any], strength: float) -> float:
+    """Return which share of an annual rate motions up to a strength make, of those within the hazard curve."""
+    parts = row["contribution"]
+    edges = [parts[0]["from"], *(part["to"] for part in parts)]
+    made = np.concatenate([[0.0], np.cumsum([part["share"] for part in parts])])
+    return float(np.interp(math.log(strength), np.log(edges), made))
 
 
 #: More of a rate than this from beyond the ends of a hazard curve is said.

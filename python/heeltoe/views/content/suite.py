@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from heeltoe.result.limits import LABELS
-from heeltoe.units.write import digits, length
+from heeltoe.units.write import digits, length, measured
 from heeltoe.views.content.tree import Block, Code, Inline, Notes, Section, Strong, Table, paragraph
 from heeltoe.views.words.numbers import Amount, in_one_unit
 from heeltoe.views.words.studies import JUDGED, STATISTICS
@@ -83,11 +83,14 @@ def _numbers(row: Mapping[str, Any], units: str) -> str:
 
 def _limit(check: Mapping[str, Any], judge: str, units: str) -> str:
     """Say how a number over the records stands to a limit."""
-    label, allowed = LABELS[check["name"]], length(check["allowed_m"], units)
-    if check["value_m"] is None:
+    label, allowed = LABELS[check["name"]], measured(check["allowed"], check["unit"], units)
+    if check["value"] is None:
         return f"The {label}: {JUDGED[judge]} is not finite, {allowed} is allowed."
     used = "" if check["utilisation"] is None else f" ({100.0 * check['utilisation']:.0f} %)"
-    return f"The {label}: {JUDGED[judge]} is {length(check['value_m'], units)} of {allowed} allowed{used}."
+    number = measured(check["value"], check["unit"], units)
+    if not check["certain"]:
+        number += f" ± {measured(check['uncertainty'], check['unit'], units)}, which decides,"
+    return f"The {label}: {JUDGED[judge]} is {number} of {allowed} allowed{used}."
 
 
 def _records(row: Mapping[str, Any], units: str) -> Table:

@@ -52,7 +52,9 @@ def print_study(found: Opened, console: Console, units: str = "si", *, details: 
     """Print the answers of a study in sentences; in detail its tables, too. Lengths are in ``"si"`` or ``"us"``."""
     print_title(found.title, "study" if found.suite is None else "suite", console)
     told = found.told["study"]
-    by = f"{told['method']}, {counted(len(told['vary']), 'field')}, {counted(len(found.told['events']), 'event')}"
+    events = counted(len(found.told["events"]), "event")
+    # A suite, or several motions of one dam, vary no field.
+    by = f"{told['method']}, {counted(len(told['vary']), 'field')}, {events}" if told["vary"] else events
     console.print(escape(f"{found.store.count:,} runs; {by}"), style="dim", soft_wrap=True, highlight=False)
     render(study_answer(found, units), console)
     warnings = found.told["warnings"]

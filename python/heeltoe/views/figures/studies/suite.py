@@ -54,8 +54,8 @@ def suite_figure(found: Opened, units: str = "si") -> Figure | None:
                 axes.axvline(scale * value, color=colour, linestyle=dash, linewidth=1.2, label=label, zorder=3)
         for check in row["limits"]:
             if check["name"] == "residual_slip":
-                label = f"allowed: {number(scale * check['allowed_m'], 3)} {unit}"
-                axes.axvline(scale * check["allowed_m"], color=COLOURS["crack"], linewidth=1.6, label=label, zorder=3)
+                label = f"allowed: {number(scale * check['allowed'], 3)} {unit}"
+                axes.axvline(scale * check["allowed"], color=COLOURS["crack"], linewidth=1.6, label=label, zorder=3)
         axes.set_xlim(0.0, None)
         axes.set_xlabel(f"residual slip, either way [{unit}]")
         axes.set_title(f"{row['model']} model", fontsize=9, loc="left")
