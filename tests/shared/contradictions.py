@@ -114,7 +114,8 @@ def _statics(answer: Answer) -> Iterator[str]:
             continue
         if not -1e-6 <= case["cracked_length_m"] <= case["contact_width_m"] * (1 + 1e-9):
             yield f"{case['name']}: cracked {case['cracked_length_m']} m of {case['contact_width_m']} m"
-        if case["normal_force_n"] <= 0.0:
+        # A bond in tension may hold what would float.
+        if case["normal_force_n"] <= 0.0 and min(case["heel_stress_pa"], case["toe_stress_pa"]) >= 0.0:
             yield f"{case['name']}: stands on {case['normal_force_n']} N"
         if not case["steepest_rise_rad"] and case.get("tilt") is None and not math.isfinite(forces / scale):
             yield f"{case['name']}: forces {forces}"
