@@ -165,7 +165,7 @@ def attack(law: str, seeds: range, place: Path, record_property: Any) -> None:
 
 @pytest.mark.parametrize("law", LAWS)
 def test_some_answers_stay_the_same(law, tmp_path, record_property):
-    attack(law, range(35_000, 35_012), tmp_path, record_property)
+    attack(law, range(35_000, 35_007), tmp_path, record_property)
 
 
 @pytest.mark.slow

@@ -10,7 +10,7 @@ from pathlib import Path
 
 ENDS = ("accepted", "refused", "no result", "defect")
 #: How many random cases a long attack tries, and with which seed; see the Makefile.
-CASES, SEED = int(os.environ.get("HEELTOE_ATTACK_CASES", "2000")), int(os.environ.get("HEELTOE_ATTACK_SEED", "34"))
+CASES, SEED = int(os.environ.get("HEELTOE_ATTACK_CASES", "300")), int(os.environ.get("HEELTOE_ATTACK_SEED", "34"))
 _TEXT = """# Attacks
 
 `make attack` tries to break heeltoe, with {cases:,} random cases from the seed {seed} (`CASES`, `SEED`), and writes
